@@ -16,6 +16,8 @@ STEPS_TO_THE_BREAK = [25, 50, 100]
 THIN = [(0.05, 5e9, 0.5e6), (0.2, 1e9, 0.5e6), (0.3, 2e9, 1e6), (0.5, 2e9, 1e6)]
 THIN_WIDTH, THIN_SPEEDS, THIN_STEPS = 20, (0.2, 1), (0.02, 0.005)
 TILES = ["auto", 10, 100]
+# Two plates side by side: width of each, and of the gap between them.
+PAIRS = [(10, 0.01), (5, 2), (5, 10), (2, 20)]
 # Width, speed, steps of what is looked at after the break.
 AFTER, AFTER_STEPS = [(20, 0.1), (20, 0.5), (50, 0.1), (50, 0.5)], (0.01, 0.005)
 # Set after a first run: what is left as the step goes to nothing; what halving it changes after the break.
@@ -59,12 +61,34 @@ def by_hand(ice, width):
     return load, load / (CRUSHING * width) + load / stiffness
 
 
-class Plate:
-    """A run of a plate that breaks the edge, and what is known of it."""
+def of_a_pair(ice, width, gap):
+    """The same of each of two such plates with a gap between them: where on its width both together bend the edge
+    most.  Each edge goes down under its own plate alone."""
+    breadths, length, metre = WEDGES * 2 * math.tan(math.pi / (2 * WEDGES)), wedges(ice)[2], ice[2] * ice[0] ** 2 / 6
+    a, along = 0.01 * length, metre / (0.455938127766 * length)
+    for _ in range(10):
+        capacity, tip = wedge(a / length)
+        bears = metre * capacity * breadths
 
-    def __init__(self, name, ice, width, step=None, halves=None, speed=SPEED, after=0.0, **more):
+        def reach(x):
+            return x / (bears + 2 * along * abs(x))
+
+        def bend(x):
+            return (reach(x + width / 2) - reach(x - width / 2)) / width
+
+        load = 1 / max(bend(x) + bend(x - width - gap) for x in (-width / 2, 0, width / 2))
+        a = math.sqrt(2 * load * bears / (bears + along * width) / CRUSHING / breadths)
+    stiffness = WATER * GRAVITY * (length**2 * breadths / tip + width * length / math.sqrt(2))
+    return load, load / (CRUSHING * width) + load / stiffness
+
+
+class Plate:
+    """A run of a plate, or of two, that breaks the edge, and what is known of it."""
+
+    def __init__(self, name, ice, width, gap=None, step=None, halves=None, speed=SPEED, after=0.0, **more):
         self.name, self.ice, self.width, self.speed, self.more = f"plates/{name}", ice, width, speed, more
-        self.load, self.way = by_hand(ice, width)
+        self.gap = gap
+        self.load, self.way = by_hand(ice, width) if gap is None else of_a_pair(ice, width, gap)
         self.step = step or self.way / speed / (halves - 0.5)  # halves: of a step, the break comes half a step late
         self.away = math.ceil(2.2 / (speed * self.step)) * self.step  # time before the plate meets ice
         self.until = self.away + self.way / speed + 3 * self.step + after
@@ -72,9 +96,11 @@ class Plate:
 
     def scenario(self):
         thickness, modulus, strength = self.ice
-        hull = ladder.WORK / "plates" / f"{self.width:g}.obj"
+        hull = ladder.WORK / "plates" / f"{self.width:g}_{self.gap}.obj"
+        middles = [0] if self.gap is None else [-(self.width + self.gap) / 2, (self.width + self.gap) / 2]
         # No part of it is over the ice at the start: ice is cleared there.
-        ladder.box_obj(hull, (-10, -self.width / 2, -3), (0, self.width / 2, 1), lambda x, y, z: (x + z, y, z))
+        ladder.boxes_obj(hull, [((-10, y - self.width / 2, -3), (0, y + self.width / 2, 1)) for y in middles],
+                         lambda x, y, z: (x + z, y, z))
         x = -(1 - ICE / WATER) * thickness - self.speed * self.away
         return f"""run: {{duration: {self.until:.17g}, time_step: {self.step:.17g}}}
 domain: {{boundary: open, x_min: -40, x_max: 120, y_min: -100, y_max: 100}}
@@ -112,21 +138,18 @@ output: {{frame_interval: 0, csv_interval: {self.step:.17g}}}
                 f"{self.late:+.4f}", f"{self.after / 1e3:.0f}" if after else ""]
 
 
-def widths(c, by_width):
-    """Plates of all widths at steps that are halved, beside the closed form."""
-    for w in WIDTHS:
-        each = by_width[w]
-        for plate in each:
-            c.rows.append(plate.row(f"{w} m"))
-        c.check(all(-LEFT <= p.off <= p.growth + LEFT and -0.01 * p.way / p.speed <= p.late <= 1.1 * p.step
-                    for p in each),
-                f"{w} m: breaks within a step of the exact time, the load at most a step's growth too high "
-                f"({', '.join(f'{100 * p.off:+.2f}' for p in each)} %; {100 * LEFT:g} % besides)")
-        coarse, fine = each[0].off - each[1].off, each[1].off - each[2].off
-        order = ladder.observed_order([coarse, fine])[0]
-        c.check(order >= 0.9 and abs(each[2].off - fine) <= LEFT,
-                f"{w} m: observed order {order:.2f}; {100 * (each[2].off - fine):+.2f} % are left as the step goes to "
-                "nothing")
+def halved(c, label, each):
+    """The same at steps that are halved, beside the closed form."""
+    for plate in each:
+        c.rows.append(plate.row(label))
+    c.check(all(-LEFT <= p.off <= p.growth + LEFT and -0.01 * p.way / p.speed <= p.late <= 1.1 * p.step for p in each),
+            f"{label}: breaks within a step of the exact time, the load at most a step's growth too high "
+            f"({', '.join(f'{100 * p.off:+.2f}' for p in each)} %; {100 * LEFT:g} % besides)")
+    coarse, fine = each[0].off - each[1].off, each[1].off - each[2].off
+    order = ladder.observed_order([coarse, fine])[0]
+    c.check(order >= 0.9 and abs(each[2].off - fine) <= LEFT,
+            f"{label}: observed order {order:.2f}; {100 * (each[2].off - fine):+.2f} % are left as the step goes to "
+            "nothing")
 
 
 def thin(c, each):
@@ -150,12 +173,16 @@ def case(out):
         f"Plates of {', '.join(map(str, WIDTHS))} m at 45 degrees, frictionless, driven at {SPEED:g} m/s into level "
         "ice of 1 m whose edge gives before it breaks, as by default (narrow loads on fixed floes are in "
         f"[a whole break](break.md)); {THIN_WIDTH} m against thin, soft and strong ice, faster; 50 m over tiles of "
-        "other sizes; the largest load from the break on, of pieces that are pushed down as one.",
+        "other sizes; two plates side by side; the largest load from the break on, of pieces that are pushed down as "
+        "one.",
         "Three wedges (Nevel 1961, by finite elements in `validation/wedge_ramp.py`) beside a long beam on the water "
         "loaded at its end (Hetenyi 1946): P = sigma_f h^2/6 (C sum(b0) + w/(0.4559 l)), crushed by P/(sigma_c w) and "
         "down by P/(k (l^2 sum(b0)/eta(0) + w l/sqrt(2))) then "
         "([0128](../decisions/0128-wide-contacts-and-corners-by-hand.md), [0220](../decisions/0220-edges-give.md), "
-        "[0562](../decisions/0562-an-edge-gives-as-far-as-it-is-thick.md)). After the break there is none.",
+        "[0562](../decisions/0562-an-edge-gives-as-far-as-it-is-thick.md)). Each of two plates bends the edge under "
+        "the other by what an even load of that width makes there, P/w (H(d + w/2) - H(d - w/2)) with H(x) = "
+        "x/(A + 2 B |x|) of wedges A and beam B w ([0564](../decisions/0564-loads-bend-an-edge-together.md)). After "
+        "the break there is none.",
         "First order in dt: the break comes with the first step at which the load is reached, and the load is too high "
         "by a step's growth at most; steps that halve and meet the break half a step late show the order. The size of "
         f"tiles changes nothing. What is left besides, {100 * LEFT:g} and in thin ice {100 * LEFT_THIN:g} %, and "
@@ -164,13 +191,19 @@ def case(out):
     c.header = ["plate", "ice", "speed [m/s]", "dt [s]", "load at the break [kN]", "by hand [kN]", "difference",
                 "late by [s]", "largest in 1 s from then [kN]"]
     by_width = {w: [Plate(f"{w}_{n}", BASE, w, halves=n) for n in STEPS_TO_THE_BREAK] for w in WIDTHS}
+    by_pair = {(w, gap): [Plate(f"pair_{w}_{gap}_{n}", BASE, w, gap, halves=n) for n in STEPS_TO_THE_BREAK]
+               for w, gap in PAIRS}
     of_thin = [Plate(f"thin_{ice[0]}_{v}_{dt}", ice, THIN_WIDTH, step=dt, speed=v)
                for ice in THIN for v in THIN_SPEEDS for dt in THIN_STEPS]
     tiles = [Plate(f"tile_{size}", BASE, 50, step=0.01, ice__level__tile_size=size) for size in TILES]
     after = {(w, v): [Plate(f"after_{w}_{v}_{dt}", BASE, w, step=dt, speed=v, after=1) for dt in AFTER_STEPS]
              for w, v in AFTER}
-    ladder.side_by_side(Plate.run, [*sum(by_width.values(), []), *of_thin, *tiles, *sum(after.values(), [])])
-    widths(c, by_width)
+    ladder.side_by_side(Plate.run, [p for each in (*by_width.values(), *by_pair.values(), of_thin, tiles,
+                                                   *after.values()) for p in each])
+    for w, each in by_width.items():
+        halved(c, f"{w} m", each)
+    for (w, gap), each in by_pair.items():
+        halved(c, f"two of {w} m, {gap:g} m between", each)
     thin(c, of_thin)
     for plate, size in zip(tiles, TILES):
         c.rows.append(plate.row(f"50 m, tiles {size}{'' if size == 'auto' else ' m'}"))

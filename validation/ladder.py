@@ -182,8 +182,17 @@ def figure(case, out, name, caption, draw, size=(7.2, 3.4), panels=1):
 
 def box_obj(path, lo, hi, turn=None):
     """Writes a box as OBJ; turn maps a corner (x, y, z)."""
-    corners = [(x, y, z) for z in (lo[2], hi[2]) for y in (lo[1], hi[1]) for x in (lo[0], hi[0])]
-    faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    boxes_obj(path, [(lo, hi)], turn)
+
+
+def boxes_obj(path, boxes, turn=None):
+    """The same of several, each from lo to hi."""
+    corners, faces = [], []
+    for lo, hi in boxes:
+        n = len(corners)
+        faces += [[n + k for k in f]
+                  for f in [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]]
+        corners += [(x, y, z) for z in (lo[2], hi[2]) for y in (lo[1], hi[1]) for x in (lo[0], hi[0])]
     write_obj(path, [turn(*c) if turn else c for c in corners], faces)
 
 

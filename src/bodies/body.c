@@ -44,6 +44,11 @@ vec3 body_point_velocity(const body_table *b, int32_t slot, vec3 point)
     return vec3_add(b->velocity[slot], vec3_cross(b->angular_velocity[slot], arm));
 }
 
+vec3 body_velocity_past(const body_table *b, int32_t slot, int32_t other, vec3 point)
+{
+    return vec3_sub(body_point_velocity(b, slot, point), body_point_velocity(b, other, point));
+}
+
 vec3 body_to_local(const body_table *b, int32_t slot, vec3 point)
 {
     return mat3_tmul_vec(quat_matrix(b->orientation[slot]), vec3_sub(point, b->position[slot]));

@@ -57,6 +57,8 @@ static inline bool body_is_free(const body_table *b, int32_t slot)
 
 /* Velocity [m/s] of the body's material point now at `point` (global). */
 vec3 body_point_velocity(const body_table *b, int32_t slot, vec3 point);
+/* The same of one body against another. */
+vec3 body_velocity_past(const body_table *b, int32_t slot, int32_t other, vec3 point);
 /* Global -> body coordinates of a point, and back. */
 vec3 body_to_local(const body_table *b, int32_t slot, vec3 point);
 vec3 body_to_global(const body_table *b, int32_t slot, vec3 point);

@@ -11,8 +11,7 @@ enum { MOST_GIVE_TURNS = 100 };
 static double share_of_friction(const crushing_job *j, const crushing_pair *p, const patch_component *c)
 {
     vec3 centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre));
-    vec3 past = vec3_sub(body_point_velocity(j->bodies, p->surface_body, centre),
-                         body_point_velocity(j->bodies, p->floe_body, centre));
+    vec3 past = body_velocity_past(j->bodies, p->surface_body, p->floe_body, centre);
     vec3 normal = vec3_unit(c->area), slip = mat3_tmul_vec(p->rotation, past);
     slip = vec3_mad(slip, normal, -vec3_dot(slip, normal));
     double speed = vec3_length(slip);

@@ -62,6 +62,10 @@ void fracture_scratch_free(context *ctx, fracture_scratch *s)
     array_free(ctx, &s->load.parts);
     array_free(ctx, &s->load.edges);
     array_free(ctx, &s->load.rises);
+    array_free(ctx, &s->load.joint);
+    array_free(ctx, &s->load.beside);
+    array_free(ctx, &s->load.line);
+    array_free(ctx, &s->load.arcs);
     array_free(ctx, &s->piece.rows);
     polygon_list_free(ctx, &s->piece.outlines);
     polygon_list_free(ctx, &s->piece.pair);

@@ -4,7 +4,7 @@
 
    In a floe's own plane, with the velocities and impulses of this step's solve:
      1. loads: one per crushing patch (fracture_load.c), the ice that it stands on (fracture_edge.c), and the stresses
-        it makes there;
+        it makes there, with others that are near (fracture_joint.c);
      2. a radial crack opens when sigma_yy >= sigma_f; where it finds the floe's other side near enough, the floe splits
         (fracture_split.c); by toughness it splits when the load in its plane is large enough, whatever bends it;
      3. otherwise wedges break off when sigma_wedge >= sigma_f (fracture_bend.c);
@@ -55,6 +55,7 @@ typedef struct fracture_settings {
     double edge_threshold;      /* as in polygon_clean [m] */
     bool thick_plate_radius;    /* small loads act as on a radius that grows with the thickness (Westergaard) */
     bool wide_contacts;         /* a load that is wide along the edge breaks a strip off between its wedges */
+    bool joint_loads;           /* loads near each other on the same ice bend its edge together */
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
     bool under_pieces;          /* patches of free floes on held ice break that */
     bool under_ice_contacts;    /* option: patches between floes break them too */
@@ -75,7 +76,8 @@ typedef struct fracture_event {
     vec3 place;           /* where the first crack starts, global [m] */
     double load;          /* P; of a split by toughness the load in the plane [N] */
     double crack_length;  /* split: of the crack; bending: R_bending of the first stencil [m] */
-    double stress_ratio;  /* of the criterion that was met: stress over flexural strength, load over largest */
+    double stress_ratio;  /* of the criterion that was met: stress over flexural strength, load over largest; of bending
+                             under all loads that are near, while `load` is that of one */
     double loaded_radius; /* a of that criterion [m] */
     double parent_area, piece_area; /* of the parent, and of all pieces together [m2] */
     double area_lost, area_gained;  /* parent = pieces + lost - gained, to rounding [m2] */

@@ -108,22 +108,20 @@ static double extent(const double spread[3], vec2 t)
  */
 static const double STRAIGHT = 4;
 
-/* Width of the contact along the edge; none that is narrower than the ice is thick, since a beam of that width is none,
-   nor of one that follows no edge. */
-static double contact_width(const fracture_job *j, const fracture_load *l, const crack_start *start)
+/* None that is narrower than the ice is thick, since a beam of that width is none, nor of one that follows no edge. */
+double fracture_contact_width(const fracture_job *j, const fracture_load *l, vec2 inward)
 {
     if (!j->settings->wide_contacts)
         return 0;
-    double width = extent(l->spread, vec2_make(-start->direction.y, start->direction.x));
-    return width > l->thickness && width >= STRAIGHT * extent(l->spread, start->direction) ? width : 0;
+    double width = extent(l->spread, vec2_make(-inward.y, inward.x));
+    return width > l->thickness && width >= STRAIGHT * extent(l->spread, inward) ? width : 0;
 }
 
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
     double most = EDGE_MOST_DEFLECTION * l->thickness;
     bool floats = body_is_dynamic(j->state->bodies, l->body);
-    return (edge_bend){*start, fracture_break_size(l), floats ? 0 : fmin(fmax(l->rise, -most), most),
-                       floats ? 0 : l->rate};
+    return (edge_bend){*start, fracture_break_size(l), floats ? 0 : fmin(fmax(l->rise, -most), most), l->rate};
 }
 
 break_size fracture_break_size(const fracture_load *l)
@@ -211,24 +209,24 @@ double fracture_least_ice(const fracture_job *j, fracture_load *l)
 
 /* ---- all of it ---- */
 
-/* Every load counts as one on a straight edge. */
-static bool is_equal_everywhere(const fracture_job *j)
+/* A load that counts as one on a straight edge, wherever it is. */
+static bool is_equal_everywhere(const fracture_job *j, const fracture_load *l)
 {
-    return j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts;
+    return j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts && !(l->near > 0);
 }
 
 edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
 {
     l->width = 0;
-    if (is_equal_everywhere(j))
+    if (is_equal_everywhere(j, l))
         return EDGE_STRAIGHT;
     double radius = fracture_reach(j, l);
     polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
-    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
+    crack_start start = l->start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
     int32_t end;
     double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
     sectors s;
-    l->width = contact_width(j, l, &start);
+    l->width = fracture_contact_width(j, l, start.direction);
     make_sectors(j, &start, fmin(radius, length), l->width, &s);
     const vec2 *at = s.corner;
     for (int i = 0; i < s.count; at += s.size[i], i++)
@@ -241,7 +239,8 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
 {
     *edge = EDGE_STRAIGHT;
     l->width = 0;
-    if (is_equal_everywhere(j))
+    l->start.distance = -1;
+    if (is_equal_everywhere(j, l))
         return FRAM_OK;
     double radius = fracture_reach(j, l);
     crack_start start;
@@ -250,10 +249,11 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
         fracture_sheet_start(j, l->place, fracture_sheet_reach(&j->settings->tiles), radius, &start, &found);
     if (status != FRAM_OK || !found)
         return status;
+    l->start = start;
     double area[MOST_STENCIL + 1] = {0};
     double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius, false);
     sectors s;
-    l->width = contact_width(j, l, &start);
+    l->width = fracture_contact_width(j, l, start.direction);
     make_sectors(j, &start, fmin(radius, length), l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
     *edge = ice_of(j, &s, area, sheet_strip_length(j, &start, l->width, CRACK_CORNER_REACH * radius));

@@ -60,8 +60,7 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
 /* Whether a surface goes up or down past the floe by itself, more than its face does as it crushes on. */
 static bool slides_upright(const body_table *bodies, const crushing_patch *p, vec3 up)
 {
-    vec3 past = vec3_sub(body_point_velocity(bodies, p->surface_body, p->centre),
-                         body_point_velocity(bodies, p->floe_body, p->centre));
+    vec3 past = body_velocity_past(bodies, p->surface_body, p->floe_body, p->centre);
     return fabs(vec3_dot(past, up)) > fabs(vec3_dot(past, p->normal) * vec3_dot(p->normal, up));
 }
 
@@ -69,8 +68,7 @@ static bool slides_upright(const body_table *bodies, const crushing_patch *p, ve
 static double face_rate(const body_table *bodies, const crushing_patch *p, const mat3 *rotation)
 {
     double level = vec3_dot(p->normal, mat3_column(*rotation, 2));
-    vec3 past = vec3_sub(body_point_velocity(bodies, p->surface_body, p->centre),
-                         body_point_velocity(bodies, p->floe_body, p->centre));
+    vec3 past = body_velocity_past(bodies, p->surface_body, p->floe_body, p->centre);
     return level != 0 ? vec3_dot(past, p->normal) / level : 0;
 }
 
@@ -224,7 +222,7 @@ static bool may_fail(const fracture_settings *settings, const fracture_load *l)
 {
     static const double SPIKE = 8.0 / 180;
     double least = settings->sharing == SHARING_EQUAL ? 1 : SPIKE, h = l->thickness;
-    return MOST_STRESS * WEDGE_RAMP_MOST_MOMENT * l->force >= least * l->ice.flexural_strength * h * h;
+    return MOST_STRESS * WEDGE_RAMP_MOST_MOMENT * (l->force + l->near) >= least * l->ice.flexural_strength * h * h;
 }
 
 /* Whether a load is too small for the first crack, wherever it stands. */
@@ -233,39 +231,47 @@ static bool radial_holds(const fracture_load *l)
     return MOST_STRESS * l->force < l->ice.flexural_strength * l->thickness * l->thickness;
 }
 
-/* Part of N whole wedges of which a load needs more to stand on.  Nevel's C is at least 1, that of a load on a point.
+/* Part of N whole wedges of which a force needs more to stand on.  Nevel's C is at least 1, that of a load on a point.
  */
-static double ice_needed(const fracture_load *l, double width)
+static double ice_needed(const fracture_load *l, double force, double width)
 {
     double h = l->thickness, strength = l->ice.flexural_strength * h * h;
-    return 6 * (WEDGE_RAMP_MOST_MOMENT * l->force) / (strength * width);
+    return 6 * (WEDGE_RAMP_MOST_MOMENT * force) / (strength * width);
 }
 
 /* Loads of pieces on held ice are looked at that would break what a corner has of this part of an edge's ice. */
 static const double LEAST_CORNER = 0.125;
 
-/* Whether a load fails in no way, by what costs little to know: nearly all are so small.  width: of N wedges, N b0.
-   What held ice stands on is wanted whether it fails under a vessel or not. */
+/* Whether a piece presses too little on held ice to be looked at.  width: of N wedges, N b0. */
+static bool is_slight(const fracture_job *j, const fracture_load *l, double width)
+{
+    return !body_is_dynamic(j->state->bodies, l->body) && j->state->bodies->material[l->surface] == MATERIAL_ICE &&
+           ice_needed(l, l->force, width) < LEAST_CORNER;
+}
+
+/* Whether a load fails in no way, by what costs little to know: nearly all are so small.  What held ice stands on under
+   a vessel is wanted whether it fails or not, unless it could not even at a corner. */
 static bool surely_holds(const fracture_job *j, fracture_load *l, double width)
 {
     /* More than rounding of the areas that are compared in the end. */
     static const double SURELY = 0.99;
-    bool held = !body_is_dynamic(j->state->bodies, l->body);
-    if (held && j->state->bodies->material[l->surface] == MATERIAL_ICE)
-        return ice_needed(l, width) < LEAST_CORNER;
-    if (l->tile || held)
+    if (!may_fail(j->settings, l))
+        return true;
+    if (l->tile || !body_is_dynamic(j->state->bodies, l->body))
         return false;
-    return radial_holds(l) && ice_needed(l, width) < SURELY * fracture_least_ice(j, l);
+    return radial_holds(l) && ice_needed(l, l->force + l->near, width) < SURELY * fracture_least_ice(j, l);
 }
 
 /* Whether a load on this ice fails at all; a sheet of tiles breaks in bending alone. */
 static bool fails(const fracture_settings *settings, const fracture_load *l, edge_ice edge)
 {
     double h = l->thickness, strength = l->ice.flexural_strength * h * h;
-    double force = WEDGE_RAMP_MOST_MOMENT * l->force;
+    double force = WEDGE_RAMP_MOST_MOMENT * (l->force + l->near);
     double length = ice_characteristic_length(&l->ice, h, settings->water_density, settings->gravity);
     double wedges = settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges;
-    if (6 * force >= strength * (wedges + edge.strip / (STRIP_MOST_MOMENT * length)))
+    /* Beside a wide load the strip bears less of what others make there. */
+    double between = l->near > 0 ? 0 : edge.strip / (STRIP_MOST_MOMENT * length);
+    if (6 * force >= strength * (wedges + between))
         return true;
     if (l->tile || radial_holds(l))
         return false;
@@ -291,19 +297,41 @@ static vec2 place_on_floe(const fracture_state *state, const fracture_load *l)
     return l->tile ? vec2_sub(l->place, vec2_make(at.x, at.y)) : l->place;
 }
 
-/* A load whose ice is known: its stresses, and whether it fails in any way. */
+static bool is_over(const fracture_load *l)
+{
+    return l->radial_ratio >= 1 || l->wedge_ratio >= 1 || l->split_ratio >= 1;
+}
+
+static void find_stress(const fracture_job *j, int32_t i)
+{
+    fracture_load *l = &j->scratch->load.all.data[i];
+    const edge_ice edge = j->scratch->load.edges.data[i];
+    l->stress = fracture_edge_stress(j->settings, &l->ice, l->thickness, l->force, l->horizontal_area, edge);
+    l->radial_ratio = l->stress.radial_stress / l->ice.flexural_strength;
+    l->wedge_ratio = l->stress.wedge_stress / l->ice.flexural_strength;
+}
+
+/* Whether the edge may break under a load with those that are near: none makes more of its force than the wedges there
+   bear. */
+static bool may_join(const fracture_load *l)
+{
+    double wedges = l->stress.wedge_capacity - l->stress.strip_capacity;
+    return l->near > 0 && l->start.distance >= 0 && l->wedge_ratio * wedges + l->near >= wedges;
+}
+
+/* A load whose ice is known: its stresses, and whether it fails by itself. */
 static void judge(const fracture_job *j, int32_t i, edge_ice edge)
 {
     fracture_load *l = &j->scratch->load.all.data[i];
     edge.rise = j->scratch->load.rises.data[i].time;
     l->beam = edge.wedges <= EDGE_LEAST_ICE;
+    l->known = true;
+    l->fate = LOAD_HOLDS;
     j->scratch->load.edges.data[i] = edge;
     if (l->split_ratio < 1 && !fails(j->settings, l, edge))
         return;
-    l->stress = fracture_edge_stress(j->settings, &l->ice, l->thickness, l->force, l->horizontal_area, edge);
-    l->radial_ratio = l->stress.radial_stress / l->ice.flexural_strength;
-    l->wedge_ratio = l->stress.wedge_stress / l->ice.flexural_strength;
-    l->fate = l->radial_ratio >= 1 || l->wedge_ratio >= 1 || l->split_ratio >= 1 ? LOAD_FAILS : LOAD_HOLDS;
+    find_stress(j, i);
+    l->fate = may_join(l) ? LOAD_JOINT : is_over(l) ? LOAD_FAILS : LOAD_HOLDS;
 }
 
 /* Loads of a block: an overlap of a floe and sectors takes some microseconds. */
@@ -331,13 +359,49 @@ static void weigh_block(void *arg, int32_t block, int32_t thread)
         w->edges.data[i] = EDGE_STRAIGHT;
         l->split_ratio = split_ratio(j, l);
         l->fate = LOAD_HOLDS;
-        if (l->split_ratio < 1 && (!may_fail(j->settings, l) || surely_holds(j, l, width)))
+        if (l->split_ratio < 1 && is_slight(j, l, width))
+            continue;
+        l->near = fracture_near_force(j, l);
+        if (l->split_ratio < 1 && surely_holds(j, l, width))
             continue;
         if (l->tile)
             l->fate = LOAD_OPEN;
         else
             judge(j, i, fracture_floe_ice(j, l));
     }
+}
+
+static fram_status judge_open(const fracture_job *j)
+{
+    fracture_load_array *all = &j->scratch->load.all;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < all->count && status == FRAM_OK; i++) {
+        edge_ice edge;
+        if (all->data[i].fate != LOAD_OPEN)
+            continue;
+        status = fracture_sheet_ice(j, &all->data[i], &edge);
+        if (status == FRAM_OK)
+            judge(j, i, edge);
+    }
+    return status;
+}
+
+/* Loads bend the edge together; the sum of a place may be that of a load which by itself was dismissed. */
+static fram_status judge_jointly(const fracture_job *j)
+{
+    fracture_load_array *all = &j->scratch->load.all;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < all->count && status == FRAM_OK; i++)
+        if (all->data[i].fate == LOAD_JOINT)
+            status = fracture_join(j, i);
+    for (int32_t i = 0; i < all->count && status == FRAM_OK; i++) {
+        fracture_load *l = &all->data[i];
+        if (l->joint_ratio >= 1 && !(l->stress.length > 0))
+            find_stress(j, i);
+        l->wedge_ratio = fmax(l->wedge_ratio, l->joint_ratio);
+        l->fate = is_over(l) ? LOAD_FAILS : LOAD_HOLDS;
+    }
+    return status;
 }
 
 /* Stresses of all loads; those that fail in no way go. */
@@ -349,25 +413,25 @@ static fram_status keep_failing(const fracture_job *j)
         return error_memory(j->error);
     for (int32_t i = 0; i < all->count; i++)
         read_load(j, &all->data[i]);
+    if (!fracture_note_joint(j))
+        return error_memory(j->error);
     fracture_job job = *j;
     pool_run(j->ctx, weigh_block, &job, (all->count + BLOCK_LOADS - 1) / BLOCK_LOADS);
-    for (int32_t i = 0; i < all->count; i++) {
-        if (all->data[i].fate == LOAD_OPEN) {
-            edge_ice edge;
-            fram_status status = fracture_sheet_ice(j, &all->data[i], &edge);
-            if (status != FRAM_OK)
-                return status;
-            all->data[i].fate = LOAD_HOLDS;
-            judge(j, i, edge);
-        }
+    fram_status status = judge_open(j);
+    if (status == FRAM_OK)
+        status = judge_jointly(j);
+    for (int32_t i = 0; i < all->count; i++)
         if (all->data[i].fate == LOAD_FAILS)
             all->data[kept++] = all->data[i];
-    }
     all->count = kept;
-    return FRAM_OK;
+    return status;
 }
 
-static double severity(const fracture_load *l) { return fmax(fmax(l->radial_ratio, l->wedge_ratio), l->split_ratio); }
+/* Radial cracks run through no sheet. */
+static double severity(const fracture_load *l)
+{
+    return l->tile ? l->wedge_ratio : fmax(fmax(l->radial_ratio, l->wedge_ratio), l->split_ratio);
+}
 
 static int compare_loads(const void *a, const void *b)
 {

@@ -2,6 +2,7 @@
 #ifndef ICE_FRACTURE_PARTS_H
 #define ICE_FRACTURE_PARTS_H
 
+#include "ice/edge_way.h"
 #include "ice/fracture.h"
 #include "ice/tiles.h"
 
@@ -17,7 +18,15 @@ typedef struct fracture_job {
 } fracture_job;
 
 /* What is known of a load. */
-enum { LOAD_HOLDS, LOAD_OPEN, LOAD_FAILS };
+enum { LOAD_HOLDS, LOAD_OPEN, LOAD_JOINT, LOAD_FAILS };
+
+/* Where a crack starts: the boundary point nearest to a load. */
+typedef struct crack_start {
+    vec2 point;      /* r_start [m] */
+    int32_t edge;    /* index of the edge it is on; of its first edge where it is a vertex */
+    vec2 direction;  /* unit, into the ice: theta_crack (Algorithm 7) */
+    double distance; /* from the load's place [m] */
+} crack_start;
 
 /* A patch as a load on a floe, in the floe's own frame; of a level sheet, in the global plan, with what the patch has
    in other tiles. */
@@ -28,6 +37,9 @@ typedef struct fracture_load {
     int32_t surface;      /* slot of the body that pushes */
     vec3 vector;          /* force on the floe, floe frame [N] */
     double force;         /* P: along the floe's own z [N] */
+    double near;          /* that of all others that are near on the same ice [N] */
+    double joint_ratio;   /* what all of them make, over the strength, at the worst place where this load makes most */
+    bool known;           /* whether the ice under it was looked at */
     double plane_force;   /* in its plane [N] */
     vec3 normal;          /* of the patch, floe frame */
     double rise;          /* of the edge that gave, against its floe, up [m] */
@@ -35,6 +47,7 @@ typedef struct fracture_load {
     double aside;         /* what a patch parts the ice with over its load along the normal: 1/(2 tan b) of a wedge */
     double opening_force; /* what opens a crack in the plane: that, and no less than plane_force [N] */
     vec2 place;           /* r_break [m] */
+    crack_start start;    /* with the ice that it stands on; of a sheet that ends nowhere near: distance below 0 */
     box2 plan;            /* of a sheet: bounds of the patch, global [m] */
     double spread[3];     /* xx, xy, yy: mean squares of the patch about its place; with wide_contacts [m2] */
     double width;         /* of the contact along the edge; 0: it acts as a narrow one [m] */
@@ -49,14 +62,6 @@ typedef struct fracture_load {
     int32_t fate;                     /* LOAD_... */
 } fracture_load;
 typedef ARRAY(fracture_load) fracture_load_array;
-
-/* Where a crack starts: the boundary point nearest to a load. */
-typedef struct crack_start {
-    vec2 point;      /* r_start [m] */
-    int32_t edge;    /* index of the edge it is on; of its first edge where it is a vertex */
-    vec2 direction;  /* unit, into the ice: theta_crack (Algorithm 7) */
-    double distance; /* from the load's place [m] */
-} crack_start;
 
 /* An outline on its way to become a floe. */
 typedef struct cut_piece {
@@ -74,6 +79,19 @@ typedef struct load_pair {
     int32_t surface; /* slot */
     int32_t load;    /* row */
 } load_pair;
+
+/* A load by the ice that it is on. */
+typedef struct joint_load {
+    int32_t ice;  /* slot of the floe; -1: the sheet */
+    int32_t load; /* row */
+} joint_load;
+
+/* A load near another one, as it bends the edge under that. */
+typedef struct joint_part {
+    int32_t load;      /* row */
+    double force;      /* up or down as that [N] */
+    double width, way; /* along the edge, and from that [m] */
+} joint_part;
 
 /* A patch on ice that is held, before seams were merged. */
 typedef struct load_part {
@@ -101,12 +119,16 @@ typedef struct load_rise {
 /* The loads at hand. */
 typedef struct load_work {
     fracture_load_array all;
-    ARRAY(load_pair) pairs; /* those of floes that float, sorted */
-    ARRAY(vec3) felt;       /* one per load: what was felt there before this step */
-    ARRAY(load_part) parts; /* one per load that there was before seams were merged */
-    ARRAY(edge_ice) edges;  /* one per load since: the ice that it stands on, a straight edge where it is too small */
-    ARRAY(load_rise) rises; /* one per load since */
-    int32_array root;       /* the least load that is one with each, across seams */
+    ARRAY(load_pair) pairs;   /* those of floes that float, sorted */
+    ARRAY(vec3) felt;         /* one per load: what was felt there before this step */
+    ARRAY(load_part) parts;   /* one per load that there was before seams were merged */
+    ARRAY(edge_ice) edges;    /* one per load since: the ice that it stands on, a straight edge where it is too small */
+    ARRAY(load_rise) rises;   /* one per load since */
+    int32_array root;         /* the least load that is one with each, across seams */
+    ARRAY(joint_load) joint;  /* with joint_loads, one per load, sorted */
+    ARRAY(joint_part) beside; /* of the load at hand */
+    tile_segment_array line;  /* the edge around it, */
+    edge_arc_array arcs;      /* and the ways along that */
     strength_memory strengths;
 } load_work;
 
@@ -212,10 +234,20 @@ double fracture_least_ice(const fracture_job *j, fracture_load *l);
 edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l);
 fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice *edge);
 
+/* Loads that are near each other on the same ice, where joint_loads asks for them. */
+bool fracture_note_joint(const fracture_job *j);
+/* Vertical loads on the same ice whose patches are near a load's, together [N]. */
+double fracture_near_force(const fracture_job *j, const fracture_load *l);
+/* A load whose own stresses are known, with all that are near: the worst sum over its width becomes the joint_ratio of
+   the load that makes most of it in its middle, if it is that one's largest. */
+fram_status fracture_join(const fracture_job *j, int32_t load);
+/* The width along an edge with this inward normal that a load keeps; 0: it acts as a narrow one [m]. */
+double fracture_contact_width(const fracture_job *j, const fracture_load *l, vec2 inward);
+/* Appends the sheet's boundary in the tiles within reach of a place. */
+fram_status fracture_sheet_boundary(const fracture_job *j, vec2 place, double reach, tile_segment_array *out);
+
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 
-/* Whether the crack's ray crosses the segment ab; *length gets the distance from the start, which may be negative. */
-bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length);
 /* *least becomes the length to where the ray crosses the segment, if it is shorter and the segment begins farther than
    `snap` from the start [m]. */
 void crack_shorten(const crack_start *start, vec2 a, vec2 b, double snap, double *least);

@@ -68,57 +68,38 @@ static bool nearest_start(const tile_segment_array *boundary, vec2 load, double 
     return true;
 }
 
-fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
-                                 bool *found)
+fram_status fracture_sheet_boundary(const fracture_job *j, vec2 place, double reach, tile_segment_array *out)
 {
-    fracture_scratch *s = j->scratch;
     fram_status status = make_index(j);
     if (status != FRAM_OK)
         return status;
     tile_sheet_view v = fracture_sheet_view(j);
     tile_range range;
-    *found = false;
-    array_clear(&s->sheet.boundary);
-    if (!tile_range_of(v.grid, box_around(load, reach), &range))
+    if (!tile_range_of(v.grid, box_around(place, reach), &range))
         return FRAM_OK;
-    if (!tile_boundary(j->ctx, &v, range, &s->sheet.boundary))
-        return error_memory(j->error);
-    *found = nearest_start(&s->sheet.boundary, load, reach, CRACK_CORNER_REACH * radius, start);
-    return FRAM_OK;
+    return tile_boundary(j->ctx, &v, range, out) ? FRAM_OK : error_memory(j->error);
 }
 
-/* Cuts that divide a tile around a hole have ice on both sides, and stand twice in the boundary: out and in again
-   within this part of a cell. */
-static const double SAME_CUT = 1e-7;
-
-/* Whether the ray goes into ice again where it leaves it through segment i. */
-static bool goes_on(const tile_segment_array *boundary, int32_t i, const crack_start *start, double length,
-                    double reach)
+fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
+                                 bool *found)
 {
-    const tile_segment *own = &boundary->data[i];
-    double out = vec2_cross(start->direction, vec2_sub(own->b, own->a));
-    for (int32_t k = 0; k < boundary->count; k++) {
-        const tile_segment *e = &boundary->data[k];
-        double other;
-        if (k != i && out * vec2_cross(start->direction, vec2_sub(e->b, e->a)) < 0 &&
-            crack_meets(start, e->a, e->b, &other) && fabs(other - length) <= reach)
-            return true;
-    }
-    return false;
+    tile_segment_array *boundary = &j->scratch->sheet.boundary;
+    array_clear(boundary);
+    fram_status status = fracture_sheet_boundary(j, load, reach, boundary);
+    *found = status == FRAM_OK && nearest_start(boundary, load, reach, CRACK_CORNER_REACH * radius, start);
+    return status;
 }
 
 double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap, bool past_held)
 {
     const tile_segment_array *boundary = &j->scratch->sheet.boundary;
     const tile_grid *grid = &j->settings->tiles;
-    box2 cell = tile_cell(grid, 0);
-    double least = HUGE_VAL, reach = SAME_CUT * (cell.hi.x - cell.lo.x + cell.hi.y - cell.lo.y);
+    double least = HUGE_VAL;
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
         double length = least;
         crack_shorten(start, e->a, e->b, snap, &length);
-        if (length < least && !(past_held && tile_grid_is_held(grid, e->a, e->b)) &&
-            !goes_on(boundary, i, start, length, reach))
+        if (length < least && !(past_held && tile_grid_is_held(grid, e->a, e->b)))
             least = length;
     }
     return least;

@@ -46,7 +46,7 @@ static bool touches_start(polygon p, int32_t i, const crack_start *start)
     return i == start->edge || (a.x == s.x && a.y == s.y) || (b.x == s.x && b.y == s.y);
 }
 
-bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length)
+static bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length)
 {
     vec2 from = vec2_sub(a, start->point), to = vec2_sub(b, start->point);
     double side_a = vec2_cross(start->direction, from), side_b = vec2_cross(start->direction, to);

@@ -67,8 +67,11 @@ bool fracture_note_rises(const fracture_job *j)
     load_work *w = &j->scratch->load;
     if (!array_resize(j->ctx, &w->rises, w->all.count))
         return false;
-    for (int32_t i = 0; i < w->all.count; i++)
+    for (int32_t i = 0; i < w->all.count; i++) {
         w->rises.data[i] = (load_rise){.time = HUGE_VAL};
+        if (!j->settings->edges_give)
+            w->all.data[i].rate = 0;
+    }
     if (!j->settings->edges_give)
         return true;
     find_roots(w);

@@ -313,8 +313,7 @@ static bool may_trim(const fracture_job *j, const crushing_patch *p)
 static bool find_pair(const fracture_job *j, const crushing_patch *p, bool first, trim_pair *pair)
 {
     const fracture_state *s = j->state;
-    vec3 v = vec3_sub(body_point_velocity(s->bodies, p->surface_body, p->centre),
-                      body_point_velocity(s->bodies, p->floe_body, p->centre));
+    vec3 v = body_velocity_past(s->bodies, p->surface_body, p->floe_body, p->centre);
     vec3 way = retreat_find(s->retreats, s->bodies, s->floes, p->floe, p->surface_body);
     if (vec3_dot(v, p->normal) >= 0)
         way = (vec3){0, 0, 0};

@@ -4,6 +4,8 @@
 /* A vertex this near to a side of its cell, as a part of the cell, lies on it: far over rounding, far under any edge.
  */
 static const double ON_SIDE = 1e-9;
+/* Both sides of a cut that divides a tile lie on each other to this part of a cell. */
+static const double ON_CUT = 1e-7;
 
 /* ---- the grid ---- */
 
@@ -338,11 +340,57 @@ static bool push_uncovered(context *ctx, const tile_sheet_view *v, int32_t cell,
     return good && (from >= whole.hi - reach || push_part(ctx, out, side, a, b, from, whole.hi));
 }
 
+/* What of segment a runs back along segment b, from lo to hi along a [m]. */
+static bool runs_back(const tile_segment *a, const tile_segment *b, double reach, double *lo, double *hi)
+{
+    if (!(vec2_dot(a->normal, b->normal) < 0))
+        return false;
+    vec2 along = {a->normal.y, -a->normal.x}, from = vec2_sub(b->b, a->a), to = vec2_sub(b->a, a->a);
+    if (fabs(vec2_dot(from, a->normal)) > reach || fabs(vec2_dot(to, a->normal)) > reach)
+        return false;
+    *lo = fmax(vec2_dot(from, along), 0);
+    *hi = fmin(vec2_dot(to, along), vec2_length(vec2_sub(a->b, a->a)));
+    return *hi - *lo > reach;
+}
+
+/* Segment i less its part between two points; what is left beyond the second becomes a segment at the end. */
+static bool take_out(context *ctx, tile_segment_array *line, int32_t i, vec2 from, vec2 to, double reach)
+{
+    tile_segment rest = line->data[i];
+    line->data[i].b = vec2_length(vec2_sub(from, rest.a)) > reach ? from : rest.a;
+    rest.a = to;
+    return !(vec2_length(vec2_sub(rest.b, to)) > reach) || array_push(ctx, line, rest);
+}
+
+/* Cuts that divide a cell's ice around a hole have ice on both sides, and are no boundary. */
+static bool drop_cuts(context *ctx, tile_segment_array *line, int32_t first, double reach)
+{
+    for (int32_t i = first; i < line->count; i++)
+        for (int32_t k = i + 1; k < line->count; k++) {
+            double lo, hi;
+            const tile_segment a = line->data[i];
+            if (!runs_back(&a, &line->data[k], reach, &lo, &hi))
+                continue;
+            vec2 along = {a.normal.y, -a.normal.x}, from = vec2_add(a.a, vec2_scale(along, lo)),
+                 to = vec2_add(a.a, vec2_scale(along, hi));
+            if (!take_out(ctx, line, i, from, to, reach) || !take_out(ctx, line, k, to, from, reach))
+                return false;
+        }
+    int32_t kept = first;
+    for (int32_t i = first; i < line->count; i++)
+        if (vec2_length(vec2_sub(line->data[i].b, line->data[i].a)) > 0)
+            line->data[kept++] = line->data[i];
+    line->count = kept;
+    return true;
+}
+
 bool tile_boundary(context *ctx, const tile_sheet_view *v, tile_range range, tile_segment_array *out)
 {
+    box2 box = tile_cell(v->grid, 0);
+    double reach = ON_CUT * (box.hi.x - box.lo.x + box.hi.y - box.lo.y);
     for (int32_t k = range.row_first; k <= range.row_last; k++)
         for (int32_t i = range.column_first; i <= range.column_last; i++) {
-            int32_t cell = i + k * v->grid->columns;
+            int32_t cell = i + k * v->grid->columns, first = out->count;
             for (int32_t row = v->index->first.data[cell]; row >= 0; row = v->index->next.data[row]) {
                 tile_ring r = ring_of(v, row);
                 vec2 a = corner_of(&r, 0);
@@ -353,6 +401,8 @@ bool tile_boundary(context *ctx, const tile_sheet_view *v, tile_range range, til
                     a = b;
                 }
             }
+            if (!drop_cuts(ctx, out, first, reach))
+                return false;
         }
     return true;
 }

@@ -79,7 +79,8 @@ typedef struct tile_segment {
     vec2 normal; /* unit, into the ice */
 } tile_segment;
 typedef ARRAY(tile_segment) tile_segment_array;
-/* Appends the boundary that the tiles of these cells have: their edges less the seams. */
+/* Appends the boundary that the tiles of these cells have: their edges less the seams, and less the cuts that divide a
+   tile around a hole. */
 bool tile_boundary(context *ctx, const tile_sheet_view *v, tile_range range, tile_segment_array *out);
 
 /* Length that two tiles of neighbouring cells share [m]; 0 for any others. */

@@ -254,6 +254,9 @@
     X(wide_contacts, BOOLEAN(true), "",                                                                               \
       "a load that is wider along the edge than the ice is thick, and four times as wide as it is deep, breaks a "    \
       "strip off between its wedges; false: it acts as a narrow one")                                                 \
+    X(joint_loads, BOOLEAN(true), "",                                                                                 \
+      "loads near each other along an edge bend it together, so that two halves of a load break what the whole "      \
+      "does; false: each breaks the ice as if it were alone")                                                         \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")            \
     X(under_pieces, BOOLEAN(true), "",                                                                                \
       "level and fixed ice breaks under pieces of ice too, where they press with more than breaks an eighth of a "    \

@@ -46,6 +46,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .edge_threshold = s->ice.edge_threshold,
                                .thick_plate_radius = s->ice.fracture.thick_plate_radius,
                                .wide_contacts = s->ice.fracture.wide_contacts,
+                               .joint_loads = s->ice.fracture.joint_loads,
                                .wedge_room = s->ice.fracture.wedge_room,
                                .under_pieces = s->ice.fracture.under_pieces,
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,

@@ -101,6 +101,7 @@ static const idle_rule rules[] = {
     {"ice.fracture.narrowness", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.thick_plate_radius", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.wide_contacts", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.joint_loads", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.under_pieces", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.wedge_room", is_unbreakable, UNBREAKABLE},
     {"domain.band", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},

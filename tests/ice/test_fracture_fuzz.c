@@ -225,6 +225,7 @@ static void break_one(fracture_rig *r, random_stream *s, fuzz_books *books)
     r->settings.wedges = 2 + (int32_t)random_uniform(s, 0, 4);
     r->settings.splitting_factor = random_unit(s) < 0.5 ? 3 : 1;
     r->settings.wide_contacts = random_unit(s) < 0.5;
+    r->settings.joint_loads = random_unit(s) < 0.5;
     r->settings.edge_threshold = random_unit(s) < 0.2 ? 0 : 0.15;
     for (int turn = 0; turn < GENERATIONS && fracture_rig_count(r) > 0; turn++) {
         row = random_floe(r, s);

@@ -38,6 +38,7 @@ static bool random_sheet(fracture_rig *r, random_stream *s, box2 plan)
     r->settings.wedges = 2 + (int32_t)random_uniform(s, 0, 6);
     r->settings.sharing = random_unit(s) < 0.5 ? SHARING_WIDTH : SHARING_EQUAL;
     r->settings.wide_contacts = random_unit(s) < 0.5;
+    r->settings.joint_loads = random_unit(s) < 0.5;
     r->settings.edge_threshold = random_unit(s) < 0.2 ? 0 : random_power_law(s, 0.01, 0.3, 0);
     r->settings.smallest_floe_area = random_power_law(s, 0.02, 1, 0);
     r->settings.smallest_piece_area = r->settings.smallest_floe_area * random_power_law(s, 0.01, 1, 0);

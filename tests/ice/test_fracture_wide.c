@@ -415,5 +415,22 @@ START_TEST(pieces_go_on)
 }
 END_TEST
 
+/* Pieces of an edge that is rigid until it breaks come off at rest. */
+START_TEST(rigid_edges)
+{
+    for (int kind = EDGE_OF_SHEET; kind <= EDGE_FLOATS; kind++) {
+        fracture_rig r;
+        loaded_edge(&r, (edge_kind)kind, true, 1e6, 0, 0);
+        r.settings.edges_give = false;
+        r.bodies.velocity[r.hull].z = -0.3;
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        for (int32_t k = 0; k < r.floes.count; k++)
+            if (came_off(&r, k))
+                assert_absolute(r.bodies.velocity[r.floes.body[k]].z, 0, 1e-12);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
 TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, round_a_stem, sheets, openings_in_a_strip, slit_in_a_floe,
-          pieces_stay_bent, pieces_go_on)
+          pieces_stay_bent, pieces_go_on, rigid_edges)

@@ -73,6 +73,37 @@ START_TEST(the_boundary_faces_the_ice)
 }
 END_TEST
 
+/* Seams and the cuts by which tiles are divided around holes are none of it, whatever the tiles. */
+START_TEST(the_boundary_is_as_long_as_it_is)
+{
+    static const double SIZES[] = {100, 50, 26, 15};
+    for (int i = 0; i < 4; i++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        polygon_list openings = {0};
+        const vec2 hole[3] = {{11, 12}, {49, 17}, {30, 34}};
+        ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){hole, 3}));
+        push_box(&r, &openings, (vec2){50, 30}, (vec2){55, 40});
+        sheet_make(&r, (box2){{0, 0}, {60, 45}}, SIZES[i], &openings);
+        tile_index index = sheet_index(&r);
+        tile_sheet_view v = sheet_view(&r, &index);
+        tile_segment_array segments = {0};
+        const tile_grid *g = &r.settings.tiles;
+        ck_assert(tile_boundary(&r.ctx, &v, (tile_range){0, g->columns - 1, 0, g->rows - 1}, &segments));
+        double length = 2 * (60 + 45) + 30, sum = 0;
+        for (int k = 0; k < 3; k++)
+            length += vec2_length(vec2_sub(hole[(k + 1) % 3], hole[k]));
+        for (int32_t k = 0; k < segments.count; k++)
+            sum += vec2_length(vec2_sub(segments.data[k].b, segments.data[k].a));
+        assert_relative(sum, length, 1e-9);
+        array_free(&r.ctx, &segments);
+        tile_index_free(&r.ctx, &index);
+        polygon_list_free(&r.ctx, &openings);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
 static vec2 turned(vec2 v, int quarters)
 {
     for (int i = 0; i < quarters; i++)
@@ -114,4 +145,5 @@ START_TEST(what_hung_on_a_neck_drifts)
 }
 END_TEST
 
-TEST_MAIN("tiles", tiles_share_what_both_have_of_a_line, the_boundary_faces_the_ice, what_hung_on_a_neck_drifts)
+TEST_MAIN("tiles", tiles_share_what_both_have_of_a_line, the_boundary_faces_the_ice, the_boundary_is_as_long_as_it_is,
+          what_hung_on_a_neck_drifts)

@@ -126,7 +126,7 @@ def add(draw, tree, ratio):
                            "correlation_length": round(draw.uniform(2, 40) * ratio, 6)}
     if draw.random() < 0.3:
         ice["fracture"] = {"edge_inertia": draw.random() < 0.7, "brash": draw.random() < 0.5,
-                           "wide_contacts": draw.random() < 0.3,
+                           "wide_contacts": draw.random() < 0.3, "joint_loads": draw.random() < 0.7,
                            "splitting": draw.choice(("length", "toughness", "none"))}
     if draw.random() < 0.2:
         tree["environment"]["floe_ventilation"] = True
