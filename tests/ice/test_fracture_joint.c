@@ -60,7 +60,7 @@ static double ratio_of(edge_kind kind, bool joint, const edge_press *loads, int 
 /* A load of 20 m, its halves, its thirds and quarters break the ice alike; each alone they bear more. */
 START_TEST(parts_are_a_whole)
 {
-    for (int kind = 0; kind < EDGE_KINDS; kind++) {
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         const edge_press whole = {1, 1e6, 20};
         double together = ratio_of(kind, true, &whole, 1);
         assert_relative(1e6 / together, 550e3, 0.05);
@@ -79,7 +79,7 @@ END_TEST
 /* So does one of 100 m in halves, whose middles are farther apart than narrow loads are near. */
 START_TEST(wide_halves)
 {
-    for (int kind = 0; kind < EDGE_KINDS; kind++) {
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         const edge_press whole = {0, 2e6, 100}, half[2] = {{-25, 1e6, 50}, {25, 1e6, 50}};
         assert_relative(ratio_of(kind, true, half, 2), ratio_of(kind, true, &whole, 1), 1e-3);
     }
@@ -92,7 +92,7 @@ START_TEST(two_columns)
 {
     static const double WAYS[] = {0.5, 2, 5, 10, 20, 40, 60};
     double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), metre = 0.5e6 / 6 / (0.4559381 * l);
-    for (int kind = 0; kind < EDGE_KINDS; kind++) {
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         const edge_press one = {2, 1e6, 0};
         double bears = 1e6 / ratio_of(kind, true, &one, 1);
         assert_relative(bears, 1e6 / ratio_of(kind, false, &one, 1), 1e-12);
@@ -169,7 +169,7 @@ END_TEST
    where the sum is largest. */
 START_TEST(under_the_heavier)
 {
-    for (int kind = 0; kind < EDGE_KINDS; kind++) {
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         fracture_rig r;
         make_edge(&r, kind, true);
         press(&r, kind, (vec2){2, 0.01}, 10, 0);
@@ -186,7 +186,7 @@ END_TEST
 /* More load breaks no less: a heavier load that itself holds takes over what both make at the place of the slighter. */
 START_TEST(no_load_hides_another)
 {
-    for (int kind = 0; kind < EDGE_KINDS; kind++) {
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         double least = 0;
         for (int i = 0; i < 12; i++) {
             const edge_press pair[] = {{0, 939e3 * (0.6 + 0.03 * i), 50}, {12.5, 313e3 * 0.74, 0}};
@@ -232,7 +232,7 @@ START_TEST(many_small_ones)
     for (int i = 0; i < 40; i++)
         loads[i] = (edge_press){0.5 * (i - 19.5), 1e6 / 40, 0};
     const edge_press whole = {0, 1e6, 20};
-    for (int kind = 0; kind < EDGE_KINDS; kind++)
+    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++)
         assert_relative(ratio_of(kind, true, loads, 40), ratio_of(kind, true, &whole, 1), 0.02);
 }
 END_TEST
