@@ -136,14 +136,14 @@ static fram_status find_parts(const fracture_job *j, const fracture_load *l)
 }
 
 /* Loads of the edge's ice at its strength; a narrow load's metre is one of a long strip. */
-static edge_strength strength_of(const fracture_load *l, edge_ice edge)
+static edge_strength strength_of(const fracture_load *l, const edge_stress *s, edge_ice edge)
 {
     double h = l->thickness, metre = l->ice.flexural_strength * h * h / 6;
     if (edge.strip > 0)
-        metre = l->stress.strip_capacity / edge.strip;
+        metre = s->strip_capacity / edge.strip;
     else
-        metre /= strip_solve(HUGE_VAL).moment * l->stress.length;
-    return (edge_strength){l->stress.wedge_capacity - l->stress.strip_capacity, metre};
+        metre /= strip_solve(HUGE_VAL).moment * s->length;
+    return (edge_strength){s->wedge_capacity - s->strip_capacity, metre};
 }
 
 /* What the loads that are near add to the bending of the edge at a place along it, over its strength. */
@@ -177,11 +177,16 @@ fram_status fracture_join(const fracture_job *j, int32_t load)
     fram_status status = find_parts(j, l);
     if (status != FRAM_OK)
         return status;
-    const edge_strength e = strength_of(l, edge);
-    double end = edge.strip / 2, at_end = l->force * edge_share(e, edge.strip, end);
-    double middle = l->wedge_ratio + share_of_parts(w, e, 0);
-    double most = fmax(middle, at_end + fmax(share_of_parts(w, e, end), share_of_parts(w, e, -end)));
+    edge_strength e = strength_of(l, &l->stress, edge);
     fracture_load *worst = &w->all.data[heaviest(w, e, load, l->force * edge_share(e, edge.strip, 0))];
+    if (worst != l) { /* the wedges of its ice stand on that one's area, which the ice would break under */
+        edge_stress s =
+            fracture_edge_stress(j->settings, &l->ice, l->thickness, l->force, worst->horizontal_area, edge);
+        e = strength_of(l, &s, edge);
+    }
+    double end = edge.strip / 2, at_end = l->force * edge_share(e, edge.strip, end);
+    double middle = l->force * edge_share(e, edge.strip, 0) + share_of_parts(w, e, 0);
+    double most = fmax(middle, at_end + fmax(share_of_parts(w, e, end), share_of_parts(w, e, -end)));
     worst->joint_ratio = fmax(worst->joint_ratio, most);
     l->wedge_ratio = fmin(l->wedge_ratio, most); /* others may lift what it presses down */
     return FRAM_OK;
