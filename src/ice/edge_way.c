@@ -4,13 +4,22 @@
 #include "base/transcendental.h"
 #include "geometry/predicate.h"
 
+/* Whether a segment between a and b along an axis may come nearer than `least` to p. */
+static bool spans(double a, double b, double p, double least)
+{
+    return a < b ? p - b < least && a - p < least : p - a < least && b - p < least;
+}
+
 /* The segment nearest to a place, -1 without any; *near gets the point there. */
 static int32_t nearest_segment(const tile_segment_array *line, vec2 place, vec2 *near)
 {
     double least = HUGE_VAL;
     int32_t best = -1;
     for (int32_t i = 0; i < line->count; i++) {
-        vec2 p = segment_nearest(line->data[i].a, line->data[i].b, place);
+        const tile_segment *e = &line->data[i];
+        if (!spans(e->a.x, e->b.x, place.x, least) || !spans(e->a.y, e->b.y, place.y, least))
+            continue;
+        vec2 p = segment_nearest(e->a, e->b, place);
         double way = vec2_length(vec2_sub(p, place));
         if (way < least) {
             least = way;
