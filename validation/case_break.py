@@ -28,7 +28,7 @@ ice:
   breakable: true
   crushing_strength: 2.0e6
   friction: {{ice_hull_static: {friction}, ice_hull_kinetic: {friction}}}
-  fracture: {{thick_plate_radius: false, wide_contacts: false, edge_compliance: {gives}}}
+  fracture: {{thick_plate_radius: false, wide_contacts: false, edge_compliance: {gives}, edge_inertia: false}}
   floes:
     - {{length: 60, width: 80, x: 30, elevation: 0, thickness: 1, fixed: true}}
 output: {{frame_interval: 0}}

@@ -15,13 +15,15 @@ SPEED = 0.1
 STEPS_TO_THE_BREAK = [25, 50, 100]
 THIN = [(0.05, 5e9, 0.5e6), (0.2, 1e9, 0.5e6), (0.3, 2e9, 1e6), (0.5, 2e9, 1e6)]
 THIN_WIDTH, THIN_SPEEDS, THIN_STEPS = 20, (0.2, 1), (0.02, 0.005)
+# With inertia there is no closed form: the load at long steps beside that at the shortest.
+HEAVY_SPEED, HEAVY_STEPS = 1, (0.02, 0.01, 0.005, 0.0025, 0.00125)
 TILES = ["auto", 10, 100]
 # Two plates side by side: width of each, and of the gap between them.
 PAIRS = [(10, 0.01), (5, 2), (5, 10), (2, 20)]
 # Width, speed, steps of what is looked at after the break.
 AFTER, AFTER_STEPS = [(20, 0.1), (20, 0.5), (50, 0.1), (50, 0.5)], (0.01, 0.005)
 # Set after a first run: what is left as the step goes to nothing; what halving it changes after the break.
-LEFT, LEFT_THIN, HALVED = 0.005, 0.05, 0.1
+LEFT, LEFT_THIN, HALVED, HEAVY = 0.005, 0.05, 0.1, 0.2
 
 
 def wedge(a):
@@ -114,7 +116,7 @@ ice:
   flexural_strength: {strength}
   crushing_strength: {CRUSHING}
   friction: {{ice_hull_static: 0, ice_hull_kinetic: 0}}
-  fracture: {{thick_plate_radius: false, wedges: {WEDGES}}}
+  fracture: {{thick_plate_radius: false, wedges: {WEDGES}, edge_inertia: false}}
   level: {{x_min: 0}}
 output: {{frame_interval: 0, csv_interval: {self.step:.17g}}}
 """
@@ -166,13 +168,28 @@ def thin(c, each):
                 f"({100 * LEFT_THIN:g} % besides)")
 
 
+def heavy(c, each):
+    """Thin ice whose edge has inertia: at long steps it would break within a step, at any load."""
+    for plate in each:
+        c.rows.append(plate.row(f"{THIN_WIDTH} m, inertia"))
+    for ice in THIN:
+        loads = [p.found for p in each if p.ice == ice]
+        off = [load / loads[-1] - 1 for load in loads[:-1]]
+        c.check(max(map(abs, off)) <= HEAVY,
+                f"{ice[0]:g} m of ice with inertia, {HEAVY_SPEED} m/s: at steps of "
+                f"{', '.join(f'{1000 * p.step:g}' for p in each if p.ice == ice)} ms "
+                f"{', '.join(f'{100 * (p.found / p.load):.0f}' for p in each if p.ice == ice)} % of what breaks it at "
+                f"rest; {100 * min(off):+.0f} to {100 * max(off):+.0f} % from that of the shortest step")
+
+
 def case(out):
     c = ladder.Case(
         "Contacts that are wide along the edge",
         2,
         f"Plates of {', '.join(map(str, WIDTHS))} m at 45 degrees, frictionless, driven at {SPEED:g} m/s into level "
-        "ice of 1 m whose edge gives before it breaks, as by default (narrow loads on fixed floes are in "
-        f"[a whole break](break.md)); {THIN_WIDTH} m against thin, soft and strong ice, faster; 50 m over tiles of "
+        "ice of 1 m whose edge gives before it breaks, as by default, and has no inertia (narrow loads on fixed floes "
+        f"are in [a whole break](break.md)); {THIN_WIDTH} m against thin, soft and strong ice, faster, also with "
+        "inertia; 50 m over tiles of "
         "other sizes; two plates side by side; the largest load from the break on, of pieces that are pushed down as "
         "one.",
         "Three wedges (Nevel 1961, by finite elements in `validation/wedge_ramp.py`) beside a long beam on the water "
@@ -186,7 +203,8 @@ def case(out):
         "First order in dt: the break comes with the first step at which the load is reached, and the load is too high "
         "by a step's growth at most; steps that halve and meet the break half a step late show the order. The size of "
         f"tiles changes nothing. What is left besides, {100 * LEFT:g} and in thin ice {100 * LEFT_THIN:g} %, and "
-        f"{100 * HALVED:g} % by half the step after the break, were set after a first run.",
+        f"{100 * HALVED:g} % by half the step after the break, were set after a first run, and {100 * HEAVY:g} % by "
+        "the step with inertia ([0566](../decisions/0566-no-more-than-breaks-the-ice.md)).",
     )
     c.header = ["plate", "ice", "speed [m/s]", "dt [s]", "load at the break [kN]", "by hand [kN]", "difference",
                 "late by [s]", "largest in 1 s from then [kN]"]
@@ -195,16 +213,19 @@ def case(out):
                for w, gap in PAIRS}
     of_thin = [Plate(f"thin_{ice[0]}_{v}_{dt}", ice, THIN_WIDTH, step=dt, speed=v)
                for ice in THIN for v in THIN_SPEEDS for dt in THIN_STEPS]
+    of_heavy = [Plate(f"heavy_{ice[0]}_{dt}", ice, THIN_WIDTH, step=dt, speed=HEAVY_SPEED,
+                      ice__fracture__edge_inertia="true") for ice in THIN for dt in HEAVY_STEPS]
     tiles = [Plate(f"tile_{size}", BASE, 50, step=0.01, ice__level__tile_size=size) for size in TILES]
     after = {(w, v): [Plate(f"after_{w}_{v}_{dt}", BASE, w, step=dt, speed=v, after=1) for dt in AFTER_STEPS]
              for w, v in AFTER}
-    ladder.side_by_side(Plate.run, [p for each in (*by_width.values(), *by_pair.values(), of_thin, tiles,
+    ladder.side_by_side(Plate.run, [p for each in (*by_width.values(), *by_pair.values(), of_thin, of_heavy, tiles,
                                                    *after.values()) for p in each])
     for w, each in by_width.items():
         halved(c, f"{w} m", each)
     for (w, gap), each in by_pair.items():
         halved(c, f"two of {w} m, {gap:g} m between", each)
     thin(c, of_thin)
+    heavy(c, of_heavy)
     for plate, size in zip(tiles, TILES):
         c.rows.append(plate.row(f"50 m, tiles {size}{'' if size == 'auto' else ' m'}"))
     c.check(max(p.found for p in tiles) <= 1.001 * min(p.found for p in tiles),

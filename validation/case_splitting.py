@@ -51,7 +51,7 @@ ice:
   crushing_strength: {STRENGTH}
   flexural_strength: {10 * load * SLOPE}
   friction: {{ice_hull_static: 0, ice_hull_kinetic: 0}}
-  fracture: {{splitting: toughness, toughness: {TOUGHNESS}, narrowness: 100}}
+  fracture: {{splitting: toughness, toughness: {TOUGHNESS}, narrowness: 100, edge_inertia: false}}
   floes:
     - {{length: {length}, width: {width}, x: {length / 2}, y: {-place}, elevation: 0, thickness: 1, fixed: true}}
 output: {{frame_interval: 0}}

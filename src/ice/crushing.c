@@ -174,7 +174,7 @@ double crushing_component_pressure(const crushing_job *j, const crushing_pair *p
 }
 
 static bool push_patch(const crushing_job *j, const crushing_pair *p, const patch_component *c, int32_t number,
-                       double area, double pressure, double compliance)
+                       double area, const patch_bearing *bearing)
 {
     vec3 normal = vec3_unit(c->area), point[PATCH_MOST_POINTS];
     crushing_patch patch = {.floe = p->floe,
@@ -185,8 +185,9 @@ static bool push_patch(const crushing_job *j, const crushing_pair *p, const patc
                             .area = area,
                             .horizontal_area = fabs(c->area.z),
                             .surface_area = c->surface,
-                            .pressure = pressure,
-                            .compliance = compliance,
+                            .pressure = bearing->pressure,
+                            .compliance = bearing->compliance,
+                            .over = bearing->over,
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
@@ -223,19 +224,20 @@ static fram_status push_patches(const crushing_job *j, const crushing_pair *p, c
     }
     for (int32_t i = 0; i < found->count; i++) {
         patch_component c = found->data[i];
-        double area = vec3_length(c.area), pressure = 0, compliance = 0;
+        patch_bearing bearing = {0};
+        double area = vec3_length(c.area);
         if (!(area > CLOSED_PATCH * c.surface))
             continue;
         bool gives = crushing_edge_gives(j, p, &c);
         if (gives) {
-            c = crushing_give_way(j, p, &found->data[i], i, &pressure, &compliance);
+            c = crushing_give_way(j, p, &found->data[i], i, &bearing);
             area = fabs(c.area.z) > CLOSED_PATCH * found->data[i].surface ? vec3_length(c.area) : 0;
         }
         if (j->settings->top_plane_area)
             area = top_plane_share(&c, section_area, horizontal_sum);
         if (!gives)
-            pressure = crushing_component_pressure(j, p, &c, area);
-        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, pressure, compliance))
+            bearing.pressure = crushing_component_pressure(j, p, &c, area);
+        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, &bearing))
             return error_memory(j->error);
     }
     return FRAM_OK;

@@ -33,6 +33,7 @@ typedef struct crushing_patch {
     double pressure;        /* sigma_c(A_c), less where the edge gives before it crushes [Pa] */
     box2 plan;              /* bounds of the patch in the floe's own plane [m] */
     int32_t contact_first, contact_count; /* rows of the contact array */
+    bool over;                            /* over what breaks the edge that it is on, as that is known */
     double compliance; /* deflection of the edge under it over its own vertical load, 0: rigid [m/N] */
     int32_t component; /* number of the component inside its pair, by least triangle */
 } crushing_patch;

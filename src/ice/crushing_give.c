@@ -74,8 +74,45 @@ static double find_give(const crushing_job *j, const crushing_pair *p, const loa
     return lo;
 }
 
+/* An edge that breaks within a step would be loaded on to the step's end, at any multiple of what breaks it: a load is
+   held to this part of that, more than what is not known of the ice and of friction makes. */
+static const double BREAKS_WITHIN = 1.1;
+
+/* Turns in which the load that breaks an edge with inertia and the time of its rise follow each other. */
+enum { BREAK_TURNS = 3 };
+
+/* The whole load to which one of this size [N] is held, at the end of a step. */
+static double most_load(const crushing_job *j, const crushing_pair *p, const loaded_edge *e,
+                        const patch_component *left, double load)
+{
+    double dt = j->settings->time_step, level = fabs(left->area.z) / e->stand.part, most = load;
+    ice_material ice = strength_flexural_at(&j->settings->strength, NULL, j->floes, p->floe,
+                                            vec2_make(left->centre.x, left->centre.y));
+    edge_stand stand = e->stand;
+    for (int turn = 0; turn < (j->settings->edges.inertia ? BREAK_TURNS : 1); turn++) {
+        stand.rise = edge_rise_time(stand.impulse + most * dt, most);
+        most = fmin(load, BREAKS_WITHIN * edge_breaking_load(&j->settings->edges, &ice, j->floes->thickness[p->floe],
+                                                             level, stand, load));
+    }
+    return most;
+}
+
+/* No more than breaks the edge, once: ice that did not break then bears more, since others lift what this presses down,
+   and is loaded on as it is. */
+static void limit_to_break(const crushing_job *j, const crushing_pair *p, const loaded_edge *e,
+                           const patch_component *left, patch_bearing *bearing)
+{
+    double load = bearing->pressure * fabs(left->area.z) * e->share / e->stand.part;
+    double most = load > 0 ? most_load(j, p, e, left, load) : load;
+    if (!(most < load))
+        return;
+    bearing->over = e->stand.known;
+    if (!e->stand.over)
+        bearing->pressure *= most / load;
+}
+
 patch_component crushing_give_way(const crushing_job *j, const crushing_pair *p, const patch_component *c,
-                                  int32_t number, double *pressure, double *compliance)
+                                  int32_t number, patch_bearing *bearing)
 {
     double reach =
         edge_reach(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], fabs(c->area.z));
@@ -88,9 +125,10 @@ patch_component crushing_give_way(const crushing_job *j, const crushing_pair *p,
     double give = find_give(j, p, &e, &balance), stiffness;
     patch_component left = patch_left(j->room, &p->prism, number, e.sign * give);
     excess(j, p, &e, give, &stiffness);
-    *pressure = crushing_component_pressure(j, p, c, vec3_length(left.area));
+    bearing->pressure = crushing_component_pressure(j, p, c, vec3_length(left.area));
     if (balance && give > 0 && left.area.z != 0)
-        *pressure = fmin(*pressure, stiffness * give * e.stand.part / (fabs(left.area.z) * e.share));
-    *compliance = left.area.z != 0 ? 1 / (e.stand.part * stiffness) : 0;
+        bearing->pressure = fmin(bearing->pressure, stiffness * give * e.stand.part / (fabs(left.area.z) * e.share));
+    bearing->compliance = left.area.z != 0 ? 1 / (e.stand.part * stiffness) : 0;
+    limit_to_break(j, p, &e, &left, bearing);
     return left;
 }

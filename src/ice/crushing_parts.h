@@ -45,9 +45,16 @@ double crushing_component_pressure(const crushing_job *j, const crushing_pair *p
    areas by the paper's rule are not those of the patch. */
 bool crushing_edge_gives(const crushing_job *j, const crushing_pair *p, const patch_component *c);
 
-/* What is left of a component when its edge has given, and the pressure there: no more than bends the edge so far.
-   compliance: deflection over the component's own vertical load [m/N]. */
+/* What a component bears. */
+typedef struct patch_bearing {
+    double pressure;   /* at most [Pa] */
+    double compliance; /* of the edge under it: deflection over the component's own vertical load [m/N] */
+    bool over;         /* it would be over what breaks the edge that it is on, as that is known */
+} patch_bearing;
+
+/* What is left of a component when its edge has given, and the pressure there: no more than bends the edge so far, nor
+   much more than breaks it (docs/decisions/0566). */
 patch_component crushing_give_way(const crushing_job *j, const crushing_pair *p, const patch_component *c,
-                                  int32_t number, double *pressure, double *compliance);
+                                  int32_t number, patch_bearing *bearing);
 
 #endif

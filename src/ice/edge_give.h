@@ -21,10 +21,13 @@
     X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")                           \
     X(part, double, FIELD_F64, 1, "1", "horizontal area of the patch over that of the load, in all of its tiles") \
     X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g")  \
+    X(strip_bears, double, FIELD_F64, 1, "m2", "load at which that strip breaks, over the flexural strength")     \
     X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                       \
     X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                 \
     X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")              \
-    X(rise, double, FIELD_F64, 1, "m", "of the edge under the whole load in the last step, up")
+    X(rise, double, FIELD_F64, 1, "m", "of the edge under the whole load in the last step, up")                   \
+    X(known, int32_t, FIELD_I32, 1, "1", "1: the ice was looked at, 0: the load is so small that it was not")     \
+    X(over, int32_t, FIELD_I32, 1, "1", "1: the patch was over what breaks known ice in the last step, 0: not")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
 
 typedef struct edge_compliance {
@@ -39,9 +42,11 @@ typedef struct edge_compliance {
 
 /* One row of the table, without its place. */
 typedef struct edge_stand {
-    double wedges, part, strip, impulse;
+    double wedges, part, strip, strip_bears, impulse;
     double rise; /* for how long the load has risen [s] */
     double up;   /* how far the edge stood up in the last step [m] */
+    bool known;  /* false: a straight edge is assumed */
+    bool over;   /* it was over what breaks ice that is known */
 } edge_stand;
 /* An edge gives by this part of the thickness at most: ice that is farther down is out of the hull that loads it.
    Plates that are held all round stretch from half the thickness on (Timoshenko and Woinowsky-Krieger 1959); beams and
@@ -83,5 +88,23 @@ wedge_ramp edge_rise(const edge_compliance *e, const ice_material *ice, double t
 /* Load over deflection of the edge under a load on a horizontal area [m2], of the whole load [N/m]. */
 double edge_stiffness(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
                       edge_stand stand);
+
+/* What a strip of this width bears over its flexural strength [m2], of the largest moment `arm` a load of 1 N/m [m]. */
+double edge_strip_bears(double width, double arm, double thickness);
+
+/* What the wedges bear beside a strip that bears this much [N], and what they stand on: each stands on the contact area
+   that crushes at its share of the load (docs/decisions/0128). */
+typedef struct edge_bearing {
+    double radius; /* loaded, of the wedges [m] */
+    double place;  /* where they break, over the characteristic length */
+    double load;   /* under which all break, at rest [N] */
+} edge_bearing;
+edge_bearing edge_bears(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
+                        double wedges, double strip);
+
+/* The load on a horizontal area [m2] under which what stands there breaks, both of the whole load [N]; infinite where
+   this load surely does not break it. */
+double edge_breaking_load(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
+                          edge_stand stand, double load);
 
 #endif

@@ -5,7 +5,6 @@
 #include "base/transcendental.h"
 #include "ice/sheet.h"
 #include "ice/strip.h"
-#include "ice/wedge.h"
 
 #include <stdlib.h>
 
@@ -15,39 +14,27 @@ static const double POINT_LOAD = 1e-3;
 /* Patches nearer than this part of a cell to one another meet on its side. */
 static const double SAME_LINE = 1e-7;
 
-/* Turns in which the area under wedges and strip is shared by what each carries: C changes little with the area. */
-enum { SHARING_TURNS = 4 };
-
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
                                  double load, double horizontal_area, edge_ice edge)
 {
-    double h = thickness, width = settings->wedges * fracture_wedge_width(settings->wedges);
+    double h = thickness;
     edge_stress s = {.length = ice_characteristic_length(ice, h, settings->water_density, settings->gravity)};
-    width *= fmax(edge.wedges, EDGE_LEAST_ICE);
     s.radial_radius = fracture_loaded_radius(horizontal_area, PI / 2, h, settings->thick_plate_radius);
     s.radial_radius = fmax(s.radial_radius, s.length * sheet_disk_of_strip(edge.strip / 2 / s.length));
     double radial = sheet_stress(fmax(s.radial_radius / s.length, POINT_LOAD), ice->poisson_ratio);
     s.radial_stress = radial * load / (h * h);
     s.radial_capacity = ice->flexural_strength * h * h / radial;
-    double moment = ice->flexural_strength * h * h / 6, part = 1;
     if (edge.strip > 0) {
         strip b = strip_solve(edge.length / s.length);
         s.strip_length = s.length * b.x_max;
-        s.strip_capacity = moment * edge.strip / (b.moment * s.length);
-        /* Nevel's C is at least 1, and grows slowly with the area that the wedges stand on. */
-        part = moment * width / (moment * width + s.strip_capacity);
-    }
-    for (int turn = 0; turn < (edge.strip > 0 ? SHARING_TURNS : 1); turn++) {
-        s.wedge_radius = fracture_loaded_radius(part * horizontal_area, width / 2, h, settings->thick_plate_radius);
-        wedge w = wedge_solve(s.wedge_radius / s.length);
-        s.wedge_capacity = moment * width * w.capacity + s.strip_capacity;
-        s.wedge_stress = 6 * load / (width * h * h) * w.curvature;
-        if (edge.strip > 0)
-            s.wedge_stress = ice->flexural_strength * load / s.wedge_capacity;
-        s.breaking_radius = s.length * w.x_max;
-        part = moment * width * w.capacity / s.wedge_capacity;
+        s.strip_capacity = ice->flexural_strength * edge_strip_bears(edge.strip, b.moment * s.length, h);
     }
     const edge_compliance edges = fracture_edges(settings);
+    edge_bearing b = edge_bears(&edges, ice, h, horizontal_area, edge.wedges, s.strip_capacity);
+    s.wedge_radius = b.radius;
+    s.wedge_capacity = b.load;
+    s.wedge_stress = ice->flexural_strength * load / b.load;
+    s.breaking_radius = s.length * b.place;
     wedge_ramp r = edge_rise(&edges, ice, h, s.wedge_radius, edge.rise);
     s.wedge_stress *= r.moment;
     s.wedge_capacity /= r.moment;
@@ -325,7 +312,7 @@ static void judge(const fracture_job *j, int32_t i, edge_ice edge)
     fracture_load *l = &j->scratch->load.all.data[i];
     edge.rise = j->scratch->load.rises.data[i].time;
     l->beam = edge.wedges <= EDGE_LEAST_ICE;
-    l->known = true;
+    l->known = j->scratch->load.rises.data[i].known = true;
     l->fate = LOAD_HOLDS;
     j->scratch->load.edges.data[i] = edge;
     if (l->split_ratio < 1 && !fails(j->settings, l, edge))

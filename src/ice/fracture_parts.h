@@ -96,6 +96,7 @@ typedef struct joint_part {
 /* A patch on ice that is held, before seams were merged. */
 typedef struct load_part {
     bool held;       /* under a hull; all other parts are of ice that gives in no way */
+    bool over;       /* what breaks the edge, as it was known */
     int32_t root;    /* the first part of the same load */
     int32_t load;    /* of a root: row of the load */
     int32_t floe;    /* row */
@@ -114,6 +115,7 @@ typedef struct load_rise {
     double impulse; /* since the first touch [N s] */
     double time;    /* of rising; infinite on ice that floats, or without inertia [s] */
     double up;      /* how far the edge stands up [m] */
+    bool known;     /* whether the ice under it was looked at */
 } load_rise;
 
 /* The loads at hand. */

@@ -25,6 +25,7 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
                        .surface = l->surface,
                        .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
                        .level = l->horizontal_area,
+                       .over = patches->data[l->patch].over,
                        .own = l->vector.z};
         if (held && j->state->supports) {
             edge_stand old = old_stand(j, l, patches->data[l->patch].centre);
@@ -94,16 +95,20 @@ bool fracture_note_rises(const fracture_job *j)
     return true;
 }
 
-/* Load over deflection of the strip under a wide contact, over rho_w g [m2]. */
-static double strip_stiffness(const fracture_job *j, const load_part *p, const edge_ice *edge)
+/* Of the strip under a wide contact: load over deflection over rho_w g, and load at its strength over that [m2]. */
+static void keep_strip(const fracture_job *j, const load_part *p, const edge_ice *edge, int32_t row)
 {
     const fracture_settings *f = j->settings;
     const floe_table *floes = j->state->floes;
+    edge_support_table *e = j->state->supports;
+    e->strip[row] = e->strip_bears[row] = 0;
     if (!(edge->strip > 0))
-        return 0;
-    double length =
-        ice_characteristic_length(&floes->material[p->floe], floes->thickness[p->floe], f->water_density, f->gravity);
-    return edge->strip * length * strip_solve(edge->length / length).stiffness;
+        return;
+    double h = floes->thickness[p->floe],
+           length = ice_characteristic_length(&floes->material[p->floe], h, f->water_density, f->gravity);
+    strip s = strip_solve(edge->length / length);
+    e->strip[row] = edge->strip * length * s.stiffness;
+    e->strip_bears[row] = edge_strip_bears(edge->strip, s.moment * length, h);
 }
 
 fram_status fracture_keep_supports(const fracture_job *j)
@@ -129,7 +134,9 @@ fram_status fracture_keep_supports(const fracture_job *j)
         e->own[row] = p->own;
         e->rise[row] = w->rises.data[root->load].up;
         e->part[row] = p->level > 0 ? p->level / root->sum : 1;
-        e->strip[row++] = strip_stiffness(j, p, edge);
+        e->known[row] = w->rises.data[root->load].known;
+        e->over[row] = p->over;
+        keep_strip(j, p, edge, row++);
     }
     return table_resize(j->ctx, e, &edge_support_table_info, row) ? FRAM_OK : error_memory(j->error);
 }

@@ -339,10 +339,6 @@ static fram_status check_ice(const scenario *s, fram_error *error)
         return fault(s, error, "ice.open_water_file",
                      "expected no file, since ice.source is not voronoi, file or packed, found %.200s",
                      ice->open_water_file);
-    if (ice->fracture.edge_inertia && !ice->fracture.edge_compliance)
-        return fault(
-            s, error, "ice.fracture.edge_inertia",
-            "expected false, since ice.fracture.edge_compliance is false: an edge that is rigid has no inertia");
     bool fed = s->domain.boundary == DOMAIN_FEEDING;
     if (ice->sleep_speed > 0 && fed && (ice->source != ICE_LEVEL || isfinite(ice->level.line_load)))
         return fault(s, error, "ice.sleep_speed",

@@ -239,7 +239,7 @@
     X(edge_elastic, BOOLEAN(true), "",                                                                                \
       "level and fixed ice, with edge_compliance: loads that crush nothing, of hulls and of free pieces, bend an "    \
       "edge too as they come and go; false: it is rigid under them")                                                  \
-    X(edge_inertia, BOOLEAN(false), "",                                                                               \
+    X(edge_inertia, BOOLEAN(true), "",                                                                                \
       "level and fixed ice, with edge_compliance: ice and the water that moves with it have mass as an edge bends, "  \
       "so that breaking loads rise and pieces shorten with speed; false: both are those of a load at rest")           \
     X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                               \

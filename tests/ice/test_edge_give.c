@@ -11,7 +11,7 @@ static const edge_compliance GIVES = {true, false, 1025, 9.81, 3, false, false};
 static const double FOUNDATION = 1025 * 9.81;
 
 /* A plate 2 m wide that leans by `slope` (x over z), `way` beyond the first touch with ice that begins at x = 0; the
-   ice is one fixed floe of 1 m, or two with a seam at y = `seam`. */
+   ice is one fixed floe of 1 m, or two with a seam at y = `seam`, and strong: no load here breaks it. */
 static void ramp_make(ice_rig *r, double slope, double way, double seam)
 {
     ice_rig_make(r, 0.01);
@@ -27,6 +27,7 @@ static void ramp_make(ice_rig *r, double slope, double way, double seam)
     r->bodies.velocity[hull] = (vec3){0.1, 0, 0};
     for (int i = 0; i < (two ? 2 : 1); i++) {
         int32_t row = ice_rig_plate(r, 60, two ? width[i] : 80, 1, MOTION_STATIC), ice = r->floes.body[row];
+        r->floes.material[row].flexural_strength = 1e9;
         r->bodies.position[ice] = (vec3){30, two ? middle[i] : 0, 0};
         ice_rig_pair(r, ice, hull);
     }
@@ -188,7 +189,9 @@ static void support_by_hand(ice_rig *r, double wedges)
         r->supports.place[i] = body_to_local(&r->bodies, p->surface_body, p->centre);
         r->supports.wedges[i] = wedges;
         r->supports.part[i] = p->horizontal_area / sum;
-        r->supports.strip[i] = 0;
+        r->supports.strip[i] = r->supports.strip_bears[i] = 0;
+        r->supports.known[i] = 1;
+        r->supports.over[i] = 0;
     }
 }
 
@@ -291,6 +294,63 @@ START_TEST(less_ice)
 }
 END_TEST
 
+/* Ice that a step would load past what breaks it is loaded a tenth past that: Nevel's wedges by hand, P = sigma_f h^2/6
+   N b0 C.  Once: what did not break then is loaded as it is, until its load is under that again. */
+START_TEST(no_more_than_breaks_it)
+{
+    const double strength = 5e5, width = 6 * tan(PI / 6);
+    for (int i = 0; i < 4; i++) {
+        ice_rig r;
+        ramp_make(&r, i == 1 ? -1 : 1, 0.3, 40);
+        ice_rig_crush(&r);
+        double free = r.patches.data[0].pressure, area = r.patches.data[0].horizontal_area;
+        ck_assert(!r.patches.data[0].over);
+        r.floes.material[0].flexural_strength = strength;
+        if (i > 1)
+            support_by_hand(&r, 1);
+        if (i > 2)
+            r.supports.over[0] = 1;
+        ice_rig_crush(&r);
+        const crushing_patch *p = &r.patches.data[0];
+        double length = pow(5e9 / (12 * (1 - 0.09)) / FOUNDATION, 0.25);
+        double breaks = strength / 6 * width * wedge_solve(sqrt(2 * area / width) / length).capacity;
+        assert_relative(p->horizontal_area, area, 1e-12);
+        ck_assert(free * area > 1.2 * breaks);
+        assert_relative(p->pressure * area, i == 3 ? free * area : 1.1 * breaks, 1e-9);
+        ck_assert_int_eq(p->over, i > 1); /* of ice that is not known yet nothing is kept */
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* A strip bears its own besides; an edge with inertia breaks at the load over the moment's ratio, of a load that rose
+   as its impulse says; of one that is surely less nothing is worked out. */
+START_TEST(breaking_load)
+{
+    const ice_material ice = {.density = 920,
+                              .elastic_modulus = 5e9,
+                              .poisson_ratio = 0.3,
+                              .flexural_strength = 5e5,
+                              .crushing_strength = 2e6};
+    edge_compliance heavy = GIVES;
+    heavy.inertia = true;
+    edge_stand stand = EDGE_STAND_STRAIGHT, strip = stand;
+    strip.strip_bears = edge_strip_bears(10, 0.46 * 14.6, 1);
+    stand.rise = strip.rise = 0.05;
+    double width = 6 * tan(PI / 6), least = 5e5 / 6 * width,
+           rest = edge_breaking_load(&GIVES, &ice, 1, 0.2, stand, 1e9);
+    assert_relative(strip.strip_bears, 10 / (6 * 0.46 * 14.6), 1e-12);
+    edge_bearing both = edge_bears(&GIVES, &ice, 1, 0.2, 1, 5e5 * strip.strip_bears);
+    assert_relative(edge_breaking_load(&GIVES, &ice, 1, 0.2, strip, 1e9), both.load, 1e-12);
+    ck_assert(both.load > 5e5 * strip.strip_bears + least && both.load < rest + 5e5 * strip.strip_bears);
+    double radius = edge_bears(&GIVES, &ice, 1, 0.2, 1, 0).radius;
+    wedge_ramp r = edge_rise(&heavy, &ice, 1, radius, 0.05);
+    ck_assert(r.moment < 0.97);
+    assert_relative(edge_breaking_load(&heavy, &ice, 1, 0.2, stand, 1e9), rest / r.moment, 1e-12);
+    ck_assert(isinf(edge_breaking_load(&heavy, &ice, 1, 0.2, stand, 0.9 * least)));
+}
+END_TEST
+
 /* What a sheet's loads stand on is kept: a corner's ice, the parts at a seam, nothing of loads between floes. */
 START_TEST(kept_by_fracture)
 {
@@ -306,15 +366,21 @@ START_TEST(kept_by_fracture)
     ck_assert(sheet_load(&r, (vec2){30.0000000001, 60}, 2e4, 0.1));
     for (int i = 0; i < 4; i++)
         r.patches.data[i].compliance = 1e-7;
+    r.patches.data[1].over = true;
+    ck_assert(sheet_load(&r, (vec2){45, 0}, 10, 0.1)); /* too small to look at its ice */
+    r.patches.data[4].compliance = 1e-7;
     ck_assert_int_eq(fracture_rig_break(&r), 0);
     const edge_support_table *e = &r.supports;
-    ck_assert_int_eq(e->count, 4);
+    ck_assert_int_eq(e->count, 5);
+    ck_assert_int_eq(e->known[4], 0);
     static const double WEDGES[] = {0.5, 1, 1, 1}, PART[] = {1, 1, 0.8, 0.2};
     for (int i = 0; i < 4; i++) {
         ck_assert_int_eq(e->surface[i], r.hull);
         assert_relative(e->wedges[i], WEDGES[i], i == 0 ? 0.1 : 1e-6);
         assert_absolute(e->part[i], PART[i], 1e-12);
-        ck_assert(e->strip[i] == 0);
+        ck_assert(e->strip[i] == 0 && e->strip_bears[i] == 0);
+        ck_assert_int_eq(e->known[i], 1);
+        ck_assert_int_eq(e->over[i], i == 1);
         assert_relative(e->own[i], -2e4, 1e-9); /* each its own, not that of the whole load */
         assert_relative(e->rise[i], -2e-3, 1e-9);
     }
@@ -329,4 +395,4 @@ START_TEST(kept_by_fracture)
 END_TEST
 
 TEST_MAIN("edge_give", balance, friction_bears_a_part, stiffness_of_an_edge, what_does_not_give, flat_face,
-          large_deflections, seams, many_seams, less_ice, kept_by_fracture)
+          large_deflections, seams, many_seams, less_ice, no_more_than_breaks_it, breaking_load, kept_by_fracture)

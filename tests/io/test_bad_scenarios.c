@@ -36,7 +36,6 @@ static const bad_scenario bad[] = {
     {"floes_larger_than_domain", 2, "ice.mean_floe_area", "80000"},
     {"floes_missing", 1, "ice.floes", "expected at least one floe"},
     {"floes_unused", 2, "ice.floes", "expected no floes"},
-    {"inertia_without_compliance", 6, "ice.fracture.edge_inertia", "expected false"},
     {"ventilation_without_water", 3, "environment.floe_ventilation", "environment.water is false"},
     {"sleep_of_drifting_ice", 3, "ice.sleep_speed", "expected 0"},
     {"friction_turned_round", 3, "ice.friction.ice_hull_static", "expected at least ice.friction.ice_hull_kinetic"},

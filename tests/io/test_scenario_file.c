@@ -200,12 +200,11 @@ START_TEST(random_scenarios_survive_printing)
                                      .wall_height = 1,
                                      .wall_thickness = 1};
         s.ice.source = ICE_NONE;
-        s.vessel.propulsion.bollard_pull = (double)NAN;                /* mode free only */
-        s.vessel.wash.active = false;                                  /* needs one that gives thrust */
-        s.ice.level.line_load = s.ice.level.mass = (double)NAN;        /* of a sheet that drifts only */
-        s.ice.fracture.edge_inertia &= s.ice.fracture.edge_compliance; /* of an edge that gives only */
-        s.environment.floe_ventilation &= s.environment.water;         /* of ice in water only */
-        s.vessel.positioning.active = false;                           /* needs thrusters */
+        s.vessel.propulsion.bollard_pull = (double)NAN;         /* mode free only */
+        s.vessel.wash.active = false;                           /* needs one that gives thrust */
+        s.ice.level.line_load = s.ice.level.mass = (double)NAN; /* of a sheet that drifts only */
+        s.environment.floe_ventilation &= s.environment.water;  /* of ice in water only */
+        s.vessel.positioning.active = false;                    /* needs thrusters */
         s.ice.friction = (scenario_friction){0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.7, 0.6, 0.5, 0.4};
         if (s.run.time_step > 10)
             s.run.time_step = 10;

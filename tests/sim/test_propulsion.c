@@ -224,9 +224,9 @@ static double speed_in(const ice_run *r, double *mass)
     return way / (ICE_STEP * steps / 2);
 }
 
-/* The thicker the ice the slower, and as fast as the equation of motion says for a resistance between Lindqvist's and
-   half of it: the factor of two that such formulas are held to (docs/validation/lindqvist.md, where Fram's resistance
-   of such a ship is 0.58 to 0.79 of his).  In ice of 3 m his ship does not move. */
+/* The thicker the ice the slower, and as fast as the equation of motion says for a resistance between 1.25 times
+   Lindqvist's and half of it: in 0.4 m at 5 m/s Fram's is 1.08 of his (scenes/level_ice.yaml), in thicker ice about
+   half (docs/validation/lindqvist.md).  In ice of 3 m his ship does not move. */
 START_TEST(speed_falls_with_thickness)
 {
     static const ice_run runs[2] = {{"ice.thickness=0.4", "vessel.speed=5", 0.4, 5},
@@ -235,7 +235,7 @@ START_TEST(speed_falls_with_thickness)
     for (int i = 0; i < 2; i++) {
         double mass;
         v[i] = speed_in(&runs[i], &mass);
-        double slow = expected_speed(&runs[i], mass, 1), fast = expected_speed(&runs[i], mass, 0.5);
+        double slow = expected_speed(&runs[i], mass, 1.25), fast = expected_speed(&runs[i], mass, 0.5);
         printf("%g m of ice: %g m/s; expected %g to %g\n", runs[i].thickness, v[i], slow, fast);
         /* The bow alone is in the ice at the end of a short scene, and breaks less than its whole width. */
         bool entered = !getenv("FRAM_TEST_SHORT");
