@@ -1,5 +1,6 @@
 """Sides of a channel: how the load of a ship in thin strong ice goes on once the whole hull is in it."""
 
+import math
 import statistics
 
 import ladder
@@ -10,8 +11,7 @@ STARTS = (0.0, 0.9, 1.8)  # [m] farther back
 # Starts by step [s].
 ROWS = {0.02: STARTS, 0.01: STARTS[:1]}
 # The longer ship in which this was seen first: in a63afc5 the load rose from 490 to 980 kN over her own length.
-UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START, UIKKU_STEP = 150.02, 0.5, -85.0, 0.04
-UIKKU_STARTS = (0.0, -1.6)  # vessel.x of -85 and -83.4
+UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START, UIKKU_STEP = 150.02, 0.5, -85.0, 0.08
 # Asked for: the load is stationary after the ship has gone its own length.
 WITHIN = 0.15
 
@@ -31,8 +31,8 @@ def way_in(length, start):
 
 
 def jobs():
-    return [job("uikku_303.yaml", f"uikku_{back:g}", UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START - back, UIKKU_STEP,
-                {"domain__x_max": 520}) for back in UIKKU_STARTS] + [
+    return [job("uikku_303.yaml", "uikku", UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START, UIKKU_STEP,
+                {"domain__x_max": 520})] + [
             job("level_ice.yaml", f"{dt:g}_{back:g}", LENGTH, SPEED, START - back, dt, {"domain__x_max": 240})
             for dt, starts in ROWS.items() for back in starts]
 
@@ -55,12 +55,12 @@ def of_starts(each):
 
 
 def check_stationary(c, what, lengths):
-    """The second length beside the first; two standard errors of their difference, over the first."""
+    """The second length beside the first; two standard errors of their difference, over the first (0 of one start)."""
     (first, error), (second, other) = lengths
-    doubt = 2 * (error**2 + other**2) ** 0.5 / first
+    doubt = 0 if math.isnan(error) else 2 * math.hypot(error, other) / first
     c.check(abs(second / first - 1) <= WITHIN + doubt,
-            f"{what}: second length {100 * (second / first - 1):+.1f} % of the first, two standard errors "
-            f"{100 * doubt:.1f} %")
+            f"{what}: second length {100 * (second / first - 1):+.1f} % of the first, "
+            + (f"two standard errors {100 * doubt:.1f} %" if doubt else "one start"))
     return doubt
 
 
@@ -87,11 +87,10 @@ def case(out):
         means, lengths = of_starts(each)
         (first, _), (second, _) = lengths
         c.rows.append([ship, step, len(each), *(f"{m:.0f}" for m in means), f"{second / first:.2f}"])
-        curves.append((f"{ship}, steps of {step:g} s, starts: {len(each)}", means))
+        curves.append((f"{ship}, steps of {step:g} s, {len(each)} start" + "s" * (len(each) > 1), means))
         return lengths
 
-    uikku = row("MT Uikku", UIKKU_STEP, [ways(next(series), UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START - back)
-                                         for back in UIKKU_STARTS])
+    uikku = row("MT Uikku", UIKKU_STEP, [ways(next(series), UIKKU_LENGTH, UIKKU_SPEED, UIKKU_START)])
     for dt, starts in ROWS.items():
         found[dt] = row(f"{LENGTH:g} m", dt, [ways(next(series), LENGTH, SPEED, START - back) for back in starts])
     check_stationary(c, "MT Uikku", uikku)
@@ -99,7 +98,8 @@ def case(out):
     both = [statistics.fmean(value for value, _ in found[dt]) for dt in (0.02, 0.01)]
     c.check(abs(both[1] / both[0] - 1) <= WITHIN + doubt, f"{LENGTH:g} m: with half the step "
                                                           f"{100 * (both[1] / both[0] - 1):+.1f} %")
-    c.found = ("Half the step is one start: the page shows that the load does not grow on. In a63afc5 that of MT Uikku "
+    c.found = ("MT Uikku and half the step are one start: the page shows that the load does not grow on. In a63afc5 "
+               "that of MT Uikku "
                "rose from 490 to 980 kN and stayed there. Edges that are rigid below their strength "
                "(`ice.fracture.edge_elastic: false`) carried as much (d808d29: 250, 275, 262 and 291 kN by half "
                "lengths beside 244, 252, 279 and 272).")

@@ -17,7 +17,7 @@ AT_REST = [(0.7, v, 30, FRICTION, False) for v in SPEEDS]
 # The bow meets the ice after 2 m; a ship's length later the whole hull is in it, and another length counts.
 ENTRY, WAY = 62.0, 122.0
 SHEET = 150.0  # [m2] what breaks with more is the sheet
-STARTS = (0.0, 1.7)  # [m] farther back: other places of the first bite
+STARTS = (0.0, 1.7)  # [m] farther back: other places of the first bite; all that is not in GRID has the first alone
 
 
 def lindqvist(h, v, stem=30, friction=FRICTION, _=False):
@@ -49,6 +49,10 @@ def job(case_of, back):
              "ice__friction__ice_hull_kinetic": friction, "ice__fracture__edge_inertia": "true" if mass else "false"})
 
 
+def starts_of(case_of):
+    return STARTS if case_of in GRID else STARTS[:1]
+
+
 def worst_bite(name):
     """Largest stress over strength at which the sheet broke: a break that is put off shows here."""
     e = ladder.fractures(name)
@@ -59,7 +63,7 @@ def worst_bite(name):
 def of_case(case_of):
     """Means of the starts [N], largest standard deviation over mean, rise [m] and worst bite."""
     means, scatter, rise, bite = [], 0, 0, 0
-    for back in STARTS:
+    for back in starts_of(case_of):
         name = job(case_of, back)[1]
         s = ladder.channels(ladder.WORK / name)
         late = [-f for f in ladder.after(s, "ice_force_averaged_x", (ENTRY + back) / case_of[1])]
@@ -74,19 +78,19 @@ def case(out):
         "Level-ice resistance of an icebreaker",
         5,
         "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, stem angle "
-        "and friction, over a ship's length of way after the whole hull is in the ice, two starts each; defaults for "
-        "all of the ice (0.5 MPa, 5 GPa, mu 0.1). In 0.7 m also with edges that have no inertia "
-        "(`ice.fracture.edge_inertia: false`).",
+        "and friction, over a ship's length of way after the whole hull is in the ice; with a stem of 30 degrees and "
+        "friction 0.1 the mean of two starts; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1). In 0.7 m also with "
+        "edges that have no inertia (`ice.fracture.edge_inertia: false`), one start.",
         "Lindqvist (1989) with the same inputs. Published errors of such formulas on one ship's tests are 22 to 51 %.",
         "Grows with thickness, speed, stem angle and friction, from the first to the last value within a factor of 1.5 "
         "of the formula's growth; the sheet breaks under the bow, so that the ship never rises by half its draught (a "
         "bound set after the first run); within a factor of 2 of the formula at 1 and 2 m/s.",
     )
-    c.header = ["h [m]", "speed [m/s]", "stem [deg]", "mu", "inertia", "Fram, mean of 2 starts [kN]",
-                "difference of the two [kN]", "std/mean", "Lindqvist [kN]", "ratio", "largest rise of the ship [m]",
+    c.header = ["h [m]", "speed [m/s]", "stem [deg]", "mu", "inertia", "Fram [kN]",
+                "difference of two starts [kN]", "std/mean", "Lindqvist [kN]", "ratio", "largest rise of the ship [m]",
                 "largest stress/strength at a break"]
     cases = GRID + OTHERS + AT_REST
-    ladder.run_all([job(of, back) for of in cases for back in STARTS])
+    ladder.run_all([job(of, back) for of in cases for back in starts_of(of)])
     found, rises, bites = {}, [], []
     for of in cases:
         means, scatter, rise, bite = of_case(of)
@@ -95,7 +99,7 @@ def case(out):
         bites.append(bite)
         ratio = found[of] / lindqvist(*of)
         c.rows.append([*of[:4], "yes" if of[4] else "", f"{found[of] / 1e3:.0f}",
-                       f"{abs(means[0] - means[1]) / 1e3:.0f}", f"{scatter:.2f}",
+                       f"{abs(means[0] - means[1]) / 1e3:.0f}" if len(means) > 1 else "", f"{scatter:.2f}",
                        f"{lindqvist(*of) / 1e3:.0f}", f"{ratio:.2f}", f"{rise:.2f}", f"{bite:.2f}"])
         if of in GRID and of[1] <= 2:
             c.check(0.5 <= ratio <= 2, f"{of[0]} m, {of[1]} m/s: {ratio:.2f} of Lindqvist, expected 0.5 to 2")

@@ -14,9 +14,10 @@ RHO, ICE, G, NU = 1025, 920, 9.81, 0.3
 ROWS = {103: (0.77, 724, 1748, 929, 0.2, 480, 130, 920, 100), 104: (0.76, 844, 2192, 984, 0.5, 560, 130, 990, 200),
         301: (1.04, 540, 2477, 1474, 0.2, 540, 88, 850, 290), 302: (1.04, 669, 2485, 1273, 0.5, 830, 130, 1200, 450),
         303: (1.04, 592, 2397, 1390, 1.0, 780, 160, 1260, 370)}
-STEPS = {0.2: 0.05, 0.5: 0.04, 1.0: 0.02}
+WAY_A_STEP = 0.025  # [m] so that all of this takes an hour on two cores
 ASKED = (-85.0, -83.4, -81.7)  # vessel.x [m]: 0, 1/3 and 2/3 of R_bending, 4.9 m in test 303
-# A start costs an hour of one core: FRAM_UIKKU_STARTS=1 makes a page of one start, without the variants, and says so.
+# A start costs forty minutes of one core: FRAM_UIKKU_STARTS=1 makes a page of one start, without the variants, and
+# says so.
 STARTS = ASKED[:ladder.whole_number("FRAM_UIKKU_STARTS", 1, len(ASKED))]
 LENGTHS = 2  # ship lengths that count, from where the whole hull is in the ice
 # Pieces behind the ship that are slower than this part of its speed sleep: a quarter of a run's time.
@@ -51,16 +52,16 @@ def way_in(start):
 
 def simulate(job):
     """Loads of one run: metres since the whole hull is in, the averaged load there [kN], the residual [m/s]."""
-    test, start, (stem, entrance, mu), lengths, name, *more = job
+    test, start, (stem, entrance, mu), lengths, name = job
     h, sf, sc, e, v = ROWS[test][:5]
     way = way_in(start) + lengths * LENGTH
     series = ladder.run(
         SCENE, f"uikku_campaign/{name}", ice__thickness=h, ice__flexural_strength=1e3 * sf,
         ice__crushing_strength=1e3 * sc, ice__elastic_modulus=1e6 * e, vessel__speed=v, vessel__x=start,
-        run__time_step=STEPS[v], run__duration=math.ceil(way / v), run__transient=0, domain__x_max=520,
+        run__time_step=WAY_A_STEP / v, run__duration=math.ceil(way / v), run__transient=0, domain__x_max=520,
         vessel__hull__stem_angle_deg=STEM + stem, vessel__hull__entrance_angle_deg=ENTRANCE + entrance,
         ice__sleep_speed=ASLEEP * v, ice__friction__ice_hull_static=mu, ice__friction__ice_hull_kinetic=mu,
-        output__frame_interval=0, output__checkpoint_interval=0, **(more[0] if more else {}))
+        output__frame_interval=0, output__checkpoint_interval=0)
     since = way_in(start) / v
     return {"way": [v * t - way_in(start) for t in ladder.after(series, "time", since)],
             "load": [-f / 1e3 for f in ladder.after(series, "ice_force_averaged_x", since)],
@@ -68,13 +69,11 @@ def simulate(job):
 
 
 def jobs():
-    """All runs: three starts of each test, the longest first, then the variants, and edges without inertia."""
+    """All runs: three starts of each test, the longest first, then the variants."""
     tests = sorted(ROWS, key=lambda test: ROWS[test][4])
     return ([(test, start, AS_FIXED, LENGTHS, f"{test}_{-start:g}") for start in STARTS for test in tests]
             + [(test, STARTS[0], angles, 1, f"{test}_{variant.replace(' ', '_')}")
-               for test in SPREAD for variant, angles in VARIANTS.items()]
-            + [(test, STARTS[0], AS_FIXED, 1, f"{test}_light", {"ice__fracture__edge_inertia": "false"})
-               for test in SPREAD])
+               for test in SPREAD for variant, angles in VARIANTS.items()])
 
 
 def published(loads):
@@ -148,11 +147,13 @@ def case(out):
         "MT Uikku, five tests",
         6,
         "Five published towing tests (full-scale values of a 1:31.56 model): resistance averaged over 0.5 s at full "
-        f"scale, over {LENGTHS} ship lengths from where the whole hull is in the ice, from {len(STARTS)} starts that "
-        "differ by a third of R_bending; mean, standard deviation and largest are the means of the starts'. "
-        f"Pieces that are slower than {100 * ASLEEP:g} % of the ship's speed sleep."
+        f"scale, over {LENGTHS} ship lengths from where the whole hull is in the ice, "
+        + (f"from {len(STARTS)} starts that differ by a third of R_bending; mean, standard deviation and largest are "
+           "the means of the starts'. " if len(STARTS) > 1 else "from one start. ")
+        + f"Pieces that are slower than {100 * ASLEEP:g} % of the ship's speed sleep; {100 * WAY_A_STEP:g} cm of way a "
+        "step."
         + (" For test 303 the mean over the first of these ship lengths also with stem and entrance angle -5 and +5 "
-           "degrees, friction 0.05 and 0.15, and with edges that have no inertia." if SPREAD else ""),
+           "degrees, and friction 0.05 and 0.15." if SPREAD else ""),
         "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 "
         "are not published there and were fixed in `scenes/uikku_303.yaml` before the first run. Beside it "
         "Lindqvist (1989) with the same inputs, and the best constant.",
@@ -183,8 +184,7 @@ def case(out):
         measured = ROWS[test][5]
         c.check(spans[test][0] <= measured <= spans[test][1],
                 f"test {test}: measured {measured} kN, over the first ship length {base:.0f} as fixed; "
-                + ", ".join(f"{x:.0f} with {v}" for v, x in of.items())
-                + f" (edges without inertia {first_length(runs[f'{test}_light']):.0f}, not counted)")
+                + ", ".join(f"{x:.0f} with {v}" for v, x in of.items()))
     measured = [row[5] for row in ROWS.values()]
     constant = min(statistics.fmean(abs(k / m - 1) for m in measured) for k in range(300, 1000))
     (mae, bias), (most_mae, most_bias), (lq_mae, lq_bias) = off(means), off(largest), off(formula)
@@ -199,7 +199,10 @@ def case(out):
     c.found = ("No parameter was chosen by the outcome; that only straight contacts are wide was written after one "
                "start of test 303 had shown that a rule was missing "
                "([0558](../decisions/0558-loads-keep-their-width.md)). "
-               "Edges have inertia since [0566](../decisions/0566-no-more-than-breaks-the-ice.md). Off, as by default: "
+               "A step is as long as two hours for all of this book allow; smaller ones, tried for one start before "
+               "that was chosen (b09a358, b1d936d): 1, 2 cm of way a step gave 598, 591 kN in test 103 and 617, 613 "
+               "in test 301. Edges have inertia since [0565](../decisions/0565-edges-have-inertia-by-default.md). Off, "
+               "as by default: "
                "water that runs over sunken pieces late (raises loads with speed); strength that varies; ridge "
                "building and rafting between floes. Defaults are for all ice: a test does not choose them. "
                "[More](../level_ice.md).")
