@@ -8,14 +8,14 @@
 /* Two points of a line have this part of its length between them in the mean, and G is nearly straight over a piece. */
 static const double MEAN_DISTANCE = 1.0 / 3;
 
-/* The body whose edge may give at a contact, -1 without: breakable ice that does not move freely against ice that
-   does. */
+/* The body whose edge may give at a contact, -1 without: breakable ice that is held or carried against ice that is
+   free. */
 static int32_t edge_body(const body_table *bodies, const floe_table *floes, const contact *c)
 {
     if (bodies->material[c->a] != MATERIAL_ICE || bodies->material[c->b] != MATERIAL_ICE ||
-        body_is_dynamic(bodies, c->a) == body_is_dynamic(bodies, c->b))
+        body_is_free(bodies, c->a) == body_is_free(bodies, c->b))
         return -1;
-    int32_t held = body_is_dynamic(bodies, c->a) ? c->b : c->a, floe = bodies->owner[held];
+    int32_t held = body_is_free(bodies, c->a) ? c->b : c->a, floe = bodies->owner[held];
     return floe >= 0 && floes->breakable[floe] ? held : -1;
 }
 

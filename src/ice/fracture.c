@@ -123,7 +123,6 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, const e
         fracture_birth(j, &l->floe, 1, (birth_terms){.least = 2, .most = HUGE_VAL, .bend = bend}, event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
-    s->broken.data[l->body] = 1;
     return array_push(j->ctx, j->events, *event) ? FRAM_OK : error_memory(j->error);
 }
 
@@ -344,6 +343,7 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     memset(scratch->broken.data, 0, (size_t)slots);
     scratch->sheet.index_is_made = false; /* floes of their own may break first */
     status = break_all(&j);
+    fracture_renew_supports(&j);
     if (status == FRAM_OK && trims)
         status = fracture_trim(&j, patches, &trimmed);
     if (status == FRAM_OK && scratch->sheet.has_changed)

@@ -323,6 +323,16 @@ static fram_status make_pieces(birth *b)
     return status;
 }
 
+/* The bodies of these floes broke in this step. */
+static void mark_broken(const fracture_job *j, const int32_t *floes, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++) {
+        int32_t body = j->state->floes->body[floes[i]];
+        if (body < j->scratch->broken.count)
+            j->scratch->broken.data[body] = 1;
+    }
+}
+
 fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, birth_terms terms,
                            fracture_event *event, bool *broke)
 {
@@ -345,6 +355,7 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     if (status != FRAM_OK || !sound)
         return status;
     *broke = true;
+    mark_broken(j, parents, count);
     event->floe = b.from.definition.parent;
     event->first_piece = *j->state->next_number;
     event->parent_area = parent_area;

@@ -78,14 +78,23 @@ static double floe_strip_length(polygon outline, const crack_start *start, doubl
     return length;
 }
 
-static double sheet_strip_length(const fracture_job *j, const crack_start *start, double width, double snap)
+/* Characteristic lengths beyond which the end of a strip is of no consequence: it bears a thousandth more there. */
+static const double STRIP_ENDS = 5;
+
+/* The same in a sheet, whose boundary is looked up as far as strips may end. */
+static fram_status sheet_strip_length(const fracture_job *j, const fracture_load *l, double snap, double *length)
 {
-    double length = fracture_sheet_crack_length(j, start, snap, true);
-    for (int i = 0; i < STRIP_RAYS && width > 0; i++) {
-        crack_start ray = ray_of(start, width, i);
-        length = fmax(length, fracture_sheet_crack_length(j, &ray, snap, true));
+    tile_segment_array *boundary = &j->scratch->sheet.boundary;
+    double ends =
+        STRIP_ENDS * ice_characteristic_length(&l->ice, l->thickness, j->settings->water_density, j->settings->gravity);
+    array_clear(boundary);
+    fram_status status = fracture_sheet_boundary(j, l->start.point, ends + l->width / 2, boundary);
+    *length = fracture_sheet_crack_length(j, &l->start, snap, true);
+    for (int i = 0; i < STRIP_RAYS; i++) {
+        crack_start ray = ray_of(&l->start, l->width, i);
+        *length = fmax(*length, fracture_sheet_crack_length(j, &ray, snap, true));
     }
-    return length;
+    return status;
 }
 
 static edge_ice ice_of(const fracture_job *j, const sectors *s, const double *area, double length)
@@ -120,7 +129,7 @@ double fracture_contact_width(const fracture_job *j, const fracture_load *l, vec
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
     double most = EDGE_MOST_DEFLECTION * l->thickness;
-    bool floats = body_is_dynamic(j->state->bodies, l->body);
+    bool floats = body_is_free(j->state->bodies, l->body);
     return (edge_bend){*start, fracture_break_size(l), floats ? 0 : fmin(fmax(l->rise, -most), most), l->rate};
 }
 
@@ -256,6 +265,8 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
     l->width = fracture_contact_width(j, l, start.direction);
     make_sectors(j, &start, fmin(radius, length), l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
-    *edge = ice_of(j, &s, area, sheet_strip_length(j, &start, l->width, CRACK_CORNER_REACH * radius));
+    if (status == FRAM_OK && l->width > 0)
+        status = sheet_strip_length(j, l, CRACK_CORNER_REACH * radius, &length);
+    *edge = ice_of(j, &s, area, length);
     return status;
 }

@@ -98,7 +98,27 @@ static double aside_of(const crushing_patch *p)
     return cancelled > 0 ? sqrt(cancelled) / (2 * p->area) : 0;
 }
 
-/* The load of a patch on one of its two bodies. */
+/* Bounds of a patch in the plan of a sheet whose tile is one of its bodies; where the other one is the floe they are
+   those of its own frame, turned, as far as they lie in the tile's cell. */
+static box2 plan_of(const tile_grid *g, const crushing_patch *p, const fracture_state *state, int32_t tile, bool own)
+{
+    vec3 at = state->bodies->position[p->floe_body];
+    box2 in = p->plan, out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    if (own || !tile)
+        return (box2){{in.lo.x + at.x, in.lo.y + at.y}, {in.hi.x + at.x, in.hi.y + at.y}};
+    double z = body_to_local(state->bodies, p->floe_body, p->centre).z;
+    for (int i = 0; i < 4; i++) {
+        vec3 corner = {i & 1 ? in.hi.x : in.lo.x, i & 2 ? in.hi.y : in.lo.y, z};
+        vec3 c = body_to_global(state->bodies, p->floe_body, corner);
+        out.lo = (vec2){fmin(out.lo.x, c.x), fmin(out.lo.y, c.y)};
+        out.hi = (vec2){fmax(out.hi.x, c.x), fmax(out.hi.y, c.y)};
+    }
+    box2 cell = tile_cell(g, tile - 1);
+    return (box2){{fmax(out.lo.x, cell.lo.x), fmax(out.lo.y, cell.lo.y)},
+                  {fmin(out.hi.x, cell.hi.x), fmin(out.hi.y, cell.hi.y)}};
+}
+
+/* The load of a patch on one of its two bodies: contacts push the floe, and its surface the other way. */
 static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                      const crushing_patch_array *patches, int32_t patch, const fracture_state *state, int32_t body)
 {
@@ -108,18 +128,19 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
         return true;
     int32_t tile = state->floes->tile[floe];
     mat3 rotation = quat_matrix(state->bodies->orientation[body]);
-    vec3 place = tile ? p->centre : body_to_local(state->bodies, body, p->centre), at = state->bodies->position[body];
+    vec3 place = tile ? p->centre : body_to_local(state->bodies, body, p->centre);
     bool own = body == p->floe_body;
+    double onto = own ? 1 : -1;
     fracture_load l = {.body = body,
                        .floe = floe,
                        .patch = patch,
                        .tile = tile,
                        .surface = own ? p->surface_body : p->floe_body,
-                       .vector = vec3_scale(patch_impulse(state, p, &rotation), 1 / settings->time_step),
-                       .normal = mat3_tmul_vec(rotation, p->normal),
+                       .vector = vec3_scale(patch_impulse(state, p, &rotation), onto / settings->time_step),
+                       .normal = vec3_scale(mat3_tmul_vec(rotation, p->normal), onto),
                        .aside = aside_of(p),
                        .place = {place.x, place.y},
-                       .plan = {{p->plan.lo.x + at.x, p->plan.lo.y + at.y}, {p->plan.hi.x + at.x, p->plan.hi.y + at.y}},
+                       .plan = plan_of(&settings->tiles, p, state, tile, own),
                        .area = p->area,
                        .horizontal_area =
                            own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
@@ -232,7 +253,7 @@ static const double LEAST_CORNER = 0.125;
 /* Whether a piece presses too little on held ice to be looked at.  width: of N wedges, N b0. */
 static bool is_slight(const fracture_job *j, const fracture_load *l, double width)
 {
-    return !body_is_dynamic(j->state->bodies, l->body) && j->state->bodies->material[l->surface] == MATERIAL_ICE &&
+    return !body_is_free(j->state->bodies, l->body) && j->state->bodies->material[l->surface] == MATERIAL_ICE &&
            ice_needed(l, l->force, width) < LEAST_CORNER;
 }
 
@@ -244,7 +265,7 @@ static bool surely_holds(const fracture_job *j, fracture_load *l, double width)
     static const double SURELY = 0.99;
     if (!may_fail(j->settings, l))
         return true;
-    if (l->tile || !body_is_dynamic(j->state->bodies, l->body))
+    if (l->tile || !body_is_free(j->state->bodies, l->body))
         return false;
     return radial_holds(l) && ice_needed(l, l->force + l->near, width) < SURELY * fracture_least_ice(j, l);
 }
@@ -436,8 +457,7 @@ static int compare_loads(const void *a, const void *b)
 static bool bears_load(const fracture_job *j, int32_t body, uint8_t other)
 {
     const fracture_settings *f = j->settings;
-    return other != MATERIAL_ICE || f->under_ice_contacts ||
-           (f->under_pieces && !body_is_dynamic(j->state->bodies, body));
+    return other != MATERIAL_ICE || f->under_ice_contacts || (f->under_pieces && !body_is_free(j->state->bodies, body));
 }
 
 fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches)

@@ -96,7 +96,8 @@ typedef struct joint_part {
 /* A patch on ice that is held, before seams were merged. */
 typedef struct load_part {
     bool held;       /* under a hull; all other parts are of ice that gives in no way */
-    bool over;       /* what breaks the edge, as it was known */
+    bool over;       /* it bore all that it may, and would have been over what breaks the edge, as that was known */
+    int32_t patch;   /* row */
     int32_t root;    /* the first part of the same load */
     int32_t load;    /* of a root: row of the load */
     int32_t floe;    /* row */
@@ -220,6 +221,8 @@ fram_status fracture_respond(const fracture_job *j);
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches);
 bool fracture_note_rises(const fracture_job *j);
 fram_status fracture_keep_supports(const fracture_job *j);
+/* What a load that broke its ice stands on now is not known, nor what that bears. */
+void fracture_renew_supports(const fracture_job *j);
 
 /* What of the settings concerns edges alone. */
 edge_compliance fracture_edges(const fracture_settings *f);
@@ -344,7 +347,8 @@ typedef struct birth_terms {
 } birth_terms;
 
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
-   and the event's books are filled in.  *broke is false, and nothing has changed, when the terms are not met. */
+   and the event's books are filled in; their bodies are marked as broken.  *broke is false, and nothing has changed,
+   when the terms are not met. */
 fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, birth_terms terms,
                            fracture_event *event, bool *broke);
 /* How the edge under a load stands as it breaks: not at all where the floe floats. */
@@ -373,8 +377,6 @@ fram_status fracture_sheet_areas(const fracture_job *j, const vec2 *corner, cons
                                  double *out);
 /* What the queries of tiles look at. */
 tile_sheet_view fracture_sheet_view(const fracture_job *j);
-/* The bodies of sheet.touched broke in this step. */
-void fracture_mark_broken(const fracture_job *j);
 
 /* What hangs on no anchored side any more drifts; seams are marked anew.  After all loads of a step. */
 fram_status fracture_release(const fracture_job *j);

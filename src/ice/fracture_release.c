@@ -207,7 +207,6 @@ static fram_status let_go(const fracture_job *j)
         .area_lost = merged > 0 ? merged : 0,
         .area_gained = merged < 0 ? -merged : 0,
         .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z}};
-    fracture_mark_broken(j);
     bool broke;
     status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
                             (birth_terms){.least = 1, .most = HUGE_VAL}, &event, &broke);

@@ -233,16 +233,6 @@ fram_status fracture_sheet_changed(const fracture_job *j)
     return make_index(j);
 }
 
-void fracture_mark_broken(const fracture_job *j)
-{
-    fracture_scratch *s = j->scratch;
-    for (int32_t i = 0; i < s->sheet.touched.count; i++) {
-        int32_t body = j->state->floes->body[s->sheet.touched.data[i]];
-        if (body < s->broken.count)
-            s->broken.data[body] = 1;
-    }
-}
-
 /* A geometry that admits no sound cut leaves the sheet as it is, for this step. */
 static fram_status or_refuse(const fracture_job *j, fram_status status, bool *refused)
 {
@@ -285,7 +275,6 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     vec3 place = {start->point.x, start->point.y, z};
     fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
     fracture_sheet_touch(j);
-    fracture_mark_broken(j);
     edge_bend bend = fracture_bend_of(j, l, start);
     status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
                             (birth_terms){.least = 2, .most = HUGE_VAL, .bend = &bend}, &event, &broke);

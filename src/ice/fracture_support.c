@@ -10,6 +10,19 @@ static edge_stand old_stand(const fracture_job *j, const fracture_load *l, vec3 
     return edge_stand_find(j->state->supports, j->state->bodies, l->surface, place, reach);
 }
 
+/* Of what a patch may bear as it does all of it: sweeps leave some of a limit. */
+static const double AT_LIMIT = 0.9;
+
+static bool is_at_limit(const contact_array *contacts, const crushing_patch *p)
+{
+    double bears = 0, most = 0;
+    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
+        bears += contacts->data[i].impulse[0];
+        most += contacts->data[i].impulse_limit;
+    }
+    return bears >= AT_LIMIT * most;
+}
+
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches)
 {
     load_work *w = &j->scratch->load;
@@ -19,16 +32,18 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
         return true;
     for (int32_t i = 0; i < w->all.count; i++) {
         const fracture_load *l = &w->all.data[i];
-        bool held = !body_is_dynamic(bodies, l->body) && bodies->material[l->surface] == MATERIAL_HULL;
+        bool held = !body_is_free(bodies, l->body) && bodies->material[l->surface] == MATERIAL_HULL;
+        const crushing_patch *patch = &patches->data[l->patch];
         load_part p = {.held = held,
+                       .patch = l->patch,
                        .floe = l->floe,
                        .surface = l->surface,
-                       .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
+                       .place = body_to_local(bodies, l->surface, patch->centre),
                        .level = l->horizontal_area,
-                       .over = patches->data[l->patch].over,
+                       .over = patch->over && is_at_limit(j->state->contacts, patch),
                        .own = l->vector.z};
         if (held && j->state->supports) {
-            edge_stand old = old_stand(j, l, patches->data[l->patch].centre);
+            edge_stand old = old_stand(j, l, patch->centre);
             p.impulse = old.impulse;
             p.up = old.up;
         }
@@ -139,4 +154,29 @@ fram_status fracture_keep_supports(const fracture_job *j)
         keep_strip(j, p, edge, row++);
     }
     return table_resize(j->ctx, e, &edge_support_table_info, row) ? FRAM_OK : error_memory(j->error);
+}
+
+static bool has_broken(const fracture_job *j, int32_t patch)
+{
+    const fracture_load_array *failed = &j->scratch->load.all;
+    for (int32_t i = 0; i < failed->count; i++)
+        if (failed->data[i].patch == patch && j->scratch->broken.data[failed->data[i].body])
+            return true;
+    return false;
+}
+
+void fracture_renew_supports(const fracture_job *j)
+{
+    const load_work *w = &j->scratch->load;
+    edge_support_table *e = j->state->supports;
+    if (!j->settings->edges_give || !e)
+        return;
+    for (int32_t i = 0, row = 0; i < w->parts.count; i++) {
+        const load_part *p = &w->parts.data[i];
+        if (!p->held)
+            continue;
+        if (has_broken(j, w->parts.data[p->root].patch))
+            e->known[row] = e->over[row] = 0;
+        row++;
+    }
 }

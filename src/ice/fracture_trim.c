@@ -200,7 +200,7 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
 {
     fracture_scratch *s = j->scratch;
     const floe_table *f = j->state->floes;
-    int32_t tile = f->tile[floe], body = f->body[floe];
+    int32_t tile = f->tile[floe];
     double line = f->material[floe].density * f->thickness[floe], area = f->area[floe];
     array_clear(&s->sheet.touched);
     polygon_list_clear(&s->piece.outlines);
@@ -220,8 +220,6 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     if (status != FRAM_OK || !broke)
         return status;
     *trimmed = true;
-    if (body < s->broken.count)
-        s->broken.data[body] = 1;
     /* What cleaning takes off goes with the crushed ice.  Where it adds more than was cut away nothing was crushed. */
     double less = area - event.piece_area, *kept = less >= 0 ? j->state->crushed : j->state->gained;
     if (kept)

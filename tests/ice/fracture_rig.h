@@ -142,6 +142,35 @@ static inline bool fracture_rig_widen(fracture_rig *r, vec2 half)
     return array_push(&r->ctx, &r->contacts, second);
 }
 
+/* The last load is one of this body on the floe; with `swap` its patch is on the body, and the floe the surface:
+   contacts push the body the other way, and plans are in its frame. */
+static inline void fracture_rig_push_by(fracture_rig *r, int32_t body, bool swap)
+{
+    crushing_patch *p = &r->patches.data[r->patches.count - 1];
+    int32_t floe = p->floe_body;
+    p->surface_body = swap ? floe : body;
+    p->floe_body = swap ? body : floe;
+    p->floe = r->bodies.owner[p->floe_body];
+    p->normal = swap ? vec3_neg(p->normal) : p->normal;
+    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
+        contact *c = &r->contacts.data[i];
+        c->a = p->floe_body;
+        c->b = p->surface_body;
+        c->normal = p->normal;
+    }
+    if (!swap)
+        return;
+    box2 out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    for (int i = 0; i < 4; i++) {
+        vec3 at = r->bodies.position[floe], corner = {at.x + (i & 1 ? p->plan.hi.x : p->plan.lo.x),
+                                                      at.y + (i & 2 ? p->plan.hi.y : p->plan.lo.y), at.z};
+        vec3 own = body_to_local(&r->bodies, body, corner);
+        out.lo = (vec2){fmin(out.lo.x, own.x), fmin(out.lo.y, own.y)};
+        out.hi = (vec2){fmax(out.hi.x, own.x), fmax(out.hi.y, own.y)};
+    }
+    p->plan = out;
+}
+
 static inline fracture_state fracture_rig_state(fracture_rig *r)
 {
     return (fracture_state){.bodies = &r->bodies,

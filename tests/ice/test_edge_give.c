@@ -366,8 +366,9 @@ START_TEST(kept_by_fracture)
     ck_assert(sheet_load(&r, (vec2){30.0000000001, 60}, 2e4, 0.1));
     for (int i = 0; i < 4; i++)
         r.patches.data[i].compliance = 1e-7;
-    r.patches.data[1].over = true;
-    ck_assert(sheet_load(&r, (vec2){45, 0}, 10, 0.1)); /* too small to look at its ice */
+    r.patches.data[1].over = r.patches.data[3].over = true;
+    r.contacts.data[3].impulse_limit = 1.2 * r.contacts.data[3].impulse[0]; /* which it did not bear */
+    ck_assert(sheet_load(&r, (vec2){45, 0}, 10, 0.1));                      /* too small to look at its ice */
     r.patches.data[4].compliance = 1e-7;
     ck_assert_int_eq(fracture_rig_break(&r), 0);
     const edge_support_table *e = &r.supports;
@@ -394,5 +395,29 @@ START_TEST(kept_by_fracture)
 }
 END_TEST
 
+/* What is left after a break is other ice than what was looked at; what holds elsewhere is as it was. */
+START_TEST(broken_ice_is_not_known)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.edges_give = true;
+    sheet_make(&r, (box2){{0, 0}, {90, 60}}, 30, NULL);
+    double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.2, EDGE_STRAIGHT).wedge_capacity;
+    for (int i = 0; i < 3; i++) {
+        ck_assert(sheet_load(&r, (vec2){15 + 30 * i, 0}, (i == 1 ? 1.05 : 0.9) * bears, 0.2));
+        r.patches.data[i].over = true;
+    }
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    const edge_support_table *e = &r.supports;
+    ck_assert_int_eq(e->count, 3);
+    for (int i = 0; i < 3; i++) {
+        ck_assert_int_eq(e->known[i], i != 1);
+        ck_assert_int_eq(e->over[i], i != 1);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
 TEST_MAIN("edge_give", balance, friction_bears_a_part, stiffness_of_an_edge, what_does_not_give, flat_face,
-          large_deflections, seams, many_seams, less_ice, no_more_than_breaks_it, breaking_load, kept_by_fracture)
+          large_deflections, seams, many_seams, less_ice, no_more_than_breaks_it, breaking_load, kept_by_fracture,
+          broken_ice_is_not_known)

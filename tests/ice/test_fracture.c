@@ -591,6 +591,27 @@ START_TEST(under_pieces)
 }
 END_TEST
 
+/* A floe that sleeps floats as one that is awake: it does not break under pieces, and breaks under hulls. */
+START_TEST(asleep_is_not_held)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    r.settings.under_pieces = true;
+    double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).wedge_capacity;
+    for (int hull = 0; hull < 2; hull++) {
+        int32_t floe = plate(&r, 80, 80, MOTION_DYNAMIC), piece = plate(&r, 20, 10, MOTION_DYNAMIC);
+        r.bodies.motion[r.floes.body[floe]] = MOTION_ASLEEP;
+        ck_assert(fracture_rig_load(&r, floe, (vec2){0, -40}, 1.5 * bears, AREA));
+        if (!hull)
+            fracture_rig_push_by(&r, r.floes.body[piece], false);
+        ck_assert_int_eq(fracture_rig_break(&r), hull);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
 /* ---- dust ---- */
 
 /* Least angle between two edges of an outline, inside or outside the ice [rad]: what a cleaned one keeps (Algorithm 10:
@@ -719,4 +740,5 @@ TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, splitting_
           unbreakable, split_in_two, no_split, narrow_child, concave_shortest_crack, crack_from_a_corner,
           split_by_toughness, split_by_a_wedge, split_while_spinning, wedge_angles, floe_smaller_than_the_stencil,
           huge_floe, level_ice_stays, several_patches, overlapping_patches, order_of_patches, several_floes,
-          void_contacts, under_ice_contacts, under_pieces, six_hundred_bites, memory_runs_out, nothing_to_do)
+          void_contacts, under_ice_contacts, under_pieces, asleep_is_not_held, six_hundred_bites, memory_runs_out,
+          nothing_to_do)

@@ -144,6 +144,34 @@ START_TEST(as_the_edge_leads)
 }
 END_TEST
 
+/* What a piece presses down, or lifts, beside a hull counts as what a hull does, whichever of both is the floe of the
+   patch. */
+START_TEST(pieces_beside_a_hull)
+{
+    static const vec2 PIECE[] = {{-3, -9}, {3, -9}, {3, -4}, {-3, -4}};
+    for (edge_kind kind = EDGE_OF_TILE; kind <= EDGE_OF_TILES; kind++) {
+        for (int up = 0; up < 2; up++) {
+            double ratio[3];
+            for (int by = 0; by < 3; by++) {
+                fracture_rig r;
+                make_edge(&r, kind, true);
+                r.settings.under_pieces = true;
+                int32_t piece = fracture_rig_floe(&r, (polygon){PIECE, 4}, 1, MOTION_DYNAMIC);
+                press(&r, kind, (vec2){2, 0.01}, 1e6, 0);
+                press(&r, kind, (vec2){-2, 0.01}, up ? -1e5 : 1e5, 0);
+                if (by > 0)
+                    fracture_rig_push_by(&r, r.floes.body[piece], by == 2);
+                ck_assert_int_ge(fracture_rig_break(&r), 1);
+                ratio[by] = r.events.data[0].stress_ratio;
+                fracture_rig_free(&r);
+            }
+            assert_relative(ratio[1], ratio[0], 1e-12);
+            assert_relative(ratio[2], ratio[0], 1e-12);
+        }
+    }
+}
+END_TEST
+
 /* Loads at the same place of another floe's frame are none of this one's. */
 START_TEST(each_floe_by_itself)
 {
@@ -245,5 +273,5 @@ START_TEST(many_small_ones)
 }
 END_TEST
 
-TEST_MAIN("fracture_joint", parts_are_a_whole, wide_halves, two_columns, as_the_edge_leads, each_floe_by_itself,
-          under_the_heavier, no_load_hides_another, cuts_lead_nowhere, many_small_ones)
+TEST_MAIN("fracture_joint", parts_are_a_whole, wide_halves, two_columns, as_the_edge_leads, pieces_beside_a_hull,
+          each_floe_by_itself, under_the_heavier, no_load_hides_another, cuts_lead_nowhere, many_small_ones)

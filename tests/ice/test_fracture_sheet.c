@@ -174,28 +174,62 @@ START_TEST(seams)
 }
 END_TEST
 
-/* A patch that a seam divides is one load: its halves alone would not break the ice. */
+/* A patch that a seam divides is one load: its halves alone would not break the ice.  Of a hull (0), of a piece (1),
+   and of a piece that is the floe of the patch, turned (2). */
+static void load_across_a_seam(int by, bool touching)
+{
+    static const vec2 PIECE[] = {{-4, -9}, {4, -9}, {4, 1}, {-4, 1}};
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.under_pieces = true;
+    sheet_make(&r, PLAN, 30, NULL);
+    int32_t piece = r.floes.body[fracture_rig_floe(&r, (polygon){PIECE, 4}, 1, MOTION_DYNAMIC)];
+    if (by == 2 && touching)
+        r.bodies.orientation[piece] = quat_from_roll_pitch_yaw(0, 0, 0.5);
+    edge_stress whole = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 2 * AREA, EDGE_STRAIGHT);
+    for (int side = -1; side <= 1; side += 2) {
+        ck_assert(sheet_load(&r, (vec2){0.5 * side, 0.4}, 0.51 * whole.wedge_capacity, AREA));
+        crushing_patch *p = &r.patches.data[r.patches.count - 1];
+        vec3 at = r.bodies.position[p->floe_body];
+        double seam = touching ? 0 : 0.1 * side, far = 1.0 * side;
+        p->plan = (box2){{fmin(seam, far) - at.x, -at.y}, {fmax(seam, far) - at.x, 0.8 - at.y}};
+        if (by > 0)
+            fracture_rig_push_by(&r, piece, by == 2);
+    }
+    ck_assert_int_eq(fracture_rig_break(&r), touching);
+    if (touching) {
+        assert_relative(r.events.data[0].load, 1.02 * whole.wedge_capacity, 1e-12);
+        assert_vec3_close(r.events.data[0].place, ((vec3){0, 0, 0}), 1e-9);
+    }
+    fracture_rig_free(&r);
+}
+
 START_TEST(patch_across_a_seam)
 {
-    for (int touching = 0; touching < 2; touching++) {
-        fracture_rig r;
-        fracture_rig_make(&r);
-        sheet_make(&r, PLAN, 30, NULL);
-        edge_stress whole = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 2 * AREA, EDGE_STRAIGHT);
-        for (int side = -1; side <= 1; side += 2) {
-            ck_assert(sheet_load(&r, (vec2){0.5 * side, 0.4}, 0.51 * whole.wedge_capacity, AREA));
-            crushing_patch *p = &r.patches.data[r.patches.count - 1];
-            vec3 at = r.bodies.position[p->floe_body];
-            double seam = touching ? 0 : 0.1 * side, far = 1.0 * side;
-            p->plan = (box2){{fmin(seam, far) - at.x, -at.y}, {fmax(seam, far) - at.x, 0.8 - at.y}};
-        }
-        ck_assert_int_eq(fracture_rig_break(&r), touching);
-        if (touching) {
-            assert_relative(r.events.data[0].load, 1.02 * whole.wedge_capacity, 1e-12);
-            assert_vec3_close(r.events.data[0].place, ((vec3){0, 0, 0}), 1e-9);
-        }
-        fracture_rig_free(&r);
-    }
+    for (int by = 0; by < 3; by++)
+        for (int touching = 0; touching < 2; touching++)
+            load_across_a_seam(by, touching);
+}
+END_TEST
+
+/* A cut that is refused, here since its pieces are dust, leaves its tile unbroken: contacts go on. */
+START_TEST(refused_is_not_broken)
+{
+    static const vec2 FLOE[] = {{200, 0}, {400, 0}, {400, 200}, {200, 200}};
+    fracture_rig r;
+    fram_error e = {0};
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    r.settings.smallest_floe_area = 30; /* wedges have 9 m2 in 1 m of ice, 80 in 4 m */
+    sheet_make(&r, PLAN, 30, NULL);
+    int32_t floe = fracture_rig_floe(&r, (polygon){FLOE, 4}, 4, MOTION_DYNAMIC);
+    ck_assert(sheet_load(&r, (vec2){15, 0}, LOAD, AREA));
+    ck_assert(fracture_rig_load(&r, floe, (vec2){0, -100}, 20 * LOAD, AREA));
+    assert_ok(fracture_rig_try(&r, &e), e);
+    ck_assert_int_eq(r.events.count, 1);
+    ck_assert_double_gt(r.events.data[0].piece_area, 3e4);
+    ck_assert(r.contacts.data[0].correct && !r.contacts.data[1].correct);
+    fracture_rig_free(&r);
 }
 END_TEST
 
@@ -413,5 +447,6 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam, inner_load,
-          island, anchored_sides, random_bites, corners_within_rounding, no_convex_part, memory_runs_out)
+TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam,
+          refused_is_not_broken, inner_load, island, anchored_sides, random_bites, corners_within_rounding,
+          no_convex_part, memory_runs_out)

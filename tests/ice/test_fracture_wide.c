@@ -238,6 +238,7 @@ START_TEST(openings_in_a_strip)
     static const vec2 HOLE[4] = {{0.6, 3.4}, {0.8, 3.4}, {0.8, 3.6}, {0.6, 3.6}};
     static const vec2 ASIDE[4] = {{5.5, 3}, {6.5, 3}, {6.5, 4}, {5.5, 4}};
     static const vec2 ACROSS[4] = {{-39, 8}, {39, 8}, {39, 8.5}, {-39, 8.5}};
+    static const vec2 FAR[4] = {{-39, 24}, {39, 24}, {39, 24.5}, {-39, 24.5}};
     double whole = sheet_bears(80, 100, NULL);
     assert_relative(whole, 562e3, 0.02); /* docs/oracles.md, section 1 */
     for (int i = 0; i < 3; i++) {
@@ -249,6 +250,9 @@ START_TEST(openings_in_a_strip)
         assert_relative(sheet_bears(80, TILES[i], ASIDE), whole, 0.02);
         assert_relative(sheet_bears(10, TILES[i], NULL), whole, 1e-6);
         ck_assert_double_gt(sheet_bears(80, TILES[i], ACROSS), 2 * whole);
+        /* Farther in than a tile, too. */
+        assert_relative(sheet_bears(80, TILES[i], FAR), sheet_bears(80, 100, FAR), 1e-6);
+        ck_assert_double_gt(sheet_bears(80, TILES[i], FAR), 1.15 * whole);
     }
 }
 END_TEST
