@@ -8,6 +8,7 @@
 #include "ice/wedge.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static fram_status need(bool good, const char *key, const char *range, double found, fram_error *error)
@@ -78,6 +79,10 @@ static void fram_ice_edge_fill(fram_ice_edge *load)
 }
 DEFINITION_DEFAULT(fram_ice_edge, fram_ice_edge)
 
+/* Thicknesses of scenarios [m]. */
+#define LEAST_THICKNESS 1e-6
+#define MOST_THICKNESS 100.0
+
 static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 {
     const struct {
@@ -108,7 +113,24 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
     if (status == FRAM_OK)
         status = need(l->included_angle <= radians(360), "included_angle", "at most 2 pi radians (360 degrees)",
                       l->included_angle, error);
+    if (status == FRAM_OK)
+        status = need(l->thickness >= LEAST_THICKNESS && l->thickness <= MOST_THICKNESS, "thickness", "1e-6 to 100 m",
+                      l->thickness, error);
+    if (status == FRAM_OK)
+        status = need(l->ice_density < l->water_density, "ice_density", "less than the density of the water",
+                      l->ice_density, error);
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
+}
+
+/* Theory, and its tables, end where the load is as wide as some characteristic lengths. */
+static fram_status check_area(const fram_ice_edge *l, const edge_stress *e, fram_error *error)
+{
+    char range[96];
+    double h = l->thickness, radius = fracture_loaded_radius(l->contact_area, PI / 2, h, l->thick_plate_radius);
+    snprintf(range, sizeof range, "an area whose half disc is no larger than %g characteristic lengths, %.4g m",
+             WEDGE_MOST_LOAD, WEDGE_MOST_LOAD * e->length);
+    return need(fmax(radius, e->wedge_radius) <= WEDGE_MOST_LOAD * e->length, "contact_area", range, l->contact_area,
+                error);
 }
 
 fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error, size_t size)
@@ -141,6 +163,9 @@ fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *break
                      .length = load->ice_length > 0 ? load->ice_length : HUGE_VAL,
                      .rise = load->rise_time > 0 ? load->rise_time : HUGE_VAL};
     edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, edge);
+    status = check_area(load, &e, error);
+    if (status != FRAM_OK)
+        return status;
     const fram_ice_breaking full = {.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,
                                     .wedge_radius = e.wedge_radius,

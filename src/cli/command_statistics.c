@@ -89,6 +89,17 @@ static int take_source(const common_options *common, const series_words *w, cons
     return code >= 0 ? code : take_time(common, "--step", w->step, &out->step);
 }
 
+/* No file or run that is read is written over. */
+static int refuse_over_source(const common_options *common, const fram_series_source *source, output_file output)
+{
+    int code = -1;
+    for (int i = 0; i < source->file_count && code < 0; i++) {
+        const char *file = source->files[i];
+        code = refuse_outputs(common, &(command_files){.inputs = {file}, .runs = {file}, .outputs = {output}});
+    }
+    return code;
+}
+
 /* ---- facts ---- */
 
 static void print_facts(const fram_series_source *source, const fram_series_facts *f, bool maxima)
@@ -291,10 +302,8 @@ int command_extremes(const command_row *self, int argc, char **argv)
     if (code < 0 && d.maxima && !block)
         code = answer_usage(&common, "--block", "is missing: the length of the blocks that the maxima are of");
     d.moments = fit && strcmp(fit, "moments") == 0;
-    for (int i = 0; i < d.source.file_count && code < 0; i++) {
-        const command_files touched = {.inputs = {files[i]}, .outputs = {{"--draw", d.draw, PICTURE_ENDINGS}}};
-        code = refuse_outputs(&common, &touched);
-    }
+    if (code < 0)
+        code = refuse_over_source(&common, &d.source, (output_file){"--draw", d.draw, PICTURE_ENDINGS});
     return code >= 0 ? code : answer_extremes(&common, &d);
 }
 
@@ -367,10 +376,8 @@ int command_fatigue(const command_row *self, int argc, char **argv)
         code = take_source(&common, &words, files, &d.source);
     if (code < 0)
         code = take_numbers(&common, "--slope", &slopes, d.slope, FRAM_SLOPES, &d.slopes);
-    if (code < 0) {
-        const command_files used = {.inputs = {files[0]}, .outputs = {{"--output", d.cycles, "csv"}}};
-        code = refuse_outputs(&common, &used);
-    }
+    if (code < 0)
+        code = refuse_over_source(&common, &d.source, (output_file){"--output", d.cycles, "csv"});
     fram_context *context = NULL;
     work_view work;
     if (code < 0)

@@ -278,7 +278,7 @@ int command_study(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR",
          "folder for the results; a folder of this study is continued"},
-        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "concurrent processes (as many as this machine has cores)"},
+        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "concurrent processes (as many as cores and free memory allow)"},
         {"--on", NULL, OPTION_TEXT, &d.on, "WHERE", "local, or slurm: job arrays over a shared folder (local)"},
         {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "Slurm partition (the cluster's default)"},
         {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "time limit of a task, as for sbatch: 1:00:00"},
@@ -295,7 +295,13 @@ int command_study(const command_row *self, int argc, char **argv)
         return code;
     d.slurm_options = sbatch.value;
     d.slurm_option_count = sbatch.count;
-    bool check = words[1] && strcmp(words[0], "check") == 0, list = words[1] && strcmp(words[0], "list") == 0;
+    bool check = strcmp(words[0], "check") == 0, list = strcmp(words[0], "list") == 0;
+    if (!words[1] && (check || list) && access(words[0], F_OK) != 0)
+        return answer_usage(&common, words[0],
+                            check ? "is missing its study: fram study check STUDY"
+                                  : "is missing its folder: fram study list DIR");
+    check = check && words[1];
+    list = list && words[1];
     if (words[1] && !check && !list)
         return answer_usage(&common, words[0],
                             "expected one study file, or: fram study check STUDY, or: fram study list DIR");

@@ -146,7 +146,7 @@ static const char help_before[] =
 static const char help_after[] =
     "\nA first run, from the folder of the sources:\n"
     "  fram check scenes/demo.yaml                what will be simulated\n"
-    "  fram run scenes/demo.yaml -o out/demo      takes half a minute; then look into out/demo:\n"
+    "  fram run scenes/demo.yaml -o out/demo      takes some twelve seconds; then look into out/demo:\n"
     "      plan.png         the field seen from above\n"
     "      loads.png        ice load on the vessel over time\n"
     "      series.csv       all channels, one row per time step, headings name[unit]\n"

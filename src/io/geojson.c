@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 /* One reading.  Members of an object may come in any order, so each object is walked twice: once to find its members,
    then those that its type asks for. */
@@ -19,6 +20,7 @@ typedef struct reading {
     int32_t features;
     double thickness;
     bool is_ice;                /* the feature */
+    bool told;                  /* of a property that is nearly one that is read */
     char key[IMPORT_NAME_SIZE]; /* for errors */
 } reading;
 
@@ -199,6 +201,9 @@ static fram_status read_kind(reading *r, json_walk *w)
     return status;
 }
 
+/* As the scenario's own keys of thickness [m]. */
+#define MOST_THICKNESS 100.0
+
 /* The kind and thickness of a feature; its other properties are its own business. */
 static fram_status read_properties(reading *r, json_walk w)
 {
@@ -220,6 +225,11 @@ static fram_status read_properties(reading *r, json_walk w)
             continue;
         }
         bool wanted = strcmp(key, "thickness") == 0;
+        if (!wanted && !r->told && strcasecmp(key, "thickness") == 0) {
+            log_write(r->ctx, LOG_WARNING, "%s: the property %s is not read: its name is thickness, in metres", r->key,
+                      key);
+            r->told = true;
+        }
         if (wanted)
             status = json_walk_kind(&w, &kind, r->error);
         if (status != FRAM_OK || !wanted || kind == JSON_NULL) {
@@ -230,6 +240,10 @@ static fram_status read_properties(reading *r, json_walk w)
         status = json_walk_number(&w, &r->thickness, r->error);
         if (status == FRAM_OK && !(r->thickness > 0))
             return json_walk_refuse(&place, r->key, r->error, "expected a thickness over 0 m, found %g", r->thickness);
+        if (status == FRAM_OK && r->thickness > MOST_THICKNESS)
+            return json_walk_refuse(&place, r->key, r->error,
+                                    "expected a thickness of at most %g m, found %g: is it in centimetres?",
+                                    MOST_THICKNESS, r->thickness);
     }
     return status;
 }

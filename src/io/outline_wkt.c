@@ -129,7 +129,8 @@ static fram_status read_geometry(outline_walk *w)
     if (!many && !take_word(w, "POLYGON")) {
         char word[WORD_MOST];
         peek_word(w, word);
-        return outline_refuse(w, "expected POLYGON or MULTIPOLYGON, found %s", word[0] ? word : "no word");
+        return outline_refuse(w, "expected POLYGON or MULTIPOLYGON, or lines of x and y without a heading, found %s",
+                              word[0] ? word : "no word");
     }
     if (!take_word(w, "ZM") && !take_word(w, "Z"))
         (void)take_word(w, "M");

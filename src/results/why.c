@@ -206,6 +206,10 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
                 d->load * unit.factor, unit.name, d->window);
     text_format(ctx, out, "(%.4g, %.4g, %.4g) %s in x, y, z\n", d->force.x * unit.factor, d->force.y * unit.factor,
                 d->force.z * unit.factor, unit.name);
+    if (d->floe_count == 0) {
+        text_format(ctx, out, "No ice touched the vessel in the %.3g s up to then.\n", d->window);
+        return out->failed ? error_memory(error) : FRAM_OK;
+    }
     peak_sentence(ctx, &y->run, d, out);
     text_add(ctx, out, "\n");
     tell_parts(ctx, d, out);

@@ -50,8 +50,9 @@ static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_err
 static fram_status name_ice(const scenario *s, fram_status status, fram_error *error)
 {
     /* A fault in another file has its place already. */
-    if (status == FRAM_ERROR_INPUT && error && !error->key[0] && !error->file[0]) {
-        memcpy(error->key, "ice", sizeof "ice");
+    if (status == FRAM_ERROR_INPUT && error && !error->file[0]) {
+        if (!error->key[0])
+            memcpy(error->key, "ice", sizeof "ice");
         scenario_locate(s, error);
     }
     return status;

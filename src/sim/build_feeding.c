@@ -2,6 +2,7 @@
 
 #include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
+#include "sim/build_level.h"
 #include "sim/feed.h"
 
 #include <stdio.h>

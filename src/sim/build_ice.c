@@ -4,15 +4,15 @@
 #include "geometry/box_pairs.h"
 #include "geometry/space_curve.h"
 #include "ice/crowd.h"
-#include "ice/tiles.h"
 #include "sim/build_keep_out.h"
+#include "sim/build_level.h"
 #include "sim/draw_ice.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static ice_material material_of(const scenario *s)
+ice_material build_ice_material(const scenario *s)
 {
     const scenario_ice *i = &s->ice;
     return (ice_material){.density = i->density,
@@ -23,7 +23,7 @@ static ice_material material_of(const scenario *s)
                           .crushing_exponent = i->crushing_exponent};
 }
 
-static double floating_elevation(const scenario *s, double thickness)
+double build_ice_elevation(const scenario *s, double thickness)
 {
     return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
 }
@@ -79,7 +79,7 @@ static int32_t *memory_order(context *ctx, const polygon_list *outlines)
 static fram_status add_drawn_floes(context *ctx, const scenario *s, world *w, const drawn_ice *drawn, fram_error *error)
 {
     const polygon_list *outlines = &drawn->outlines;
-    floe_definition d = {.material = material_of(s), .motion = MOTION_DYNAMIC, .parent = -1};
+    floe_definition d = {.material = build_ice_material(s), .motion = MOTION_DYNAMIC, .parent = -1};
     int32_t *order = memory_order(ctx, outlines);
     fram_status status = order ? FRAM_OK : error_memory(error);
     for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
@@ -93,7 +93,7 @@ static fram_status add_drawn_floes(context *ctx, const scenario *s, world *w, co
         d.material.flexural_strength = t.flexural_strength;
         d.material.crushing_strength = t.crushing_strength;
         d.breakable = t.breakable;
-        d.elevation = floating_elevation(s, d.thickness);
+        d.elevation = build_ice_elevation(s, d.thickness);
         status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
                              &w->clock.next_floe[0], &row, error);
     }
@@ -109,218 +109,6 @@ static fram_status build_drawn(context *ctx, const scenario *s, world *w, field_
         status = add_drawn_floes(ctx, s, w, &drawn, error);
     *report = drawn.report;
     drawn_ice_free(ctx, &drawn);
-    return status;
-}
-
-/* ---- level ice ---- */
-
-/* Tiles of about four breaking radii: R_bending is about half the characteristic length under the loads that break
-   (a/l near 0.1; docs/theory.md). */
-static const double TILE_LENGTHS = 2;
-
-static box2 sheet_plan(const scenario *s)
-{
-    const scenario_level *l = &s->ice.level;
-    return (box2){{automatic_or(l->x_min, s->domain.x_min), automatic_or(l->y_min, s->domain.y_min)},
-                  {automatic_or(l->x_max, s->domain.x_max), automatic_or(l->y_max, s->domain.y_max)}};
-}
-
-static double tile_size(const scenario *s)
-{
-    ice_material ice = material_of(s);
-    double length =
-        ice_characteristic_length(&ice, s->ice.thickness, s->environment.water_density, s->environment.gravity);
-    return automatic_or(s->ice.level.tile_size, TILE_LENGTHS * length);
-}
-
-double build_tile_number(const scenario *s)
-{
-    if (s->domain.boundary == DOMAIN_FEEDING) {
-        tile_grid g = build_tiles(s);
-        return (double)g.columns * g.rows;
-    }
-    box2 plan = sheet_plan(s);
-    double size = tile_size(s);
-    return fmax((plan.hi.x - plan.lo.x) / size, 1) * fmax((plan.hi.y - plan.lo.y) / size, 1);
-}
-
-tile_grid build_tiles(const scenario *s)
-{
-    const scenario_level *l = &s->ice.level;
-    if (s->ice.source != ICE_LEVEL)
-        return (tile_grid){.columns = 0};
-    if (s->domain.boundary == DOMAIN_FEEDING) {
-        tile_grid drifting = drift_grid_over(
-            (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}}, tile_size(s));
-        drifting.least_seam = s->ice.edge_threshold;
-        return drifting;
-    }
-    tile_grid g = tile_grid_over(sheet_plan(s), tile_size(s));
-    g.anchored[SHEET_X_MIN] = l->anchored_x_min;
-    g.anchored[SHEET_X_MAX] = l->anchored_x_max;
-    g.anchored[SHEET_Y_MIN] = l->anchored_y_min;
-    g.anchored[SHEET_Y_MAX] = l->anchored_y_max;
-    g.least_seam = s->ice.edge_threshold;
-    return g;
-}
-
-static bool push_openings(context *ctx, const scenario *s, polygon_list *out)
-{
-    for (int32_t i = 0; i < s->ice.level.openings.count; i++) {
-        const scenario_opening *o = &s->ice.level.openings.data[i];
-        double x = o->length / 2, y = o->width / 2, angle = radians(o->angle_deg);
-        vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-        for (int k = 0; k < 4; k++)
-            corner[k] = (vec2){o->x + real_cos(angle) * corner[k].x - real_sin(angle) * corner[k].y,
-                               o->y + real_sin(angle) * corner[k].x + real_cos(angle) * corner[k].y};
-        if (!polygon_list_push(ctx, out, (polygon){corner, 4}))
-            return false;
-    }
-    return true;
-}
-
-/* The vessels' footprints with their margin, and what the scenario opens. */
-static fram_status find_openings(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
-{
-    polygon_list footprints = {0};
-    vec2_array wide = {0};
-    fram_status status = build_footprints(ctx, w, &footprints, error);
-    for (int32_t i = 0; i < polygon_list_count(&footprints) && status == FRAM_OK; i++) {
-        vec2_array corners = {0};
-        polygon p = polygon_list_get(&footprints, i);
-        double m = s->ice.keep_out_margin;
-        const vec2 shift[4] = {{-m, -m}, {m, -m}, {m, m}, {-m, m}};
-        bool good = true;
-        for (int32_t k = 0; k < p.count && good; k++)
-            for (int n = 0; n < 4 && good; n++)
-                good = array_push(ctx, &corners, vec2_add(p.vertex[k], shift[n]));
-        good = good && polygon_convex_hull(ctx, (polygon){corners.data, corners.count}, &wide) &&
-               polygon_list_push(ctx, out, (polygon){wide.data, wide.count});
-        array_free(ctx, &corners);
-        status = good ? FRAM_OK : error_memory(error);
-    }
-    if (status == FRAM_OK && !push_openings(ctx, s, out))
-        status = error_memory(error);
-    polygon_list_free(ctx, &footprints);
-    array_free(ctx, &wide);
-    return status;
-}
-
-static fram_status mark_seams(context *ctx, const tile_grid *g, world *w, fram_error *error)
-{
-    tile_index index = {0};
-    bool good = tile_index_build(ctx, &index, g, &w->floes);
-    tile_sheet_view v = {g, &index, &w->bodies, &w->shapes, &w->floes};
-    if (good)
-        tile_mark_seams(&v, &w->shapes, (tile_range){0, g->columns - 1, 0, g->rows - 1});
-    tile_index_free(ctx, &index);
-    return good ? FRAM_OK : error_memory(error);
-}
-
-static floe_definition tile_definition(const scenario *s, motion kind)
-{
-    return (floe_definition){.material = material_of(s),
-                             .breakable = s->ice.breakable,
-                             .motion = kind,
-                             .thickness = s->ice.thickness,
-                             .elevation = floating_elevation(s, s->ice.thickness),
-                             .parent = -1};
-}
-
-static fram_status make_tiles(context *ctx, const scenario *s, floe_definition d, const polygon_list *outlines,
-                              const int32_array *cells, world *w, fram_error *error)
-{
-    fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
-        int32_t row;
-        status = work_continue(ctx, "making the floes of the sheet", i, polygon_list_count(outlines), error);
-        if (status != FRAM_OK)
-            break;
-        d.outline = polygon_list_get(outlines, i);
-        d.tile = cells->data[i] + 1;
-        status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
-                             &w->clock.next_floe[0], &row, error);
-    }
-    return status;
-}
-
-static field_report level_report(const polygon_list *outlines, box2 plan)
-{
-    double area = 0, whole = (plan.hi.x - plan.lo.x) * (plan.hi.y - plan.lo.y);
-    for (int32_t i = 0; i < polygon_list_count(outlines); i++)
-        area += polygon_area(polygon_list_get(outlines, i));
-    return (field_report){.floes = polygon_list_count(outlines), .concentration = area / whole, .free_area = whole};
-}
-
-static fram_status build_level(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
-{
-    tile_grid g = build_tiles(s);
-    polygon_list openings = {0}, outlines = {0};
-    int32_array cells = {0};
-    fram_status status = find_openings(ctx, s, w, &openings, error);
-    if (status == FRAM_OK)
-        status = tile_sheet(ctx, &g, w->scratch.plane, &openings, s->ice.smallest_floe_area, &outlines, &cells, error);
-    if (status == FRAM_OK)
-        status = make_tiles(ctx, s, tile_definition(s, MOTION_STATIC), &outlines, &cells, w, error);
-    if (status == FRAM_OK)
-        status = mark_seams(ctx, &g, w, error);
-    *report = level_report(&outlines, g.plan);
-    polygon_list_free(ctx, &openings);
-    polygon_list_free(ctx, &outlines);
-    array_free(ctx, &cells);
-    return status;
-}
-
-/* ---- level ice that drifts ---- */
-
-static double sheet_mass(const scenario *s, box2 extent)
-{
-    double area = (extent.hi.x - extent.lo.x) * (extent.hi.y - extent.lo.y);
-    return automatic_or(s->ice.level.mass, isfinite(area) ? area * s->ice.thickness * s->ice.density : 0);
-}
-
-fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error)
-{
-    const scenario_level *l = &s->ice.level;
-    if (s->ice.source != ICE_LEVEL || s->domain.boundary != DOMAIN_FEEDING)
-        return FRAM_OK;
-    box2 extent = {{automatic_or(l->x_min, -HUGE_VAL), automatic_or(l->y_min, -HUGE_VAL)},
-                   {automatic_or(l->x_max, HUGE_VAL), automatic_or(l->y_max, HUGE_VAL)}};
-    double mass = sheet_mass(s, extent);
-    *out = (drift_definition){.drifts = true,
-                              .window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
-                              .extent = extent,
-                              .ice = tile_definition(s, MOTION_CARRIED),
-                              .smallest = s->ice.smallest_floe_area,
-                              .smallest_piece = s->ice.smallest_piece_area,
-                              .line_load = automatic_or(l->line_load, HUGE_VAL),
-                              .mass = mass,
-                              .bounded = mass > 0};
-    return push_openings(ctx, s, &out->openings) ? FRAM_OK : error_memory(error);
-}
-
-fram_status build_drifting(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
-                           fram_error *error)
-{
-    const tile_grid *g = &m->fracture.tiles;
-    polygon_list outlines = {0};
-    int32_array cells = {0};
-    drift_definition first = m->sheet; /* with the water that the vessels lie in */
-    first.openings = (polygon_list){0};
-    fram_status status = find_openings(ctx, s, w, &first.openings, error);
-    for (int32_t cell = 0; cell < g->columns * g->rows && status == FRAM_OK; cell++) {
-        status = work_continue(ctx, "making the tiles of the sheet", cell, g->columns * g->rows, error);
-        if (status == FRAM_OK)
-            status = drift_cell_rings(ctx, &first, g, cell, w->scratch.plane, &outlines, &cells, error);
-    }
-    if (status == FRAM_OK)
-        status = make_tiles(ctx, s, m->sheet.ice, &outlines, &cells, w, error);
-    if (status == FRAM_OK)
-        status = mark_seams(ctx, g, w, error);
-    *report = level_report(&outlines, g->plan);
-    polygon_list_free(ctx, &first.openings);
-    polygon_list_free(ctx, &outlines);
-    array_free(ctx, &cells);
     return status;
 }
 
@@ -355,10 +143,10 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
     double thickness = automatic_or(f->thickness, s->ice.thickness);
     floe_definition d = {.outline = {outline, count},
                          .thickness = thickness,
-                         .material = material_of(s),
+                         .material = build_ice_material(s),
                          .breakable = s->ice.breakable,
                          .motion = f->fixed ? MOTION_STATIC : MOTION_DYNAMIC,
-                         .elevation = automatic_or(f->elevation, floating_elevation(s, thickness)),
+                         .elevation = automatic_or(f->elevation, build_ice_elevation(s, thickness)),
                          .yaw = yaw,
                          .parent = -1};
     fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes,
@@ -374,11 +162,62 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
     return FRAM_OK;
 }
 
-/* Pairs that were found so far. */
+/* Part of the smaller floe that lies in another one from which on a reader is told. */
+#define OVERLAP_TOLD 1e-3
+
+/* Pairs that were found so far, and the first of those that overlap. */
 typedef struct crowd_search {
     const world *w;
-    int64_t pairs;
+    int64_t pairs, overlaps;
+    int32_t first, second;
+    double area; /* of those two in common [m2] */
 } crowd_search;
+
+/* Outline of a listed floe in the global plan, as it lies. */
+static polygon plan_of_floe(const world *w, int32_t floe, vec2 out[SINGLE_FLOE_VERTICES])
+{
+    int32_t body = w->floes.body[floe];
+    polygon p = shape_outline(&w->shapes, w->bodies.shape[body]);
+    for (int32_t k = 0; k < p.count; k++) {
+        vec3 at = body_to_global(&w->bodies, body, vec3_make(p.vertex[k].x, p.vertex[k].y, 0));
+        out[k] = (vec2){at.x, at.y};
+    }
+    return (polygon){out, p.count};
+}
+
+static void note_overlap(crowd_search *c, int32_t a, int32_t b)
+{
+    const floe_table *f = &c->w->floes;
+    vec2 corner[2][SINGLE_FLOE_VERTICES];
+    double area = polygon_overlap_area(plan_of_floe(c->w, a, corner[0]), plan_of_floe(c->w, b, corner[1]));
+    if (!(area > OVERLAP_TOLD * fmin(f->area[a], f->area[b])))
+        return;
+    if (c->overlaps++ == 0) {
+        c->first = a < b ? a : b;
+        c->second = a < b ? b : a;
+        c->area = area;
+    }
+}
+
+static void tell_overlaps(context *ctx, const crowd_search *c)
+{
+    if (c->overlaps > 0)
+        log_write(ctx, LOG_WARNING,
+                  "%lld pairs of floes overlap at the start, as ice.floes[%d] and ice.floes[%d], by %.4g m2: what "
+                  "crushes stays in one another, the rest is pushed apart",
+                  (long long)c->overlaps, (int)c->first, (int)c->second, c->area);
+}
+
+/* A listed floe that reaches over a wall. */
+static void tell_walls(context *ctx, const scenario *s, const box2 *box, int32_t count)
+{
+    const scenario_domain *d = &s->domain;
+    for (int32_t i = 0; i < count && d->boundary == DOMAIN_WALLS; i++)
+        if (box[i].lo.x < d->x_min || box[i].lo.y < d->y_min || box[i].hi.x > d->x_max || box[i].hi.y > d->y_max) {
+            log_write(ctx, LOG_WARNING, "ice.floes[%d] reaches into a wall of the domain at the start", (int)i);
+            return;
+        }
+}
 
 static fram_status count_pair(void *user, int32_t a, int32_t b, fram_error *error)
 {
@@ -387,6 +226,7 @@ static fram_status count_pair(void *user, int32_t a, int32_t b, fram_error *erro
     double rise = fabs(c->w->bodies.position[f->body[a]].z - c->w->bodies.position[f->body[b]].z);
     if (rise >= 0.5 * (f->thickness[a] + f->thickness[b]))
         return FRAM_OK; /* one above the other */
+    note_overlap(c, a, b);
     return ++c->pairs > crowd_most_pairs(f->count) ? crowd_refuse(NULL, f->count, error) : FRAM_OK;
 }
 
@@ -399,16 +239,14 @@ static fram_status check_crowd(context *ctx, const scenario *s, const world *w, 
     if (!box)
         return error_memory(error);
     for (int32_t i = 0; i < count; i++) {
-        int32_t body = w->floes.body[i];
-        polygon p = shape_outline(&w->shapes, w->bodies.shape[body]);
-        box[i] = (box2){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-        for (int32_t k = 0; k < p.count; k++) {
-            vec3 at = body_to_global(&w->bodies, body, vec3_make(p.vertex[k].x, p.vertex[k].y, 0));
-            box[i] = (box2){{fmin(box[i].lo.x, at.x), fmin(box[i].lo.y, at.y)},
-                            {fmax(box[i].hi.x, at.x), fmax(box[i].hi.y, at.y)}};
-        }
+        vec2 corner[SINGLE_FLOE_VERTICES];
+        box[i] = polygon_bounds(plan_of_floe(w, i, corner));
     }
     fram_status status = box_pairs(ctx, box, count, "looking for overlaps", count_pair, &c, error);
+    if (status == FRAM_OK) {
+        tell_overlaps(ctx, &c);
+        tell_walls(ctx, s, box, count);
+    }
     memory_free(ctx, box);
     if (status == FRAM_ERROR_INPUT && error) {
         snprintf(error->key, sizeof error->key, "ice.floes");

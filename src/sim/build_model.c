@@ -5,7 +5,7 @@
 #include "sim/build_flows.h"
 #include "sim/build_hull.h"
 #include "sim/build_hydrodynamics.h"
-#include "sim/build_ice.h"
+#include "sim/build_level.h"
 #include "sim/build_media.h"
 #include "sim/build_wash.h"
 

@@ -87,18 +87,29 @@ static void give_speed(context *ctx, const model *m, int32_t vessel, const scena
     s->speed = speed;
 }
 
+/* Whether the first way point is where the ship starts, a leg of no length that would turn her about; one that is all
+   there is stays. */
+static bool starts_there(const scenario_propulsion *p, int32_t vessel, const world *w)
+{
+    if (p->waypoints.count < 2)
+        return false;
+    vec3 at = w->bodies.position[w->vessels.body[vessel]];
+    vec2 way = {p->waypoints.data[0].x - at.x, p->waypoints.data[0].y - at.y};
+    return vec2_length(way) < 0.5 * w->vessels.length[vessel];
+}
+
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
                              world *w, fram_error *error)
 {
     const scenario_propulsion *p = &entry->keys->propulsion;
     if (is_automatic(p->bollard_pull))
         return FRAM_OK;
-    int32_t had = w->course.count;
-    if (!table_resize(ctx, &w->course, &course_table_info, had + p->waypoints.count))
+    int32_t had = w->course.count, first = starts_there(p, vessel, w) ? 1 : 0;
+    if (!table_resize(ctx, &w->course, &course_table_info, had + p->waypoints.count - first))
         return error_memory(error);
-    for (int32_t i = 0; i < p->waypoints.count; i++) {
-        w->course.vessel[had + i] = vessel;
-        w->course.place[had + i] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
+    for (int32_t i = first; i < p->waypoints.count; i++) {
+        w->course.vessel[had + i - first] = vessel;
+        w->course.place[had + i - first] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
     }
     const vessel_model *hull = &m->vessels.data[vessel];
     propulsion_settings settings = settings_of(p, w->vessels.length[vessel], hull->particulars.beam);

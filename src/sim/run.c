@@ -121,7 +121,9 @@ static void run_free(run *r)
 
 static void log_start(const run *r, const field_report *report)
 {
-    if (report->floes > 0)
+    if (report->floes > 0 && report->concentration <= 0)
+        log_write(r->ctx, LOG_INFO, "%d floes", (int)report->floes);
+    else if (report->floes > 0)
         log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->floes, report->concentration);
     for (int32_t i = 0; i < r->model.vessels.count; i++)
         log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", r->model.vessels.data[i].displaced_mass * 1e-3);

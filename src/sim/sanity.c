@@ -287,9 +287,9 @@ static void tell_times(const teller *t)
                    o->averaging_window, r->time_step);
     if (o->averaging_window > LONGEST_WINDOW * r->duration)
         sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
-    if (o->picture_interval > 0 && r->duration / o->picture_interval > MOST_PICTURES)
-        sanity_say(t->tell, t->to, "output.picture_interval: %.0f pictures will be written",
-                   r->duration / o->picture_interval);
+    double pictures = r->duration / fmax(o->picture_interval, r->time_step); /* no more than steps */
+    if (o->picture_interval > 0 && pictures > MOST_PICTURES)
+        sanity_say(t->tell, t->to, "output.picture_interval: %.0f pictures will be written", pictures);
 }
 
 /* ---- vessels, from their keys ---- */
@@ -392,6 +392,37 @@ static void tell_rest(const teller *t)
                    scenario_vessel_entry(t->s, 0).path);
 }
 
+/* Strain from which on a line without a breaking load is told: steel parts before, fibre not long after. */
+#define TAUT 0.02
+
+/* A catenary whose length is given: too long to pull, or stretched from the start. */
+static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
+{
+    const scenario_mooring *m = &e->keys->mooring;
+    const scenario_mooring_line *l = &m->lines.data[line];
+    double down = m->depth + m->z, straight = sqrt(l->distance * l->distance + down * down);
+    double most = automatic_or(l->breaking_load, HUGE_VAL), strain = straight / l->length - 1;
+    if (is_automatic(l->length))
+        return;
+    if (l->length > l->distance + m->depth)
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
+            e->path, (int)line, l->length);
+    else if (l->kind == LINE_CATENARY && strain * l->stiffness > 0.5 * most)
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %.3g N from the "
+            "start, %s its breaking load",
+            e->path, (int)line, l->length, straight, strain * l->stiffness,
+            strain * l->stiffness >= most ? "over" : "more than half of");
+    else if (l->kind == LINE_CATENARY && isinf(most) && strain > TAUT)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m is stretched by %.3g %% from the "
+                   "start, to about %.3g N: it pulls the vessel down, and no breaking_load lets it part",
+                   e->path, (int)line, l->length, straight, 100 * strain, strain * l->stiffness);
+}
+
 static void tell_station(const teller *t, const vessel_entry *e)
 {
     const scenario_vessel *v = e->keys;
@@ -401,20 +432,7 @@ static void tell_station(const teller *t, const vessel_entry *e)
         if (is_automatic(l->length) && l->kind == LINE_CATENARY && l->pretension > 0.5 * most)
             sanity_say(t->tell, t->to, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N",
                        e->path, (int)i, l->pretension, l->pretension >= most ? "over" : "more than half of", most);
-        double down = v->mooring.depth + v->mooring.z, straight = sqrt(l->distance * l->distance + down * down);
-        if (!is_automatic(l->length) && l->length > l->distance + v->mooring.depth)
-            sanity_say(
-                t->tell, t->to,
-                "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
-                e->path, (int)i, l->length);
-        else if (!is_automatic(l->length) && l->kind == LINE_CATENARY &&
-                 (straight / l->length - 1) * l->stiffness > 0.5 * most)
-            sanity_say(
-                t->tell, t->to,
-                "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %.3g N from the "
-                "start, %s its breaking load",
-                e->path, (int)i, l->length, straight, (straight / l->length - 1) * l->stiffness,
-                (straight / l->length - 1) * l->stiffness >= most ? "over" : "more than half of");
+        tell_length(t, e, i);
     }
     if (v->positioning.active && v->thrusters.count == 0)
         sanity_say(t->tell, t->to, "%s.positioning: there are no thrusters to position with", e->path);

@@ -4,7 +4,7 @@
 #include "ice/field_size.h"
 #include "sim/build.h"
 #include "sim/build_feeding.h"
-#include "sim/build_ice.h"
+#include "sim/build_level.h"
 
 #include <math.h>
 #include <stdio.h>

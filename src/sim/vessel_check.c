@@ -151,6 +151,13 @@ static void warn_of_stability(context *ctx, const scenario *s, const vessel_entr
         warn_of_angle(ctx, e, "centre_of_gravity_y", "heels", hull->centre.y - f->centre_of_buoyancy.y, gm);
         warn_of_angle(ctx, e, "centre_of_gravity_x", "trims", hull->centre.x - f->centre_of_buoyancy.x, gm_long);
     }
+}
+
+/* Towed hulls are free to heave. */
+static void warn_of_mass(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
+{
+    if (e->keys->mode == VESSEL_PRESCRIBED || !s->environment.water || !(hull->floats.volume > 0))
+        return;
     double ratio = mass_of(e, hull) / hull->displaced_mass;
     if (fabs(ratio - 1) > TOLD_MASS)
         log_write(ctx, LOG_WARNING,
@@ -244,11 +251,14 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 #define LONGEST 500.0
 /* Part of the length by which amidships may lie beside the middle of the waterline. */
 #define OFF_AMIDSHIPS 0.2
+/* Part of the beam by which the centre of buoyancy may lie beside the centre line. */
+#define OFF_CENTRE 0.02
 /* Beam over draught, as of hulls by particulars. */
 #define SHALLOWEST 25.0
 
-static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e, const hull_particulars *p)
+static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
 {
+    const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
     double size = s->run.scale / scenario_default_scale();
@@ -266,6 +276,12 @@ static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e,
                   "%s.hull.file: the waterline of %.4g m lies about x = %.4g m, not about x = 0, amidships: all places "
                   "on the ship are counted from there; move the mesh",
                   e->path, p->length, p->midships);
+    const vec3 buoyancy = m->floats.centre_of_buoyancy;
+    if (m->floats.volume > 0 && fabs(buoyancy.y) > OFF_CENTRE * p->beam)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the hull lies about y = %.4g m, not about y = 0, the centre line: all places on the "
+                  "ship are counted from there; move the mesh",
+                  e->path, buoyancy.y);
     if (p->beam > SHALLOWEST * p->draught)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
@@ -323,9 +339,10 @@ void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, con
                      int32_t row)
 {
     const vessel_model *hull = &m->vessels.data[row];
-    warn_of_mesh(ctx, s, e, &hull->particulars);
+    warn_of_mesh(ctx, s, e, hull);
     warn_of_floes(ctx, s, e, w, row);
     warn_of_stability(ctx, s, e, hull);
+    warn_of_mass(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
     warn_of_springs(ctx, s, e, hull, w, row);
     wall_warnings(ctx, s, e, m, w, row);

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -264,8 +265,49 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
 
 /* ---- all files ---- */
 
+static int compare_reals(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* The middle one of the steps between rows, of two rows and more; 0: no memory. */
+static double usual_step(context *ctx, const double_array *time)
+{
+    int32_t count = time->count - 1;
+    double *step = memory_array(ctx, (size_t)count, sizeof *step), middle = 0;
+    for (int32_t i = 0; step && i < count; i++)
+        step[i] = time->data[i + 1] - time->data[i];
+    if (step) {
+        qsort(step, (size_t)count, sizeof *step, compare_reals);
+        middle = step[count / 2];
+    }
+    memory_free(ctx, step);
+    return middle;
+}
+
+/* The first step that is another than the usual one; else what has gone wrong by row i. */
+static fram_status refuse_times(context *ctx, const char *path, const double_array *time, int32_t i, double own,
+                                fram_error *error)
+{
+    double usual = usual_step(ctx, time);
+    for (int32_t k = 1; k < time->count && usual > 0; k++) {
+        double step = time->data[k] - time->data[k - 1];
+        if (fabs(step - usual) > STEP_TOLERANCE * usual)
+            return error_set(error, FRAM_ERROR_INPUT, path, k + 2, "time",
+                             "expected times at equal distances, %.6g s as most are, found one of %.6g s, to %.9g: "
+                             "interpolate the series first",
+                             usual, step, time->data[k]);
+    }
+    return error_set(error, FRAM_ERROR_INPUT, path, i + 2, "time",
+                     "expected times at equal distances, %.6g s on the average; found %.9g where %.9g was due: "
+                     "interpolate the series first",
+                     own, time->data[i], time->data[0] + i * own);
+}
+
 /* The step between rows, the same within a file and in all of them. */
-static fram_status check_times(const char *path, const double_array *time, double *step, fram_error *error)
+static fram_status check_times(context *ctx, const char *path, const double_array *time, double *step,
+                               fram_error *error)
 {
     int32_t n = time->count;
     if (n < 2)
@@ -276,10 +318,7 @@ static fram_status check_times(const char *path, const double_array *time, doubl
     for (int32_t i = 0; i < n; i++) {
         if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + 1e-9 * fabs(time->data[i]))
             continue;
-        return error_set(error, FRAM_ERROR_INPUT, path, i + 2, "time",
-                         "expected times at equal distances, %.6g s on the average; found %.9g where %.9g was due: "
-                         "interpolate the series first",
-                         own, time->data[i], time->data[0] + i * own);
+        return refuse_times(ctx, path, time, i, own, error);
     }
     if (*step > 0 && fabs(own - *step) > 1e-3 * own)
         return error_set(error, FRAM_ERROR_INPUT, path, 2, "time",
@@ -320,7 +359,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, source->channel,
                            "expected the unit of the other files, [%s], found [%s]", out->unit, unit);
     if (status == FRAM_OK && !source->maxima)
-        status = check_times(path, &time, &out->set.step, error);
+        status = check_times(ctx, path, &time, &out->set.step, error);
     if (status == FRAM_OK) {
         memcpy(out->unit, unit, sizeof out->unit);
         if (!source->maxima)

@@ -359,6 +359,30 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
 
 /* ---- all ---- */
 
+/* Whether two runs and more, with seeds of their own, came out the same: chance had no part in them. */
+static bool all_alike(const condition_rows *of)
+{
+    const run_row *first = of->rows.data;
+    bool alike = of->rows.count > 1;
+    for (int32_t i = 0; i < of->rows.count && alike; i++)
+        alike = !first[i].failed && first[i].figure[ROW_load_mean] > 0 &&
+                memcmp(first[i].figure, first[0].figure, sizeof first[0].figure) == 0;
+    return alike;
+}
+
+static void tell_alike(const study_work *w, const condition_rows *rows)
+{
+    int32_t alike = 0;
+    for (int32_t c = 0; c < w->s->conditions; c++)
+        alike += all_alike(&rows[c]);
+    if (alike > 0)
+        log_write(w->ctx, LOG_WARNING,
+                  "%d of %d conditions: all runs came out the same, since run.seed draws nothing in this scenario: one "
+                  "says all, and an interval of 0 says nothing of chance (ice.strength, or ice that is drawn, varies "
+                  "with the seed)",
+                  (int)alike, (int)w->s->conditions);
+}
+
 /* The tables of what is there; of a study that is whole also the records of its worst runs, to which its page leads. */
 static fram_status write_results(const study_work *w, bool whole, study_result *result, fram_error *error)
 {
@@ -380,6 +404,8 @@ static fram_status write_results(const study_work *w, bool whole, study_result *
             }
         }
     }
+    if (status == FRAM_OK)
+        tell_alike(w, rows);
     if (status == FRAM_OK)
         status = study_tables_write(&w->folder, rows, error);
     bool changed = false;

@@ -1,5 +1,10 @@
 #include "vessel/thruster.h"
 
+#include "vessel/plane_motion.h"
+
+#include <float.h>
+#include <stdio.h>
+
 #define TABLE_SELF thruster_table
 TABLE_DEFINE(thruster, THRUSTER_FIELDS)
 #undef TABLE_SELF
@@ -7,6 +12,26 @@ TABLE_DEFINE(thruster, THRUSTER_FIELDS)
 /* Power of an open propeller per newton at its largest thrust: a bollard pull of 160 N per kilowatt is usual for
    unducted azimuth and tunnel thrusters. */
 #define POWER_PER_THRUST (1000.0 / 160)
+
+/* An order from the start is one that the thruster can follow. */
+static fram_status check_order(const thruster_definition *d, fram_error *error)
+{
+    char expected[120];
+    if (d->kind == THRUSTER_MAIN && fabs(d->order_angle) > d->rudder * (1 + 1e-9)) {
+        double most = degrees(d->rudder);
+        snprintf(expected, sizeof expected,
+                 most > 0 ? "-%g to %g, as far as its rudder_deg turns" : "0 without rudder_deg", most, most);
+        return error_value(error, "direction_deg", expected, degrees(d->order_angle));
+    }
+    if (d->kind == THRUSTER_AZIMUTH && d->order < 0)
+        return error_value(error, "setting", "0 to 1: a unit that turns pushes the other way by its direction_deg",
+                           d->order / fmax(d->astern, DBL_MIN));
+    if (d->kind == THRUSTER_AZIMUTH && d->order > 0 &&
+        fabs(plane_angle(d->order_angle - d->forbidden_centre)) < d->forbidden_half * (1 - 1e-9))
+        return error_value(error, "direction_deg", "a direction outside of forbidden_deg and its width",
+                           degrees(d->order_angle));
+    return FRAM_OK;
+}
 
 static fram_status check_definition(const thruster_definition *d, fram_error *error)
 {
@@ -25,7 +50,7 @@ static fram_status check_definition(const thruster_definition *d, fram_error *er
     if (!(d->forbidden_half >= 0 && d->forbidden_half < 0.5 * PI))
         return error_value(error, "forbidden_width_deg", "an angle from 0 to less than 180",
                            degrees(2 * d->forbidden_half));
-    return FRAM_OK;
+    return check_order(d, error);
 }
 
 fram_status thruster_add(context *ctx, const thruster_definition *d, const vessel_table *vessels, thruster_table *t,

@@ -41,6 +41,7 @@ refused vessel.mass "it sinks, found 2.47e+06 kg" --set vessel.mass=2.47e6
 refused vessel.mass "8.2e+04 to 2.46e+06 kg" --set vessel.mass=8e4
 told "vessel.mass is 0.8 of what the hull displaces" --set vessel.mass=1.312e6
 silent --set vessel.mass=1.6e6
+told "vessel.mass is 0.8 of what the hull displaces" --set vessel.mass=1.312e6 --set vessel.mode=towed
 expect 0 "$FRAM" check box.yaml --set vessel.mass=1e9 --set vessel.mode=prescribed
 
 # The centre of gravity: in the box around the hull, or above it by its depth; 20 m of length to each side.
@@ -136,5 +137,31 @@ promised, found = float(sys.argv[1]) * 1e6, float(sys.argv[2])
 sys.exit(not (found / 2 if sys.argv[3] == "yes" else 0) < promised < found * (2 if sys.argv[3] == "yes" else 4))
 END
     fail "the folder has another size than $promised MB"
+
+# Listed floes that lie in one another or in a wall; openings beside a sheet, and ones that leave nothing of it.
+cat >floes.yaml <<'YAML'
+run: {duration: 1, time_step: 0.05}
+vessel: {present: false}
+ice: {source: floes, floes: [{x: -20, length: 10, width: 10}, {x: -18, length: 10, width: 10}, {x: 95, length: 20, width: 4}]}
+domain: {x_min: -100, x_max: 100, y_min: -60, y_max: 60, boundary: walls}
+YAML
+expect 0 "$FRAM" run floes.yaml -o floes
+says "1 pairs of floes overlap at the start, as ice.floes[0] and ice.floes[1], by 80 m2" err
+says "ice.floes[2] reaches into a wall of the domain" err
+grep -q "concentration" err && fail "a concentration of floes that are listed: $(cat err)"
+expect 0 "$FRAM" run floes.yaml -o floes --force --set "ice.floes[1].x=-9.99" --set "ice.floes[2].x=90"
+grep '^warning: .*floes' err && fail "a warning without reason"
+cat >sheet.yaml <<'YAML'
+run: {duration: 1, time_step: 0.05}
+vessel: {present: false}
+ice: {source: level, level: {x_min: -30, openings: [{x: 35, length: 30, width: 30}, {x: -80, length: 30, width: 30}]}}
+domain: {x_min: -100, x_max: 100, y_min: -60, y_max: 60}
+YAML
+expect 0 "$FRAM" run sheet.yaml -o sheet
+says "ice.level.openings[1]: it lies beside the ice and opens nothing" err
+grep -qF "openings[0]" err && fail "an opening that opens is told"
+expect 2 "$FRAM" run sheet.yaml -o none --set "ice.level.openings[0].length=300" --set "ice.level.openings[0].width=300"
+says "sheet.yaml:3:" err
+says "nothing is left of the sheet of 130 m by 120 m" err
 
 finish "what cannot be is refused, what will be is told"

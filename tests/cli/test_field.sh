@@ -14,6 +14,10 @@ cat >floes.geojson <<'JSON'
 ]}
 JSON
 
+# A property that is not read is told.
+sed 's/"thickness"/"Thickness"/' floes.geojson >case.geojson
+expect 0 "$FRAM" field case.geojson --bad drop
+says "feature 1: the property Thickness is not read: its name is thickness, in metres" err
 # The bow tie is refused with its place, dropped, mended.
 expect 2 "$FRAM" field floes.geojson --json
 same "$(value 'j["error"]["file"], j["error"]["line"], j["error"]["column"], j["error"]["key"]')" \

@@ -47,6 +47,15 @@ says included-angle err
 expect 2 "$FRAM" ice break --contact-width -1
 says contact_width err
 
+# Beyond tables and theory.
+expect 2 "$FRAM" ice break --contact-area 1e6
+says "no larger than 3 characteristic lengths" err
+expect 0 "$FRAM" ice break --contact-area 100 --contact-width 80
+expect 2 "$FRAM" ice break --thickness 1e-300
+says "1e-6 to 100 m" err
+expect 2 "$FRAM" ice break --ice-density 1030
+says "less than the density of the water" err
+
 expect 0 "$FRAM" ice split --length 75 --width 50 --json
 near 'j["factor"]' 0.1540 2e-3 "splitting, width over length 2/3"
 near 'j["splitting_load"]' 'j["factor"] * 150e3 * 75 ** 0.5' 1e-12 "splitting load"

@@ -35,6 +35,20 @@ told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "ves
 told ship.yaml "lines[0].stiffness: EA of 8e+05 N is 0.1 breaking loads|newtons" \
     --set "vessel.mooring.lines[0].stiffness=8e5"
 told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.mooring.lines[0].distance=0.9"
+no_end="vessel.mooring.lines[0].breaking_load=auto"
+told ship.yaml "lines[0].length: 870 m|is stretched by 4.36 % from the start" --set "$no_end" \
+    --set "vessel.mooring.lines[0].length=870"
+refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" --set "vessel.thrusters[0].setting=-0.5"
+refused ship.yaml "thrusters[0].direction_deg: expected a direction outside of forbidden_deg" \
+    --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=80" \
+    --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
+expect 0 "$FRAM" check ship.yaml --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=59" \
+    --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
+refused ship.yaml "thrusters[0].direction_deg: expected 0 without rudder_deg, found 10" \
+    --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[0].direction_deg=10"
+refused ship.yaml "thrusters[0].direction_deg: expected -35 to 35, as far as its rudder_deg turns, found 40" \
+    --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[0].rudder_deg=35" \
+    --set "vessel.thrusters[0].direction_deg=40"
 told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400

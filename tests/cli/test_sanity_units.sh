@@ -163,15 +163,17 @@ box good -30 30 -7 7 -4 3
 box large -30000 30000 -7000 7000 -4000 3000
 box athwart -7 7 -30 30 -4 3
 box stern 0 60 -7 7 -4 3
+box aside -30 30 6 20 -4 3
 box shallow -30 30 -7 7 -0.1 6.9
 box keel -30 30 -7 7 0 7
-for hull in good large athwart stern shallow; do
+for hull in good large athwart stern aside shallow; do
     sed "s/hull: {.*}}/hull: {form: file, file: $hull.obj}}/" towed.yaml >"$hull.yaml"
 done
 all_told good.yaml --
 all_told large.yaml -- "vessel.hull.file: the waterline is 6e+04 m long|hull.file_scale 0.001"
 all_told athwart.yaml -- "vessel.hull.file: the hull is 60 m wide along y and 14 m long along x"
 all_told stern.yaml -- "the waterline of 60 m lies about x = 30 m, not about x = 0"
+all_told aside.yaml -- "the hull lies about y = 13 m, not about y = 0, the centre line"
 all_told shallow.yaml -- "the mesh reaches 0.1 m under its z = 0|move it down by the draught"
 sed "s/hull: {.*}}/hull: {form: file, file: keel.obj}}/" towed.yaml >keel.yaml
 expect 2 "$FRAM" check keel.yaml

@@ -125,6 +125,8 @@ static const bad_text bad_texts[] = {
      "the Polygon has no member \"coordinates\""},
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":{\"thickness\":-1}}"), 2, 61, "feature 1",
      "expected a thickness over 0 m, found -1"},
+    {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":{\"thickness\":150}}"), 2, 61, "feature 1",
+     "expected a thickness of at most 100 m, found 150: is it in centimetres?"},
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":{\"thickness\":\"1\"}}"), 2, 61, "feature 1",
      "expected a number"},
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":[]}"), 2, 48, "feature 1",

@@ -7,9 +7,10 @@ static const char *const SHIP = "run: {duration: 10, time_step: 0.05, scale: 30}
                                 "  hull: {form: box, length: 80, beam: 16, draught: 5, freeboard: 3}\n"
                                 "  hydrodynamics: {source: estimate}\n"
                                 "  thrusters:\n"
-                                "    - {kind: azimuth, x: -30, z: -4, thrust: 4e5, thrust_astern: 1e5, setting: -0.5,\n"
+                                "    - {kind: azimuth, x: -30, z: -4, thrust: 4e5, setting: 0.5,\n"
                                 "       direction_deg: 30, forbidden_deg: 90, forbidden_width_deg: 40}\n"
-                                "    - {kind: azimuth, x: 30, z: -4, thrust: 4e5, setting: -0.5}\n"
+                                "    - {kind: tunnel, x: 30, z: -4, thrust: 4e5, thrust_astern: 1e5, setting: -0.5}\n"
+                                "    - {kind: tunnel, x: 32, z: -4, thrust: 4e5, setting: -0.5}\n"
                                 "  positioning: {active: true, interval: 0.4899999, sample_interval: 0.7}\n"
                                 "  station: {offset_limit: 5, heading_limit_deg: 12}\n"
                                 "ice: {source: none}\n";
@@ -18,13 +19,14 @@ START_TEST(thrusters_are_as_their_keys_say)
 {
     scene k;
     scene_open(&k, SHIP);
-    ck_assert_int_eq(k.w.thrusters.count, 2);
+    ck_assert_int_eq(k.w.thrusters.count, 3);
     assert_relative(k.w.thrusters.forbidden_centre[0], 0.5 * PI, 1e-12);
     assert_relative(k.w.thrusters.forbidden_half[0], PI / 9, 1e-12);
     assert_relative(k.w.thrusters.order_angle[0], PI / 6, 1e-12);
     /* Half of what it gives astern, which is that ahead where nothing else is said. */
-    assert_relative(k.w.thrusters.order[0], -5e4, 1e-12);
-    assert_relative(k.w.thrusters.order[1], -2e5, 1e-12);
+    assert_relative(k.w.thrusters.order[0], 2e5, 1e-12);
+    assert_relative(k.w.thrusters.order[1], -5e4, 1e-12);
+    assert_relative(k.w.thrusters.order[2], -2e5, 1e-12);
     scene_close(&k);
 }
 END_TEST

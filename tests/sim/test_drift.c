@@ -256,8 +256,9 @@ START_TEST(reversal_keeps_the_channel)
     k.m.drift = vec2_make(-2, 0);
     k.m.media.current = vec3_make(-2, 0, 0);
     scene_steps(&k, 1650);
-    /* The hull rubs its walls a little. */
-    assert_absolute(ice_in(&k, 22, -6, 6, 12), cut, 0.1);
+    /* The hull rubs its walls, a tip of which may break: of 72 m2. */
+    double again = ice_in(&k, 22, -6, 6, 12);
+    ck_assert_msg(again <= cut + 1e-6 && again > cut - 2, "%g m2 of ice in the channel, before %g", again, cut);
     assert_absolute(ice_in(&k, 22, 16, 6, 10), beside, 1e-6);
     ck_assert_msg(k.w.clock.bendings[0] <= breaks + 6, "%lld breaks in the old channel",
                   (long long)(k.w.clock.bendings[0] - breaks));

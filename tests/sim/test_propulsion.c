@@ -131,6 +131,20 @@ START_TEST(follows_way_points)
 }
 END_TEST
 
+/* A first way point at the ship's start, a little behind her centre of mass, is behind her: she goes straight on. */
+START_TEST(starts_at_a_way_point)
+{
+    scene k;
+    scene_open(&k, SHIP_WITH(", speed: 4, waypoints: [{x: -0.5, y: 0}, {x: 800, y: 0}]"));
+    for (int i = 0; i < 1500; i++) {
+        scene_steps(&k, 1);
+        ck_assert(fabs(k.w.bodies.position[k.w.vessels.body[0]].y) < 1);
+    }
+    ck_assert(k.w.bodies.position[k.w.vessels.body[0]].x > 100);
+    scene_close(&k);
+}
+END_TEST
+
 /* A circle updrift of a place is gone round within a breadth; when the drift turns, so does the circle. */
 START_TEST(goes_round_its_circle)
 {
@@ -299,5 +313,5 @@ END_TEST
 
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
-          keeps_the_speed_that_is_wanted, follows_way_points, goes_round_its_circle, speed_falls_with_thickness,
+          keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle, speed_falls_with_thickness,
           backs_and_rams, refusals_name_their_key)

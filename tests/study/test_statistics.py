@@ -37,6 +37,13 @@ def sample():
     return [round(10 - 2 * math.log(numbers.expovariate(1)), 6) for _ in range(80)]
 
 
+SCENE = """run: {duration: 2, time_step: 0.05}
+vessel: {mode: towed, speed: 1, hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+ice: {source: floes, floes: [{x: 14, length: 6, width: 6}]}
+domain: {x_min: -60, x_max: 60, y_min: -60, y_max: 60, boundary: open}
+"""
+
+
 class Statistics(unittest.TestCase):
     def setUp(self):
         self.at = pathlib.Path(tempfile.mkdtemp(prefix="fram-statistics-"))
@@ -156,6 +163,18 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "x", "--draw", self.at / "a.pdf", "--force"), "--draw", ".svg")
         self.assertFalse((self.at / "a.pdf").exists())
 
+    def test_a_run_is_not_written_over(self):
+        run, scene = self.at / "run", self.write(SCENE, "scene.yaml")
+        self.fram("run", scene, "-o", run, "--quiet")
+        before = (run / "series.csv").read_bytes()
+        for command, option, file in (("fatigue", "-o", "series.csv"), ("fatigue", "-o", "fractures.csv"),
+                                      ("extremes", "--draw", "record.fram")):
+            self.refused((command, run, option, run / file), "names what the command reads")
+        self.assertEqual((run / "series.csv").read_bytes(), before)
+        self.write("a,b\n1,2\n", "run/series.csv")
+        for words in (("fatigue", run), ("report", run, "-o", self.at / "page.html"), ("compare", run, run)):
+            self.refused(words, "series.csv:1:", "without the column time[s]")
+
     def refused(self, words, *said):
         error = self.fram(*words, code=2)["error"]
         for word in said:
@@ -177,7 +196,10 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "tension", "--maxima"), "--block")
         self.refused(("fatigue", file, "--channel", "tension", "--slope", "0"), "slope")
         uneven = self.write("time,x\n0,1\n1,2\n5,3\n6,1\n", "uneven.csv")
-        self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:3:", "equal distances")
+        self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:4:", "equal distances", "found one of 4 s")
+        rows = "".join(f"{0.5 * i + (400 if i > 700 else 0)},{i % 7}\n" for i in range(1000))
+        gap = self.write("time,x\n" + rows, "gap.csv")
+        self.refused(("extremes", gap, "--channel", "x"), "gap.csv:703:", "0.5 s as most are", "found one of 400.5 s")
         self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"), "time", "step")
         self.refused(("extremes", self.write("time,x\n0,1\n1\n", "short.csv"), "--channel", "x"), "short.csv:3:")
         self.refused(("extremes", self.write("", "empty.csv"), "--channel", "x"), "empty.csv:1:")

@@ -347,6 +347,17 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertGreater(extent["run_s"], 0)
         self.assertGreaterEqual(extent["run_s_packed"], extent["run_s"])
 
+    def test_seeds_that_draw_nothing_are_told(self):
+        ice = "ice: {source: floes, floes: [{length: 8, width: 8, x: -1}]}"
+        (self.at / "still.yaml").write_text(re.sub("ice: .*", ice, (self.at / "base.yaml").read_text()))
+        for scene, tells in (("base", False), ("still", True)):
+            study = self.write("")
+            study.write_text(f"scenario: {scene}.yaml\nseeds: 2\nset: {{run.duration: 1.5, run.transient: 0.5}}\n")
+            done = subprocess.run([FRAM, "study", study, "-o", self.at / scene], check=True, capture_output=True,
+                                  text=True)
+            told = "1 of 1 conditions: all runs came out the same, since run.seed draws nothing" in done.stderr
+            self.assertEqual(told, tells, done.stderr)
+
     def test_what_a_study_takes_is_told_for_what_can_be_done_at_once(self):
         def told(text, jobs):
             done = subprocess.run([FRAM, "study", "check", self.write(text), "--jobs", str(jobs)], check=True,
