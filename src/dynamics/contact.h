@@ -73,10 +73,11 @@ typedef struct pair_policies {
     pair_policy of[MATERIAL_COUNT][MATERIAL_COUNT]; /* symmetric */
 } pair_policies;
 
-/* Warm start: what each contact carried in the last step, ascending keys. */
+/* Warm start: what each contact carried in the last step, ascending keys.  Told of the body in the lower slot, since a
+   and b change places where a pair of floes becomes one of a patch. */
 #define CONTACT_MEMORY_FIELDS(X)                       \
     X(key, uint64_t, FIELD_U64, 1, "1", "contact key") \
-    X(impulse, vec3, FIELD_F64, 3, "N s", "impulse on body a, global frame")
+    X(on_lower, vec3, FIELD_F64, 3, "N s", "impulse on the body in the lower slot, global frame")
 TABLE_DECLARE(contact_memory, CONTACT_MEMORY_FIELDS)
 /* Row of the memory with this key, -1 without.  place: where the last search ended, from 0; keys mostly come in the
    memory's order. */

@@ -39,14 +39,16 @@ int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, in
     return *place < memory->count && memory->key[*place] == key ? *place : -1;
 }
 
+/* An impulse on body a as one on the body in the lower slot, and back. */
+static vec3 turned(const contact *c, vec3 impulse) { return c->a < c->b ? impulse : vec3_neg(impulse); }
+
 vec3 contact_memory_pair(const contact_memory_table *memory, const contact *c)
 {
     uint64_t pair = contact_key_pair(c->key);
     vec3 sum = {0, 0, 0};
     for (int32_t k = memory_place(memory, pair, 0); k < memory->count && contact_key_pair(memory->key[k]) == pair; k++)
-        sum = vec3_add(sum, memory->impulse[k]);
-    /* Contacts only push: where a pair became one of a patch, a and b may have changed places. */
-    return vec3_dot(sum, c->normal) < 0 ? vec3_neg(sum) : sum;
+        sum = vec3_add(sum, memory->on_lower[k]);
+    return turned(c, sum);
 }
 
 /* ---- recall ---- */
@@ -76,7 +78,7 @@ static void recall_pair(const contact_memory_table *memory, const contact *conta
         for (int32_t k = begin; k < last; k++) {
             if (memory->key[k] != contacts[i].key)
                 continue;
-            recalled[i] = memory->impulse[k];
+            recalled[i] = turned(&contacts[i], memory->on_lower[k]);
             found++;
         }
     }
@@ -86,14 +88,14 @@ static void recall_pair(const contact_memory_table *memory, const contact *conta
     vec3 lost = none;
     for (int32_t k = begin; k < last; k++)
         if (!has_key(contacts, first, end, memory->key[k]))
-            lost = vec3_add(lost, memory->impulse[k]);
+            lost = vec3_add(lost, memory->on_lower[k]);
     lost = vec3_scale(lost, 1.0 / (end - first - found));
     for (int32_t i = first; i < end; i++) {
         int32_t at = begin;
         while (at < last && memory->key[at] != contacts[i].key)
             at++;
         if (at == last)
-            recalled[i] = lost;
+            recalled[i] = turned(&contacts[i], lost);
     }
 }
 
@@ -181,7 +183,8 @@ fram_status contacts_remember(solver *s, const body_table *bodies, const contact
     for (int32_t i = 0; i < count; i++) {
         assert(i == 0 || s->entries[i - 1].key <= s->entries[i].key);
         memory->key[i] = s->entries[i].key;
-        memory->impulse[i] = contact_impulse(&contacts->data[s->entries[i].contact]);
+        const contact *c = &contacts->data[s->entries[i].contact];
+        memory->on_lower[i] = turned(c, contact_impulse(c));
     }
     return FRAM_OK;
 }

@@ -367,6 +367,14 @@ static int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int
     return plan->slot.data[copy ? batch->hub : row];
 }
 
+/* A body that slept in the solve and was woken after it has a row in each task that touched it, which was that of one
+   that does not move. */
+static bool has_woken(const stage *st, const contact_batch *batch, int32_t row, int32_t slot)
+{
+    bool copy = batch->hub >= 0 && row >= batch->copies && row < batch->copies + BATCH_LANES;
+    return !copy && row >= st->s->fast->plan.movable && body_is_dynamic(st->bodies, slot);
+}
+
 static bool batch_fits(const stage *st, int32_t number)
 {
     const fast_rows *f = st->s->fast;
@@ -380,7 +388,8 @@ static bool batch_fits(const stage *st, int32_t number)
             const contact *c = &st->contacts->data[batch->contact[k][lane]];
             if (c->a != lane_slot(&f->plan, batch, batch->a[lane]) ||
                 c->b != lane_slot(&f->plan, batch, batch->b[lane]) || !same3(frame, FRAME_NORMAL, lane, c->normal) ||
-                !same3(point, POINT_ARM_A, lane, c->arm_a) || !same3(point, POINT_ARM_B, lane, c->arm_b))
+                !same3(point, POINT_ARM_A, lane, c->arm_a) || !same3(point, POINT_ARM_B, lane, c->arm_b) ||
+                has_woken(st, batch, batch->a[lane], c->a) || has_woken(st, batch, batch->b[lane], c->b))
                 return false;
         }
     }

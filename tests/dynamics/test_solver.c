@@ -364,7 +364,7 @@ static double recalled_of(const uint32_t *names, int32_t count, double *each)
     ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, 5));
     for (int i = 0; i < 5; i++) {
         r.memory.key[i] = keys[i];
-        r.memory.impulse[i] = vec3_make(carried[i], 0, 0);
+        r.memory.on_lower[i] = vec3_make(carried[i], 0, 0);
     }
     for (int32_t i = 0; i < count; i++)
         ck_assert(array_push(&r.ctx, &r.contacts, ((contact){.a = 1, .b = 2, .key = pair | names[i]})));
@@ -395,6 +395,38 @@ START_TEST(points_with_new_names_share_what_the_pair_carried)
     assert_bits(recalled_of((uint32_t[]){4, 2}, 2, each), 11); /* one is gone, nobody came for it */
     assert_bits(recalled_of((uint32_t[]){2, 4, 6, 8}, 4, each), 111);
     assert_bits(each[3], 0); /* a point more than before starts from nothing */
+}
+END_TEST
+
+/* What a pair carried is told of the body in the lower slot: it is turned for contacts that tell of the other one, and
+   never by the direction of a normal, which another contact of the pair may oppose. */
+START_TEST(what_a_pair_carried_goes_with_its_bodies)
+{
+    rig r = rig_make(0.01);
+    for (int i = 0; i < 3; i++)
+        body_create(&r.ctx, &r.bodies, MOTION_DYNAMIC, MATERIAL_ICE);
+    for (int from = 0; from < 2; from++) {
+        contact wrote = {.a = from ? 2 : 1, .b = from ? 1 : 2, .normal = {1, 0, 0}, .impulse = {5, 0, 0}};
+        wrote.key = contact_key(&r.bodies, 1, 2, 0, 0, 7);
+        array_clear(&r.contacts);
+        ck_assert(array_push(&r.ctx, &r.contacts, wrote));
+        r.solve->ctx = &r.ctx;
+        ck_assert_int_eq(contacts_remember(r.solve, &r.bodies, &r.contacts, &r.memory, NULL), FRAM_OK);
+        for (int to = 0; to < 2; to++) {
+            double carried = from == to ? 5 : -5;
+            for (uint32_t name = 7; name < 9; name++) {
+                contact reads = {.a = to ? 2 : 1, .b = to ? 1 : 2, .normal = {-1, 0, 0}};
+                reads.key = contact_key(&r.bodies, 1, 2, 0, 0, name);
+                vec3 recalled;
+                array_clear(&r.contacts);
+                ck_assert(array_push(&r.ctx, &r.contacts, reads));
+                contacts_recall(&r.memory, &r.contacts, 0, 1, &recalled);
+                assert_bits(recalled.x, carried);
+                assert_bits(contact_memory_pair(&r.memory, &reads).x, carried);
+            }
+        }
+    }
+    rig_free(&r);
 }
 END_TEST
 
@@ -530,5 +562,6 @@ RIG_MAIN("solver", a_warm_start_gives_no_energy, correction_leaves_a_fifth_of_th
          friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
          static_friction_holds_more_than_kinetic, heavy_body_under_a_light_one, heavy_body_pushes_light_ones,
          heavy_body_on_a_light_one_sinks_without_a_bang, warm_start_helps, solvers_agree, pile_comes_to_rest,
-         a_stack_stays_where_it_stands, points_with_new_names_share_what_the_pair_carried, a_name_is_found_or_is_not,
-         memory_is_sorted_and_matches, added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)
+         a_stack_stays_where_it_stands, points_with_new_names_share_what_the_pair_carried,
+         what_a_pair_carried_goes_with_its_bodies, a_name_is_found_or_is_not, memory_is_sorted_and_matches,
+         added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

@@ -308,6 +308,32 @@ START_TEST(a_driven_body_meets_what_it_should_in_any_frame)
 }
 END_TEST
 
+/* A box that slept between two others while velocities were solved, and was woken after that, is pushed apart from both
+   as one body: it stays in the middle, as in sequence, on any number of threads. */
+START_TEST(a_body_woken_after_the_solve_is_one)
+{
+    for (solver_kind kind = SOLVER_SEQUENTIAL; kind <= SOLVER_FAST; kind++) {
+        rig r = rig_make(0.02);
+        r.settings.kind = kind;
+        r.gravity = vec3_make(0, 0, 0);
+        int32_t slot[3];
+        for (int i = 0; i < 3; i++)
+            slot[i] = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 1), 900, vec3_make(1.99 * ((i + 1) % 3 - 1), 0, 0));
+        r.bodies.motion[slot[0]] = MOTION_ASLEEP;
+        rig_detect(&r);
+        rig_solve(&r);
+        r.bodies.motion[slot[0]] = MOTION_DYNAMIC;
+        integrate_poses(&r.ctx, &r.bodies, r.dt);
+        rig_correct(&r);
+        static const double PLACE[] = {0, 1.998, -1.998};
+        for (int i = 0; i < 3; i++)
+            assert_absolute(r.bodies.position[slot[i]].x, PLACE[i], 1e-5);
+        rig_free(&r);
+    }
+}
+END_TEST
+
 TEST_MAIN("solver_fast", hubs_move_as_their_contacts_push, a_driven_body_meets_what_it_should_in_any_frame,
           batches_share_no_body, a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
-          bits_do_not_depend_on_the_instruction_set, long_runs_agree_with_the_reference)
+          bits_do_not_depend_on_the_instruction_set, a_body_woken_after_the_solve_is_one,
+          long_runs_agree_with_the_reference)

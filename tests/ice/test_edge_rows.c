@@ -48,10 +48,11 @@ static void remember(ice_rig *r, const double *force)
         double p = force[r->bodies.owner[piece] - 1] * r->settings.time_step / points;
         for (; at > 0 && m->key[at - 1] > c->key; at--) {
             m->key[at] = m->key[at - 1];
-            m->impulse[at] = m->impulse[at - 1];
+            m->on_lower[at] = m->on_lower[at - 1];
         }
         m->key[at] = c->key;
-        m->impulse[at] = vec3_add(vec3_scale(c->normal, 1), vec3_make(0, 0, piece_is_a ? p : -p));
+        bool lower = piece < (piece_is_a ? c->b : c->a);
+        m->on_lower[at] = vec3_add(vec3_scale(c->normal, c->a < c->b ? 1 : -1), vec3_make(0, 0, lower ? p : -p));
     }
 }
 

@@ -538,7 +538,7 @@ START_TEST(void_contacts)
     ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, 4));
     for (int i = 0; i < 4; i++) {
         r.memory.key[i] = 100 + (uint64_t)i;
-        r.memory.impulse[i] = (vec3){i, 0, 0};
+        r.memory.on_lower[i] = (vec3){i, 0, 0};
     }
     fram_error e = {0};
     assert_ok(fracture_rig_try(&r, &e), e);
@@ -549,7 +549,7 @@ START_TEST(void_contacts)
     ck_assert_int_eq(r.memory.count, 2);
     ck_assert_uint_eq(r.memory.key[0], 101);
     ck_assert_uint_eq(r.memory.key[1], 103);
-    assert_bits(r.memory.impulse[1].x, 3);
+    assert_bits(r.memory.on_lower[1].x, 3);
     fracture_rig_free(&r);
 }
 END_TEST
