@@ -342,3 +342,17 @@ fram_status cells_shrink(context *ctx, const polygon_list *cells, double corners
         return status;
     return cells_inset_to_area(ctx, cut, target, s, out, inset, error);
 }
+
+fram_status cells_area_outside(context *ctx, polygon whole, const polygon_list *zones, double *area, fram_error *error)
+{
+    polygon_list domain = {0}, parts = {0};
+    cells_scratch scratch = {0};
+    fram_status status = polygon_list_push(ctx, &domain, whole) ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK)
+        status = cells_outside_zones(ctx, &domain, zones, &scratch, &parts, error);
+    *area = status == FRAM_OK ? cells_area(&parts) : 0;
+    polygon_list_free(ctx, &domain);
+    polygon_list_free(ctx, &parts);
+    cells_scratch_free(ctx, &scratch);
+    return status;
+}

@@ -26,6 +26,8 @@ fram_status cells_outside_zones(context *ctx, const polygon_list *cells, const p
 
 /* Summed area [m2]. */
 double cells_area(const polygon_list *cells);
+/* Area of a polygon outside of zones, which may lie over one another [m2]. */
+fram_status cells_area_outside(context *ctx, polygon whole, const polygon_list *zones, double *area, fram_error *error);
 
 /* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
 double cells_corner_area(const polygon_list *cells);

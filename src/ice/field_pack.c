@@ -94,20 +94,9 @@ static void corners_of(box2 b, vec2 out[4])
 /* Area of the domain outside all zones. */
 static fram_status find_free_area(context *ctx, const field_packed_request *r, pack_state *s, fram_error *error)
 {
-    polygon_list whole = {0}, parts = {0};
-    cells_scratch scratch = {0};
     vec2 corner[4];
     corners_of(r->domain, corner);
-    fram_status status = FRAM_OK;
-    if (!polygon_list_push(ctx, &whole, (polygon){corner, 4}))
-        status = error_memory(error);
-    if (status == FRAM_OK)
-        status = cells_outside_zones(ctx, &whole, &s->zones, &scratch, &parts, error);
-    s->free_area = status == FRAM_OK ? cells_area(&parts) : 0;
-    polygon_list_free(ctx, &whole);
-    polygon_list_free(ctx, &parts);
-    cells_scratch_free(ctx, &scratch);
-    return status;
+    return cells_area_outside(ctx, (polygon){corner, 4}, &s->zones, &s->free_area, error);
 }
 
 /* Zones and floes that are there already. */

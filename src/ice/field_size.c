@@ -34,6 +34,11 @@ const char *size_bins_fault(const double *edge, const double *weight, int32_t bi
     return sum > 0 ? NULL : "the weights of a histogram must not all be zero";
 }
 
+static double lognormal_part(const size_law *law, double d);
+
+/* Less of a law than this between its bounds is next to nothing, and rounding decides what is drawn. */
+static const double LEAST_PART = 1e-9;
+
 const char *size_law_fault(const size_law *law)
 {
     bool mean = law->kind == SIZE_CONSTANT || law->kind == SIZE_LOGNORMAL;
@@ -48,6 +53,9 @@ const char *size_law_fault(const size_law *law)
         return "the largest diameter must not be less than the smallest";
     if (law->kind == SIZE_POWER && !(fabs(law->exponent) <= 20))
         return "the exponent of a power law must be between -20 and 20";
+    if (law->kind == SIZE_LOGNORMAL &&
+        !((law->hi > 0 ? lognormal_part(law, law->hi) : 1) - lognormal_part(law, law->lo) > LEAST_PART))
+        return "next to nothing of the lognormal law lies between the smallest and the largest diameter";
     int32_t bin;
     return law->kind == SIZE_HISTOGRAM ? size_bins_fault(law->edge, law->weight, law->bins, &bin) : NULL;
 }

@@ -7,11 +7,11 @@
 /* Boundaries nearer than this part of a ring's size are the same. */
 static const double SAME_BOUNDARY = 1e-7;
 
-/* Corners of a union nearer than this part of its size are one corner: far over rounding, and so little that the
-   centroid does not notice. */
-static const double SAME_CORNER = 1e-9;
+/* Corners of a union nearer than this part of its size, or than some rounding of places far from the origin, are one
+   corner: far over rounding, and so little that the centroid does not notice. */
+static const double SAME_CORNER = 1e-9, SAME_ROUNDING = 4;
 
-/* A union has the area of its parts, but for this part of it. */
+/* A union has the area of its parts, but for this part of it, and rounding of places along its boundary. */
 static const double SAME_AREA = 1e-11;
 
 /* Corners nearer than this part of a ring's size to an edge of it that is not theirs may touch it after rounding. */
@@ -73,14 +73,15 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
 static bool merge_corners(context *ctx, fracture_scratch *s, polygon *ring, double area, bool *sound)
 {
     polygon joined = *ring;
-    double corner = SAME_CORNER * polygon_perimeter(joined);
+    double size = polygon_perimeter(joined), rounding = polygon_rounding(joined);
+    double corner = fmax(SAME_CORNER * size, SAME_ROUNDING * rounding), same = SAME_AREA * area + rounding * size;
     *sound = false;
     for (int turn = 0; turn < 2 && !*sound; turn++) {
         if (!(turn == 0 ? polygon_merge(ctx, joined, corner, NULL, &s->piece.clean)
                         : polygon_clean(ctx, joined, corner, &s->piece.clean)))
             return false;
         *ring = (polygon){s->piece.clean.data, s->piece.clean.count};
-        *sound = fabs(polygon_area(*ring) - area) <= SAME_AREA * area && fracture_outline_is_sound(ctx, *ring);
+        *sound = fabs(polygon_area(*ring) - area) <= same && fracture_outline_is_sound(ctx, *ring);
     }
     return true;
 }

@@ -133,7 +133,7 @@ fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *ent
                         fram_error *error)
 {
     const scenario_vessel *v = entry->keys;
-    double draught = vessel->particulars.draught, freeboard = v->hull.freeboard;
+    double draught = vessel->particulars.draught, freeboard = vessel->particulars.freeboard;
     char water[FLOW_KEY_SIZE], air[FLOW_KEY_SIZE];
     snprintf(water, sizeof water, "%s.current_coefficients", entry->path);
     snprintf(air, sizeof air, "%s.wind_coefficients", entry->path);

@@ -1,5 +1,6 @@
 #include "sim/draw_ice.h"
 
+#include "ice/field_cells.h"
 #include "ice/import.h"
 #include "io/outline_file.h"
 #include "sim/build_keep_out.h"
@@ -82,9 +83,10 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
         return status;
     box2 d = domain_of(s);
     const vec2 corner[4] = {d.lo, {d.hi.x, d.lo.y}, d.hi, {d.lo.x, d.hi.y}};
-    double free_area = polygon_area((polygon){corner, 4});
-    for (int32_t i = 0; i < polygon_list_count(keep_out); i++)
-        free_area -= polygon_overlap_area(polygon_list_get(keep_out, i), (polygon){corner, 4});
+    double free_area;
+    status = cells_area_outside(ctx, (polygon){corner, 4}, keep_out, &free_area, error);
+    if (status != FRAM_OK)
+        return status;
     *report = (field_report){.floes = m.floes,
                              .concentration = m.area / free_area,
                              .free_area = free_area,

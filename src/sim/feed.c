@@ -1,6 +1,7 @@
 #include "sim/feed.h"
 
 #include "base/transcendental.h"
+#include "fluid/facet.h"
 #include "sim/media_now.h"
 #include "vessel/plane_motion.h"
 
@@ -102,7 +103,9 @@ static vec2 sheet_fluid(const model *m, const world *w, double time)
     const drag_coefficients *drag = &m->drag[MATERIAL_ICE];
     double area = w->drift.mass[0] / (m->sheet.ice.material.density * m->sheet.ice.thickness);
     vec2 v = w->drift.velocity[0];
-    return vec2_add(skin_force(now.water_density, drag->water_skin, area, media_current(&now, 0), v),
+    const floe_definition *ice = &m->sheet.ice;
+    double height = prism_current_height(ice->elevation, 0.5 * ice->thickness);
+    return vec2_add(skin_force(now.water_density, drag->water_skin, area, media_current(&now, height), v),
                     skin_force(now.air_density, drag->air_skin, area, now.wind, v));
 }
 

@@ -125,6 +125,16 @@ if "$FRAM" --version | grep -q cairo; then
     says "expected cells" err
     [ -z "$(ls none* 2>/dev/null)" ] || fail "a refused size of cells left $(ls none*)"
 fi
+# Zones that lie over one another are open water once; a floe beside a zone stays, whichever corner is its first.
+for ring in '[[0,0],[40,0],[40,40],[0,40],[0,0]]' '[[40,0],[40,40],[0,40],[0,0],[40,0]]'; do
+    printf '{"type":"Polygon","coordinates":[%s]}' "$ring" >beside.geojson
+    printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
+        'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' 'ice:' '  source: file' '  file: beside.geojson' \
+        '  keep_out_margin: 0' \
+        '  open_water: [{x: -20, y: 20, length: 40, width: 40}, {x: -20, y: 20, length: 40, width: 40}]' >beside.yaml
+    expect 0 "$FRAM" field beside.yaml --json
+    same "$(value 'j["floes"], abs(j["made"]["free_area_m2"] - 38400) < 1e-6')" "1 True" "beside a zone: $ring"
+done
 # What cannot be: with the key, its place, what was reached and why.
 expect 2 "$FRAM" field packed.yaml --set ice.concentration=0.98 --json
 same "$(value 'j["error"]["key"]')" ice.concentration "the key of an impossible field"

@@ -39,6 +39,16 @@ START_TEST(part_and_quantile_are_inverse)
 }
 END_TEST
 
+/* Between bounds that leave rounding of a law there is nothing to draw from. */
+START_TEST(next_to_nothing_is_refused)
+{
+    size_law law = {.kind = SIZE_LOGNORMAL, .mean = 20, .deviation = 1, .lo = 40, .hi = 60};
+    ck_assert_ptr_nonnull(size_law_fault(&law));
+    law.lo = 25;
+    ck_assert_ptr_null(size_law_fault(&law));
+}
+END_TEST
+
 /* A floe of the very smallest size is no proof against a law. */
 START_TEST(the_least_diameter_of_a_power_law_has_nothing_under_it)
 {
@@ -114,6 +124,6 @@ START_TEST(the_distance_sees_a_wrong_sample)
 }
 END_TEST
 
-TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse,
+TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse, next_to_nothing_is_refused,
           the_least_diameter_of_a_power_law_has_nothing_under_it, quantiles_have_their_closed_forms,
           samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused, the_distance_sees_a_wrong_sample)

@@ -136,6 +136,34 @@ START_TEST(tiles_do_not_matter)
 }
 END_TEST
 
+/* Nor does the place: far from the origin, as in polar coordinates, cuts of tiles have the rounding of large numbers,
+   and wedges that cross a seam are one piece all the same. */
+START_TEST(far_from_the_origin)
+{
+    static const double FAR[] = {0, 1e6, 7e6}, AT[] = {0, 1.3, -0.7, 0.01};
+    for (int i = 0; i < 4; i++) {
+        double first[64], areas[64];
+        int count = 0;
+        for (int k = 0; k < 3; k++) {
+            fracture_rig r;
+            fracture_rig_make(&r);
+            r.settings.splitting = SPLITTING_NONE;
+            double x = 0.3 * FAR[k], y = FAR[k];
+            sheet_make(&r, (box2){{x - 60, y}, {x + 60, y + 90}}, 30, NULL);
+            ck_assert(sheet_load(&r, (vec2){x + AT[i], y + 0.3}, LOAD, AREA));
+            ck_assert_int_eq(fracture_rig_break(&r), 1);
+            int n = piece_areas(&r, k ? areas : first);
+            if (k)
+                ck_assert_int_eq(n, count);
+            for (int m = 0; m < n && k; m++)
+                assert_relative(areas[m], first[m], 1e-6);
+            count = n;
+            fracture_rig_free(&r);
+        }
+    }
+}
+END_TEST
+
 /* Tiles that the stencil does not reach keep their floes. */
 START_TEST(other_tiles_stay)
 {
@@ -447,6 +475,6 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam,
-          refused_is_not_broken, inner_load, island, anchored_sides, random_bites, corners_within_rounding,
-          no_convex_part, memory_runs_out)
+TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, far_from_the_origin, other_tiles_stay, seams,
+          patch_across_a_seam, refused_is_not_broken, inner_load, island, anchored_sides, random_bites,
+          corners_within_rounding, no_convex_part, memory_runs_out)

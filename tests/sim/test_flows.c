@@ -39,6 +39,21 @@ START_TEST(the_hull_meets_the_tables)
 }
 END_TEST
 
+/* Of a hull from a file the wind meets what the mesh has over the water, whatever the key of other hulls says. */
+START_TEST(the_wind_meets_the_mesh)
+{
+    scene k;
+    scene_open(&k, "vessel:\n  mode: towed\n  speed: 0\n"
+                   "  hull: {form: file, file: scenes/fixed_cone.obj, freeboard: 20}\n"
+                   "  wind_coefficients:\n    table:\n      - {angle_deg: 0, cx: 0.8}\n"
+                   "      - {angle_deg: 180, cx: -0.9}\n" SEA);
+    const vessel_model *v = &k.m.vessels.data[0];
+    assert_relative(v->flows.air.lateral, 3 * v->particulars.length, 1e-9); /* its top is at 3 m */
+    assert_absolute(v->flows.air.point.z + v->centre.z, 1.5, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
 /* A hull that turns in still water is still slowed down by its panels. */
 START_TEST(turning_is_damped)
 {
@@ -114,4 +129,5 @@ START_TEST(faulty_tables)
 }
 END_TEST
 
-TEST_MAIN("flows", the_hull_meets_the_tables, turning_is_damped, munk_is_in_a_table, faulty_tables)
+TEST_MAIN("flows", the_hull_meets_the_tables, the_wind_meets_the_mesh, turning_is_damped, munk_is_in_a_table,
+          faulty_tables)
