@@ -142,7 +142,9 @@ END
 cat >floes.yaml <<'YAML'
 run: {duration: 1, time_step: 0.05}
 vessel: {present: false}
-ice: {source: floes, floes: [{x: -20, length: 10, width: 10}, {x: -18, length: 10, width: 10}, {x: 95, length: 20, width: 4}]}
+ice:
+  source: floes
+  floes: [{x: -20, length: 10, width: 10}, {x: -18, length: 10, width: 10}, {x: 95, length: 20, width: 4}]
 domain: {x_min: -100, x_max: 100, y_min: -60, y_max: 60, boundary: walls}
 YAML
 expect 0 "$FRAM" run floes.yaml -o floes

@@ -42,7 +42,8 @@ refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns push
 refused ship.yaml "thrusters[0].direction_deg: expected a direction outside of forbidden_deg" \
     --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=80" \
     --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
-expect 0 "$FRAM" check ship.yaml --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=59" \
+expect 0 "$FRAM" check ship.yaml \
+    --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=59" \
     --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
 refused ship.yaml "thrusters[0].direction_deg: expected 0 without rudder_deg, found 10" \
     --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[0].direction_deg=10"

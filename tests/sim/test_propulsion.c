@@ -313,5 +313,5 @@ END_TEST
 
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
-          keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle, speed_falls_with_thickness,
-          backs_and_rams, refusals_name_their_key)
+          keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
+          speed_falls_with_thickness, backs_and_rams, refusals_name_their_key)
