@@ -38,7 +38,8 @@ told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.moo
 no_end="vessel.mooring.lines[0].breaking_load=auto"
 told ship.yaml "lines[0].length: 870 m|is stretched by 4.36 % from the start" --set "$no_end" \
     --set "vessel.mooring.lines[0].length=870"
-refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" --set "vessel.thrusters[0].setting=-0.5"
+refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
+    --set "vessel.thrusters[0].setting=-0.5"
 refused ship.yaml "thrusters[0].direction_deg: expected a direction outside of forbidden_deg" \
     --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=80" \
     --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
