@@ -295,13 +295,11 @@ int command_study(const command_row *self, int argc, char **argv)
         return code;
     d.slurm_options = sbatch.value;
     d.slurm_option_count = sbatch.count;
-    bool check = strcmp(words[0], "check") == 0, list = strcmp(words[0], "list") == 0;
-    if (!words[1] && (check || list) && access(words[0], F_OK) != 0)
-        return answer_usage(&common, words[0],
-                            check ? "is missing its study: fram study check STUDY"
-                                  : "is missing its folder: fram study list DIR");
-    check = check && words[1];
-    list = list && words[1];
+    bool check = words[1] && strcmp(words[0], "check") == 0, list = words[1] && strcmp(words[0], "list") == 0;
+    if (!words[1] && strcmp(words[0], "check") == 0 && access("check", F_OK) != 0)
+        return answer_usage(&common, "check", "lacks its study: fram study check STUDY");
+    if (!words[1] && strcmp(words[0], "list") == 0 && access("list", F_OK) != 0)
+        return answer_usage(&common, "list", "lacks its folder: fram study list DIR");
     if (words[1] && !check && !list)
         return answer_usage(&common, words[0],
                             "expected one study file, or: fram study check STUDY, or: fram study list DIR");

@@ -392,7 +392,8 @@ static void tell_rest(const teller *t)
                    scenario_vessel_entry(t->s, 0).path);
 }
 
-/* Strain from which on a line without a breaking load is told: steel parts before, fibre not long after. */
+/* Strain from which on a line without a breaking load is told: chain breaks at about 1 %, by its stiffness and its
+   least breaking load. */
 #define TAUT 0.02
 
 /* A catenary whose length is given: too long to pull, or stretched from the start. */

@@ -362,11 +362,11 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
 /* Whether two runs and more, with seeds of their own, came out the same: chance had no part in them. */
 static bool all_alike(const condition_rows *of)
 {
-    const run_row *first = of->rows.data;
+    const run_row *row = of->rows.data;
     bool alike = of->rows.count > 1;
     for (int32_t i = 0; i < of->rows.count && alike; i++)
-        alike = !first[i].failed && first[i].figure[ROW_load_mean] > 0 &&
-                memcmp(first[i].figure, first[0].figure, sizeof first[0].figure) == 0;
+        alike = !row[i].failed && row[i].figure[ROW_load_mean] > 0 &&
+                memcmp(row[i].figure, row[0].figure, sizeof row[0].figure) == 0;
     return alike;
 }
 

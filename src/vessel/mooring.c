@@ -78,10 +78,11 @@ static fram_status find_length(const line_definition *d, double height, double *
     if (catenary_length_for(line, height, d->distance, d->pretension, length))
         return FRAM_OK;
     if (d->pretension > d->weight * height)
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "pretension",
-                         "no line of %g N/m in the water has a pretension of %g N over %g m: give its length, or "
-                         "expected a heavier one",
-                         d->weight, d->pretension, d->distance);
+        return error_set(
+            error, FRAM_ERROR_INPUT, NULL, 0, "pretension",
+            "no line that weighs %g N/m in the water has a pretension of %g N over %g m: expected a heavier line, or "
+            "its length instead of the pretension",
+            d->weight, d->pretension, d->distance);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "pretension",
                      "pretension must be more than the weight of the line over the depth, %g N, found %g N",
                      d->weight * height, d->pretension);

@@ -5,6 +5,8 @@
 #include "base/transcendental.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 /* A ship that stands still, and a sheet whose edge is 2 m before its bow. */
 static const char *const FIXED_SHIP =
@@ -386,6 +388,27 @@ START_TEST(water_takes_a_floe_along)
 }
 END_TEST
 
+/* The same in a current that grows weaker with depth: the sheet meets that in the middle of its wet part, as floes do.
+ */
+START_TEST(water_takes_a_sheet_along_at_its_depth)
+{
+    char path[] = "/tmp/fram-profile-XXXXXX", profile[80];
+    int file = mkstemp(path);
+    ck_assert(file >= 0 && dprintf(file, "depth,x,y\n0,1,0\n1,0,0\n") > 0);
+    close(file);
+    snprintf(profile, sizeof profile, "environment.current_profile_file=%s", path);
+    const char *const drag[] = {"environment.ice_drag.water_skin=0.005", profile, "domain.drift_speed=0.0001",
+                                "vessel.present=false"};
+    scene k;
+    scene_open_with(&k, PIER, drag, 4);
+    unlink(path);
+    scene_steps(&k, 1000);
+    double u = 1 - 0.5 * 0.5 * 900 / 1025, a = u * 1025 * 0.005 / (2 * 900 * 0.5), v = u * (1 - 1 / (1 + a * 20));
+    assert_absolute(k.w.drift.velocity[0].x, v, 2e-4);
+    scene_close(&k);
+}
+END_TEST
+
 /* ---- what is refused ---- */
 
 START_TEST(refusals_name_their_key)
@@ -403,4 +426,5 @@ END_TEST
 
 TEST_MAIN("drift", whichever_moves, nothing_gets_lost, pieces_have_the_velocity_of_the_sheet, curved_drift,
           reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy, no_load_before_the_old_face,
-          a_limited_drive, an_ample_drive, water_takes_a_floe_along, refusals_name_their_key)
+          a_limited_drive, an_ample_drive, water_takes_a_floe_along, water_takes_a_sheet_along_at_its_depth,
+          refusals_name_their_key)
