@@ -125,7 +125,7 @@ static void bench_event(int rounds, bool concave)
         if (r.events.count == 1) {
             crack_start start = crack_start_of((polygon){outline, CORNERS}, load, 1e-6);
             vec2 stencil[MOST_STENCIL];
-            fracture_stencil(WEDGES, r.events.data[0].crack_length, &start, stencil);
+            fracture_stencil(WEDGES, fracture_wedge_side(&r.settings, r.events.data[0].crack_length), &start, stencil);
             ours[n] = time;
             theirs[n++] = bare(g, (polygon){outline, CORNERS}, stencil, start.point, &check);
         }

@@ -8,7 +8,7 @@ import ladder
 LONG = True
 COUNTS = [2, 3, 4, 5, 6, 8]
 OF_SHIP = [3, 4, 5, 6, 8]  # these must give one resistance
-STARTS = (0.0, 0.8, 1.6, 2.4, 3.2, 4.0)  # [m] farther back
+STARTS = (0.0, 1.6, 3.2)  # [m] farther back
 BEGIN, END = 18.0, 45.0
 
 
@@ -73,7 +73,9 @@ def case(out):
                f"{from_most:.1f} % of that with N = {OF_SHIP[-1]}. "
                "It was +21 % from N = 3 to 5 while broken pieces arched between hull and sheet and corners carried as "
                "edges do ([0111](../decisions/0111-ice-yields-to-ice.md), "
-               "[0044](../decisions/0044-wedges-that-are-there.md)).")
+               "[0044](../decisions/0044-wedges-that-are-there.md)), and -14 to -18 % from N = 3 while the breaking "
+               "radius was that of the cracks between wedges "
+               "([0568](../decisions/0568-wedges-break-across-their-axes.md)).")
 
     def draw(axes):
         axes[0].plot(COUNTS, [capacity[n] / 1e3 for n in COUNTS], "o-")

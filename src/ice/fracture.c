@@ -202,7 +202,7 @@ static fram_status cut_stencil(const fracture_job *j, const fracture_load *l, cr
         return FRAM_OK;
     polygon_list_clear(&s->floe.remnants);
     polygon_list_clear(&s->floe.pieces);
-    break_size size = fracture_break_size(l);
+    break_size size = fracture_break_size(j->settings, l);
     break_shape shape;
     fracture_shape(j->settings->wedges, start, &size, &shape);
     fram_status status = fracture_bend(j->ctx, j->plane, &shape, ring, &s->floe.remnants, &s->floe.pieces, j->error);

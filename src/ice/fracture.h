@@ -39,12 +39,19 @@ typedef enum wedge_sharing {
     SHARING_EQUAL      /* N whole wedges, whatever ice is there: the reference */
 } wedge_sharing;
 
+/* Along what R_bending is measured from the load. */
+typedef enum wedge_radius {
+    RADIUS_ALONG_AXES = 0, /* the wedges' axes, as in Nevel's solution */
+    RADIUS_ALONG_CRACKS    /* the cracks between them: the reference */
+} wedge_radius;
+
 typedef struct fracture_settings {
     double time_step;     /* [s] */
     double water_density; /* [kg/m3] */
     double gravity;       /* [m/s2] */
     int32_t wedges;       /* N_wedges; the stencil has twice as many */
     wedge_sharing sharing;
+    wedge_radius radius_along;
     splitting_rule splitting;
     edge_load_rule load_rule;
     double splitting_factor;    /* S_k */
@@ -143,6 +150,8 @@ typedef struct edge_stress {
     double strip_capacity;                  /* what of wedge_capacity the strip carries [N] */
     double strip_length;                    /* from the edge to where the strip breaks [m]; 0 without a strip */
 } edge_stress;
+/* Length of the cracks on both sides of a wedge that breaks off at this R_bending [m]. */
+double fracture_wedge_side(const fracture_settings *f, double radius);
 /* All wedges have the deflection of their tips in common, so each carries by its width and all reach the strength
    together (Nevel 1961).  Under a wide load a strip (ice/strip.h) breaks off between the end wedges: each part carries
    what its ice bears, and stands on the contact area that crushes at that share of the load

@@ -4,11 +4,16 @@
 
 #include "base/transcendental.h"
 
-int fracture_stencil(int32_t wedges, double radius, const crack_start *start, vec2 out[MOST_STENCIL])
+double fracture_wedge_side(const fracture_settings *f, double radius)
+{
+    return f->radius_along == RADIUS_ALONG_AXES ? radius / real_cos(PI / (2.0 * f->wedges)) : radius;
+}
+
+int fracture_stencil(int32_t wedges, double side, const crack_start *start, vec2 out[MOST_STENCIL])
 {
     int count = 2 * wedges;
     for (int i = 0; i < count; i++) {
-        double angle = PI * i / wedges, c = radius * real_cos(angle), s = radius * real_sin(angle);
+        double angle = PI * i / wedges, c = side * real_cos(angle), s = side * real_sin(angle);
         vec2 d = start->direction;
         out[i] = (vec2){start->point.x + c * d.x - s * d.y, start->point.y + c * d.y + s * d.x};
     }
@@ -20,8 +25,8 @@ int fracture_stencil(int32_t wedges, double radius, const crack_start *start, ve
 static void make_wide(int32_t wedges, const crack_start *start, const break_size *size, break_shape *out)
 {
     vec2 d = start->direction, aside = vec2_scale((vec2){-d.y, d.x}, size->width / 2), narrow[MOST_STENCIL] = {{0, 0}};
-    int count = fracture_stencil(wedges, size->radius, start, narrow);
-    vec2 end = vec2_scale(d, size->strip_length), back = vec2_scale(d, -size->radius), s = start->point;
+    int count = fracture_stencil(wedges, size->side, start, narrow);
+    vec2 end = vec2_scale(d, size->strip_length), back = vec2_scale(d, -size->side), s = start->point;
     vec2 left = vec2_add(s, aside), right = vec2_sub(s, aside);
     out->count = out->parts = 0;
     out->outline[out->count++] = vec2_add(left, end);
@@ -53,7 +58,7 @@ void fracture_shape(int32_t wedges, const crack_start *start, const break_size *
         make_wide(wedges, start, size, out);
         return;
     }
-    out->count = out->parts = fracture_stencil(wedges, size->radius, start, out->outline);
+    out->count = out->parts = fracture_stencil(wedges, size->side, start, out->outline);
     for (int i = 0; i < out->count; i++) {
         out->part[i][0] = start->point;
         out->part[i][1] = out->outline[i];

@@ -24,20 +24,22 @@ static void add_strip(const crack_start *start, double radius, double width, sec
     out->size[out->count++] = 4;
 }
 
-static void make_sectors(const fracture_job *j, const crack_start *start, double radius, double width, sectors *out)
+/* length: of the ice along the first crack [m]. */
+static void make_sectors(const fracture_job *j, const crack_start *start, double radius, double length, double width,
+                         sectors *out)
 {
-    const break_size size = {.radius = radius, .width = width};
+    const break_size size = {.side = fmin(fracture_wedge_side(j->settings, radius), length), .width = width};
     break_shape shape;
     fracture_shape(j->settings->wedges, start, &size, &shape);
     out->wedges = out->count = 2 * j->settings->wedges;
-    out->reach = radius;
+    out->reach = fmin(radius, length);
     for (int i = 0; i < out->count; i++) {
         out->size[i] = 3;
         for (int k = 0; k < 3; k++)
             out->corner[3 * i + k] = shape.part[i][k];
     }
     if (width > 0)
-        add_strip(start, radius, width, out);
+        add_strip(start, out->reach, width, out);
 }
 
 /* Ice in the sectors over that of the N whole ones that a straight edge has. */
@@ -130,16 +132,18 @@ edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const 
 {
     double most = EDGE_MOST_DEFLECTION * l->thickness;
     bool floats = body_is_free(j->state->bodies, l->body);
-    return (edge_bend){*start, fracture_break_size(l), floats ? 0 : fmin(fmax(l->rise, -most), most), l->rate};
+    return (edge_bend){*start, fracture_break_size(j->settings, l), floats ? 0 : fmin(fmax(l->rise, -most), most),
+                       l->rate};
 }
 
-break_size fracture_break_size(const fracture_load *l)
+break_size fracture_break_size(const fracture_settings *f, const fracture_load *l)
 {
     bool wide = l->width > 0 && l->stress.strip_length > 0;
-    break_size size = {l->stress.breaking_radius, wide ? l->width : 0, l->stress.strip_length};
+    double radius = l->stress.breaking_radius;
+    break_size size = {radius, fracture_wedge_side(f, radius), wide ? l->width : 0, l->stress.strip_length};
     /* From the ends of the wedges' cracks that of the strip goes inwards no steeper than along it (decision 0558). */
     if (wide && !l->beam)
-        size.strip_length = fmin(size.strip_length, size.radius + size.width / 2);
+        size.strip_length = fmin(size.strip_length, size.side + size.width / 2);
     return size;
 }
 
@@ -196,8 +200,8 @@ static double ice_beside(polygon outline, const crack_start *start, int32_t corn
     return fmax(height, 0);
 }
 
-/* The stencil of radius R has the area N R^2 sin(pi/N) in its N whole wedges and a disc of R cos(pi/2N) in it.  Two
-   triangles of that depth have the part sum h / (2 N R sin(pi/2N)) of it, and N sin(pi/2N) < pi/2. */
+/* The stencil with cracks of length s has the area N s^2 sin(pi/N) in its N whole wedges and a disc of s cos(pi/2N) in
+   it.  Two triangles of that depth have the part sum h / (2 N s sin(pi/2N)) of it, and N sin(pi/2N) < pi/2. */
 double fracture_least_ice(const fracture_job *j, fracture_load *l)
 {
     if (j->settings->sharing == SHARING_EQUAL)
@@ -208,12 +212,13 @@ double fracture_least_ice(const fracture_job *j, fracture_load *l)
     double reach = fracture_reach(j, l), angle = PI / 2 / j->settings->wedges;
     crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * reach);
     int32_t end, at = start.edge, next = at + 1 < outline.count ? at + 1 : 0;
-    double radius = fmin(reach, crack_length(outline, &start, &end)), depth = radius * (1 - angle * angle / 2);
+    double side = fmin(fracture_wedge_side(j->settings, reach), crack_length(outline, &start, &end));
+    double depth = side * (1 - angle * angle / 2);
     vec2 first = outline.vertex[at];
     bool on_vertex = first.x == start.point.x && first.y == start.point.y;
     int32_t before = !on_vertex ? at : at > 0 ? at - 1 : outline.count - 1;
     double both = ice_beside(outline, &start, next, depth, 1) + ice_beside(outline, &start, before, depth, -1);
-    return radius > 0 ? both / (PI * radius) : 0;
+    return side > 0 ? both / (PI * side) : 0;
 }
 
 /* ---- all of it ---- */
@@ -236,7 +241,7 @@ edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
     double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
     sectors s;
     l->width = fracture_contact_width(j, l, start.direction);
-    make_sectors(j, &start, fmin(radius, length), l->width, &s);
+    make_sectors(j, &start, radius, length, l->width, &s);
     const vec2 *at = s.corner;
     for (int i = 0; i < s.count; at += s.size[i], i++)
         area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
@@ -263,7 +268,7 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
     double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius, false);
     sectors s;
     l->width = fracture_contact_width(j, l, start.direction);
-    make_sectors(j, &start, fmin(radius, length), l->width, &s);
+    make_sectors(j, &start, radius, length, l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
     if (status == FRAM_OK && l->width > 0)
         status = sheet_strip_length(j, l, CRACK_CORNER_REACH * radius, &length);

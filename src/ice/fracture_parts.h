@@ -273,12 +273,13 @@ double fracture_split_ratio(const fracture_settings *settings, polygon outline, 
 bool fracture_splits(const fracture_settings *settings, polygon outline, const fracture_load *load, double thickness,
                      const crack_start *start, double *length);
 
-/* The stencil's 2 N points around the start. */
+/* The stencil's 2 N points around the start, at the ends of cracks of this length [m]. */
 enum { MOST_STENCIL = 64 };
-int fracture_stencil(int32_t wedges, double radius, const crack_start *start, vec2 out[MOST_STENCIL]);
+int fracture_stencil(int32_t wedges, double side, const crack_start *start, vec2 out[MOST_STENCIL]);
 /* What a break in bending takes out. */
 typedef struct break_size {
     double radius;       /* of the wedges: R_bending [m] */
+    double side;         /* of the cracks between them [m] */
     double width;        /* of the contact along the edge, between the end wedges; 0: narrow [m] */
     double strip_length; /* of the strip there, from the edge [m] */
 } break_size;
@@ -291,7 +292,7 @@ typedef struct break_shape {
     int parts;
 } break_shape;
 /* The break that a failing load makes. */
-break_size fracture_break_size(const fracture_load *l);
+break_size fracture_break_size(const fracture_settings *f, const fracture_load *l);
 void fracture_shape(int32_t wedges, const crack_start *start, const break_size *size, break_shape *out);
 
 /* Cut one ring by a shape: remnants and wedges are appended. */

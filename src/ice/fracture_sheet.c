@@ -247,7 +247,7 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     fracture_scratch *s = j->scratch;
     const tile_grid *g = &j->settings->tiles;
     double radius = l->stress.breaking_radius;
-    break_size size = fracture_break_size(l);
+    break_size size = fracture_break_size(j->settings, l);
     break_shape shape;
     fracture_shape(j->settings->wedges, start, &size, &shape);
     tile_range range;

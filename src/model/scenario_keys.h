@@ -230,6 +230,9 @@
     X(sharing, CHOICE(wedge_sharing, SHARING_WIDTH, "width equal"), "",                                               \
       "width: each wedge carries by the width of the ice in its sector, a corner less than an edge; equal: N "        \
       "whole wedges whatever ice is there")                                                                           \
+    X(radius_along, CHOICE(wedge_radius, RADIUS_ALONG_AXES, "axes cracks"), "",                                       \
+      "where wedges break off: axes: straight across, the breaking radius R away along their axes, as Nevel's "       \
+      "beams do; cracks: R away along the cracks between them, R cos(pi/(2N)) along the axes")                        \
     X(load_over, CHOICE(edge_load_rule, EDGE_LOAD_RESPONSE, "step response"), "",                                     \
       "what breaks floes that float: step: the impulse of a time step over the step; response: the load as a mean "   \
       "over the time in which the edge responds; level and fixed ice: always step")                                   \

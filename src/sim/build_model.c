@@ -36,6 +36,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .gravity = e->gravity,
                                .wedges = (int32_t)s->ice.fracture.wedges,
                                .sharing = s->ice.fracture.sharing,
+                               .radius_along = s->ice.fracture.radius_along,
                                .splitting = s->ice.fracture.splitting,
                                .load_rule = s->ice.fracture.load_over,
                                .splitting_factor = s->ice.fracture.splitting_factor,

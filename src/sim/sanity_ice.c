@@ -24,7 +24,8 @@ static double wedge_area(const scenario *s)
     fracture_settings f = build_fracture_settings(s);
     double radius =
         fracture_edge_stress(&f, &m, i->thickness, 1, i->thickness * i->thickness, EDGE_STRAIGHT).breaking_radius;
-    return 0.5 * radius * radius * real_sin(PI / (double)f.wedges);
+    double side = fracture_wedge_side(&f, radius);
+    return 0.5 * side * side * real_sin(PI / (double)f.wedges);
 }
 
 static void tell_left_out(const teller *t, const char *key, double area)

@@ -91,6 +91,7 @@ static const idle_rule rules[] = {
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
     {"ice.fracture.wedges", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.sharing", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.radius_along", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.load_over", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.edge_compliance", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.edge_elastic", is_unbreakable, UNBREAKABLE},

@@ -341,32 +341,26 @@ END_TEST
 /* ---- bending ---- */
 
 /* A straight edge and N = 3: wedges of 30, 60, 60 and 30 degrees, and one remnant (docs/theory.md); for other N
-   the angles there too. */
+   the angles there too.  Nevel's beams are b0 R wide where they break, R from the load: N b0 R^2/2 of ice. */
 START_TEST(wedge_angles)
 {
     fracture_rig r;
     fracture_rig_make(&r);
     r.settings.edge_threshold = 0;
     static const int pieces[] = {2, 4, 4, 6};
-    for (int n = 2; n <= 5; n++) {
-        r.settings.wedges = n;
+    for (int i = 0; i < 8; i++) {
+        int32_t n = r.settings.wedges = 2 + i / 2;
+        r.settings.radius_along = i % 2 ? RADIUS_ALONG_CRACKS : RADIUS_ALONG_AXES;
         int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -50}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
         const fracture_event *e = &r.events.data[0];
         ck_assert_int_eq(e->pieces, pieces[n - 2] + 1);
-        double radius = e->crack_length, step = PI / n, half = PI / 2 - step * floor(n / 2.0 + 1e-9);
-        double area = 2 * (floor(n / 2.0 + 1e-9)) * 0.5 * radius * radius * real_sin(step);
-        /* The wedge at the edge: its chord runs on to the next corner of the stencil. */
-        if (half > 1e-9) {
-            double chord = real_cos(step / 2) / real_cos(step / 2 - half);
-            area += 2 * 0.5 * radius * radius * chord * real_sin(half);
-        }
-        double cut = 0;
-        for (int32_t i = 0; i < r.floes.count; i++)
-            if (r.floes.body[i] >= 0 && r.floes.area[i] < 5000)
-                cut += r.floes.area[i];
-        assert_relative(cut, area, 1e-9);
+        double axis = e->crack_length * (i % 2 ? real_cos(PI / (2 * n)) : 1), cut = 0;
+        for (int32_t f = 0; f < r.floes.count; f++)
+            if (r.floes.body[f] >= 0 && r.floes.area[f] < 5000)
+                cut += r.floes.area[f];
+        assert_relative(cut, n * fracture_wedge_width(n) * axis * axis / 2, 1e-9);
         fracture_rig_remove_all(&r);
     }
     fracture_rig_free(&r);

@@ -139,10 +139,10 @@ START_TEST(beside_a_bite)
     assert_relative(radius, exact, 0.05);
     double part = ice_under(&r, sheet_tile_at(&r, (vec2){0, 0}), (vec2){0, 0.1}, 0.3).wedges;
     const vec2 left[4] = {{-50, 0}, {1, 0}, {1, 50}, {-50, 50}};
-    /* Sectors of 60 degrees begin at the first crack, along +y: the lower ones lie half outside the ice. */
-    const vec2 stencil[6] = {
-        {0, radius},  {-radius * real_sin(PI / 3), radius / 2}, {-radius * real_sin(PI / 3), -radius / 2},
-        {0, -radius}, {radius * real_sin(PI / 3), -radius / 2}, {radius * real_sin(PI / 3), radius / 2}};
+    /* Sectors of 60 degrees begin at the first crack, along +y, and end at x = R: the lower ones lie half outside. */
+    double side = radius / real_cos(PI / 6);
+    const vec2 stencil[6] = {{0, side},  {-radius, side / 2}, {-radius, -side / 2},
+                             {0, -side}, {radius, -side / 2}, {radius, side / 2}};
     double there = polygon_overlap_area((polygon){stencil, 6}, (polygon){left, 4});
     ck_assert_double_lt(part, 0.8);
     assert_relative(part, 2 * there / polygon_area((polygon){stencil, 6}), 1e-9);

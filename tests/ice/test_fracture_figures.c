@@ -191,7 +191,7 @@ static void bending(drawing *d, int column, const char *title, polygon p, vec2 l
     int count = fracture_stencil(3, radius, &start, stencil);
     panel(d, column, 1, 9.5, title);
     break_shape shape;
-    fracture_shape(3, &start, &(break_size){.radius = radius}, &shape);
+    fracture_shape(3, &start, &(break_size){.side = radius}, &shape);
     assert_ok(fracture_bend(&ctx, plane, &shape, p, &left, &wedges, &e), e);
     ck_assert_int_eq(polygon_list_count(&left), remnants);
     double area = 0;

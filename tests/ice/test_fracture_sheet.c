@@ -317,7 +317,7 @@ START_TEST(island)
         }
     }
     ck_assert_int_eq(released, 1);
-    ck_assert(loose > 1500 && loose < 60 * 70);
+    ck_assert(loose > 1000 && loose < 60 * 70);
     check_sheet(&r);
     fracture_rig_free(&r);
 }
