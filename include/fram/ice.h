@@ -6,7 +6,7 @@
        load.force = 300e3;
        load.contact_area = 0.2;
        fram_ice_break(&load, &breaking, &error);
-       printf("breaks %g m from the edge at %g N\n", breaking.breaking_radius, breaking.wedge_capacity);
+       printf("breaks %g m from the load at %g N\n", breaking.breaking_radius, breaking.wedge_capacity);
 
    Units are SI.  Symbols: h thickness, l characteristic length, a radius of the loaded area, P load, sigma_f flexural
    strength, N wedges that share the load, b0 = 2 tan(pi/(2 N)).  Rules about statuses and errors stand in fram.h. */

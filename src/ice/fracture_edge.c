@@ -1,5 +1,5 @@
 /* The ice that a load stands on (docs/decisions/0044): what of the sectors of its stencil is ice, out to about
-   R_bending, or to where the floe ends along the first crack if that is nearer. */
+   R_bending along their axes, or to where the floe ends along the first crack if that is nearer. */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"

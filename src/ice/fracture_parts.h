@@ -227,7 +227,8 @@ void fracture_renew_supports(const fracture_job *j);
 /* What of the settings concerns edges alone. */
 edge_compliance fracture_edges(const fracture_settings *f);
 
-/* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
+/* How far into the ice a load's wedges are looked at along their axes: R_bending on a straight edge, within 5 % [m].
+ */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);
 /* The same of a load. */
 double fracture_reach(const fracture_job *j, fracture_load *l);

@@ -106,7 +106,7 @@ static void note_fracture(const note_taker *n, const scenario *s)
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
         note_fact(n,
                   "fracture: on %.3g m2 the radial crack opens at %.4g kN, %d wedges break off at %.4g kN, %.4g m from "
-                  "the edge; crushing there gives %.4g kN",
+                  "the load; crushing there gives %.4g kN",
                   areas[k], e.radial_capacity * 1e-3, (int)f.wedges, e.wedge_capacity * 1e-3, e.breaking_radius,
                   ice_crushing_pressure(&m, areas[k]) * areas[k] * 1e-3);
     }

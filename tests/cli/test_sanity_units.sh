@@ -55,8 +55,8 @@ all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
 all_told level.yaml ice.smallest_floe_area=1e-6 -- "smallest_floe_area: 1e-06 m2 keeps specks"
-all_told level.yaml ice.smallest_floe_area=8 -- \
-    "smallest_floe_area: 8 m2 is more than the pieces that break off|wedges of about 7.66 m2"
+all_told level.yaml ice.smallest_floe_area=11 -- \
+    "smallest_floe_area: 11 m2 is more than the pieces that break off|wedges of about 10.2 m2"
 all_told level.yaml ice.smallest_floe_area=7 --
 all_told level.yaml output.frame_interval=0 --
 all_told floes.yaml "ice.floes[0].x=20" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \

@@ -46,6 +46,7 @@ static bool random_sheet(fracture_rig *r, random_stream *s, box2 plan)
     bool good = sheet_try(r, plan, random_power_law(s, 2, 40, 0), &openings, &e);
     for (int i = 0; i < SHEET_SIDES; i++)
         r->settings.tiles.anchored[i] = random_unit(s) < 0.6;
+    r->settings.radius_along = random_unit(s) < 0.7 ? RADIUS_ALONG_AXES : RADIUS_ALONG_CRACKS;
     polygon_list_free(&r->ctx, &openings);
     return good;
 }

@@ -317,6 +317,7 @@ START_TEST(island)
         }
     }
     ck_assert_int_eq(released, 1);
+    /* 60 m by 70 between the middles of channels that are 8 m wide on either side, and wider at their bends. */
     ck_assert(loose > 1000 && loose < 60 * 70);
     check_sheet(&r);
     fracture_rig_free(&r);
