@@ -86,10 +86,14 @@ books: build/release/build.ninja ## whether parts of the ice load add up to it i
 
 test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and those with threads under TSan
 
+# Statistics of many trials, and studies killed on the way: other tests of their rooms walk the same code, as those of
+# crushing do for its oracles.
+MANY_TRIALS = study/(worst|station|kills|annual_coverage|extremes_coverage|extremes_doubts)|ice/field_sized
 # Left to the release build: scripts around the program, browsers, and commands of which each has its own test here.
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
-	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' -E '^cli/(bench|packed_field|tutorials)$$'
+	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/(bench|packed_field|tutorials|capability_met|effective))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads
@@ -100,12 +104,13 @@ test-tsan: build/tsan/build.ninja
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS)
 	@cd build/clang && $(CTEST) -LE '^(package|tools|slurm|python|fmi|views|cli|io)$$' \
-		-E '^(study/study|sim/(build_stopped|kill))$$'
+		-E '^($(MANY_TRIALS)|study/study|sim/(build_stopped|kill))$$'
 
 test-bare: build/bare/build.ninja ## build without the optional libraries, and run the tests that meet them
 	@cmake --build --preset bare -j$(JOBS) --target fram_command example_controller \
 		tests_io tests_api tests_results
-	@cd build/bare && $(CTEST) -L '^(io|cli|api|results)$$' -E '^(cli/(bench|packed_field|hull_files)|io/geojson)$$'
+	@cd build/bare && $(CTEST) -L '^(io|cli|api|results)$$' \
+		-E '^(cli/(bench|packed_field|hull_files|check|effective|tracks|capability_met)|io/geojson)$$'
 
 lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
 	@tools/lint.sh
@@ -127,8 +132,8 @@ fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EV
 torture: build ## the campaign of faults for TORTURE_MINUTES (60), findings under out/torture (docs/torture.md)
 	@$(PYTHON) tools/torture/torture.py --minutes $(TORTURE_MINUTES) --jobs $(JOBS) $(TORTURE_FLAGS)
 
-torture-short: ## the first 250 cases of each part, in three minutes at most: the same ones on every machine
-	@$(MAKE) --no-print-directory torture TORTURE_MINUTES=3 TORTURE_FLAGS="--cases 250 $(TORTURE_FLAGS)"
+torture-short: ## the first 150 cases of each part, in two minutes at most: the same ones on every machine
+	@$(MAKE) --no-print-directory torture TORTURE_MINUTES=2 TORTURE_FLAGS="--cases 150 $(TORTURE_FLAGS)"
 
 mutate: build/release/build.ninja ## make each small fault of tests/mutants and say which test caught it (hours)
 	@$(PYTHON) tools/mutate/mutate.py --jobs $(JOBS) $(MUTATE_FLAGS)
