@@ -177,7 +177,7 @@ extremes-hours: build/release/build.ninja ## 100 long runs against what sets of 
 bench-views: viewer build ## speed of the playback page with 10,000 floes, against its bounds
 	@$(PYTHON) bench/run_playback.py $(BENCH_FLAGS)
 
-validate: build | $(STAMPS)/validate ## the validation book, docs/validation (VALIDATE_FLAGS=--quick: its short cases)
+validate: build | $(STAMPS)/validate $(STAMPS)/peers ## the validation book (VALIDATE_FLAGS=--quick: its short cases)
 	@$(PYTHON) validation/run.py $(VALIDATE_FLAGS)
 
 validate-status: ## which pages of the validation book were made on other code than there is now
