@@ -17,7 +17,9 @@ AT_REST = [(0.7, v, 30, FRICTION, False) for v in SPEEDS]
 # The bow meets the ice after 2 m; a ship's length later the whole hull is in it, and another length counts.
 ENTRY, WAY = 62.0, 122.0
 SHEET = 150.0  # [m2] what breaks with more is the sheet
-STARTS = (0.0, 1.7)  # [m] farther back: other places of the first bite; thin ice, the longest runs, and all that is not in GRID has the first alone
+# [m] farther back: other places of the first bite; thin ice, the longest runs, and all that is not in GRID has the
+# first alone.
+STARTS = (0.0, 1.7)
 
 
 def lindqvist(h, v, stem=30, friction=FRICTION, _=False):
@@ -79,8 +81,8 @@ def case(out):
         5,
         "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, stem angle "
         "and friction, over a ship's length of way after the whole hull is in the ice; with a stem of 30 degrees and "
-        "friction 0.1 from 0.7 m on the mean of two starts; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1). In 0.7 m also with "
-        "edges that have no inertia (`ice.fracture.edge_inertia: false`), one start.",
+        "friction 0.1 from 0.7 m on the mean of two starts; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1). In "
+        "0.7 m also with edges that have no inertia (`ice.fracture.edge_inertia: false`), one start.",
         "Lindqvist (1989) with the same inputs. Published errors of such formulas on one ship's tests are 22 to 51 %.",
         "Grows with thickness, speed, stem angle and friction, from the first to the last value within a factor of 1.5 "
         "of the formula's growth; the sheet breaks under the bow, so that the ship never rises by half its draught (a "

@@ -134,7 +134,7 @@ static int answer_break(const ice_words *w, const common_options *common)
         {"wedge_capacity", b.wedge_capacity, "N", "load at which the wedges break off, with the strip between them"},
         {"strip_capacity", b.strip_capacity, "N", "part of it carried by the strip under a wide contact"},
         {"strip_length", b.strip_length, "m", "distance from the edge at which that strip breaks"},
-        {"breaking_radius", b.breaking_radius, "m", "distance from the load at which the wedges break off, along their axes"},
+        {"breaking_radius", b.breaking_radius, "m", "from the load to where the wedges break off, along their axes"},
         {"crushing_force", b.crushing_force, "N", "contact area times crushing strength"},
     };
     PRINT(common, rows);

@@ -63,9 +63,10 @@ expect 2 "$FRAM" capability "$scene"
 says '--output' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set domain.boundary=open
 says 'domain.boundary' err
-# Ctrl-C while loads are measured.
+# Ctrl-C while loads are measured, once: without --foreground the group gets it too, and a second one ends at once.
 code=0
-timeout --preserve-status -s INT 2 "$FRAM" capability "$scene" -o "$scratch/b" --measure 1e5 2>err || code=$?
+timeout --foreground --preserve-status -s INT 2 \
+    "$FRAM" capability "$scene" -o "$scratch/b" --measure 1e5 2>err || code=$?
 same "$code" 130 "exit code after Ctrl-C"
 says 'nothing was written' err
 [ ! -e "$scratch/b" ] || fail "a refused plot left a folder"

@@ -101,8 +101,7 @@ START_TEST(a_channel_as_wide_as_the_hull)
     double end = k.w.bodies.position[k.w.vessels.body[0]].x;
     for (double x = 2; x < end - 12; x += 1) {
         double width = channel_width(&k, x);
-        ck_assert_msg(width >= 10 - 2 * 0.15 && width <= 10 + 2 * side, "the channel is %g m wide at x = %g", width,
-                      x);
+        ck_assert_msg(width >= 10 - 2 * 0.15 && width <= 10 + 2 * side, "the channel is %g m wide at x = %g", width, x);
     }
     ck_assert(k.w.clock.ice_lost[0] < 0.005 * before);
     /* N = 3: triangles of 60 degrees and height R_bending, halves of them at the sides of a straight edge. */
