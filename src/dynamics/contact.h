@@ -14,6 +14,7 @@ typedef struct contact {
     vec3 point;           /* global [m] */
     vec3 normal;          /* unit, from b towards a */
     double depth;         /* overlap along the normal; < 0: open by that much, may close but not cross [m] */
+    double gap;           /* > 0: what it overlaps was crushed, and it may close by that much [m] */
     double impulse_limit; /* largest normal impulse of this step [N s], INFINITY without crushing */
     double friction_static, friction_kinetic;
     bool correct;        /* false: no position correction at all */

@@ -203,9 +203,12 @@ fram_status solver_iterate_accurately(solver *s, const solver_settings *settings
 
 /* ---- shared by all ---- */
 
-/* Least relative normal velocity after the step: a gap may close to the contact skin, no more [m/s]. */
+/* Least relative normal velocity after the step: what is open may close to the contact skin, a gap in crushed ice
+   wholly, no more [m/s]. */
 static inline double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
 {
+    if (c->gap > 0)
+        return -c->gap / dt;
     if (c->depth < -settings->contact_skin)
         return (c->depth + settings->contact_skin) / dt;
     return settings->baumgarte && c->correct && c->depth > 0 ? settings->correction_rate * c->depth / dt : 0;

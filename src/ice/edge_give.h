@@ -26,6 +26,7 @@
     X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                 \
     X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")              \
     X(rise, double, FIELD_F64, 1, "m", "of the edge under the whole load in the last step, up")                   \
+    X(gap, double, FIELD_F64, 1, "m", "by which the surface stands off the ice, along the normal of the patch")   \
     X(known, int32_t, FIELD_I32, 1, "1", "1: the ice was looked at, 0: the load is so small that it was not")     \
     X(over, int32_t, FIELD_I32, 1, "1", "1: the patch was over what breaks known ice in the last step, 0: not")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)

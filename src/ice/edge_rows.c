@@ -145,6 +145,39 @@ static int32_t support_of(const edge_job *j, const crushing_patch *p)
     return edge_support_nearest(j->supports, j->bodies, p->surface_body, p->centre, reach);
 }
 
+/* Whether a patch has a support: breakable ice that does not move freely, under a hull. */
+static bool has_support(const edge_job *j, const crushing_patch *p)
+{
+    return j->supports && !body_is_free(j->bodies, p->floe_body) && j->floes->breakable[p->floe] &&
+           j->bodies->material[p->surface_body] == MATERIAL_HULL;
+}
+
+/* A patch is the one that its support was kept of, not a neighbour, if their middles are apart by no more than the
+   surface slid in a step and half of the patch's size. */
+static bool is_same_patch(const edge_job *j, const crushing_patch *p, int32_t row, vec3 past)
+{
+    double size = fmax(sqrt(p->area), j->floes->thickness[p->floe]);
+    vec3 at = body_to_local(j->bodies, p->surface_body, p->centre);
+    double apart = vec3_length(vec3_sub(j->supports->place[row], at));
+    return apart <= vec3_length(past) * j->time_step + size / 2;
+}
+
+/* A surface that stands off the ice may come as near; one that nothing moves aside does not touch until it has. */
+static void open_contacts(const edge_job *j, const crushing_patch *p, int32_t row, contact_array *contacts)
+{
+    double gap = j->supports->gap[row];
+    vec3 past = body_velocity_past(j->bodies, p->surface_body, p->floe_body, p->centre);
+    if (!(gap > 0) || !is_same_patch(j, p, row, past))
+        return;
+    bool closes = vec3_dot(past, p->normal) * j->time_step > gap;
+    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
+        contact *c = &contacts->data[i];
+        c->gap = gap;
+        if (c->crush_infinite && !closes)
+            c->impulse_limit = 0;
+    }
+}
+
 /* What a support carried is shared by the patches that it is nearest to, by their horizontal areas: loads that seams
    divide are neither lost nor doubled. */
 static void set_patches(const edge_job *j, edge_rows_work *w, const crushing_patch_array *patches,
@@ -152,34 +185,44 @@ static void set_patches(const edge_job *j, edge_rows_work *w, const crushing_pat
 {
     for (int32_t i = 0; i < patches->count; i++) {
         const crushing_patch *p = &patches->data[i];
-        w->support.data[i] = p->compliance > 0 && j->supports ? support_of(j, p) : -1;
-        if (w->support.data[i] >= 0)
+        w->support.data[i] = has_support(j, p) ? support_of(j, p) : -1;
+        if (w->support.data[i] >= 0 && p->compliance > 0)
             w->claimed.data[w->support.data[i]] += p->horizontal_area;
     }
     for (int32_t i = 0; i < patches->count; i++) {
         const crushing_patch *p = &patches->data[i];
         int32_t row = w->support.data[i], first = p->contact_first;
+        if (row >= 0)
+            open_contacts(j, p, row, contacts);
+        if (!j->edges->elastic || !(p->compliance > 0))
+            continue;
         double load = row < 0 ? 0 : j->supports->own[row] * p->horizontal_area / w->claimed.data[row];
-        if (p->compliance > 0)
-            set_rows(j, first, first + p->contact_count, 1, p->compliance, load,
-                     EDGE_MOST_DEFLECTION * j->floes->thickness[p->floe], contacts);
+        set_rows(j, first, first + p->contact_count, 1, p->compliance, load,
+                 EDGE_MOST_DEFLECTION * j->floes->thickness[p->floe], contacts);
     }
 }
 
-bool edge_rows_set(context *ctx, const edge_job *j, edge_rows_work *w, const crushing_patch_array *patches,
-                   contact_array *contacts)
+/* Those of pieces. */
+static bool set_pieces(context *ctx, const edge_job *j, edge_rows_work *w, contact_array *contacts)
 {
-    int32_t supports = j->supports ? j->supports->count : 0;
-    if (!j->edges->elastic)
-        return true;
-    if (!find_pieces(ctx, j, w, contacts) || !array_resize(ctx, &w->support, patches->count) ||
-        !array_resize(ctx, &w->claimed, supports))
+    if (!find_pieces(ctx, j, w, contacts))
         return false;
     find_neighbours(&w->pieces);
     for (int32_t i = 0; i < w->pieces.count; i++) {
         const edge_piece *p = &w->pieces.data[i];
         set_rows(j, p->first, p->end, p->groups, p->influence / p->stiffness, p->load, p->most, contacts);
     }
+    return true;
+}
+
+bool edge_rows_set(context *ctx, const edge_job *j, edge_rows_work *w, const crushing_patch_array *patches,
+                   contact_array *contacts)
+{
+    int32_t supports = j->supports ? j->supports->count : 0;
+    if (!array_resize(ctx, &w->support, patches->count) || !array_resize(ctx, &w->claimed, supports))
+        return false;
+    if (j->edges->elastic && !set_pieces(ctx, j, w, contacts))
+        return false;
     for (int32_t i = 0; i < supports; i++)
         w->claimed.data[i] = 0;
     set_patches(j, w, patches, contacts);

@@ -71,6 +71,8 @@ typedef struct fracture_settings {
     bool crush_notches;         /* floes that float lose what a hull had crushed when it draws back */
     bool edges_give;            /* edges of level and fixed ice give before they break: supports are kept */
     bool edge_inertia;          /* with edges_give: ice and water under a bending edge have mass */
+    bool edge_gaps;             /* with edges_give: a hull that drew back meets the edge where it left it */
+    bool edge_melts;            /* with edges_give: by the heat of friction where a hull slides along it */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 

@@ -306,6 +306,14 @@ static bool may_trim(const fracture_job *j, const crushing_patch *p)
            !j->scratch->broken.data[p->floe_body];
 }
 
+/* Whether a patch presses on: held ice by what it carries, so that the way of a hull that heaves adds up. */
+static bool presses(const fracture_job *j, const crushing_patch *p, vec3 past)
+{
+    if (j->settings->edge_gaps && !floats(j, p))
+        return fracture_pressed(j->state->contacts, p) > 0;
+    return vec3_dot(past, p->normal) >= 0;
+}
+
 /* The way that the hull has gone in the floe since it last pressed on; the first patch of the two in a step counts.
    false: no memory. */
 static bool find_pair(const fracture_job *j, const crushing_patch *p, bool first, trim_pair *pair)
@@ -313,7 +321,7 @@ static bool find_pair(const fracture_job *j, const crushing_patch *p, bool first
     const fracture_state *s = j->state;
     vec3 v = body_velocity_past(s->bodies, p->surface_body, p->floe_body, p->centre);
     vec3 way = retreat_find(s->retreats, s->bodies, s->floes, p->floe, p->surface_body);
-    if (vec3_dot(v, p->normal) >= 0)
+    if (presses(j, p, v))
         way = (vec3){0, 0, 0};
     else if (first)
         way = vec3_mad(way, v, j->settings->time_step);

@@ -242,6 +242,11 @@
     X(edge_elastic, BOOLEAN(true), "",                                                                                \
       "level and fixed ice, with edge_compliance: loads that crush nothing, of hulls and of free pieces, bend an "    \
       "edge too as they come and go; false: it is rigid under them")                                                  \
+    X(edge_gaps, BOOLEAN(true), "",                                                                                   \
+      "level and fixed ice, with edge_compliance: a hull that has drawn back from the ice, by less than "             \
+      "edge_threshold, meets it where it left it; false: as soon as it turns")                                        \
+    X(edge_melts, BOOLEAN(true), "",                                                                                  \
+      "level and fixed ice, with edge_elastic: where a hull slides along a bent edge friction's heat melts its face") \
     X(edge_inertia, BOOLEAN(true), "",                                                                                \
       "level and fixed ice, with edge_compliance: ice and the water that moves with it have mass as an edge bends, "  \
       "so that breaking loads rise and pieces shorten with speed; false: both are those of a load at rest")           \

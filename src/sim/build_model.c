@@ -55,6 +55,8 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .strength = strength_of(s),
                                .edges_give = s->ice.fracture.edge_compliance,
                                .edge_inertia = s->ice.fracture.edge_inertia,
+                               .edge_gaps = s->ice.fracture.edge_gaps,
+                               .edge_melts = s->ice.fracture.edge_melts,
                                .crush_notches = s->ice.crush_notches,
                                .crush_trims = s->ice.crush_trims};
 }

@@ -96,6 +96,8 @@ static const idle_rule rules[] = {
     {"ice.fracture.edge_compliance", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.edge_elastic", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.edge_inertia", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.edge_gaps", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.edge_melts", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.splitting", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.splitting_factor", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.toughness", is_unbreakable, UNBREAKABLE},

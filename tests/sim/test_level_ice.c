@@ -284,8 +284,9 @@ static int32_t floe_or_largest_piece(const scene *k, int32_t number)
     return best;
 }
 
-/* Two open channels and the ship's own cut a block out of the sheet: it drifts with the current, up to its speed, until
-   it meets the sheet on the other side of the channel.  The ship breaks more off it meanwhile. */
+/* Two open channels and the ship's own cut a block out of the sheet: it drifts with the current, up to its speed and as
+   much more as pieces push it with that the ship presses aside (2 kN), until it meets the sheet on the other side of the
+   channel.  The ship breaks more off it meanwhile. */
 START_TEST(an_island_drifts)
 {
     if (getenv("FRAM_TEST_SHORT"))
@@ -322,7 +323,7 @@ START_TEST(an_island_drifts)
         int32_t body = k.w.floes.body[row];
         ck_assert_int_eq(k.w.bodies.motion[body], MOTION_DYNAMIC);
         double speed = k.w.bodies.velocity[body].y;
-        ck_assert_msg(speed >= 0 && speed <= 1.05 * current, "it drifts at %g m/s after %d steps", speed, i);
+        ck_assert_msg(speed >= 0 && speed <= 1.1 * current, "it drifts at %g m/s after %d steps", speed, i);
         way += speed * 0.02;
         most = fmax(most, speed);
         scene_steps(&k, 1);

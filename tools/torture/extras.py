@@ -127,6 +127,7 @@ def add(draw, tree, ratio):
     if draw.random() < 0.3:
         ice["fracture"] = {"edge_inertia": draw.random() < 0.7, "brash": draw.random() < 0.5,
                            "wide_contacts": draw.random() < 0.3, "joint_loads": draw.random() < 0.7,
+                           "edge_gaps": draw.random() < 0.7, "edge_melts": draw.random() < 0.7,
                            "splitting": draw.choice(("length", "toughness", "none"))}
     if draw.random() < 0.2:
         tree["environment"]["floe_ventilation"] = True
