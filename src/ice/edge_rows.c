@@ -1,6 +1,7 @@
 /* What edges give in rows of the solver; see edge_rows.h. */
 #include "ice/edge_rows.h"
 
+#include "ice/edge_gap.h"
 #include "ice/sheet.h"
 
 #include <stdlib.h>
@@ -152,32 +153,6 @@ static bool has_support(const edge_job *j, const crushing_patch *p)
            j->bodies->material[p->surface_body] == MATERIAL_HULL;
 }
 
-/* A patch is the one that its support was kept of, not a neighbour, if their middles are apart by no more than the
-   surface slid in a step and half of the patch's size. */
-static bool is_same_patch(const edge_job *j, const crushing_patch *p, int32_t row, vec3 past)
-{
-    double size = fmax(sqrt(p->area), j->floes->thickness[p->floe]);
-    vec3 at = body_to_local(j->bodies, p->surface_body, p->centre);
-    double apart = vec3_length(vec3_sub(j->supports->place[row], at));
-    return apart <= vec3_length(past) * j->time_step + size / 2;
-}
-
-/* A surface that stands off the ice may come as near; one that nothing moves aside does not touch until it has. */
-static void open_contacts(const edge_job *j, const crushing_patch *p, int32_t row, contact_array *contacts)
-{
-    double gap = j->supports->gap[row];
-    vec3 past = body_velocity_past(j->bodies, p->surface_body, p->floe_body, p->centre);
-    if (!(gap > 0) || !is_same_patch(j, p, row, past))
-        return;
-    bool closes = vec3_dot(past, p->normal) * j->time_step > gap;
-    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
-        contact *c = &contacts->data[i];
-        c->gap = gap;
-        if (c->crush_infinite && !closes)
-            c->impulse_limit = 0;
-    }
-}
-
 /* What a support carried is shared by the patches that it is nearest to, by their horizontal areas: loads that seams
    divide are neither lost nor doubled. */
 static void set_patches(const edge_job *j, edge_rows_work *w, const crushing_patch_array *patches,
@@ -193,7 +168,7 @@ static void set_patches(const edge_job *j, edge_rows_work *w, const crushing_pat
         const crushing_patch *p = &patches->data[i];
         int32_t row = w->support.data[i], first = p->contact_first;
         if (row >= 0)
-            open_contacts(j, p, row, contacts);
+            edge_gap_open(j->supports, row, j->bodies, j->floes, j->time_step, p, contacts);
         if (!j->edges->elastic || !(p->compliance > 0))
             continue;
         double load = row < 0 ? 0 : j->supports->own[row] * p->horizontal_area / w->claimed.data[row];

@@ -219,15 +219,6 @@ fram_status fracture_respond(const fracture_job *j);
 
 /* Loads of hulls on level and fixed ice, before seams are merged; how each load since has grown; and what they stood
    on, for the next step. */
-/* Impulse that a patch carries, along its normals [N s]. */
-static inline double fracture_pressed(const contact_array *contacts, const crushing_patch *p)
-{
-    double sum = 0;
-    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++)
-        sum += contacts->data[i].impulse[0];
-    return sum;
-}
-
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches);
 bool fracture_note_rises(const fracture_job *j);
 fram_status fracture_keep_supports(const fracture_job *j);

@@ -1,4 +1,5 @@
 /* What patches on level and fixed ice stand on, kept for the step to come; see ice/edge_give.h. */
+#include "ice/edge_gap.h"
 #include "ice/fracture_parts.h"
 #include "ice/strip.h"
 
@@ -15,45 +16,17 @@ static const double AT_LIMIT = 0.9;
 
 static bool is_at_limit(const contact_array *contacts, const crushing_patch *p)
 {
-    double bears = fracture_pressed(contacts, p), most = 0;
+    double bears = edge_gap_pressed(p, contacts), most = 0;
     for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++)
         most += contacts->data[i].impulse_limit;
     return bears > 0 && bears >= AT_LIMIT * most;
-}
-
-/* Heat that melts ice; what warms it first, and what flows into the hull, is left out (docs/decisions/0569) [J/kg]. */
-static const double LATENT_HEAT = 334e3;
-
-/* Depth that the heat of friction melts off the face under a patch in this step, mu p v/(rho L), of an edge that is
-   bent; no more than lets it go, C n_z^2 N, so that its load fades in steps of any length [m]. */
-static double melted(const fracture_job *j, const fracture_load *l, const crushing_patch *p, double pressed, vec3 past)
-{
-    const contact *first = &j->state->contacts->data[p->contact_first];
-    vec3 slip = vec3_mad(past, p->normal, -vec3_dot(past, p->normal));
-    double depth = first->friction_kinetic * pressed * vec3_length(slip) / (p->area * l->ice.density * LATENT_HEAT);
-    double bent = first->give * j->settings->time_step * pressed * p->normal.z * p->normal.z;
-    return bent > 0 && !first->crush_infinite ? depth * bent / (depth + bent) : 0;
-}
-
-/* By how much the surface of a patch stands off the ice at the end of the step.  Where it does not press, it has drawn
-   back from where it stood, and an edge that was bent has come back as far. */
-static double gap_after(const fracture_job *j, const fracture_load *l, const crushing_patch *p)
-{
-    const fracture_settings *f = j->settings;
-    const contact *first = &j->state->contacts->data[p->contact_first];
-    vec3 past = body_velocity_past(j->state->bodies, p->surface_body, p->floe_body, p->centre);
-    double pressed = fracture_pressed(j->state->contacts, p);
-    if (pressed > 0)
-        return f->edge_melts ? melted(j, l, p, pressed, past) : 0;
-    double recoil = first->crush_infinite ? 0 : first->recoil;
-    double closes = vec3_dot(past, p->normal) - recoil * p->normal.z;
-    return f->edge_gaps ? fmax(first->gap - closes * f->time_step, 0) : 0;
 }
 
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches)
 {
     load_work *w = &j->scratch->load;
     const body_table *bodies = j->state->bodies;
+    const edge_gap_rules rules = {j->settings->edge_gaps, j->settings->edge_melts};
     array_clear(&w->parts);
     if (!j->settings->edges_give)
         return true;
@@ -69,7 +42,9 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
                        .level = l->horizontal_area,
                        .over = patch->over && is_at_limit(j->state->contacts, patch),
                        .own = l->vector.z,
-                       .gap = held ? gap_after(j, l, patch) : 0};
+                       .gap = held ? edge_gap_after(rules, bodies, l->ice.density, j->settings->time_step, patch,
+                                                    j->state->contacts)
+                                   : 0};
         if (held && j->state->supports) {
             edge_stand old = old_stand(j, l, patch->centre);
             p.impulse = old.impulse;

@@ -9,6 +9,7 @@
    A floe that floats (crush_notches; docs/decisions/0177) keeps its ice while the hull presses on.  When the hull has
    drawn back from a steep patch, what it filled over the whole thickness goes: a notch.  What a hull reaches at one
    face only is no side that was crushed: a floe may lie under its bottom. */
+#include "ice/edge_gap.h"
 #include "ice/fracture_parts.h"
 
 #include <string.h>
@@ -309,8 +310,9 @@ static bool may_trim(const fracture_job *j, const crushing_patch *p)
 /* Whether a patch presses on: held ice by what it carries, so that the way of a hull that heaves adds up. */
 static bool presses(const fracture_job *j, const crushing_patch *p, vec3 past)
 {
-    if (j->settings->edge_gaps && !floats(j, p))
-        return fracture_pressed(j->state->contacts, p) > 0;
+    const fracture_settings *f = j->settings;
+    if (f->edges_give && f->edge_gaps && !floats(j, p) && j->state->floes->breakable[p->floe])
+        return edge_gap_pressed(p, j->state->contacts) > 0;
     return vec3_dot(past, p->normal) >= 0;
 }
 

@@ -14,6 +14,7 @@ typedef struct gap_rig {
     hull_retreat_table retreats;
     double crushed, gained;
     int32_t hull;
+    double turning; /* rate about z [rad/s] */
 } gap_rig;
 
 static void gap_rig_make(gap_rig *g, double dt, double friction)
@@ -68,7 +69,7 @@ static vec3 gap_rig_step(gap_rig *g, vec3 velocity)
     fram_error e = {0};
     fracture_event_array events = {0};
     r->bodies.velocity[g->hull] = velocity;
-    r->bodies.angular_velocity[g->hull] = (vec3){0, 0, 0};
+    r->bodies.angular_velocity[g->hull] = (vec3){0, 0, g->turning};
     ice_rig_crush(r);
     ice_rig_edges(r);
     wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
@@ -114,15 +115,19 @@ static double meets(double dt, motion kind, bool gaps, double way)
         gap_rig_step(&g, (vec3){1, 0, 0});
     double deepest = g.r.bodies.position[g.hull].x, met = HUGE_VAL;
     ck_assert_double_gt(deepest, way);
-    /* Back, a little on, and back again: it is the way between that counts. */
+    /* Back, a little on, and back again: it is the way between that counts, for a cut too. */
     static const double PARTS[] = {-0.75, 0.25, -0.5, 1.5};
-    for (int k = 0; k < 4; k++)
+    double crushed = g.crushed;
+    for (int k = 0; k < 4; k++) {
+        double rim = g.settings.edge_threshold; /* which goes then */
+        ck_assert(k != 3 || !gaps || (g.crushed - crushed > DENSITY * 4 * rim / 2) == (way > rim));
         for (int i = 0; i < lround(fabs(PARTS[k]) * way / speed / dt); i++) {
             double at = deepest - g.r.bodies.position[g.hull].x;
             double force = vec3_length(gap_rig_step(&g, (vec3){PARTS[k] < 0 ? -speed : speed, 0, 0}));
             ck_assert(k % 2 == 1 || force < 1);
             met = force > 1 && met == HUGE_VAL ? at : met;
         }
+    }
     gap_rig_free(&g);
     return met;
 }
@@ -132,13 +137,40 @@ static double meets(double dt, motion kind, bool gaps, double way)
 START_TEST(met_where_it_was_left)
 {
     static const motion KIND[] = {MOTION_DYNAMIC, MOTION_PRESCRIBED};
-    static const double WAY[] = {0.08, 0.4};
-    for (int i = 0; i < 8; i++) {
+    static const double WAY[] = {0.08, 0.18, 0.4};
+    for (int i = 0; i < 12; i++) {
         double dt = i & 1 ? 0.005 : 0.01, way = WAY[i / 4], step = 0.1 * dt;
         motion kind = KIND[i / 2 % 2];
         assert_absolute(meets(dt, kind, true, way), 0, 1.01 * step);
         if (i < 4)
             assert_absolute(meets(dt, kind, false, way), 0.75 * way, 1.01 * step);
+    }
+}
+END_TEST
+
+/* A long side that stands off the ice and turns comes on with one end: at the way that it stood off. */
+START_TEST(an_end_meets_by_itself)
+{
+    const double dt = 0.01, half = 20, off = 0.02, rate = 0.01;
+    for (int told = 0; told < 2; told++) {
+        gap_rig g;
+        gap_rig_make(&g, dt, 0.1);
+        motion kind = told ? MOTION_PRESCRIBED : MOTION_DYNAMIC;
+        g.hull = ice_rig_box(&g.r, (vec3){-half, -2, -3}, (vec3){half, 2, 3}, kind, MATERIAL_HULL);
+        g.r.bodies.mass[g.hull] = 1e9;
+        g.r.bodies.inertia[g.hull] = (sym3){1e12, 1e12, 1e12, 0, 0, 0};
+        wall_at(&g, 100, 20, (vec3){0, 12, 0});
+        for (int i = 0; i < 14; i++)
+            gap_rig_step(&g, (vec3){0, 2, 0});
+        for (int i = 0; i < 20; i++)
+            ck_assert_double_eq(vec3_length(gap_rig_step(&g, (vec3){0, -off / (20 * dt), 0})), 0);
+        assert_relative(g.r.supports.gap[0], off, 1e-9);
+        g.turning = rate;
+        int steps = 0;
+        while (steps < 1000 && vec3_length(gap_rig_step(&g, (vec3){0, 0, 0})) < 1)
+            steps++;
+        assert_absolute(steps * dt * rate * half, off, 1.01 * rate * half * dt);
+        gap_rig_free(&g);
     }
 }
 END_TEST
@@ -286,5 +318,5 @@ START_TEST(whose_gap_it_is)
 }
 END_TEST
 
-TEST_MAIN("edge gaps", met_where_it_was_left, friction_melts_the_face, bent_ice_lets_go, bent_ice_comes_back,
-          whose_gap_it_is)
+TEST_MAIN("edge gaps", met_where_it_was_left, an_end_meets_by_itself, friction_melts_the_face, bent_ice_lets_go,
+          bent_ice_comes_back, whose_gap_it_is)
