@@ -205,7 +205,8 @@ int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, 
         out->normal_impulse = c->impulse[0];
         out->limit = c->impulse_limit;
         out->depth = c->depth;
-        out->capped = c->impulse[0] > 0 && c->impulse[0] >= c->impulse_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
+        bool at_limit = c->impulse[0] > 0 && c->impulse[0] >= c->impulse_limit;
+        out->capped = at_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
         result_give(result_row(contacts, size, i), size, out);
     }
     return count;

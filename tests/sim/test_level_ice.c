@@ -284,9 +284,9 @@ static int32_t floe_or_largest_piece(const scene *k, int32_t number)
     return best;
 }
 
-/* Two open channels and the ship's own cut a block out of the sheet: it drifts with the current, up to its speed and as
-   much more as pieces push it with that the ship presses aside (2 kN), until it meets the sheet on the other side of the
-   channel.  The ship breaks more off it meanwhile. */
+/* Two open channels and the ship's own cut a block out of the sheet: it drifts with the current, up to its speed and
+   what pieces add that the ship presses aside (2 kN), until it meets the sheet on the other side of the channel.  The
+   ship breaks more off it meanwhile. */
 START_TEST(an_island_drifts)
 {
     if (getenv("FRAM_TEST_SHORT"))
