@@ -199,9 +199,9 @@ def case(out):
     c.check(STARTS == ASKED, f"{len(STARTS)} of {len(ASKED)} starts were run"
                              + ("" if SPREAD else ", and no other angles and frictions"))
     sides = [statistics.fmean(runs[f"{test}_{-start:g}"]["sides"] for start in STARTS) for test in ROWS]
-    c.found = (f"Shoulders and midbody bear {min(sides):.0f} to {max(sides):.0f} kN of the mean. In the largest "
-               "horizontal loads of the tests at 0.2 m/s that is teeth of the channel's wall, which the sides bend and "
-               "press aside as they go by, and which neither creep nor wear ([limits](../limits.md)). "
+    c.found = (f"Shoulders and midbody bear {min(sides):.0f} to {max(sides):.0f} kN of the mean, "
+               "160 to 314 before hulls met the ice where they had left it and melted it by friction "
+               "([0569](../decisions/0569-a-face-is-met-where-it-stands.md)). "
                "No parameter was chosen by the outcome; that only straight contacts are wide "
                "was written after one start of test 303 had shown that a rule was missing "
                "([0558](../decisions/0558-loads-keep-their-width.md)). "
