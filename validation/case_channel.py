@@ -109,7 +109,7 @@ def case(out):
             axes.plot([(k + 0.5) / 2 for k in range(len(means))], means, "o-", label=label)
         axes.set(xlabel="way since the whole hull is in the ice [ship lengths]", ylabel="resistance [kN]",
                  ylim=(0, None))
-        axes.legend(loc=(0.02, 0.46))
+        axes.legend(loc="lower left")
 
     ladder.figure(c, out, "channel", "Means over half a ship length.", draw)
     return c
