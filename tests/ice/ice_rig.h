@@ -252,6 +252,18 @@ static inline void ice_rig_edges(ice_rig *r)
     ck_assert(edge_rows_set(&r->ctx, &j, &r->edge_rows, &r->patches, &r->contacts));
 }
 
+/* New velocities from the contacts, without loads. */
+static inline void ice_rig_solve(ice_rig *r)
+{
+    fram_error e = {0};
+    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
+    ck_assert(loads);
+    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, loads, &r->joints,
+                           &r->contacts, &r->memory, &r->report, &e),
+              e);
+    memory_free(&r->ctx, loads);
+}
+
 /* One step without loads. */
 static inline void ice_rig_step(ice_rig *r)
 {
@@ -259,12 +271,7 @@ static inline void ice_rig_step(ice_rig *r)
     double dt = r->settings.time_step;
     ice_rig_crush(r);
     ice_rig_edges(r);
-    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
-    ck_assert(loads);
-    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, dt, &r->bodies, loads, &r->joints, &r->contacts, &r->memory,
-                           &r->report, &e),
-              e);
-    memory_free(&r->ctx, loads);
+    ice_rig_solve(r);
     integrate_poses(&r->ctx, &r->bodies, dt);
     assert_ok(solver_correct_positions(&r->ctx, r->solve, &r->solver, dt, &r->bodies, &r->joints, &r->contacts, &e), e);
 }

@@ -49,12 +49,7 @@ static void sides_step(sides_rig *s)
     ice_rig *r = &s->r;
     fram_error e = {0};
     sides_find(s);
-    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
-    ck_assert(loads);
-    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, loads, &r->joints,
-                           &r->contacts, &r->memory, &r->report, &e),
-              e);
-    memory_free(&r->ctx, loads);
+    ice_rig_solve(r);
     integrate_poses(&r->ctx, &r->bodies, r->settings.time_step);
     assert_ok(solver_correct_positions(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, &r->joints,
                                        &r->contacts, &e),

@@ -62,7 +62,7 @@ static void wall_at(gap_rig *g, double length, double width, vec3 middle)
     ice_rig_pair(&g->r, g->r.floes.body[row], g->hull);
 }
 
-/* One step at this velocity, but for what contacts change; the force on the hull along the hull's way [N]. */
+/* One step that begins at this velocity; the force of the ice on the hull, global frame [N]. */
 static vec3 gap_rig_step(gap_rig *g, vec3 velocity)
 {
     ice_rig *r = &g->r;
@@ -72,12 +72,7 @@ static vec3 gap_rig_step(gap_rig *g, vec3 velocity)
     r->bodies.angular_velocity[g->hull] = (vec3){0, 0, g->turning};
     ice_rig_crush(r);
     ice_rig_edges(r);
-    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
-    ck_assert(loads);
-    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, loads, &r->joints,
-                           &r->contacts, &r->memory, &r->report, &e),
-              e);
-    memory_free(&r->ctx, loads);
+    ice_rig_solve(r);
     vec3 sum = {0, 0, 0};
     for (int32_t i = 0; i < r->contacts.count; i++) {
         const contact *c = &r->contacts.data[i];

@@ -231,12 +231,7 @@ static double ram_step(ram *t)
     fram_error e = {0};
     fracture_event_array events = {0};
     ice_rig_crush(r);
-    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
-    ck_assert(loads);
-    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, t->dt, &r->bodies, loads, &r->joints, &r->contacts,
-                           &r->memory, &r->report, &e),
-              e);
-    memory_free(&r->ctx, loads);
+    ice_rig_solve(r);
     double force = 0;
     for (int32_t i = 0; i < r->contacts.count; i++)
         force += r->contacts.data[i].impulse[0] / t->dt;
