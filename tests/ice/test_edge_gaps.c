@@ -202,7 +202,7 @@ static double pressed(const gap_rig *g)
 }
 
 /* Friction melts the face that it acts on, mu p v/(rho L) in a second; no farther than the edge is bent, and nothing of
-   an edge that does not bend. */
+   an edge that does not bend, or under a hull that moves as it is told. */
 START_TEST(friction_melts_the_face)
 {
     static const double FRICTION[] = {0.05, 0.5, 0.5, 0, 0.5}, SPEED[] = {1, 4, 0, 4, 1e7};
@@ -226,6 +226,13 @@ START_TEST(friction_melts_the_face)
     g.r.settings.edges.elastic = false;
     gap_rig_step(&g, (vec3){4, 0, 0});
     ck_assert(g.r.supports.count == 2 && g.r.supports.gap[0] == 0);
+    gap_rig_free(&g);
+    between_walls(&g, dt, 0.5, 4);
+    g.r.bodies.motion[g.hull] = MOTION_PRESCRIBED;
+    for (int i = 0; i < 3; i++) {
+        gap_rig_step(&g, (vec3){4, 0, -0.01});
+        ck_assert(pressed(&g) > 0 && g.r.supports.count == 2 && g.r.supports.gap[0] == 0);
+    }
     gap_rig_free(&g);
 }
 END_TEST
