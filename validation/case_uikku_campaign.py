@@ -1,5 +1,6 @@
 """Five towing tests of MT Uikku in level ice, three starts each, and the spread over what was not published."""
 
+import itertools
 import math
 import os
 import statistics
@@ -29,6 +30,8 @@ VARIANTS = {"angles -5 deg": (-5, -5, FRICTION), "angles +5 deg": (5, 5, FRICTIO
 AS_FIXED = (0, 0, FRICTION)
 # Asked for before these runs: errors of means and largest loads, and how many times the measured scatter.
 MEANS_WITHIN, LARGEST_WITHIN, SCATTER_WITHIN = 0.15, 0.30, 1.5
+# What the measured loads were averaged over is not in our source: what other windows than Fram's own would show [s].
+OTHER_WINDOWS = (1.0, 2.0)
 
 
 def lindqvist(row, stem, entrance, mu):
@@ -50,6 +53,14 @@ def way_in(start):
     return LENGTH / 2 - start
 
 
+def moving_means(times, values, window, since):
+    """Means over the last `window` seconds, from a time on."""
+    steps = max(1, round(window / (times[1] - times[0])))
+    sums = [0.0, *itertools.accumulate(values)]
+    first = next(n for n, time in enumerate(times) if time >= since)
+    return [(sums[n + 1] - sums[n + 1 - steps]) / steps for n in range(first, len(values))]
+
+
 def simulate(job):
     """Loads of one run: metres since the whole hull is in, the averaged load there [kN], the residual [m/s]."""
     test, start, (stem, entrance, mu), lengths, name = job
@@ -66,6 +77,8 @@ def simulate(job):
     return {"way": [v * t - way_in(start) for t in ladder.after(series, "time", since)],
             "load": [-f / 1e3 for f in ladder.after(series, "ice_force_averaged_x", since)],
             "residual": statistics.fmean(ladder.after(series, "solver_residual", since)),
+            "scatter": {window: statistics.pstdev(
+                moving_means(series["time"], series["ice_force_x"], window, since)) / 1e3 for window in OTHER_WINDOWS},
             "sides": -sum(statistics.fmean(ladder.after(series, f"ice_force_{zone}_x", since))
                           for zone in ("shoulder", "midbody")) / 1e3}
 
@@ -135,13 +148,29 @@ def draw_running(axes, runs):
     axes.legend(fontsize=7, ncols=3)
 
 
+def scatter_ratios(found, stds):
+    """Standard deviation over mean, over the measured, by test; stds: standard deviations by test [kN]."""
+    return {t: stds[t] / found[t][0] / (r[6] / r[5]) for t, r in ROWS.items()}
+
+
+def other_windows(runs, found):
+    """What the scatter would be had other windows been taken, as a sentence's part."""
+    said = []
+    for window in OTHER_WINDOWS:
+        ratios = scatter_ratios(found, {
+            t: statistics.fmean(runs[f"{t}_{-start:g}"]["scatter"][window] for start in STARTS) for t in ROWS}).values()
+        said.append(f"over {window:g} s {min(ratios):.2f} to {max(ratios):.2f}")
+    return ", ".join(said)
+
+
 def check_scatter(c, found):
     """Standard deviation over mean, against the measured."""
-    ratios = {t: found[t][1] / found[t][0] / (r[6] / r[5]) for t, r in ROWS.items()}
+    ratios = scatter_ratios(found, {t: found[t][1] for t in ROWS})
     worst = max(ratios, key=lambda test: max(ratios[test], 1 / ratios[test]))
     within = all(1 / SCATTER_WITHIN <= x <= SCATTER_WITHIN for x in ratios.values())
     c.check(within, f"standard deviation over mean {min(ratios.values()):.2f} to {max(ratios.values()):.2f} times the "
-                    f"measured (within {SCATTER_WITHIN} times; farthest: test {worst})")
+                    f"measured, {statistics.fmean(ratios.values()):.2f} in the mean (within {SCATTER_WITHIN} times; "
+                    f"farthest: test {worst})")
 
 
 def case(out):
@@ -207,11 +236,13 @@ def case(out):
                "([0558](../decisions/0558-loads-keep-their-width.md)). "
                "A step is as long as two hours for all of this book allow; smaller ones, tried for one start before "
                "that was chosen (b09a358, b1d936d): 1, 2 cm of way a step gave 598, 591 kN in test 103 and 617, 613 "
-               "in test 301. Edges have inertia since [0565](../decisions/0565-edges-have-inertia-by-default.md). Off, "
-               "as by default: "
-               "water that runs over sunken pieces late (raises loads with speed); strength that varies; ridge "
-               "building and rafting between floes. Defaults are for all ice: a test does not choose them. "
-               "[More](../level_ice.md).")
+               "in test 301; three starts of test 302 with 1.5 cm (28b7617) 711 kN, with a standard deviation of 178. "
+               "Our source does not tell over what time the measured loads were averaged: "
+               f"{other_windows(runs, found)} times the measured standard deviation over mean. What was tried "
+               "about test 302 stands in [level ice](../level_ice.md). Edges have inertia since "
+               "[0565](../decisions/0565-edges-have-inertia-by-default.md). Off, as by default: water that "
+               "runs over sunken pieces late (raises loads with speed); strength that varies; ridge building and "
+               "rafting between floes. Defaults are for all ice: a test does not choose them.")
     ladder.figure(c, out, "uikku_campaign", "Measured and simulated resistance.",
                   lambda axes: draw_means(axes, found, spans))
     ladder.figure(c, out, "uikku_running_mean", "Running means of the starts, over the measured means.",
