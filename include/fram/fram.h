@@ -53,7 +53,7 @@ extern "C" {
 
 /* "0.1.0" */
 FRAM_API const char *fram_version(void);
-/* Optional parts of this build, one word each, space separated ("pictures ..."); "" when there are none. */
+/* Optional parts of this build with their versions, separated by commas ("cairo 1.16.0, ..."); "none". */
 FRAM_API const char *fram_features(void);
 /* One word for a status: "ok", "usage", "input", ... */
 FRAM_API const char *fram_status_name(fram_status status);

@@ -62,7 +62,7 @@ typedef struct fram_ice_edge {
     double ice_length;     /* of the ice behind a wide contact [m]; default 0: so long that its end does not matter */
     double
         rise_time; /* in which the load has risen evenly, so that ice and water must follow [s]; default 0: at rest */
-    double ice_density; /* for rise_time [kg/m3]; default 900 */
+    double ice_density; /* for rise_time [kg/m3]; default 920 */
 } fram_ice_edge;
 FRAM_API void fram_ice_edge_default(fram_ice_edge *load, size_t size);
 #define fram_ice_edge_default(load) fram_ice_edge_default((load), sizeof *(load))

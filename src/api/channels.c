@@ -9,6 +9,8 @@
 
 /* ---- what channels mean ---- */
 
+#define MECHANISM_MEANING(id, name, text) {"mechanism_" name, "part of the load of the ice: " text},
+
 /* Names that begin so, the longer ones first (docs/channels.md tells more). */
 static const struct {
     const char *stem, *meaning;
@@ -48,8 +50,45 @@ static const struct {
     {"thruster_power", "power drawn by all thrusters"},
     {"offset", "of the watched point from where it shall be"},
     {"heading_deviation", "of the heading from the one that is wanted"},
+    ICE_MECHANISMS(MECHANISM_MEANING) /* forces, and moments about the centre of mass */
+    {"thrusters_failed", "number of thrusters that have failed"},
+    {"thrusters_saturated", "1 while the demand cannot be met"},
+    {"thruster", "thrust and direction of each"},
+    {"line_tension_max", "highest tension of a line"},
+    {"lines_parted", "lines that have broken"},
+    {"line", "tension of each"},
+    {"estimated_load", "load in the observer's belief: surge and sway force, yaw moment in z"},
     {"estimated", "what the observer believes"},
-    {"demanded_force", "demand of the controller on the thrusters, axes of the vessel"},
+    {"demanded_force", "demand of the controller on the thrusters: surge and sway force, yaw moment in z"},
+    {"net_thrust", "of a ship under its own power"},
+    {"steering_angle", "of a ship under its own power"},
+    {"besets", "number of times that the ship was beset"},
+    {"rams", "number of rams"},
+    {"pattern_rounds", "rounds of its pattern that the ship has done"},
+    {"track_error", "how far the ship is to port of its track"},
+    {"wash_force", "force of the vessel's propeller jets on all floes"},
+    {"bodies", "number at the end of the step"},
+    {"floes", "number at the end of the step"},
+    {"contacts", "contact points of all bodies"},
+    {"vessel_contacts", "contact points of ice on the vessel"},
+    {"crushing_patches", "patches of crushing of all bodies"},
+    {"ice_mass_left", "mass that has left through an open boundary"},
+    {"ice_mass_entered", "feeding: mass that has entered"},
+    {"ice_mass_held_back", "feeding: mass that did not enter for want of room"},
+    {"ice_mass_lost", "mass of outlines changed by breaking and cleaning"},
+    {"ice_mass_gained", "mass of outlines changed by breaking and cleaning"},
+    {"ice_mass_crushed", "mass cut away where a hull has been"},
+    {"brash_mass", "of pieces too small to be floes"},
+    {"brash_momentum", "of pieces too small to be floes"},
+    {"drift", "velocity of the ice field or the sheet"},
+    {"sheet_load", "load of contacts on the drifting sheet"},
+    {"sheet_drive", "driving force of the far field on the sheet"},
+    {"splits", "floes that have split so far"},
+    {"bendings", "floes that have broken in bending so far"},
+    {"crushing_work", "energy dissipated in crushing so far"},
+    {"solver_residual", "largest residual of a contact's normal condition after the last iteration"},
+    {"overlap_mean", "of the contacts that overlap"},
+    {"overlap_max", "of the contacts that overlap"},
     {"kinetic_energy", "of all bodies"},
     {"step_wall_time", "wall-clock time that the step took"},
 };

@@ -75,7 +75,7 @@ static void fram_ice_edge_fill(fram_ice_edge *load)
                             .wedges = 3,
                             .thick_plate_radius = true,
                             .included_angle = PI,
-                            .ice_density = 900};
+                            .ice_density = 920};
 }
 DEFINITION_DEFAULT(fram_ice_edge, fram_ice_edge)
 

@@ -211,8 +211,12 @@ fram_status(fram_video)(fram_context *c, const char *run, const fram_video_defin
         status = number_check("span", d->span, -SPAN_MOST, SPAN_MOST, error);
     if (status != FRAM_OK)
         return status;
-    if (d->width < 320 || d->width > 7680 || d->height < 320 || d->height > 4320 || d->width % 2 || d->height % 2)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "width", "expected even sizes from 320 to 7680 x 4320");
+    if (d->width < 320 || d->width > 7680 || d->width % 2)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "width",
+                         "expected an even number of pixels from 320 to 7680");
+    if (d->height < 320 || d->height > 4320 || d->height % 2)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "height",
+                         "expected an even number of pixels from 320 to 4320");
     if (d->frames_per_second < 1 || d->frames_per_second > 120)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "frames_per_second", "expected 1 to 120");
     video_options options = {.output = d->output,

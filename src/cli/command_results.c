@@ -129,6 +129,15 @@ int command_plot(const command_row *self, int argc, char **argv)
 
 /* ---- compare ---- */
 
+/* A dash where a run has no such number. */
+static void print_number(double x, int digits)
+{
+    if (isfinite(x))
+        printf(" %14.*g", digits, x);
+    else
+        printf(" %14s", "-");
+}
+
 static void print_rows(const fram_comparison *c)
 {
     printf("%-38s %14s %14s %14s\n", "after the transient", "A", "B", "B - A");
@@ -136,7 +145,11 @@ static void print_rows(const fram_comparison *c)
         const fram_comparison_row *row = &c->rows[i];
         char name[96];
         snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
-        printf("%-38s %14.6g %14.6g %14.4g\n", name, row->a, row->b, row->b - row->a);
+        printf("%-38s", name);
+        print_number(row->a, 6);
+        print_number(row->b, 6);
+        print_number(row->b - row->a, 4);
+        putchar('\n');
     }
     printf("scenarios: %s; final states: %s\n", c->same_scenario ? "the same" : "different",
            c->same_state ? "identical to the bit" : "different");

@@ -25,7 +25,8 @@ static const command_row commands[] = {
     {"bench", "SCENARIO | --scene FILE", "time the steps of a scenario, without output",
      "  fram bench scenes/demo.yaml --warm 5 --time 10\n"
      "  fram bench scenes/demo.yaml --threads 2 --json\n"
-     "  fram bench --scene bench/scenes/n1000_c90.scene --dt 0.02 --iterations 10 --json\n",
+     "  python3 bench/peers/gen_scene.py --n 1000 --coverage 0.9 -o floes.scene\n"
+     "  fram bench --scene floes.scene --dt 0.02 --iterations 10 --json\n",
      command_bench},
     {"study", "[check | list] STUDY -o DIR",
      "run a scenario under many conditions with several seeds each; report means with confidence intervals",

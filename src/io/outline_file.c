@@ -5,6 +5,7 @@
 #include "io/file.h"
 #include "io/geojson.h"
 #include "io/outline_walk.h"
+#include "io/utf8.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -128,6 +129,9 @@ static char first_character(const char *data, size_t size)
 fram_status outline_file_parse(context *ctx, const char *name, const char *data, size_t size, import_rings *out,
                                fram_error *error)
 {
+    size_t mark = utf8_mark(data, size);
+    data += mark;
+    size -= mark;
     char c = first_character(data, size);
     if (c == '{' || c == '[')
         return geojson_parse(ctx, name, data, size, out, error);

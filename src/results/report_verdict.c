@@ -237,14 +237,20 @@ static void judge_station(verdict *v)
 
 /* A mean within this part of itself, at 95 %, by so many independent values, is enough for most uses. */
 #define ENOUGH 0.2
-#define VALUES_ENOUGH 10
+#define VALUES_ENOUGH 10.0
 
 static fram_status judge_load(verdict *v, fram_error *error)
 {
     const report *r = v->r;
     const double *time = run_channel(&r->d, "time");
     int32_t first = run_first_row(&r->d), rows = r->d.series.rows - first;
-    if (!time || rows < 2 || first >= r->load.count)
+    if (time && rows < 2) {
+        find(v, VERDICT_CAUTION, "Make run.transient shorter or the run longer.",
+             "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.",
+             (int)rows, (int)r->d.series.rows, r->d.s.run.transient);
+        return FRAM_OK;
+    }
+    if (!time || first >= r->load.count)
         return FRAM_OK;
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     double span = time[first + rows - 1] - time[first];
@@ -266,14 +272,19 @@ static fram_status judge_load(verdict *v, fram_error *error)
     }
     double part = s.mean > 0 ? NORMAL_95 * s.deviation / s.mean / sqrt(d.independent) : HUGE_VAL;
     bool enough = part <= ENOUGH && d.independent >= VALUES_ENOUGH;
-    report_number(fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent), needed);
-    snprintf(
-        remedy, sizeof remedy,
-        "About %s s after the transient, or as much over several seeds (fram study), would give a mean within %.0f %%.",
-        needed, 100 * ENOUGH);
+    double longer = fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent);
+    report_number(longer, needed);
+    char aim[48];
+    snprintf(aim, sizeof aim, part > ENOUGH ? "a mean within %.0f %%" : "%.0f independent values",
+             part > ENOUGH ? 100 * ENOUGH : VALUES_ENOUGH);
+    snprintf(remedy, sizeof remedy,
+             "About %s s after the transient, or as much over several seeds (fram study), would give %s.", needed, aim);
     find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
          "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent values in %.4g s): %s.", name,
-         mean, fmin(100 * part, 999), d.independent, span, enough ? "enough for a mean" : "too short for a mean");
+         mean, fmin(100 * part, 999), d.independent, span,
+         enough           ? "enough for a mean"
+         : part <= ENOUGH ? "too few values to trust that"
+                          : "too short for a mean");
     find(v, VERDICT_NOTE,
          "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
          "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, r->d.s.output.averaging_window,

@@ -140,6 +140,9 @@ fram_status rerun_start(context *ctx, const char *folder, const scenario *s, dou
         if (status != FRAM_OK || !found)
             world_free(ctx, w);
     }
+    /* A checkpoint knows of what it is; what is built anew must be what the run was. */
+    if (status == FRAM_OK && !found)
+        status = run_folder_unchanged(ctx, folder, note.scenario_hash, inputs.data, error);
     text_free(ctx, &inputs);
     if (status != FRAM_OK || found)
         return status;

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
+#include "io/file.h"
 #include "io/folder.h"
 #include "io/path.h"
 #include "io/scenario_file.h"
@@ -21,7 +22,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { INPUT_LIMIT = 1 << 30 };
+enum { INPUT_LIMIT = 1 << 30, SUMMARY_LIMIT = 1 << 26 };
 
 /* ---- folder ---- */
 
@@ -116,6 +117,13 @@ static bool is_of_vessel(const char *name)
     return false;
 }
 
+/* A plan that a run draws every output.picture_interval. */
+static bool is_numbered_plan(const char *name)
+{
+    size_t size = strlen(name);
+    return size > 9 && strncmp(name, "plan-", 5) == 0 && strcmp(name + size - 4, ".png") == 0;
+}
+
 /* Removes the files of a folder that are such. */
 static void remove_files(const char *folder, bool (*is_such)(const char *name))
 {
@@ -133,14 +141,17 @@ static void remove_files(const char *folder, bool (*is_such)(const char *name))
 /* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */
 static void remove_results(const char *folder)
 {
-    static const char *const names[] = {"failed.fram",  "plan.png",      "loads.png",  "station.png",
-                                        "station.json", "playback.html", "peaks.fram", "peaks.fram.new"};
+    static const char *const names[] = {"failed.fram",  "plan.png",   "loads.png",      "station.png",
+                                        "station.json", "peaks.fram", "peaks.fram.new", "playback.html",
+                                        "report.html",  "run.nc",     "run.mp4",        "manage.html"};
     char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (path_join(folder, names[i], path, NULL) == FRAM_OK)
             (void)unlink(path);
     }
     remove_files(folder, is_of_vessel);
+    if (path_join(folder, "pictures", path, NULL) == FRAM_OK)
+        remove_files(path, is_numbered_plan);
 }
 
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
@@ -237,6 +248,30 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
     text_add(ctx, out, "");
     fram_status status = scenario_walk(s, add_input, &list, error);
     return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
+}
+
+fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
+                                 fram_error *error)
+{
+    char path[PATH_ROOM], digest[SHA256_TEXT_SIZE];
+    char *text = NULL;
+    size_t size = 0;
+    fram_status status = path_join(folder, "run.json", path, error);
+    if (status == FRAM_OK)
+        status = file_read(ctx, path, SUMMARY_LIMIT, &text, &size, error);
+    if (status == FRAM_OK && !strstr(text, scenario_hash))
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "scenario.yaml",
+                           "was changed since the run was made, or is read by another version of Fram: restore it or "
+                           "make the run again");
+    for (const char *line = inputs; status == FRAM_OK && *line; line = strchr(line, '\n') + 1) {
+        snprintf(digest, sizeof digest, "%.64s", line);
+        if (!strstr(text, digest))
+            status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "inputs",
+                               "%.*s was changed since the run was made; restore it or make the run again",
+                               (int)(strchr(line, '\n') - line) - 66, line + 66);
+    }
+    memory_free(ctx, text);
+    return status;
 }
 
 /* ---- summary ---- */

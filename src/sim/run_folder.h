@@ -28,6 +28,11 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int
 /* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
 fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
 
+/* Whether the run was made of this scenario (its hash) and these inputs, by its run.json; FRAM_ERROR_INPUT names what
+   was changed. */
+fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
+                                 fram_error *error);
+
 /* How a run stands, for run.json. */
 typedef struct run_summary {
     const char *status;  /* "running", "stopped", "finished", "interrupted", "failed" */

@@ -134,6 +134,8 @@ static count_channels counts_of(const world *w)
 /* Every column once, W of the world, V of a vessel: name, unit, value.  Forces are on the vessel, global frame unless
    the name says body; moments are about its centre of mass. */
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
+/* Surge and sway force, and yaw moment in z. */
+#define PLANE(X, name, v) X(name "_x", "N", (v).x) X(name "_y", "N", (v).y) X(name "_z", "N m", (v).z)
 #define MECHANISM(X, name, id)                                           \
     V3(X, "mechanism_" name, "N", c.ice.mechanism[MECHANISM_##id].force) \
     V3(X, "mechanism_" name "_moment", "N m", c.ice.mechanism[MECHANISM_##id].moment)
@@ -191,8 +193,8 @@ static count_channels counts_of(const world *w)
     V("estimated_x", "m", c.estimate.x)                               \
     V("estimated_y", "m", c.estimate.y)                               \
     V("estimated_heading", "deg", c.estimate.z)                       \
-    V3(V, "estimated_load", "N", c.bias)                              \
-    V3(V, "demanded_force", "N", c.demand)                            \
+    PLANE(V, "estimated_load", c.bias)                                \
+    PLANE(V, "demanded_force", c.demand)                              \
     V("net_thrust", "N", c.net_thrust)                                \
     V("steering_angle", "deg", c.steering_deg)                        \
     V("besets", "1", c.besets)                                        \

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "io/file.h"
+#include "io/utf8.h"
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "study/words.h"
@@ -63,7 +64,7 @@ static int find_head(const char *path, const char *line, const char *name, bool 
 {
     char head[CELL_ROOM], near[CELL_ROOM] = "";
     int least = WORD_ROOM, at = 0;
-    for (const char *c = line; c && at < HEADS_MOST; at++) {
+    for (const char *c = line + utf8_mark(line, strlen(line)); c && at < HEADS_MOST; at++) {
         c = next_cell(c, head, sizeof head);
         split_head(head, unit);
         if (strcmp(head, name) == 0)
@@ -148,7 +149,7 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
 static fram_status read_csv(context *ctx, const char *path, const series_source *source, double_array *time,
                             double_array *value, char unit[UNIT_SIZE], fram_error *error)
 {
-    char *text = NULL, ignored[16];
+    char *text = NULL, time_unit[UNIT_SIZE];
     size_t size = 0;
     csv_want want = {.path = path, .time = -1, .maxima = source->maxima};
     fram_status readable = file_check(path, error);
@@ -164,8 +165,11 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
     }
     if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
-        want.time = find_head(path, text, "time", false, ignored, error);
-        if (want.time < 0)
+        want.time = find_head(path, text, "time", false, time_unit, error);
+        if (*time_unit && strcmp(time_unit, "s") != 0)
+            status =
+                error_set(error, FRAM_ERROR_INPUT, path, 1, "time", "expected the unit [s], found [%s]", time_unit);
+        else if (want.time < 0)
             status = error_set(error, FRAM_ERROR_INPUT, path, 1, "time",
                                "the file has no column `time`: give the step between rows");
     }

@@ -61,6 +61,24 @@ for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "vid
     expect 2 "$FRAM" $words b.stl
     says "--force" err
 done
+# What an earlier run left is not taken for the new one's.
+expect 0 "$FRAM" run scene.yaml -o old --quiet --set run.duration=0.4 --set output.picture_interval=0.1
+expect 0 "$FRAM" report old -q
+drawn=$(find old -name "plan-*.png" | wc -l)
+expect 0 "$FRAM" run scene.yaml -o old --force --quiet --set run.duration=0.2 --set output.picture_interval=0.1
+[ ! -e old/report.html ] || fail "the report of an earlier run stays beside a new one"
+[ "$drawn" = 0 ] || [ "$(find old -name "plan-*.png" | wc -l)" -lt "$drawn" ] || fail "pictures of an earlier run stay"
+# What a run does not have is a dash in a comparison.
+expect 0 "$FRAM" run scene.yaml -o brief --quiet --set output.csv_interval=1 --until 0.5
+expect 0 "$FRAM" compare run brief
+grep -q nan out && fail "a comparison tells nan: $(grep nan out)"
+# Times are seconds, and say so.
+printf 'time[ms],T[kN]\n0,1\n20,2\n40,3\n60,1\n80,4\n' >history.csv
+expect 2 "$FRAM" extremes history.csv --channel T
+says "expected the unit [s], found [ms]" err
+printf '\357\273\277T,time\n1,0\n2,1\n3,2\n1,3\n' >marked.csv
+"$FRAM" extremes marked.csv --channel T >out 2>err
+grep -q "no column" err && fail "a byte order mark hides a column: $(cat err)"
 # A picture's kind is that of its name.
 for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
     option=-o

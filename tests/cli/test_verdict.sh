@@ -81,6 +81,12 @@ verdict half
 says "held its station up to the end of the run" verdict.txt
 says "fram resume" verdict.txt
 
+# A run that ends with its transient has no statistics, and says so.
+expect 0 "$FRAM" run ship.yaml -o brief --quiet --set run.duration=4
+verdict brief
+says "1 of 80 rows of the run are after the transient of 4 s" verdict.txt
+grep -q 'mean ice load' verdict.txt && fail "one row has a mean"
+
 # Open water, towed: nothing to hold, no ice to speak of.
 grep -v -e mooring -e depth -e lines -e count -e breaking -e spring -e station ship.yaml >tow.yaml
 expect 0 "$FRAM" run tow.yaml -o tow --quiet --set vessel.mode=towed --set vessel.speed=1 --set ice.source=none

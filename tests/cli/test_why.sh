@@ -131,4 +131,12 @@ says 'expected the name of a vessel, "tug", "barge"; found "2"' err
 expect 0 "$FRAM" why two --time 0.1
 says "No ice touched the vessel in the 0.5 s up to then." out
 grep -q "no chain to follow" out && fail "nothing is told at length: $(cat out)"
+# What the run was made of was changed: nothing is computed from something else.
+cp two/scenario.yaml kept.yaml
+sed 's/seed: 1 /seed: 7 /' kept.yaml >two/scenario.yaml
+cmp -s kept.yaml two/scenario.yaml && fail "the scenario was not changed"
+expect 2 "$FRAM" why two --time 1
+says "was changed since the run was made" err
+cp kept.yaml two/scenario.yaml
+expect 0 "$FRAM" why two --time 1
 finish "peaks explained, computed again, refused"

@@ -52,6 +52,23 @@ START_TEST(wkt_of_all_kinds)
 }
 END_TEST
 
+/* As spreadsheets and editors write it before the first character. */
+START_TEST(byte_order_mark)
+{
+    static const char *const texts[] = {"\xef\xbb\xbfPOLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))",
+                                        "\xef\xbb\xbf"
+                                        "0 0\n10 0\n10 10\n0 10\n",
+                                        "\xef\xbb\xbf{\"type\": \"Polygon\", \"coordinates\": "
+                                        "[[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]]}"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        assert_ok(parse(texts[i]), error);
+        ck_assert_int_eq(rings.place.count, 1);
+        ck_assert_int_eq(polygon_list_get(&rings.rings, 0).count, 4);
+        import_rings_free(&ctx, &rings);
+    }
+}
+END_TEST
+
 START_TEST(lines_of_points)
 {
     assert_ok(parse("# x y\r\n0 0\r\n10\t0\r\n10,10\r\n0 ; 10\r\n\r\n\r\n> second\n1 1\n2 1\n2 2\n1 1\n>\n"
@@ -152,5 +169,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("outline_file", wkt_of_all_kinds, lines_of_points, geojson_is_told_apart, refusals_say_where,
+TEST_MAIN("outline_file", wkt_of_all_kinds, byte_order_mark, lines_of_points, geojson_is_told_apart, refusals_say_where,
           rings_become_floes, memory_runs_out)

@@ -535,6 +535,7 @@ class Package(unittest.TestCase):
     def test_words(self):
         self.assertRegex(fram.version(), r"^\d+\.\d+\.\d+$")
         self.assertIsInstance(fram.features(), list)
+        self.assertEqual([name for name in fram.features() if not name.isidentifier()], [])
         self.assertEqual(fram.__version__, fram.version())
 
     def test_every_public_name_has_a_docstring_and_is_tried_here(self):

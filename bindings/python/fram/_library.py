@@ -188,5 +188,6 @@ def version() -> str:
 
 
 def features() -> list[str]:
-    """Optional parts of the library, as words."""
-    return text_of(lib.fram_features()).split()
+    """Names of the optional parts that the library was built with."""
+    parts = text_of(lib.fram_features())
+    return [] if parts == "none" else [part.split()[0] for part in parts.split(",")]
