@@ -103,7 +103,8 @@ def index(book, names):
              "nothing has changed since, no more. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md). The last column names "
              "the code that has changed since a page was made: its numbers may have changed with it "
-             "(`make validate-status` compares with the present code).", "",
+             "(`make validate-status` compares with the present code of contacts, solver, fracture, water and "
+             "geometry; scenes, defaults and what calls them are not compared).", "",
              f"{agree} of {len(verdicts)} cases agree. {all_cases(verdicts)}"
              + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
@@ -161,7 +162,8 @@ def main():
         parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(modules)}")
     chosen = [n for n, module in modules.items() if not (options.only and n not in options.only
                                                         or options.quick and module.LONG)]
-    head = f"{program()}, revision {revision()}, {datetime.date.today()}, {machine()}, {options.jobs} runs at a time"
+    made = revision()  # once: the program and the cases are those of now, whatever is committed meanwhile
+    head = f"{program()}, revision {made}, {datetime.date.today()}, {machine()}, {options.jobs} runs at a time"
     code = status.of_checkout()
     failed, skipped, begun, reused_before = 0, 0, time.monotonic(), len(ladder.REUSED)
     for name in chosen:
@@ -191,7 +193,7 @@ def main():
             seconds = book["cases"].get(name, {}).get("seconds")
         book["cases"][name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
                                "failed": [what for what, good in case.checks if not good],
-                               "made": f"{datetime.date.today()}, {revision()}", "code": code,
+                               "made": f"{datetime.date.today()}, {made}", "code": code,
                                "seconds": seconds and round(seconds)}
         write_book(options.out, book, modules)
     seconds = time.monotonic() - begun
