@@ -132,7 +132,7 @@ def draw_means(axes, found, spans):
         axes.plot([at + 0.3], [lindqvist(row, STEM, ENTRANCE, FRICTION) / 1e3], "x", color="C1",
                   label="Lindqvist" if first else None)
     axes.set_xticks(range(len(ROWS)), [f"{t}\n{r[0]} m, {r[4]} m/s" for t, r in ROWS.items()])
-    axes.set(ylabel="resistance [kN]", ylim=(0, None))
+    axes.set(ylabel="resistance [kN]", ylim=(0, 1.2 * axes.get_ylim()[1]))  # room for the legend
     axes.legend(fontsize=7, ncols=2)
 
 

@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "fram/live.h"
+#include "model/mechanism.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,9 +58,9 @@ static const struct {
     {"line_tension_max", "highest tension of a line"},
     {"lines_parted", "lines that have broken"},
     {"line", "tension of each"},
-    {"estimated_load", "load in the observer's belief: surge and sway force, yaw moment in z"},
+    {"estimated_load", "force (x, y) and yaw moment (z) that the observer believes in, global frame"},
     {"estimated", "what the observer believes"},
-    {"demanded_force", "demand of the controller on the thrusters: surge and sway force, yaw moment in z"},
+    {"demanded_force", "force (x, y) and yaw moment (z) that the controller demands, axes of the vessel"},
     {"net_thrust", "of a ship under its own power"},
     {"steering_angle", "of a ship under its own power"},
     {"besets", "number of times that the ship was beset"},

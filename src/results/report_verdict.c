@@ -235,6 +235,16 @@ static void judge_station(verdict *v)
 
 /* ---- loads, and how sure they are ---- */
 
+static void judge_transient(verdict *v)
+{
+    const run_data *d = &v->r->d;
+    int rows = (int)(d->series.rows - run_first_row(d));
+    if (rows < 2)
+        find(v, VERDICT_CAUTION, "Make run.transient shorter or the run longer.",
+             "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.", rows,
+             (int)d->series.rows, d->s.run.transient);
+}
+
 /* A mean within this part of itself, at 95 %, by so many independent values, is enough for most uses. */
 #define ENOUGH 0.2
 #define VALUES_ENOUGH 10.0
@@ -244,13 +254,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
     const report *r = v->r;
     const double *time = run_channel(&r->d, "time");
     int32_t first = run_first_row(&r->d), rows = r->d.series.rows - first;
-    if (time && rows < 2) {
-        find(v, VERDICT_CAUTION, "Make run.transient shorter or the run longer.",
-             "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.",
-             (int)rows, (int)r->d.series.rows, r->d.s.run.transient);
-        return FRAM_OK;
-    }
-    if (!time || first >= r->load.count)
+    if (!time || rows < 2 || first >= r->load.count)
         return FRAM_OK;
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     double span = time[first + rows - 1] - time[first];
@@ -403,6 +407,7 @@ fram_status report_verdict(report *r, fram_error *error)
     judge_end(&v);
     judge_walls(&v);
     judge_tracks(&v);
+    judge_transient(&v);
     for (int32_t i = 0; i < scenario_vessel_count(&r->d.s) && status == FRAM_OK; i++) {
         status = report_choose_vessel(r, i, error);
         if (status == FRAM_OK)

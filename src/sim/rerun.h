@@ -17,7 +17,7 @@ typedef struct rerun_result {
 } rerun_result;
 
 /* The state of a run at or before a time, of its nearest checkpoint or as it was built, into an empty world.
-   FRAM_ERROR_INPUT for checkpoints whose inputs were changed since. */
+   FRAM_ERROR_INPUT when the folder's scenario or its inputs were changed since the run. */
 fram_status rerun_start(context *ctx, const char *folder, const scenario *s, double time, const model *m, world *w,
                         fram_error *error);
 

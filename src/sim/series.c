@@ -134,7 +134,7 @@ static count_channels counts_of(const world *w)
 /* Every column once, W of the world, V of a vessel: name, unit, value.  Forces are on the vessel, global frame unless
    the name says body; moments are about its centre of mass. */
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
-/* Surge and sway force, and yaw moment in z. */
+/* Forces in the horizontal plane, and the yaw moment in z. */
 #define PLANE(X, name, v) X(name "_x", "N", (v).x) X(name "_y", "N", (v).y) X(name "_z", "N m", (v).z)
 #define MECHANISM(X, name, id)                                           \
     V3(X, "mechanism_" name, "N", c.ice.mechanism[MECHANISM_##id].force) \

@@ -187,6 +187,9 @@ if [ $pictures = yes ]; then
     [ "$(find frames -name 'frame-*.png' | wc -l)" = 7 ] || fail "not 7 frames: $(ls frames)"
     expect 2 "$FRAM" video run --colour red
     expect 2 "$FRAM" video run --width 641
+    says "width" err
+    expect 2 "$FRAM" video run --height 200
+    says "height" err
     expect 2 "$FRAM" video run --camera nowhere
     expect 2 "$FRAM" video run --camera follow --span 80
     expect 2 "$FRAM" video run --speed 1e-9 --pictures -o endless

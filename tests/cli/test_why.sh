@@ -139,4 +139,14 @@ expect 2 "$FRAM" why two --time 1
 says "was changed since the run was made" err
 cp kept.yaml two/scenario.yaml
 expect 0 "$FRAM" why two --time 1
+printf '30 40\n36 40\n36 46\n30 46\n' >floes.txt
+sed -e 's/source: floes/source: file/' -e 's/^  floes: .*/  file: floes.txt/' two.yaml >outlined.yaml
+expect 0 "$FRAM" run outlined.yaml -o outlined --quiet
+expect 0 "$FRAM" why outlined --time 1
+printf '30 40\n36 40\n36 45\n30 45\n' >floes.txt
+for words in "why outlined --time 1" "pressure outlined -o pressed"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words
+    says "floes.txt was changed since the run was made" err
+done
 finish "peaks explained, computed again, refused"
