@@ -138,14 +138,27 @@ static void print_number(double x, int digits)
         printf(" %14s", "-");
 }
 
+enum { COMPARED_NAME_ROOM = 96 };
+
+static int compared_name(const fram_comparison_row *row, char out[COMPARED_NAME_ROOM])
+{
+    return snprintf(out, COMPARED_NAME_ROOM, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
+}
+
 static void print_rows(const fram_comparison *c)
 {
-    printf("%-38s %14s %14s %14s\n", "after the transient", "A", "B", "B - A");
+    static const char heading[] = "after the transient";
+    char name[COMPARED_NAME_ROOM];
+    int width = (int)strlen(heading);
+    for (int i = 0; i < c->count; i++) {
+        int length = compared_name(&c->rows[i], name);
+        width = length > width ? length : width;
+    }
+    printf("%-*s %14s %14s %14s\n", width, heading, "A", "B", "B - A");
     for (int i = 0; i < c->count; i++) {
         const fram_comparison_row *row = &c->rows[i];
-        char name[96];
-        snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
-        printf("%-38s", name);
+        compared_name(row, name);
+        printf("%-*s", width, name);
         print_number(row->a, 6);
         print_number(row->b, 6);
         print_number(row->b - row->a, 4);

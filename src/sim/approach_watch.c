@@ -45,23 +45,29 @@ static int64_t interval_of(const model *m, int32_t vessel)
     return steps < 1 ? 1 : (int64_t)steps;
 }
 
-/* The outline of a hull where it is now, as it is upright. */
-static bool hull_now(context *ctx, const model *m, const world *w, int32_t vessel, vec2_array *plan, approach_hull *out)
+bool approach_outline(context *ctx, const model *m, int32_t vessel, vec2 at, vec2 ahead, vec2_array *out)
 {
     const vec2_array *own = &m->vessels.data[vessel].plan;
+    if (!array_resize(ctx, out, own->count))
+        return false;
+    for (int32_t i = 0; i < own->count; i++) {
+        vec2 p = own->data[i];
+        out->data[i] = vec2_make(at.x + p.x * ahead.x - p.y * ahead.y, at.y + p.x * ahead.y + p.y * ahead.x);
+    }
+    return true;
+}
+
+/* Where it is now, as it is upright. */
+static bool hull_now(context *ctx, const model *m, const world *w, int32_t vessel, vec2_array *plan, approach_hull *out)
+{
     int32_t body = w->vessels.body[vessel];
     vec3 at = w->bodies.position[body], v = w->bodies.velocity[body];
     vec3 bow = mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), vec3_make(1, 0, 0));
     double level = sqrt(bow.x * bow.x + bow.y * bow.y);
     vec2 ahead = level > 0 ? vec2_make(bow.x / level, bow.y / level) : vec2_make(1, 0);
-    if (!array_resize(ctx, plan, own->count))
-        return false;
-    for (int32_t i = 0; i < own->count; i++) {
-        vec2 p = own->data[i];
-        plan->data[i] = vec2_make(at.x + p.x * ahead.x - p.y * ahead.y, at.y + p.x * ahead.y + p.y * ahead.x);
-    }
+    bool good = approach_outline(ctx, m, vessel, vec2_make(at.x, at.y), ahead, plan);
     *out = (approach_hull){{plan->data, plan->count}, vec2_make(v.x, v.y)};
-    return true;
+    return good;
 }
 
 /* Whether two vessels can come closer than a limit at all: their hulls lie within circles about the centres of mass. */

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_FRACTURES, NUMBER_HASH, NUMBER_COUNT };
-enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
+enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_PEAKS, BYTES_COUNT };
 enum { CHECKPOINTS_KEPT = 2 };
 
 /* ---- names ---- */
@@ -105,7 +105,8 @@ static void content_of(const world *w, const checkpoint_note *note, state_conten
     const table_file_bytes bytes[BYTES_COUNT] = {
         {"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
         {"inputs", (void *)note->inputs, strlen(note->inputs)},
-        {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
+        {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)},
+        {"peaks", note->peaks ? note->peaks->data : NULL, note->peaks ? (size_t)note->peaks->count : 0}};
     memcpy(c->numbers, numbers, sizeof numbers);
     memcpy(c->bytes, bytes, sizeof bytes);
     c->file = (table_file){c->tables, WORLD_TABLE_COUNT, c->numbers, NUMBER_COUNT, c->bytes, BYTES_COUNT, false};
@@ -167,6 +168,15 @@ static bool same_text(const table_file_bytes *bytes, const char *text)
     return bytes->size == strlen(text) && (bytes->size == 0 || memcmp(bytes->data, text, bytes->size) == 0);
 }
 
+static bool copy_bytes(context *ctx, const table_file_bytes *from, byte_array *to)
+{
+    if (from->size > INT32_MAX || !array_resize(ctx, to, (int32_t)from->size))
+        return false;
+    if (from->size > 0)
+        memcpy(to->data, from->data, from->size);
+    return true;
+}
+
 /* Read one file, or `data` in its place; `other` is true when it is sound but belongs to something else. */
 static fram_status read_one(context *ctx, const char *path, const void *data, size_t size, const model *m, world *w,
                             checkpoint_note *note, bool *other, fram_error *error)
@@ -175,7 +185,8 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     world_tables(w, tables);
     table_file_number numbers[NUMBER_COUNT] = {
         {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}};
-    table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}};
+    table_file_bytes bytes[BYTES_COUNT] = {
+        {"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}, {"peaks", NULL, 0}};
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT, false};
     fram_error unsound = {0};
     fram_status status =
@@ -208,6 +219,8 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     } else if (world_hash(w) != numbers[NUMBER_HASH].value) {
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
+    } else if (note->peaks && !copy_bytes(ctx, &bytes[BYTES_PEAKS], note->peaks)) {
+        status = error_memory(error);
     }
     note->series_length = numbers[NUMBER_SERIES].value;
     note->record_length = numbers[NUMBER_RECORD].value;

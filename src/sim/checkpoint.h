@@ -7,12 +7,14 @@
 #include "io/late_commit.h"
 #include "io/text_buffer.h"
 #include "model/world.h"
+#include "sim/peak_state.h"
 
 /* What stands beside the state. */
 typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs; /* text of inputs_list, compared on resume */
+    byte_array *peaks;  /* of peak_state_save, filled by reading; NULL: none, not asked for */
     bool differs;       /* reading: the last one looked at is sound, but of another layout of tables */
 } checkpoint_note;
 

@@ -27,11 +27,9 @@ void peak_watch_free(peak_watch *p)
         array_free(p->ctx, &p->ring.data[i]);
     array_free(p->ctx, &p->ring);
     array_free(p->ctx, &p->vessels);
-    array_free(p->ctx, &p->earlier);
 }
 
-/* On the first step with a world: rooms for its window and vessels. */
-static bool begin(peak_watch *p, const world *w)
+bool peak_watch_begin(peak_watch *p, const world *w)
 {
     int64_t steps = load_window_length(w);
     if (steps > WINDOW_STEPS_MOST)
@@ -53,7 +51,7 @@ static bool begin(peak_watch *p, const world *w)
 
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error)
 {
-    if (!begin(p, w))
+    if (!peak_watch_begin(p, w))
         return error_memory(error);
     if (p->ring.count == 0)
         return FRAM_OK;
@@ -227,28 +225,10 @@ static void keep_detail(vessel_peaks *v, int32_t at)
     v->kept[at] = v->candidate;
 }
 
-/* The peaks of the call before that lie before this one. */
-static void take_earlier(peak_watch *p, double now)
-{
-    for (int32_t i = 0; i < p->earlier.count; i++) {
-        const peak_detail *d = &p->earlier.data[i];
-        if (d->vessel >= p->vessels.count || d->time >= now)
-            continue;
-        vessel_peaks *v = &p->vessels.data[d->vessel];
-        v->candidate = *d;
-        v->picker.candidate = (load_peak){d->time, d->load};
-        v->picker.open = true;
-        keep_detail(v, peak_picker_ends(&v->picker));
-    }
-    array_clear(&p->earlier);
-}
-
 fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
 {
     fram_status status = peak_watch_keep(p, w, error);
     double time = w->clock.time[0];
-    if (status == FRAM_OK)
-        take_earlier(p, time);
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++) {
         vessel_peaks *peaks = &p->vessels.data[v];
         vec3 force = load_window_average(w, v).force;
@@ -293,9 +273,6 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
         status = error_memory(error);
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
         status = append_vessel(&file, room, &p->vessels.data[v], error);
-    /* Those of the call before stay where this one has made no step. */
-    for (int32_t i = 0; i < p->earlier.count && status == FRAM_OK; i++)
-        status = append(&file, room, &p->earlier.data[i], error);
     memory_free(p->ctx, room);
     fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
     status = status == FRAM_OK ? closed : status;
@@ -303,29 +280,5 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
         status = file_error(error, path, "replace the file", errno);
     if (status != FRAM_OK)
         (void)unlink(fresh);
-    return status;
-}
-
-fram_status peak_watch_read(peak_watch *p, const char *folder, fram_error *error)
-{
-    char path[PATH_ROOM];
-    record_reader reader;
-    fram_status status = path_join(folder, "peaks.fram", path, error);
-    if (status != FRAM_OK)
-        return status;
-    fram_error none;
-    status = record_open(p->ctx, path, &reader, &none);
-    if (status != FRAM_OK)
-        return status == FRAM_ERROR_MEMORY ? error_memory(error) : FRAM_OK;
-    record_block block;
-    bool found = true;
-    peak_detail d;
-    while (status == FRAM_OK && found) {
-        status = record_next(&reader, &block, &found, error);
-        if (status == FRAM_OK && found && block.type == BLOCK_PEAK && peak_block_unpack(block.data, block.size, &d) &&
-            !array_push(p->ctx, &p->earlier, d))
-            status = error_memory(error);
-    }
-    record_reader_close(&reader);
     return status;
 }

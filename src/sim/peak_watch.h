@@ -21,11 +21,12 @@ typedef struct peak_watch {
     ARRAY(ice_share_array) ring;    /* one per step of the window, WINDOW_STEPS_MOST at most */
     int32_t next, filled;
     ARRAY(vessel_peaks) vessels;
-    ARRAY(peak_detail) earlier; /* of a call that this one continues, until its first step */
 } peak_watch;
 
 void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p);
 void peak_watch_free(peak_watch *p);
+/* On the first call with a world: rooms for its window and vessels.  false: no memory. */
+bool peak_watch_begin(peak_watch *p, const world *w);
 /* Keeps the contacts of the step that was just done. */
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error);
 /* What carries the load of a vessel now: after peak_watch_keep. */
@@ -37,8 +38,5 @@ fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error);
 /* The peaks so far as FOLDER/peaks.fram (results/peaks.h reads it), the ones that are not over too.  A failure leaves
    the file of before. */
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error);
-/* Peaks of an earlier call that this one continues; none where there is no such file, or a damaged one.  Those behind
-   the state that the run goes on from are dropped on the first step. */
-fram_status peak_watch_read(peak_watch *p, const char *folder, fram_error *error);
 
 #endif

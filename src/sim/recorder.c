@@ -147,8 +147,6 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
         status = record_continue(ctx, path, lengths->record, &r->record, error);
     if (status == FRAM_OK)
         status = cut_streams(r, lengths, error);
-    if (status == FRAM_OK)
-        status = peak_watch_read(&r->peaks, folder, error);
     if (status != FRAM_OK)
         recorder_close(r, NULL);
     return status;

@@ -26,6 +26,8 @@ static fram_status write_checkpoint(recording *r, fram_error *error)
     fram_status status = end_checkpoint(r, error);
     if (status == FRAM_OK)
         status = peak_watch_write(&r->recorder.peaks, r->folder, error);
+    if (status == FRAM_OK && !peak_state_save(&r->recorder.peaks, r->w, &r->peaks))
+        status = error_memory(error);
     if (status != FRAM_OK)
         return status;
     file_writer *streams[RECORDER_STREAMS];
@@ -34,7 +36,8 @@ static fram_status write_checkpoint(recording *r, fram_error *error)
     checkpoint_note note = {.series_length = lengths.series,
                             .record_length = lengths.record,
                             .fractures_length = lengths.fractures,
-                            .inputs = r->inputs.data};
+                            .inputs = r->inputs.data,
+                            .peaks = &r->peaks};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     return checkpoint_begin(r->ctx, r->folder, r->w, &note, streams, RECORDER_STREAMS, &r->checkpoint, error);
 }
@@ -258,7 +261,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
 
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error)
 {
-    checkpoint_note note = {.inputs = r->inputs.data};
+    checkpoint_note note = {.inputs = r->inputs.data, .peaks = &r->peaks};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     fram_status status = checkpoint_read_newest(r->ctx, r->folder, m, w, &note, error);
     *lengths = (recorder_lengths){note.series_length, note.record_length, note.fractures_length};
@@ -271,7 +274,7 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 {
     fram_status status = recorder_continue(r->ctx, r->s, r->folder, lengths, &r->recorder, error);
     r->open = status == FRAM_OK;
-    return status;
+    return status == FRAM_OK ? peak_state_restore(&r->recorder.peaks, r->w, &r->peaks, error) : status;
 }
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
@@ -335,4 +338,5 @@ void recording_free(recording *r)
     run_folder_unlock(r->lock);
     r->lock = -1;
     text_free(r->ctx, &r->inputs);
+    array_free(r->ctx, &r->peaks);
 }

@@ -30,6 +30,7 @@ typedef struct recording {
     recorder recorder;
     late_commit checkpoint; /* under way */
     text_buffer inputs;
+    byte_array peaks; /* of the checkpoint that was read or written last */
     char hash[SHA256_TEXT_SIZE];
     double started;     /* wall clock [s] */
     double began_at;    /* simulated time at which this call began [s] */
@@ -56,7 +57,8 @@ fram_status recording_prepare(recording *r, fram_error *error);
 fram_status recording_prepare_again(recording *r, fram_error *error);
 /* Folder and streams of a world that stands where its recording begins, and the first frame where one is due. */
 fram_status recording_begin(recording *r, world *w, fram_error *error);
-/* The newest good checkpoint into an empty world; then the streams are cut to what they held then. */
+/* The newest good checkpoint into an empty world; then the streams are cut to what they held then, and the peaks are
+   those of then. */
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
 /* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */

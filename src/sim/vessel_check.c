@@ -5,6 +5,7 @@
 #include "model/scenario_schema.h"
 #include "sim/build_ice.h"
 #include "sim/build_vessel.h"
+#include "sim/meeting_check.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
 
@@ -346,5 +347,6 @@ void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, con
     warn_of_damping(ctx, e, hull);
     warn_of_springs(ctx, s, e, hull, w, row);
     wall_warnings(ctx, s, e, m, w, row);
+    meeting_warnings(ctx, s, e, m, w, row);
     turning_tell(ctx, s, e, m, w, row);
 }

@@ -94,4 +94,34 @@ for name in loads-tug.png station-tug.json; do
 done
 head -1 "$run/series.csv" | grep -q "tug\." && fail "a vessel that is not present has columns"
 
+# Vessels whose motions are given and meet: told before the run, with the time (hulls 20 m long, 2 m/s after a ramp of
+# 10 s against 1 m/s; a path that crosses from below at 2.5 m/s), and not where one of them is free or they stay clear.
+cat >"$scratch/meet.yaml" <<'END'
+run: {duration: 60, time_step: 0.02, transient: 0}
+vessels:
+  - {name: tug, mode: towed, x: -40, speed: 2, ramp: 10,
+     hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+  - {name: barge, mode: prescribed, x: 40, y: 3, speed: 1, course_deg: 180,
+     hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+  - {name: pilot, mode: prescribed,
+     path: [{time: 0, x: -40, y: -30}, {time: 20, x: 0, y: -30}, {time: 40, x: 0, y: 20}],
+     hull: {form: box, length: 10, beam: 4, draught: 2, freeboard: 1}}
+ice: {source: none}
+domain: {x_min: -100, x_max: 100, y_min: -60, y_max: 60, boundary: open}
+END
+expect 0 "$FRAM" check "$scratch/meet.yaml"
+python3 - err <<'END' || failures=$((failures + 1))
+import re
+import sys
+
+met = re.findall(r"vessel (\w+) is driven through vessel (\w+) from t = ([\d.]+) s on", open(sys.argv[1]).read())
+expected = [("barge", "tug", 70 / 3), ("pilot", "tug", 29.6), ("pilot", "barge", None)]
+assert [m[:2] for m in met] == [e[:2] for e in expected], met
+assert all(e[2] is None or abs(float(m[2]) - e[2]) < 0.01 for m, e in zip(met, expected)), met
+END
+for change in barge.mode=free barge.y=9; do
+    expect 0 "$FRAM" check "$scratch/meet.yaml" --set vessels.pilot.present=false --set "vessels.$change"
+    grep -q 'is driven through' err && fail "vessels are said to meet with $change"
+done
+
 finish "vessels of a list go by name"

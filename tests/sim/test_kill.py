@@ -33,7 +33,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 environment: {current_speed: 3, current_direction_deg: 180}
 output: {frame_interval: 0.2, checkpoint_interval: 0.3}
 """
-FOR_GOOD = ("record.fram", "fractures.csv", "scenario.yaml", "station.json")
+FOR_GOOD = ("record.fram", "fractures.csv", "scenario.yaml", "station.json", "peaks.fram")
 
 
 def checkpoints(run):

@@ -1,0 +1,152 @@
+#include "sim/peak_state.h"
+
+#include <math.h>
+#include <string.h>
+
+/* One way for both directions, so that what is saved is what is restored. */
+typedef struct byte_stream {
+    peak_watch *watch;
+    byte_array *out; /* NULL: reads */
+    const byte_array *in;
+    int32_t at;
+    bool full, bad;
+} byte_stream;
+
+static bool goes(const byte_stream *s) { return !s->full && !s->bad; }
+
+static void bytes(byte_stream *s, void *value, size_t size)
+{
+    if (!goes(s))
+        return;
+    if (s->out) {
+        int32_t at = s->out->count;
+        s->full = size > (size_t)(INT32_MAX - at) || !array_resize(s->watch->ctx, s->out, at + (int32_t)size);
+        if (!s->full)
+            memcpy(s->out->data + at, value, size);
+        return;
+    }
+    s->bad = size > (size_t)(s->in->count - s->at);
+    if (s->bad)
+        return;
+    memcpy(value, s->in->data + s->at, size);
+    s->at += (int32_t)size;
+}
+
+static void whole(byte_stream *s, int32_t *value, int32_t most)
+{
+    bytes(s, value, sizeof *value);
+    if (s->out)
+        return;
+    s->bad = s->bad || *value < 0 || *value > most;
+    *value = s->bad ? 0 : *value;
+}
+
+static void real(byte_stream *s, double *value)
+{
+    bytes(s, value, sizeof *value);
+    s->bad = s->bad || (!s->out && !isfinite(*value));
+}
+
+static void vector(byte_stream *s, vec3 *v)
+{
+    real(s, &v->x);
+    real(s, &v->y);
+    real(s, &v->z);
+}
+
+static void detail(byte_stream *s, peak_detail *d)
+{
+    unsigned char room[PEAK_BLOCK_ROOM];
+    int32_t size = s->out ? (int32_t)peak_block_pack(d, room) : 0;
+    whole(s, &size, PEAK_BLOCK_ROOM);
+    bytes(s, room, (size_t)size);
+    if (!s->out && goes(s))
+        s->bad = !peak_block_unpack(room, (size_t)size, d) || d->vessel >= s->watch->vessels.count;
+}
+
+static void peaks(byte_stream *s, vessel_peaks *v)
+{
+    peak_picker *p = &v->picker;
+    int32_t open = p->open;
+    real(s, &p->last);
+    whole(s, &p->count, PEAKS_KEPT);
+    for (int32_t i = 0; i < p->count && goes(s); i++) {
+        detail(s, &v->kept[i]);
+        p->kept[i] = (load_peak){v->kept[i].time, v->kept[i].load};
+    }
+    whole(s, &open, 1);
+    p->open = open;
+    real(s, &p->candidate.time);
+    real(s, &p->candidate.value);
+    if (open)
+        detail(s, &v->candidate);
+}
+
+static void share(byte_stream *s, const world *w, ice_share *c)
+{
+    whole(s, &c->vessel, w->vessels.count - 1);
+    whole(s, &c->body, w->bodies.count - 1);
+    bytes(s, &c->floe, sizeof c->floe);
+    bytes(s, &c->mechanism, sizeof c->mechanism);
+    bytes(s, &c->zone, sizeof c->zone);
+    vector(s, &c->point);
+    vector(s, &c->normal);
+    vector(s, &c->friction);
+    s->bad = s->bad || c->mechanism >= MECHANISM_COUNT || c->zone >= ZONE_COUNT;
+}
+
+/* The steps of the window from the oldest on; they are restored into the ring's first rows. */
+static void steps(byte_stream *s, const world *w)
+{
+    peak_watch *p = s->watch;
+    int32_t oldest = s->out ? p->next + p->ring.count - p->filled : 0;
+    whole(s, &p->filled, p->ring.count);
+    for (int32_t k = 0; k < p->filled && goes(s); k++) {
+        ice_share_array *row = &p->ring.data[(oldest + k) % p->ring.count];
+        int32_t count = row->count;
+        whole(s, &count, INT32_MAX);
+        for (int32_t i = 0; i < count && goes(s); i++) {
+            if (!s->out && !array_resize(p->ctx, row, i + 1))
+                s->full = true;
+            else
+                share(s, w, &row->data[i]);
+        }
+    }
+    if (!s->out && p->ring.count > 0)
+        p->next = p->filled % p->ring.count;
+}
+
+static void state(byte_stream *s, const world *w)
+{
+    peak_watch *p = s->watch;
+    for (int32_t v = 0; v < p->vessels.count && goes(s); v++)
+        peaks(s, &p->vessels.data[v]);
+    steps(s, w);
+}
+
+bool peak_state_save(peak_watch *p, const world *w, byte_array *out)
+{
+    byte_stream s = {.watch = p, .out = out};
+    array_clear(out);
+    if (!peak_watch_begin(p, w))
+        return false;
+    state(&s, w);
+    return !s.full;
+}
+
+fram_status peak_state_restore(peak_watch *p, const world *w, const byte_array *saved, fram_error *error)
+{
+    byte_stream s = {.watch = p, .in = saved};
+    if (!peak_watch_begin(p, w))
+        return error_memory(error);
+    state(&s, w);
+    if (s.full)
+        return error_memory(error);
+    if (!s.bad && s.at == saved->count)
+        return FRAM_OK;
+    peak_watch fresh;
+    peak_watch_init(p->ctx, p->time_step, p->from, &fresh);
+    peak_watch_free(p);
+    *p = fresh;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "the peaks of the load so far do not fit the run");
+}
