@@ -66,7 +66,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     u->tell = tell;
     u->log = log_of(logging, UNIT_LOG_ALL);
     if (type == fmi2CoSimulation)
-        return unit_open(u, name, guid, resources && path_of_uri(resources, folder) ? folder : NULL);
+        return unit_open(u, name, guid, resources && path_of_uri(resources, folder) ? folder : NULL, NULL, 0);
     unit_fail(u, "this unit is for co-simulation");
     unit_free(u);
     return NULL;

@@ -56,16 +56,10 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
         return NULL;
     if (event_mode)
         return refuse(u, "this unit has no event mode");
-    u = unit_open(u, name, token, resources);
-    if (!u)
-        return NULL;
     u->may_return_early = early_return;
     u->update = (unit_any_function)update;
     u->look = update ? look : NULL;
-    if (unit_look_at(u, intermediate, intermediate_count) == UNIT_OK)
-        return u;
-    unit_free(u);
-    return NULL;
+    return unit_open(u, name, token, resources, intermediate, intermediate_count);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,

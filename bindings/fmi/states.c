@@ -10,7 +10,7 @@
 struct kept_state {
     kept_state *next;
     fram_world *world;
-    double start;
+    double start, stop;
     unit_phase phase;
     int count;
     variable variables[]; /* so that outputs are as they were, also those of the last step */
@@ -47,6 +47,7 @@ static kept_state *keep(unit *u)
         return NULL;
     }
     s->start = u->start;
+    s->stop = u->stop;
     s->phase = u->phase;
     s->count = u->count;
     memcpy(s->variables, u->variables, variables_size(u));
@@ -143,6 +144,7 @@ unit_status unit_state_set(unit *u, const void *state)
     fram_world_destroy(u->world);
     u->world = copy;
     u->start = s->start;
+    u->stop = s->stop;
     u->phase = s->phase;
     memcpy(u->variables, s->variables, variables_size(u));
     return UNIT_OK;
@@ -153,15 +155,15 @@ unit_status unit_state_set(unit *u, const void *state)
 typedef struct state_head {
     char mark[8];
     int64_t count, phase;
-    double start;
+    double start, stop;
 } state_head;
-static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '1'};
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '2'};
 
 static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
 
 static void write_head(const kept_state *s, char *out)
 {
-    state_head head = {.count = s->count, .phase = s->phase, .start = s->start};
+    state_head head = {.count = s->count, .phase = s->phase, .start = s->start, .stop = s->stop};
     memcpy(head.mark, mark, sizeof mark);
     memcpy(out, &head, sizeof head);
     for (int i = 0; i < s->count; i++) {
@@ -176,9 +178,10 @@ static bool read_head(const unit *u, const char *in, kept_state *s)
     state_head head;
     memcpy(&head, in, sizeof head);
     if (memcmp(head.mark, mark, sizeof mark) != 0 || head.count != u->count || head.phase < 0 ||
-        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start))
+        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start) || isnan(head.stop))
         return false;
     s->start = head.start;
+    s->stop = head.stop;
     s->phase = (unit_phase)head.phase;
     for (int i = 0; i < u->count; i++) {
         double values[2];

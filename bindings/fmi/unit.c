@@ -113,7 +113,7 @@ void unit_free(unit *u)
 {
     if (!u)
         return;
-    if (u->phase == UNIT_INTERMEDIATE) { /* its step goes on when the importer's function returns */
+    if (u->is_looked_on) { /* its step goes on when the importer's function returns */
         unit_fail(u, "an instance is not freed while it makes a step");
         return;
     }
@@ -127,7 +127,30 @@ void unit_free(unit *u)
     free(u);
 }
 
-unit *unit_open(unit *u, const char *name, const char *token, const char *folder)
+static bool are_variables(const unit *u, const uint32_t references[], size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (references[i] >= (uint32_t)u->count)
+            return false;
+    }
+    return true;
+}
+
+/* That these are outputs, and may be read while the importer looks on. */
+static unit_status look_at(unit *u, const uint32_t references[], size_t count)
+{
+    if (count > 0 && !references)
+        return unit_fail(u, "the intermediate variables are NULL");
+    for (size_t i = 0; i < count; i++) {
+        if (!are_variables(u, &references[i], 1) || u->variables[references[i]].kind == VARIABLE_INPUT)
+            return unit_fail(u, "an intermediate variable is no output of this unit");
+        u->variables[references[i]].is_looked_at = true;
+    }
+    return UNIT_OK;
+}
+
+unit *unit_open(unit *u, const char *name, const char *token, const char *folder, const uint32_t references[],
+                size_t count)
 {
     unsigned log = u->log;
     u->log |= UNIT_LOG_ERROR; /* why there is no instance is told in any case */
@@ -144,6 +167,8 @@ unit *unit_open(unit *u, const char *name, const char *token, const char *folder
         unit_fail(u, folder ? "the folder of the unit's resources is not there" : "there is no path of resources");
     else
         status = unit_read_resources(u, token);
+    if (status == UNIT_OK)
+        status = look_at(u, references, count);
     u->log = log;
     if (status == UNIT_OK)
         return u;
@@ -262,15 +287,6 @@ unit_status unit_reset(unit *u)
 
 /* ---- variables ---- */
 
-static bool are_variables(const unit *u, const uint32_t references[], size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (references[i] >= (uint32_t)u->count)
-            return false;
-    }
-    return true;
-}
-
 unit_status unit_get(unit *u, const uint32_t references[], size_t count, double values[])
 {
     if (!u)
@@ -310,18 +326,6 @@ unit_status unit_set(unit *u, const uint32_t references[], size_t count, const d
     return UNIT_OK;
 }
 
-unit_status unit_look_at(unit *u, const uint32_t references[], size_t count)
-{
-    if (count > 0 && !references)
-        return unit_fail(u, "the intermediate variables are NULL");
-    for (size_t i = 0; i < count; i++) {
-        if (!are_variables(u, &references[i], 1) || u->variables[references[i]].kind == VARIABLE_INPUT)
-            return unit_fail(u, "an intermediate variable is no output of this unit");
-        u->variables[references[i]].is_looked_at = true;
-    }
-    return UNIT_OK;
-}
-
 /* ---- steps ---- */
 
 /* A communication step is a whole multiple of the time step within this share of it. */
@@ -358,7 +362,9 @@ static unit_status step_inside(unit *u, bool is_last, double *return_at, bool *e
         read_outputs(u);
     if (u->look) {
         u->phase = UNIT_INTERMEDIATE;
+        u->is_looked_on = true;
         u->look(u, unit_time(u), u->may_return_early && !is_last, return_at);
+        u->is_looked_on = false;
         if (u->phase != UNIT_INTERMEDIATE)
             return unit_fail(u, "the step is given up after a call that is not to be made during one");
         u->phase = UNIT_STEPPING;

@@ -56,6 +56,7 @@ struct unit {
     void (*look)(unit *u, double time, bool may_return, double *return_at);
     unsigned log;
     bool may_return_early;
+    bool is_looked_on; /* the importer's function runs within a step, whatever the phase became in it */
     unit_phase phase;
     fram_context *context;
     fram_scenario *scenario;
@@ -82,8 +83,10 @@ FMI_HIDDEN unit_status unit_log_categories(unit *u, size_t count, const char *co
 /* ---- life ---- */
 
 /* Fills what a face has set up (version, environment, functions, log) with the unit in `folder`; NULL when that cannot
-   be, with the reason told, and u is freed.  token: the importer's, from the model description. */
-FMI_HIDDEN unit *unit_open(unit *u, const char *name, const char *token, const char *folder);
+   be, with the reason told, and u is freed.  token: the importer's, from the model description; references: of what it
+   may read while it looks on. */
+FMI_HIDDEN unit *unit_open(unit *u, const char *name, const char *token, const char *folder,
+                           const uint32_t references[], size_t count);
 FMI_HIDDEN void unit_free(unit *u);
 /* An instance for a face to set up; NULL without memory. */
 FMI_HIDDEN unit *unit_new(int version);
@@ -110,8 +113,6 @@ FMI_HIDDEN void unit_read_start(unit *u);
 
 FMI_HIDDEN unit_status unit_get(unit *u, const uint32_t references[], size_t count, double values[]);
 FMI_HIDDEN unit_status unit_set(unit *u, const uint32_t references[], size_t count, const double values[]);
-/* That these are outputs, and may be read while the importer looks on. */
-FMI_HIDDEN unit_status unit_look_at(unit *u, const uint32_t references[], size_t count);
 /* There are no variables of other types: none can be asked for. */
 FMI_HIDDEN unit_status unit_no_such_type(unit *u, const char *call, size_t count);
 

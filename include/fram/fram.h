@@ -14,11 +14,12 @@
            fram_world_step(world, &error);
 
    Every call that can fail returns a fram_status and fills the caller's fram_error (which may be NULL).  On failure the
-   out-pointers are left alone.  A NULL where a pointer is needed, or a definition that its default function did not
-   fill, is FRAM_ERROR_USAGE, and a number that cannot be (NaN, infinite, out of range) an error that names it as key;
-   functions without a status return 0, false, "" or NaN for NULL, or do nothing.  What may be NULL says so, and so may
-   the result of runs, exports and pages.  Objects are not locked: use one world from one thread at a time; worlds of
-   different contexts are independent.  A context must outlive its scenarios, a scenario its worlds.
+   out-pointers are left alone (an interrupted run fills its result).  A NULL where a pointer is needed, or a definition
+   that its default function did not fill, is FRAM_ERROR_USAGE, and a number that cannot be (NaN, infinite, out of
+   range) an error that names it as key; functions without a status return 0, false, "" or NaN for NULL, or do nothing.
+   What may be NULL says so, and so may the result of runs, exports and pages.  Objects are not locked: use one world
+   from one thread at a time; worlds of different contexts are independent.  A context must outlive its scenarios, a
+   scenario its worlds.
 
    Structs.  A program that was built with older headers runs with a newer library: structs grow at their ends alone,
    and the library is told how long the program's is.  A definition carries its size, which its default function sets. A

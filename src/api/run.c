@@ -84,6 +84,13 @@ static fram_run_result answer_of(const run_result *from)
                              .finished = from->finished};
 }
 
+/* An interrupted run tells how far it came; one that failed leaves the caller's result alone. */
+static void give_result(fram_run_result *result, size_t size, fram_status status, const run_result *from)
+{
+    if (status == FRAM_OK || status == FRAM_INTERRUPTED)
+        result_give(result, size, &(fram_run_result[]){answer_of(from)});
+}
+
 fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
                       fram_error *error, size_t size)
 {
@@ -105,7 +112,7 @@ fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definit
     options.begun_user = view;
     status = run_start(&s->context->inner, &s->inner, &options, &inner, error);
     live_view_end(view);
-    result_give(result, size, &(fram_run_result[]){answer_of(&inner)});
+    give_result(result, size, status, &inner);
     return status;
 }
 
@@ -130,7 +137,7 @@ fram_status(fram_resume)(fram_context *c, const fram_run_definition *definition,
     options.begun_user = view;
     status = run_resume(&c->inner, &options, &inner, error);
     live_view_end(view);
-    result_give(result, size, &(fram_run_result[]){answer_of(&inner)});
+    give_result(result, size, status, &inner);
     return status;
 }
 
@@ -284,6 +291,7 @@ fram_status(fram_playback)(fram_context *c, const fram_playback_definition *defi
     const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit, d->pressure};
     playback_report report = {0};
     status = playback_write(&c->inner, d->folder, &options, &report, error);
-    result_give(result, size, &(fram_playback_result){report.frames, report.left_out, report.files});
+    if (status == FRAM_OK)
+        result_give(result, size, &(fram_playback_result){report.frames, report.left_out, report.files});
     return status;
 }

@@ -301,6 +301,12 @@ int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room
     return outline.count;
 }
 
+/* false for NaN, too. */
+static bool is_of_use(vec3 v)
+{
+    return fabs(v.x) <= WRENCH_MOST && fabs(v.y) <= WRENCH_MOST && fabs(v.z) <= WRENCH_MOST;
+}
+
 fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
                                    fram_error *error)
 {
@@ -315,10 +321,10 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is static or driven: forces do not move it",
                          (int)id.slot);
     wrench load = {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};
-    double sum = load.force.x + load.force.y + load.force.z + load.moment.x + load.moment.y + load.moment.z;
-    if (!isfinite(sum) || fabs(sum) > WRENCH_MOST)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "force",
-                         "a force or moment is not finite, or beyond all use");
+    bool is_force = is_of_use(load.force);
+    if (!is_force || !is_of_use(load.moment))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, is_force ? "moment" : "force",
+                         "a %s is not finite, or beyond all use", is_force ? "moment" : "force");
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
 }
 

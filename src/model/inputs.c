@@ -26,6 +26,16 @@ int32_t input_row(context *ctx, input_table *inputs, input_kind kind, int32_t wh
     return row;
 }
 
+vec3 input_velocity(const input_table *inputs, input_kind kind, vec3 without)
+{
+    int32_t row = input_find(inputs, kind, 0);
+    if (row < 0)
+        return without;
+    vec3 told = inputs->first[row], is_told = inputs->second[row];
+    return vec3_make(is_told.x != 0 ? told.x : without.x, is_told.y != 0 ? told.y : without.y,
+                     is_told.z != 0 ? told.z : without.z);
+}
+
 void input_drop(input_table *inputs, input_kind kind)
 {
     int32_t kept = 0;

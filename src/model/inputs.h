@@ -8,9 +8,9 @@
 #include "base/vec.h"
 
 typedef enum input_kind {
-    INPUT_WIND = 0, /* first: velocity in place of the scenario's [m/s] */
-    INPUT_CURRENT,  /* first: velocity at the surface in place of the scenario's [m/s] */
-    INPUT_DRIFT,    /* first: velocity of the far field in place of the scenario's [m/s] */
+    INPUT_WIND = 0, /* first: velocity in place of the scenario's, second: 1 in the components that were told [m/s] */
+    INPUT_CURRENT,  /* the same at the surface */
+    INPUT_DRIFT,    /* the same of the far field */
     INPUT_FORCE,    /* which: vessel; force and moment in every step until another is told */
     INPUT_WRENCH,   /* which: body slot; force and moment in the next step alone */
     INPUT_KIND_COUNT
@@ -20,13 +20,15 @@ typedef enum input_kind {
     X(kind, int32_t, FIELD_I32, 1, "1", "enum input_kind")                            \
     X(which, int32_t, FIELD_I32, 1, "1", "what it is for: see the kind; otherwise 0") \
     X(first, vec3, FIELD_F64, 3, "m/s, N", "velocity or force, global frame")         \
-    X(second, vec3, FIELD_F64, 3, "N m", "moment about the centre of mass, global frame; or zero")
+    X(second, vec3, FIELD_F64, 3, "N m, 1", "moment about the centre of mass, global frame; or what was told")
 TABLE_DECLARE(input, INPUT_FIELDS)
 
 /* Row of an input, -1 while nobody told it. */
 int32_t input_find(const input_table *inputs, input_kind kind, int32_t which);
 /* The same, with a zero row made where there is none; -1 without memory. */
 int32_t input_row(context *ctx, input_table *inputs, input_kind kind, int32_t which);
+/* Of a velocity: the components that were told, the others as they are without. */
+vec3 input_velocity(const input_table *inputs, input_kind kind, vec3 without);
 /* Forget all rows of a kind; the others keep their order. */
 void input_drop(input_table *inputs, input_kind kind);
 

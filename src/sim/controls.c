@@ -125,8 +125,8 @@ static vec3 target_of(const world *w, int32_t v)
     return reference_target(&w->waypoints, v, w->stations.home[v], w->clock.time[0]);
 }
 
-/* What holds in place of an input that nobody told. */
-static vec3 untold(const model *m, const world *w, const control *c)
+/* What was told of a medium, or what holds without. */
+static vec3 medium_now(const model *m, const world *w, const control *c)
 {
     double time = w->clock.time[0];
     media now = media_now(m, &w->inputs, time);
@@ -150,7 +150,7 @@ double control_get(const model *m, const world *w, const control *c)
     case CONTROL_WIND:
     case CONTROL_CURRENT:
     case CONTROL_DRIFT:
-        return axis_value(untold(m, w, c), c->axis);
+        return axis_value(medium_now(m, w, c), c->axis);
     case CONTROL_FORCE:
     case CONTROL_MOMENT:
         return axis_value(force_told(w, c), c->axis);
@@ -172,17 +172,16 @@ double control_get(const model *m, const world *w, const control *c)
 
 /* ---- telling ---- */
 
-static fram_status set_medium(context *ctx, const model *m, world *w, const control *c, double value, fram_error *error)
+static fram_status set_medium(context *ctx, world *w, const control *c, double value, fram_error *error)
 {
     const input_kind kind = c->role == CONTROL_WIND      ? INPUT_WIND
                             : c->role == CONTROL_CURRENT ? INPUT_CURRENT
                                                          : INPUT_DRIFT;
-    vec3 now = untold(m, w, c);
     int32_t row = input_row(ctx, &w->inputs, kind, 0);
     if (row < 0)
         return error_memory(error);
-    *axis_of(&now, c->axis) = value;
-    w->inputs.first[row] = now;
+    *axis_of(&w->inputs.first[row], c->axis) = value;
+    *axis_of(&w->inputs.second[row], c->axis) = 1;
     return FRAM_OK;
 }
 
@@ -303,7 +302,7 @@ fram_status control_set(context *ctx, const model *m, world *w, const control *c
     case CONTROL_WIND:
     case CONTROL_CURRENT:
     case CONTROL_DRIFT:
-        return set_medium(ctx, m, w, c, value, error);
+        return set_medium(ctx, w, c, value, error);
     case CONTROL_FORCE:
     case CONTROL_MOMENT:
         return set_force(ctx, w, c, value, error);

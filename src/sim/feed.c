@@ -29,20 +29,20 @@ drift_world feed_sheet(const model *m, world *w)
 
 tile_grid feed_grid(const model *m, const world *w) { return drift_grid(&m->fracture.tiles, &w->drift); }
 
+static vec3 untold_drift(const model *m, const input_table *inputs, double time)
+{
+    if (m->history.drift.count > 0)
+        return velocity_series_at(&m->history.drift, time);
+    if (m->drift_given)
+        return vec3_make(m->drift.x, m->drift.y, 0);
+    media now = media_now(m, inputs, time);
+    return media_current(&now, 0);
+}
+
 vec2 feed_drift(const model *m, const input_table *inputs, double time)
 {
-    int32_t told = input_find(inputs, INPUT_DRIFT, 0);
-    if (told >= 0)
-        return vec2_make(inputs->first[told].x, inputs->first[told].y);
-    if (m->history.drift.count > 0) {
-        vec3 drift = velocity_series_at(&m->history.drift, time);
-        return vec2_make(drift.x, drift.y);
-    }
-    if (m->drift_given)
-        return m->drift;
-    media now = media_now(m, inputs, time);
-    vec3 current = media_current(&now, 0);
-    return vec2_make(current.x, current.y);
+    vec3 drift = input_velocity(inputs, INPUT_DRIFT, untold_drift(m, inputs, time));
+    return vec2_make(drift.x, drift.y);
 }
 
 /* A drift that is slower brings no ice [m/s]: 0.1 m in a day. */

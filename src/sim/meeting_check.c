@@ -86,8 +86,8 @@ void meeting_warnings(context *ctx, const scenario *s, const vessel_entry *entry
         if (!isinf(time))
             log_write(
                 ctx, LOG_WARNING,
-                "%s is driven through %s from t = %.4g s on: the motions of both are given, neither gives way, and forces "
-                "between them mean nothing; shorten run.duration, or give other courses",
+                "%s is driven through %s from t = %.4g s on: the motions of both are given, neither gives way, and "
+                "forces between them mean nothing; shorten run.duration, or give other courses",
                 vessel_title_of(entry).text, vessel_title_of(&other).text, time);
     }
 }

@@ -30,6 +30,9 @@ static void assert_refused(fram_status status, const char *call)
     e = (fram_error){0};
 }
 #define REFUSED(call) assert_refused((call), #call)
+#define REFUSED_KEY(call, name)        \
+    ck_assert_int_ne((call), FRAM_OK); \
+    ck_assert_str_eq(e.key, name)
 /* With a NULL for the error too. */
 #define REFUSED_NULL(call_with_error, call_without) \
     REFUSED(call_with_error);                       \
@@ -88,6 +91,11 @@ START_TEST(words_and_contexts)
     for (int threads = -1; threads <= 257; threads += 129) {
         d.threads = threads == 128 ? INT_MAX : threads;
         REFUSED(fram_context_create(&d, &made, &e));
+    }
+    fram_context_default(&d);
+    for (int i = 0; i < 2; i++) {
+        d.verbosity = (fram_log_level)(i == 0 ? -1 : FRAM_LOG_DEBUG + 1);
+        REFUSED_KEY(fram_context_create(&d, &made, &e), "verbosity");
     }
     fram_context_default(&d);
     d.isa = "";
@@ -182,9 +190,11 @@ START_TEST(worlds)
         for (int i = 0; i < 3; i++) {
             double force[3] = {0, 0, 0};
             force[i] = i == 0 ? nan_value : i == 1 ? infinite : -infinite;
-            REFUSED(fram_body_apply_wrench(w, id, force, zero, &e));
-            REFUSED(fram_body_apply_wrench(w, id, zero, force, &e));
+            REFUSED_KEY(fram_body_apply_wrench(w, id, force, zero, &e), "force");
+            REFUSED_KEY(fram_body_apply_wrench(w, id, zero, force, &e), "moment");
         }
+        const double opposite[3] = {1e300, -1e300, 0};
+        REFUSED(fram_body_apply_wrench(w, id, opposite, zero, &e));
         assert_ok(fram_body_apply_wrench(w, id, zero, zero, &e), e);
         REFUSED(fram_world_ice_load(w, id, &load, &e));
     }
@@ -213,7 +223,10 @@ START_TEST(runs_and_benchmarks)
     d.folder = run;
     REFUSED(fram_run(NULL, &d, &result, &e));
     REFUSED(fram_resume(NULL, &d, &result, &e));
+    memset(&result, 0x55, sizeof result);
+    const fram_run_result before = result;
     REFUSED(fram_resume(c, &d, &result, &e)); /* not there */
+    ck_assert_mem_eq(&result, &before, sizeof result);
     for (int i = 0; i < 2; i++) {
         d.until = wild[i];
         REFUSED(fram_run(scenario_of_test, &d, &result, &e));

@@ -353,6 +353,94 @@ START_TEST(any_call_in_any_order_has_a_status)
 }
 END_TEST
 
+/* ---- what the importer must not do, and is told ---- */
+
+typedef struct freer {
+    int errors; /* the log's environment */
+    fmi3Instance c;
+} freer;
+
+static void free_after_error(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set_requested,
+                             fmi3Boolean get_allowed, fmi3Boolean step_finished, fmi3Boolean can_return_early,
+                             fmi3Boolean *return_requested, fmi3Float64 *return_time)
+{
+    (void)time, (void)set_requested, (void)get_allowed, (void)step_finished, (void)can_return_early;
+    (void)return_requested, (void)return_time;
+    const freer *f = environment;
+    static const fmi3ValueReference not_looked_at[] = {VELOCITY};
+    double value;
+    ck_assert_int_eq(CALL(fmi3GetFloat64)(f->c, not_looked_at, 1, &value, 1), fmi3Error);
+    CALL(fmi3FreeInstance)(f->c);
+}
+
+static void begin_3(fmi3Instance c, double stop)
+{
+    ck_assert_int_eq(CALL(fmi3EnterInitializationMode)(c, false, 0, 0, true, stop), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3ExitInitializationMode)(c), fmi3OK);
+}
+
+static fmi3Status step_3(fmi3Instance c, int from)
+{
+    bool event, end, early;
+    double reached;
+    return CALL(fmi3DoStep)(c, from * dt, dt, true, &event, &end, &early, &reached);
+}
+
+START_TEST(an_instance_is_not_freed_in_its_step)
+{
+    make_resources();
+    freer f = {0};
+    f.c = make_3(&f.errors, free_after_error);
+    begin_3(f.c, 10 * dt);
+    ck_assert_int_eq(step_3(f.c, 0), fmi3Error);
+    ck_assert_int_eq(f.errors, 3); /* the value, the freeing, the step */
+    ck_assert_int_eq(CALL(fmi3Reset)(f.c), fmi3OK);
+    CALL(fmi3FreeInstance)(f.c);
+    remove_resources();
+}
+END_TEST
+
+START_TEST(a_state_holds_the_stop_time)
+{
+    make_resources();
+    int errors = 0;
+    fmi3FMUState kept = NULL, read = NULL;
+    unsigned char bytes[1 << 16];
+    size_t size;
+    fmi3Instance c = make_3(&errors, NULL);
+    begin_3(c, 2 * dt);
+    ck_assert_int_eq(CALL(fmi3GetFMUState)(c, &kept), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3SerializedFMUStateSize)(c, kept, &size), fmi3OK);
+    ck_assert_uint_le(size, sizeof bytes);
+    ck_assert_int_eq(CALL(fmi3SerializeFMUState)(c, kept, bytes, size), fmi3OK);
+    for (int way = 0; way < 2; way++) {
+        ck_assert_int_eq(CALL(fmi3Reset)(c), fmi3OK);
+        if (way == 1)
+            ck_assert_int_eq(CALL(fmi3DeserializeFMUState)(c, bytes, size, &read), fmi3OK);
+        ck_assert_int_eq(CALL(fmi3SetFMUState)(c, way == 0 ? kept : read), fmi3OK);
+        ck_assert_int_eq(step_3(c, 0), fmi3OK);
+        ck_assert_int_eq(step_3(c, 1), fmi3OK);
+        ck_assert_int_eq(step_3(c, 2), fmi3Error);
+    }
+    CALL(fmi3FreeInstance)(c);
+    remove_resources();
+}
+END_TEST
+
+START_TEST(why_there_is_no_instance_is_told_to_a_silent_log)
+{
+    make_resources();
+    static const fmi3ValueReference none[] = {9999};
+    int errors = 0;
+    char path[320];
+    snprintf(path, sizeof path, "%s/", folder);
+    ck_assert_ptr_null(CALL(fmi3InstantiateCoSimulation)("ship", token, path, false, false, false, true, none, 1,
+                                                         &errors, log_3, free_after_error));
+    ck_assert_int_eq(errors, 1);
+    remove_resources();
+}
+END_TEST
+
 /* ---- threads ---- */
 
 typedef struct lane {
@@ -388,4 +476,5 @@ START_TEST(instances_in_threads_are_as_alone)
 END_TEST
 
 TEST_MAIN("instances", both_versions_are_the_world, any_call_in_any_order_has_a_status,
-          instances_in_threads_are_as_alone)
+          an_instance_is_not_freed_in_its_step, a_state_holds_the_stop_time,
+          why_there_is_no_instance_is_told_to_a_silent_log, instances_in_threads_are_as_alone)

@@ -217,6 +217,11 @@ class Environment(unittest.TestCase):
             with self.assertRaises(fram.InputError) as caught:
                 fram.StationKeeping(self.scenario, interval=interval)
             self.assertEqual(caught.exception.key, "interval")
+        for key in ("horizon", "offset_limit"):
+            for limit in (-1, float("nan")):
+                with self.assertRaises(fram.InputError) as caught:
+                    fram.StationKeeping(self.scenario, **{key: limit})
+                self.assertEqual(caught.exception.key, key)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import inspect
 import json
 import os
 import pathlib
+import pickle
 import re
 import subprocess
 import sys
@@ -112,6 +113,23 @@ class Package(unittest.TestCase):
             fram.Scenario.load(self.folder / "absent.yaml")
         with self.assertRaises(fram.UsageError):
             fram.Scenario.from_text("run\0")
+
+    def test_a_scenario_stays_what_it_was_when_the_working_folder_changes(self):
+        (self.folder / "other").mkdir()
+        for folder, seed in ((self.folder, 3), (self.folder / "other", 4)):
+            (folder / "scene.yaml").write_text(TOWED + f"title: folder {seed}\n")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        one = fram.Scenario.load("scene.yaml")
+        (self.folder / "floes.txt").write_text("0 0\n8 0\n8 8\n0 8\n")
+        text = "vessel: {present: false}\nice: {source: file, file: floes.txt}\n" \
+               "domain: {x_min: -20, x_max: 20, y_min: -20, y_max: 20, boundary: open}\n"
+        two, three = fram.Scenario.from_text(text), fram.Scenario.from_text(text, ".")
+        kept = [pickle.dumps(s) for s in (one, two, three)]
+        os.chdir(self.folder / "other")
+        for scenario, state in zip((one, two, three), kept):
+            self.assertEqual(pickle.loads(state).hash, scenario.hash)
+            self.assertEqual(scenario.replaced({"run.seed": 5}).replaced({"run.seed": 1}).hash, scenario.hash)
 
     def test_stepping_reading_and_telling(self):
         world = towed().world()
@@ -364,7 +382,18 @@ class Package(unittest.TestCase):
             fram.open(self.folder)
         later = world.record(self.folder / "later")
         world.step()
+        for call in (recording.end, recording.checkpoint):
+            with self.assertRaises(fram.UsageError):
+                call()
+        self.assertTrue(world.recorded)
         self.assertEqual(later.end().info["steps"], 101)
+        with self.assertRaises(fram.UsageError):
+            later.end()
+        with world.record(self.folder / "within") as recording:
+            recording.end()
+            last = world.record(self.folder / "last")
+        self.assertTrue(world.recorded)
+        last.end()
         told = []
         again = towed().run(self.folder / "third", progress=lambda time, end: told.append((time, end)))
         self.assertEqual(again.hash, run.hash)

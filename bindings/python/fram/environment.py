@@ -96,6 +96,9 @@ class StationKeeping:
                 raise InputError("input", "the world has no such channel or input", key=name)
         if not 0 < interval < float("inf"):
             raise InputError("input", f"expected a time above 0, found {interval}", key="interval")
+        for name, limit in (("horizon", horizon), ("offset_limit", offset_limit)):
+            if limit is not None and not limit >= 0:
+                raise InputError("input", f"expected 0 or more, found {limit}", key=name)
         self._ranges = np.array([self._range(name) for name in self.actions]).reshape(-1, 2)
         self._steps = max(1, round(interval / scenario.time_step))
         self.interval = self._steps * scenario.time_step

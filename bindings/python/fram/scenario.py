@@ -70,7 +70,10 @@ class Scenario:
             folder = ffi.NULL if base is None else ffi.new("char[]", base)
             status = lib.fram_scenario_parse(context._pointer, what, folder, items, len(keep), out, error)
         context._check(status, error)
-        return cls(out[0], context, (how, what, base, overrides))
+        # Read again from where it was read, wherever the working folder is by then.
+        origin = (how, os.path.abspath(what) if how == "load" else what,
+                  os.path.abspath(base or b".") if how == "parse" else None, overrides)
+        return cls(out[0], context, origin)
 
     def __copy__(self) -> "Scenario":
         return self  # it never changes

@@ -250,15 +250,21 @@ class Recording:
     """A world that is being recorded; as a context manager the recording ends with the block."""
 
     def __init__(self, world: "World", folder: str):
-        self._world, self.folder = world, folder
+        self._world, self.folder, self._number = world, folder, world._recordings
+
+    def _refuse_ended(self) -> None:
+        if self._number != self._world._recordings:
+            raise UsageError("usage", "this recording has ended", key="recording")
 
     def checkpoint(self) -> None:
         """A checkpoint of now, from which `fram resume` can go on."""
+        self._refuse_ended()
         self._world._call(lib.fram_world_checkpoint)
 
     def end(self) -> "Run":
         """The last checkpoint, pictures and results; the finished run."""
         from .runs import open_run
+        self._refuse_ended()
         self._world._call(lib.fram_world_record_end, ffi.NULL, size=0)
         return open_run(self.folder)
 
@@ -266,7 +272,7 @@ class Recording:
         return self
 
     def __exit__(self, kind, *_exception) -> None:
-        if self._world._pointer is not None and self._world.recorded:
+        if self._world._pointer is not None and self._number == self._world._recordings and self._world.recorded:
             self.end()
 
 
@@ -285,6 +291,7 @@ class World:
         self._pointer = owned(pointer, lib.fram_world_destroy, scenario._pointer)
         self._keep: Optional[_Keep] = _Keep(self._pointer)
         self._view: Optional[View] = None
+        self._recordings = 0  # so far
         self._shapes: Optional[Outlines] = None
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._shape_number = 0  # of the changes when the shapes were made
@@ -597,6 +604,7 @@ class World:
         self._call(lib.fram_world_record, definition)
         if told and live is not None:
             live(told[0])
+        self._recordings += 1
         return Recording(self, os.fsdecode(bytes_of(folder)))
 
     def __repr__(self) -> str:
