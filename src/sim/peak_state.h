@@ -12,6 +12,6 @@ typedef ARRAY(unsigned char) byte_array;
 bool peak_state_save(peak_watch *p, const world *w, byte_array *out);
 /* Into a fresh watch of the world that the bytes were saved with.  FRAM_ERROR_INPUT when they do not fit it: the watch
    then begins anew. */
-fram_status peak_state_restore(peak_watch *p, const world *w, const byte_array *bytes, fram_error *error);
+fram_status peak_state_restore(peak_watch *p, const world *w, const byte_array *saved, fram_error *error);
 
 #endif

@@ -360,6 +360,7 @@ typedef struct freer {
     fmi3Instance c;
 } freer;
 
+/* NOLINTBEGIN(readability-non-const-parameter): of the standard's type */
 static void free_after_error(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set_requested,
                              fmi3Boolean get_allowed, fmi3Boolean step_finished, fmi3Boolean can_return_early,
                              fmi3Boolean *return_requested, fmi3Float64 *return_time)
@@ -372,6 +373,7 @@ static void free_after_error(fmi3InstanceEnvironment environment, fmi3Float64 ti
     ck_assert_int_eq(CALL(fmi3GetFloat64)(f->c, not_looked_at, 1, &value, 1), fmi3Error);
     CALL(fmi3FreeInstance)(f->c);
 }
+/* NOLINTEND(readability-non-const-parameter) */
 
 static void begin_3(fmi3Instance c, double stop)
 {
