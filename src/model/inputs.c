@@ -26,6 +26,17 @@ int32_t input_row(context *ctx, input_table *inputs, input_kind kind, int32_t wh
     return row;
 }
 
+bool input_tell(context *ctx, input_table *inputs, input_kind kind, int axis, double value)
+{
+    int32_t row = input_row(ctx, inputs, kind, 0);
+    if (row < 0)
+        return false;
+    vec3 *first = &inputs->first[row], *told = &inputs->second[row];
+    *(axis == 0 ? &first->x : axis == 1 ? &first->y : &first->z) = value;
+    *(axis == 0 ? &told->x : axis == 1 ? &told->y : &told->z) = 1;
+    return true;
+}
+
 vec3 input_velocity(const input_table *inputs, input_kind kind, vec3 without)
 {
     int32_t row = input_find(inputs, kind, 0);

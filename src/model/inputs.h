@@ -27,6 +27,8 @@ TABLE_DECLARE(input, INPUT_FIELDS)
 int32_t input_find(const input_table *inputs, input_kind kind, int32_t which);
 /* The same, with a zero row made where there is none; -1 without memory. */
 int32_t input_row(context *ctx, input_table *inputs, input_kind kind, int32_t which);
+/* Tells one component of a velocity, axis 0 to 2; the others stay as they are.  false: no memory. */
+bool input_tell(context *ctx, input_table *inputs, input_kind kind, int axis, double value);
 /* Of a velocity: the components that were told, the others as they are without. */
 vec3 input_velocity(const input_table *inputs, input_kind kind, vec3 without);
 /* Forget all rows of a kind; the others keep their order. */

@@ -177,12 +177,7 @@ static fram_status set_medium(context *ctx, world *w, const control *c, double v
     const input_kind kind = c->role == CONTROL_WIND      ? INPUT_WIND
                             : c->role == CONTROL_CURRENT ? INPUT_CURRENT
                                                          : INPUT_DRIFT;
-    int32_t row = input_row(ctx, &w->inputs, kind, 0);
-    if (row < 0)
-        return error_memory(error);
-    *axis_of(&w->inputs.first[row], c->axis) = value;
-    *axis_of(&w->inputs.second[row], c->axis) = 1;
-    return FRAM_OK;
+    return input_tell(ctx, &w->inputs, kind, c->axis, value) ? FRAM_OK : error_memory(error);
 }
 
 static fram_status set_force(context *ctx, world *w, const control *c, double value, fram_error *error)

@@ -45,6 +45,12 @@ static inline void scene_steps(scene *k, int64_t steps)
         assert_ok(world_step(&k->ctx, &k->m, &k->w, &error), error);
 }
 
+/* A velocity from outside, INPUT_WIND to INPUT_DRIFT. */
+static inline void scene_tell(scene *k, input_kind kind, double x, double y)
+{
+    ck_assert(input_tell(&k->ctx, &k->w.inputs, kind, 0, x) && input_tell(&k->ctx, &k->w.inputs, kind, 1, y));
+}
+
 static inline void scene_close(scene *k)
 {
     world_free(&k->ctx, &k->w);

@@ -117,8 +117,7 @@ START_TEST(another_wind_wakes_all)
     open_row(&k, true);
     scene_steps(&k, 60);
     ck_assert_int_eq(asleep(&k), ROW + 1);
-    int32_t wind = input_row(&k.ctx, &k.w.inputs, INPUT_WIND, 0);
-    k.w.inputs.first[wind] = (vec3){1e-3, 0, 0};
+    scene_tell(&k, INPUT_WIND, 1e-3, 0);
     scene_steps(&k, 1);
     ck_assert_int_eq(asleep(&k), 0);
     /* In wind what nothing holds does not fall asleep again. */

@@ -84,13 +84,6 @@ static void close_with_threads(scene *k)
     scene_close(k);
 }
 
-static void set_drift(scene *k, double x, double y)
-{
-    int32_t row = input_row(&k->ctx, &k->w.inputs, INPUT_DRIFT, 0);
-    ck_assert_int_ge(row, 0);
-    k->w.inputs.first[row] = vec3_make(x, y, 0);
-}
-
 static bool sleeps_on(const world *w, const uint32_t *generation, int32_t i)
 {
     return w->bodies.motion[i] == MOTION_ASLEEP && w->bodies.generation[i] == generation[i];
@@ -114,7 +107,7 @@ START_TEST(what_sleeps_goes_with_a_sheet_that_turns_and_wakes_when_it_swerves)
     }
     /* Half of the change that would wake in a step, and less in all than the media may change. */
     for (int s = 1; s <= TURN; s++) {
-        set_drift(&k, -1, 0.002 * s);
+        scene_tell(&k, INPUT_DRIFT, -1, 0.002 * s);
         scene_steps(&k, 1);
     }
     vec2 way = vec2_sub(k.w.drift.moved[0], from);
@@ -128,7 +121,7 @@ START_TEST(what_sleeps_goes_with_a_sheet_that_turns_and_wakes_when_it_swerves)
         ck_assert(b->position[i].z == place[i].z);
     }
     ck_assert_int_gt(4 * kept, 3 * before);
-    set_drift(&k, -1, 0.002 * TURN + 0.008);
+    scene_tell(&k, INPUT_DRIFT, -1, 0.002 * TURN + 0.008);
     scene_steps(&k, 1);
     ck_assert_int_eq(asleep(&k.w), 0);
     scene_close(&k);
@@ -140,11 +133,10 @@ START_TEST(a_current_past_the_sheet_wakes)
     scene k;
     open_under_way(&k, 1);
     int before = asleep(&k.w);
-    int32_t row = input_row(&k.ctx, &k.w.inputs, INPUT_CURRENT, 0);
-    k.w.inputs.first[row] = vec3_make(-0.92, 0, 0);
+    scene_tell(&k, INPUT_CURRENT, -0.92, 0);
     scene_steps(&k, 1);
     ck_assert_int_gt(4 * asleep(&k.w), 3 * before);
-    k.w.inputs.first[row] = vec3_make(-0.88, 0, 0);
+    scene_tell(&k, INPUT_CURRENT, -0.88, 0);
     scene_steps(&k, 1);
     ck_assert_int_eq(asleep(&k.w), 0);
     scene_close(&k);

@@ -103,8 +103,7 @@ static void check_kept(const pattern_case *c, double degrees, double current)
 {
     scene k;
     open_on_track(&k, c);
-    int32_t water = input_row(&k.ctx, &k.w.inputs, INPUT_CURRENT, 0);
-    k.w.inputs.first[water] = vec3_make(-current, 0, 0);
+    scene_tell(&k, INPUT_CURRENT, -current, 0);
     propulsion_table *p = &k.w.propulsion;
     sail(&k, 0, 200, degrees); /* gathers way */
     p->off_most[0] = p->off_square[0] = p->off_time[0] = 0;
