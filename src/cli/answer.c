@@ -45,7 +45,8 @@ static fram_error in_words_of_command(const fram_error *error)
 {
     fram_error e = *error;
     for (size_t i = 0; i < sizeof option_names / sizeof *option_names; i++) {
-        if (strcmp(error->key, option_names[i].key) == 0)
+        /* At a line of a file it is a column or a key of that. */
+        if (error->line <= 0 && strcmp(error->key, option_names[i].key) == 0)
             snprintf(e.key, sizeof e.key, "%s", option_names[i].option);
     }
     if (strcmp(error->file, "(override)") == 0)

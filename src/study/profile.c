@@ -75,6 +75,9 @@ static double cost_at(const profile_question *q, double level, double *x)
 {
     const profile_look at = {q, level};
     const double step[2] = {0.05, 0.05};
+    /* A law that ends below one of the values, moved to a level far from its own: one without an end always can be. */
+    if (q->law->kind == LAW_GEV && !isfinite(profile_cost(&at, x)))
+        x[1] = 0;
     return minimise(profile_cost, &at, free_count(q->law->kind), x, step, 1e-8, 1);
 }
 

@@ -164,6 +164,10 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
         want.value = find_head(path, text, source->channel, true, unit, error);
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
     }
+    if (status == FRAM_OK && !source->maxima && source->step > 0 &&
+        find_head(path, text, "time", false, time_unit, error) >= 0)
+        status = error_set(error, FRAM_ERROR_INPUT, path, 1, "step",
+                           "the file has a column `time`, which tells its step: leave the step out");
     if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
         want.time = find_head(path, text, "time", false, time_unit, error);
         if (*time_unit && strcmp(time_unit, "s") != 0)
@@ -393,7 +397,8 @@ fram_status series_read(context *ctx, const series_source *source, series_data *
         values += out->values[i].count;
     if (status == FRAM_OK && (values == 0 || (!source->maxima && !(out->set.step > 0))))
         status = error_set(error, FRAM_ERROR_INPUT, source->files[0], 0, source->channel,
-                           "no values are left, after what is left out at the start");
+                           values > 0 ? "one value alone tells no step in time: expected two or more"
+                                      : "no values are left, after what is left out at the start");
     out->set.parts = out->parts;
     out->set.count = source->count;
     if (status != FRAM_OK)

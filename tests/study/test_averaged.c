@@ -98,5 +98,27 @@ START_TEST(the_weight_goes_with_what_the_sample_says)
 }
 END_TEST
 
+START_TEST(ends_rise_with_the_level)
+{
+    /* The less often it is exceeded the higher; from far inside, where a law with this end cannot be. */
+    for (int k = 0; k < 4; k++) {
+        sample s;
+        make(&s, -0.2 - 0.2 * k);
+        double weight = averaged_weight(&s.gumbel, &s.any, s.value, COUNT);
+        level_interval before = {0};
+        for (int i = 0; i < 40; i++) {
+            s.q.exponent = real_exp(4 - 0.25 * i);
+            level_interval exact = gumbel_pivot_interval(&s.pivot, s.q.exponent / exposure, 0.95);
+            level_interval now = averaged_interval(&s.pivot, exact, &s.q, weight);
+            ck_assert_msg(i == 0 || (now.low > before.low - 1e-5 && now.high > before.high - 1e-5),
+                          "shape %g, exponent %g: %.9g to %.9g after %.9g to %.9g", s.any.shape, s.q.exponent, now.low,
+                          now.high, before.low, before.high);
+            before = now;
+        }
+    }
+}
+END_TEST
+
 TEST_MAIN("averaged", with_all_the_weight_it_is_the_interval_of_that_law,
-          tails_of_both_laws_add_up_to_what_the_confidence_leaves, the_weight_goes_with_what_the_sample_says)
+          tails_of_both_laws_add_up_to_what_the_confidence_leaves, the_weight_goes_with_what_the_sample_says,
+          ends_rise_with_the_level)
