@@ -92,6 +92,8 @@ static void share(byte_stream *s, const world *w, ice_share *c)
     vector(s, &c->point);
     vector(s, &c->normal);
     vector(s, &c->friction);
+    if (!s->out)
+        c->patch = -1; /* of its own step */
     s->bad = s->bad || c->mechanism >= MECHANISM_COUNT || c->zone >= ZONE_COUNT;
 }
 

@@ -1,0 +1,116 @@
+/* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm. */
+#include "sim/peak_state.h"
+#include "sim/scene.h"
+
+static const char text[] = "run: {duration: 4, time_step: 0.02, transient: 0}\n"
+                           "vessel: {mode: towed, x: -26, speed: 3, ramp: 0.1,\n"
+                           "  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}\n"
+                           "ice: {source: floes, thickness: 0.5, breakable: true,\n"
+                           "  floes: [{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}\n"
+                           "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n";
+
+static fram_error e;
+
+static void run(scene *k, peak_watch *p, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        scene_steps(k, 1);
+        assert_ok(peak_watch_step(p, &k->w, &e), e);
+    }
+}
+
+static void same(const byte_array *a, const byte_array *b)
+{
+    ck_assert_int_eq(a->count, b->count);
+    ck_assert_mem_eq(a->data, b->data, (size_t)a->count);
+}
+
+START_TEST(what_is_restored_goes_on_as_what_was_saved)
+{
+    scene k;
+    peak_watch p, q;
+    byte_array a = {0}, b = {0};
+    scene_open(&k, text);
+    peak_watch_init(&k.ctx, 0.02, 0, &p);
+    peak_watch_init(&k.ctx, 0.02, 0, &q);
+    run(&k, &p, 90);
+    ck_assert(peak_state_save(&p, &k.w, &a));
+    assert_ok(peak_state_restore(&q, &k.w, &a, &e), e);
+    ck_assert(peak_state_save(&q, &k.w, &b));
+    same(&a, &b);
+    int32_t contacts = 0;
+    for (int32_t i = 0; i < q.ring.count; i++)
+        contacts += q.ring.data[i].count;
+    ck_assert_int_gt(contacts, 10);
+    /* Less than a window on, so that what was restored still counts. */
+    for (int i = 0; i < 12; i++) {
+        scene_steps(&k, 1);
+        assert_ok(peak_watch_step(&p, &k.w, &e), e);
+        assert_ok(peak_watch_step(&q, &k.w, &e), e);
+    }
+    peak_detail one, other;
+    assert_ok(peak_watch_explain(&p, &k.w, 0, &one, &e), e);
+    assert_ok(peak_watch_explain(&q, &k.w, 0, &other, &e), e);
+    ck_assert_double_gt(one.load, 0);
+    double sum = 0;
+    for (int i = 0; i < MECHANISM_COUNT; i++) {
+        ck_assert(one.mechanism[i] == other.mechanism[i]);
+        sum += one.mechanism[i];
+    }
+    assert_relative(sum, one.load, 1e-9);
+    ck_assert_int_eq(p.vessels.data[0].picker.count, q.vessels.data[0].picker.count);
+    peak_watch_free(&p);
+    peak_watch_free(&q);
+    array_free(&k.ctx, &a);
+    array_free(&k.ctx, &b);
+    scene_close(&k);
+}
+END_TEST
+
+/* Restores or is refused; after that it is a fresh watch, which goes on. */
+static bool is_taken(scene *k, const byte_array *bytes)
+{
+    peak_watch q;
+    peak_watch_init(&k->ctx, 0.02, 0, &q);
+    fram_status status = peak_state_restore(&q, &k->w, bytes, &e);
+    ck_assert(status == FRAM_OK || (status == FRAM_ERROR_INPUT && q.filled == 0 && q.vessels.count == 0));
+    peak_detail d;
+    assert_ok(peak_watch_keep(&q, &k->w, &e), e);
+    assert_ok(peak_watch_explain(&q, &k->w, 0, &d, &e), e);
+    peak_watch_free(&q);
+    return status == FRAM_OK;
+}
+
+START_TEST(bytes_that_are_no_state_are_refused)
+{
+    scene k;
+    peak_watch p;
+    byte_array a = {0};
+    scene_open(&k, text);
+    peak_watch_init(&k.ctx, 0.02, 0, &p);
+    run(&k, &p, 60);
+    ck_assert(peak_state_save(&p, &k.w, &a));
+    ck_assert(is_taken(&k, &a));
+    int32_t whole = a.count;
+    for (int32_t i = 0; i < whole; i += 1 + whole / 200) {
+        a.count = i;
+        ck_assert(!is_taken(&k, &a));
+    }
+    a.count = whole;
+    ck_assert(array_push(&k.ctx, &a, 0));
+    ck_assert(!is_taken(&k, &a));
+    a.count = whole;
+    int refused = 0;
+    for (int32_t i = 0; i < whole; i += 1 + whole / 2000) {
+        a.data[i] ^= 0xff;
+        refused += !is_taken(&k, &a);
+        a.data[i] ^= 0xff;
+    }
+    ck_assert_int_gt(refused, 10);
+    peak_watch_free(&p);
+    array_free(&k.ctx, &a);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("peak_state", what_is_restored_goes_on_as_what_was_saved, bytes_that_are_no_state_are_refused)
