@@ -39,6 +39,17 @@ def fram(*arguments):
     subprocess.run([FRAM, *arguments, "--quiet"], check=True)
 
 
+def seen_at(time):
+    return lambda browser: browser.run(f"(fram.seek({time}), fram.placeCamera(), fram.draw())")
+
+
+def largest_peak(browser):
+    """As a user clicks on the number over the curve."""
+    left, top, _, height = browser.box("timeline")
+    browser.click(left + browser.run("fram.timeline.x(fram.peaks.vessel.peaks[0].time)"), top + height / 2)
+    browser.run("(fram.placeCamera(), fram.draw())")
+
+
 def take(browser, page, name, prepare):
     for width, height in WINDOWS:
         browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
@@ -48,7 +59,7 @@ def take(browser, page, name, prepare):
                       "the page does not load")
         if prepare:
             browser.until("window.fram?.ready === true", "the playback does not get ready")
-            browser.run(prepare)
+            prepare(browser)
         time.sleep(0.5)
         browser.picture(OUT / f"{name}-{width}.png")
         print(f"docs/pictures/pages/{name}-{width}.png")
@@ -88,8 +99,9 @@ def main():
                 continue
             fram("view", run)
             fram("report", run)
-            take(browser, run / "playback.html", f"playback-{name}",
-                 f"(fram.seek({at}), fram.placeCamera(), fram.draw())")
+            take(browser, run / "playback.html", f"playback-{name}", seen_at(at))
+            if name == "demo":
+                take(browser, run / "playback.html", "peak-demo", largest_peak)
             take(browser, run / "report.html", f"report-{name}", None)
         for name, page in pages_of_several(made).items():
             take(browser, page, name, None)
