@@ -270,11 +270,23 @@ fram_status recording_read_state(recording *r, const model *m, world *w, recorde
     return status;
 }
 
+/* Peaks that do not fit are lost, and the run is not. */
+static fram_status restore_peaks(recording *r, fram_error *error)
+{
+    fram_error reason = {0};
+    fram_status status = peak_state_restore(&r->recorder.peaks, r->w, &r->peaks, &reason);
+    if (status == FRAM_ERROR_INPUT) {
+        log_write(r->ctx, LOG_WARNING, "%s: only those from now on are explained", reason.message);
+        return FRAM_OK;
+    }
+    return status == FRAM_OK ? FRAM_OK : error_memory(error);
+}
+
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error)
 {
     fram_status status = recorder_continue(r->ctx, r->s, r->folder, lengths, &r->recorder, error);
     r->open = status == FRAM_OK;
-    return status == FRAM_OK ? peak_state_restore(&r->recorder.peaks, r->w, &r->peaks, error) : status;
+    return status == FRAM_OK ? restore_peaks(r, error) : status;
 }
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
