@@ -38,6 +38,7 @@ static const struct {
     {"ice_vessel", "--ice-vessel"},
     {"unbroken_as", "--unbroken-as"},
     {"window", "--window"},
+    {"step", "--step"},
     {"formula", "--formula"},
 };
 

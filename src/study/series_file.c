@@ -146,6 +146,12 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
     return FRAM_OK;
 }
 
+static fram_status refuse_step(const char *path, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, "step",
+                     "there is a column `time`, which tells the step: leave the step out");
+}
+
 static fram_status read_csv(context *ctx, const char *path, const series_source *source, double_array *time,
                             double_array *value, char unit[UNIT_SIZE], fram_error *error)
 {
@@ -166,8 +172,7 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
     }
     if (status == FRAM_OK && !source->maxima && source->step > 0 &&
         find_head(path, text, "time", false, time_unit, error) >= 0)
-        status = error_set(error, FRAM_ERROR_INPUT, path, 1, "step",
-                           "the file has a column `time`, which tells its step: leave the step out");
+        status = refuse_step(path, error);
     if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
         want.time = find_head(path, text, "time", false, time_unit, error);
         if (*time_unit && strcmp(time_unit, "s") != 0)
@@ -256,6 +261,8 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
                             fram_error *error)
 {
     run_data d;
+    if (source->step > 0)
+        return refuse_step(folder, error);
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;

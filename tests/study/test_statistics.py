@@ -202,7 +202,7 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", gap, "--channel", "x"), "gap.csv:703:", "0.5 s as most are", "found one of 400.5 s")
         self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"), ":1: time:", "step")
         self.refused(("extremes", self.write("time[s],x\n1,1\n2,2\n", "timed.csv"), "--channel", "x", "--step", "2"),
-                     "timed.csv:1: step:", "column `time`")
+                     "timed.csv:0: --step:", "column `time`")
         self.refused(("fatigue", self.write("time[s],x\n1,1\n", "one.csv"), "--channel", "x"), "one value alone")
         self.refused(("extremes", self.write("time,x\n0,1\n1\n", "short.csv"), "--channel", "x"), "short.csv:3:")
         self.refused(("extremes", self.write("", "empty.csv"), "--channel", "x"), "empty.csv:1:")

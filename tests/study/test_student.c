@@ -24,6 +24,8 @@ START_TEST(the_quantile_inverts_the_distribution)
     for (int freedom = 1; freedom < 40; freedom++)
         for (double confidence = 0.05; confidence < 0.999; confidence += 0.09)
             assert_relative(student_within(student_quantile(confidence, freedom), freedom), confidence, 1e-12);
+    for (int freedom = 1; freedom < 40; freedom++)
+        ck_assert(student_within((double)INFINITY, freedom) == 1 && student_within(1e200, freedom) == 1);
 }
 END_TEST
 

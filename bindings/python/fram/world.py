@@ -602,9 +602,9 @@ class World:
         callback = ffi.callback("void(void *, const char *)", lambda _, text: told.append(ffi.string(text).decode()))
         definition.live_page, definition.live = page, callback if live is not None else ffi.NULL
         self._call(lib.fram_world_record, definition)
+        self._recordings += 1
         if told and live is not None:
             live(told[0])
-        self._recordings += 1
         return Recording(self, os.fsdecode(bytes_of(folder)))
 
     def __repr__(self) -> str:
