@@ -244,3 +244,31 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
     blocks_run(p, 0);
     job_await(p);
 }
+
+/* ---- what is looked for ---- */
+
+typedef struct search {
+    find_function fn;
+    const void *arg;
+    int32_t count;
+    _Atomic int32_t least; /* found so far */
+} search;
+enum { FIND_BLOCK = 1024 };
+
+static void find_in_block(void *arg, int32_t block, int32_t thread)
+{
+    search *s = arg;
+    int32_t first = FIND_BLOCK * block, end = pool_block_end(block, FIND_BLOCK, s->count);
+    (void)thread;
+    int32_t found = s->fn(s->arg, first, end), least = atomic_load(&s->least);
+    while (found < end && found < least)
+        if (atomic_compare_exchange_weak(&s->least, &least, found))
+            break;
+}
+
+int32_t pool_find(context *ctx, find_function fn, const void *arg, int32_t count)
+{
+    search s = {fn, arg, count, count};
+    pool_run(ctx, find_in_block, &s, pool_blocks(count, FIND_BLOCK));
+    return atomic_load(&s.least);
+}

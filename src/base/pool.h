@@ -21,6 +21,16 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
 /* How many of `count` things make a block: `most`, or so few in a small job that there are about sixteen blocks, but a
    multiple of `least`.  By the count alone. */
 int32_t pool_block(int32_t count, int32_t least, int32_t most);
+/* Blocks of `size` things, `count` altogether, and the end of one of them. */
+static inline int32_t pool_blocks(int32_t count, int32_t size) { return count / size + (count % size != 0); }
+static inline int32_t pool_block_end(int32_t block, int32_t size, int32_t count)
+{
+    return count - block * size < size ? count : (block + 1) * size;
+}
+/* The least of 0..count-1 that is looked for, `count` without: fn looks for it in [first, end) and returns `end`
+   without. */
+typedef int32_t (*find_function)(const void *arg, int32_t first, int32_t end);
+int32_t pool_find(context *ctx, find_function fn, const void *arg, int32_t count);
 /* Of the pool or the program; 1 without both. */
 int context_threads(const context *ctx);
 

@@ -1,5 +1,6 @@
 /* Which bodies may touch.  Every body has a fat box (broad_boxes.c); pairs of overlapping fat boxes are kept until they
    part.  They are chosen from pairs of wider boxes, which change seldom (broad_candidates.c). */
+#include "base/pool.h"
 #include "dynamics/collision_scratch.h"
 
 collision_scratch *collision_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(collision_scratch)); }
@@ -26,6 +27,8 @@ void collision_scratch_free(context *ctx, collision_scratch *s)
     array_free(ctx, &s->fresh);
     array_free(ctx, &s->wide);
     array_free(ctx, &s->candidates);
+    array_free(ctx, &s->chosen);
+    array_free(ctx, &s->chosen_end);
     table_free(ctx, &s->merged, &pair_table_info);
     array_free(ctx, &s->box_blocks);
     for (int32_t i = 0; i < s->pair_blocks_made; i++) {
@@ -51,32 +54,90 @@ static bool is_still_pair(const broad_table *boxes, const uint8_t *change, int32
     return box3_meet(fat_box(boxes, a), fat_box(boxes, b));
 }
 
-/* The pairs among the candidates, in their order, which is ascending.  A pair that was one keeps its axis, unless one
-   of both is another body now. */
+/* What becomes of a candidate, if it does not become the pair of this row again. */
+enum { NO_PAIR = -2, NEW_PAIR = -1 };
+
+typedef struct choice {
+    const broad_table *boxes;
+    collision_scratch *s;
+    const pair_table *pairs;
+} choice;
+enum { CHOICE_BLOCK = 2048 };
+
+static uint64_t pair_key(const pair_table *pairs, int32_t row)
+{
+    return (uint64_t)pairs->a[row] << 32 | (uint64_t)pairs->b[row];
+}
+
+/* The first pair whose key is not below this. */
+static int32_t first_pair(const pair_table *pairs, uint64_t key)
+{
+    int32_t low = 0, high = pairs->count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (pair_key(pairs, middle) < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* A pair that was one keeps its axis, unless one of both is another body now. */
+static void choose_block(void *arg, int32_t block, int32_t thread)
+{
+    const choice *w = arg;
+    const uint8_t *change = w->s->change.data;
+    const uint64_t *candidate = w->s->candidates.data;
+    int32_t first = CHOICE_BLOCK * block, found = 0;
+    int32_t old = first_pair(w->pairs, candidate[first]);
+    (void)thread;
+    for (int32_t k = first; k < pool_block_end(block, CHOICE_BLOCK, w->s->candidates.count); k++) {
+        int32_t a = (int32_t)(candidate[k] >> 32), b = (int32_t)(candidate[k] & UINT32_MAX);
+        while (old < w->pairs->count && pair_key(w->pairs, old) < candidate[k])
+            old++;
+        bool was = old < w->pairs->count && pair_key(w->pairs, old) == candidate[k];
+        bool is = is_still_pair(w->boxes, change, a, b, was);
+        bool same = was && change[a] != BOX_NEW && change[b] != BOX_NEW;
+        w->s->chosen.data[k] = !is ? NO_PAIR : same ? old : NEW_PAIR;
+        found += is;
+    }
+    w->s->chosen_end.data[block] = found;
+}
+
+static void put_block(void *arg, int32_t block, int32_t thread)
+{
+    const choice *w = arg;
+    pair_table *out = &w->s->merged;
+    int32_t at = block > 0 ? w->s->chosen_end.data[block - 1] : 0;
+    (void)thread;
+    for (int32_t k = CHOICE_BLOCK * block; k < pool_block_end(block, CHOICE_BLOCK, w->s->candidates.count); k++) {
+        int32_t old = w->s->chosen.data[k];
+        if (old == NO_PAIR)
+            continue;
+        out->a[at] = (int32_t)(w->s->candidates.data[k] >> 32);
+        out->b[at] = (int32_t)(w->s->candidates.data[k] & UINT32_MAX);
+        out->axis[at] = old >= 0 ? w->pairs->axis[old] : vec3_make(0, 0, 0);
+        out->clear[at++] = old >= 0 ? w->pairs->clear[old] : 0;
+    }
+}
+
+/* The pairs among the candidates, in their order, which is ascending. */
 static bool choose_pairs(context *ctx, const broad_table *boxes, collision_scratch *s, pair_table *pairs)
 {
-    pair_table *out = &s->merged;
-    const uint8_t *change = s->change.data;
-    if (!table_reserve(ctx, out, &pair_table_info, s->candidates.count))
+    int32_t count = s->candidates.count, blocks = pool_blocks(count, CHOICE_BLOCK), found = 0;
+    if (!array_resize(ctx, &s->chosen, count) || !array_resize(ctx, &s->chosen_end, blocks) ||
+        !table_reserve(ctx, &s->merged, &pair_table_info, count))
         return false;
-    out->count = 0;
-    for (int32_t k = 0, old = 0; k < s->candidates.count; k++) {
-        uint64_t key = s->candidates.data[k];
-        int32_t a = (int32_t)(key >> 32), b = (int32_t)(key & UINT32_MAX);
-        while (old < pairs->count && ((uint64_t)pairs->a[old] << 32 | (uint64_t)pairs->b[old]) < key)
-            old++;
-        bool was = old < pairs->count && pairs->a[old] == a && pairs->b[old] == b;
-        if (!is_still_pair(boxes, change, a, b, was))
-            continue;
-        bool same = was && change[a] != BOX_NEW && change[b] != BOX_NEW;
-        out->a[out->count] = a;
-        out->b[out->count] = b;
-        out->axis[out->count] = same ? pairs->axis[old] : vec3_make(0, 0, 0);
-        out->clear[out->count++] = same ? pairs->clear[old] : 0;
-    }
+    choice work = {boxes, s, pairs};
+    pool_run(ctx, choose_block, &work, blocks);
+    for (int32_t block = 0; block < blocks; block++)
+        found = s->chosen_end.data[block] += found;
+    pool_run(ctx, put_block, &work, blocks);
+    s->merged.count = found;
     pair_table before = *pairs;
-    *pairs = *out;
-    *out = before;
+    *pairs = s->merged;
+    s->merged = before;
     return true;
 }
 

@@ -51,6 +51,8 @@ struct collision_scratch {
     ARRAY(uint64_t) fresh;      /* pairs that were found, a << 32 | b */
     ARRAY(wide_box) wide;       /* of each slot */
     ARRAY(uint64_t) candidates; /* pairs whose wide boxes met when the later one was made, ascending */
+    index_array chosen;         /* of each candidate, see broad_phase.c */
+    index_array chosen_end;     /* pairs up to the end of each block of candidates */
     pair_table merged;
     ARRAY(box_block) box_blocks;
     ARRAY(pair_block) pair_blocks; /* beyond count: empty, but with their memory */

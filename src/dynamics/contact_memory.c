@@ -1,5 +1,6 @@
 /* What contacts carry from step to step: found again by name, shared out where names changed, remembered by ascending
    names. */
+#include "base/pool.h"
 #include "dynamics/solver_rows.h"
 
 #include <assert.h>
@@ -123,6 +124,42 @@ typedef struct memory_entry {
     int32_t contact;
 } memory_entry;
 
+typedef struct memory_work {
+    const body_table *bodies;
+    const contact_array *contacts;
+    memory_entry *entries; /* of each block from the place of its first contact on */
+    int32_t *found;        /* by each block */
+    contact_memory_table *memory;
+} memory_work;
+enum { MEMORY_BLOCK = 512 };
+
+/* The contacts of a block that carry something. */
+static void find_carriers(void *arg, int32_t block, int32_t thread)
+{
+    const memory_work *w = arg;
+    int32_t first = MEMORY_BLOCK * block, found = 0;
+    (void)thread;
+    for (int32_t i = first; i < pool_block_end(block, MEMORY_BLOCK, w->contacts->count); i++) {
+        const contact *c = &w->contacts->data[i];
+        if (c->impulse[0] > 0 && (body_is_dynamic(w->bodies, c->a) || body_is_dynamic(w->bodies, c->b)))
+            w->entries[first + found++] = (memory_entry){c->key, i};
+    }
+    w->found[block] = found;
+}
+
+/* Rows of the memory from its entries. */
+static void keep_block(void *arg, int32_t block, int32_t thread)
+{
+    const memory_work *w = arg;
+    (void)thread;
+    for (int32_t i = MEMORY_BLOCK * block; i < pool_block_end(block, MEMORY_BLOCK, w->memory->count); i++) {
+        assert(i == 0 || w->entries[i - 1].key <= w->entries[i].key);
+        const contact *c = &w->contacts->data[w->entries[i].contact];
+        w->memory->key[i] = w->entries[i].key;
+        w->memory->on_lower[i] = turned(c, contact_impulse(c));
+    }
+}
+
 static int compare_entries(const void *a, const void *b)
 {
     const memory_entry *x = a, *y = b;
@@ -158,33 +195,37 @@ static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, i
         entries[to] = i >= 0 && compare_entries(&entries[i], &tail[left - 1]) > 0 ? entries[i--] : tail[--left];
 }
 
+/* Entries of all blocks together, ascending; returns how many. */
+static int32_t join_entries(memory_entry *entries, const int32_t *found, int32_t contacts)
+{
+    int32_t count = 0, sorted = 0, tail_sorted = 0;
+    for (int32_t block = 0; block < pool_blocks(contacts, MEMORY_BLOCK); block++) {
+        for (int32_t i = 0; i < found[block]; i++) {
+            memory_entry e = entries[MEMORY_BLOCK * block + i]; /* never before the end of those that are joined */
+            if (sorted == count && insert_near_end(entries, sorted, e))
+                sorted++;
+            else if (sorted + tail_sorted == count && insert_near_end(entries + sorted, tail_sorted, e))
+                tail_sorted++;
+            else
+                entries[count] = e;
+            count++;
+        }
+    }
+    sort_entries(entries, count, sorted, tail_sorted, entries + contacts);
+    return count;
+}
+
 fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
                               contact_memory_table *memory, fram_error *error)
 {
+    int32_t blocks = pool_blocks(contacts->count, MEMORY_BLOCK);
     if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, 2 * contacts->count, sizeof *s->entries) ||
+        !array_resize(s->ctx, &s->carriers, blocks) ||
         !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
         return error_memory(error);
-    int32_t count = 0, sorted = 0, tail_sorted = 0;
-    for (int32_t i = 0; i < contacts->count; i++) {
-        const contact *c = &contacts->data[i];
-        if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
-            continue;
-        memory_entry e = {c->key, i};
-        if (sorted == count && insert_near_end(s->entries, sorted, e))
-            sorted++;
-        else if (sorted + tail_sorted == count && insert_near_end(s->entries + sorted, tail_sorted, e))
-            tail_sorted++;
-        else
-            s->entries[count] = e;
-        count++;
-    }
-    sort_entries(s->entries, count, sorted, tail_sorted, s->entries + contacts->count);
-    memory->count = count;
-    for (int32_t i = 0; i < count; i++) {
-        assert(i == 0 || s->entries[i - 1].key <= s->entries[i].key);
-        memory->key[i] = s->entries[i].key;
-        const contact *c = &contacts->data[s->entries[i].contact];
-        memory->on_lower[i] = turned(c, contact_impulse(c));
-    }
+    memory_work work = {bodies, contacts, s->entries, s->carriers.data, memory};
+    pool_run(s->ctx, find_carriers, &work, blocks);
+    memory->count = join_entries(s->entries, s->carriers.data, contacts->count);
+    pool_run(s->ctx, keep_block, &work, pool_blocks(memory->count, MEMORY_BLOCK));
     return FRAM_OK;
 }

@@ -29,6 +29,7 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->island);
     array_free(ctx, &s->gain);
     array_free(ctx, &s->recalled);
+    array_free(ctx, &s->carriers);
     memory_free(ctx, s->entries);
     fast_rows_free(ctx, s->fast);
     memory_free(ctx, s);
@@ -154,7 +155,7 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
     s->ctx = ctx;
     solver_report unread;
     report = report ? report : &unread;
-    fram_status status = bodies_check(bodies, error);
+    fram_status status = bodies_check(ctx, bodies, error);
     if (status != FRAM_OK)
         return status;
 #ifndef NDEBUG

@@ -52,6 +52,7 @@ void acceleration_free(context *ctx, acceleration *a)
     }
 }
 
+/* No direction is remembered yet: what stands in their rows is never looked at. */
 static bool vector_begin(context *ctx, sweep_vector *v, aligned_rows *x, int64_t rows)
 {
     v->x = x;
@@ -61,11 +62,52 @@ static bool vector_begin(context *ctx, sweep_vector *v, aligned_rows *x, int64_t
     for (int w = 1; w < SEARCH_DIRECTIONS; w++) {
         if (!rows_reserve(ctx, &v->store[w - 1], rows))
             return false;
-        rows_clear(&v->store[w - 1], rows);
         v->direction[w] = v->store[w - 1].rows;
     }
-    memcpy(v->start.rows, x->rows, (size_t)v->count * sizeof *x->rows);
     return true;
+}
+
+/* Doubles of a block of a vector. */
+enum { VECTOR_BLOCK = 1 << 11 };
+
+static int32_t vector_blocks(const sweep_vector *v) { return (int32_t)((v->count + VECTOR_BLOCK - 1) / VECTOR_BLOCK); }
+
+/* A piece of one of the vectors. */
+typedef struct vector_part {
+    const sweep_vector *v;
+    int64_t first, end;
+} vector_part;
+
+/* Blocks of the first vector, then of the second and so on. */
+static vector_part part_of(const acceleration *a, int32_t block)
+{
+    const sweep_vector *v = a->vector;
+    for (; block >= vector_blocks(v); v++)
+        block -= vector_blocks(v);
+    int64_t first = (int64_t)block * VECTOR_BLOCK, end = first + VECTOR_BLOCK;
+    return (vector_part){v, first, end < v->count ? end : v->count};
+}
+
+static void run_on_vectors(context *ctx, const acceleration *a, block_function fn, void *arg)
+{
+    int32_t blocks = 0;
+    for (int i = 0; i < VECTORS; i++)
+        blocks += vector_blocks(&a->vector[i]);
+    pool_run(ctx, fn, arg, blocks);
+}
+
+static void start_block(void *arg, int32_t block, int32_t thread)
+{
+    vector_part p = part_of(arg, block);
+    (void)thread;
+    memcpy(p.v->start.rows + p.first, p.v->x->rows + p.first, (size_t)(p.end - p.first) * sizeof(double));
+}
+
+static void roll_back_block(void *arg, int32_t block, int32_t thread)
+{
+    vector_part p = part_of(arg, block);
+    (void)thread;
+    memcpy(p.v->x->rows + p.first, p.v->kept.rows + p.first, (size_t)(p.end - p.first) * sizeof(double));
 }
 
 /* Impulses of joints from their blocks into rows, and back. */
@@ -107,8 +149,9 @@ static void products_of_block(void *arg, int32_t block, int32_t thread)
     const sweep_vector *v = &f->acceleration.vector[VECTOR_VELOCITY];
     int32_t first = BODY_BLOCK * block, end = first + BODY_BLOCK, all = padded_rows(f);
     (void)thread;
-    f->blocks.data[block] = KERNEL_PICK(st->s->ctx, solver_products)(
-        f->velocity.rows, v->start.rows, v->direction, f->mass.rows, f->inertia.rows, first, end < all ? end : all);
+    f->blocks.data[block] = KERNEL_PICK(st->s->ctx, solver_products)(f->velocity.rows, v->start.rows, v->direction,
+                                                                     1 + f->acceleration.directions, f->mass.rows,
+                                                                     f->inertia.rows, first, end < all ? end : all);
 }
 
 /* A body if nothing can move it, else one at rest. */
@@ -146,7 +189,7 @@ static direction_products products_of(stage *st, double wanted, double *value)
             double now = j->impulse[r] - v->start.rows[at];
             double bias = j->bias[r] + row_axis_velocity(&j->axis[r], &body, &base);
             *value += (bias + 0.5 * j->softness * j->impulse[r]) * j->impulse[r];
-            for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+            for (int w = 0; w <= f->acceleration.directions; w++) {
                 double along = w == 0 ? now : v->direction[w][at];
                 sum.direction[w] += j->softness * now * along;
                 sum.velocity[w] += (bias + j->softness * j->impulse[r]) * along;
@@ -179,6 +222,7 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
         !vector_begin(s->ctx, &a->vector[VECTOR_IMPULSE], x, rows) ||
         !vector_begin(s->ctx, &a->vector[VECTOR_JOINT], &f->joint_impulse, joints))
         return false;
+    run_on_vectors(s->ctx, a, start_block, a);
     double value;
     a->scale = fmax(2 * st->free_energy, products_of(st, a->wanted_start, &value).square);
     a->free_value = st->free_energy + ROUNDING * a->scale;
@@ -187,8 +231,10 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
 
 static void slide_task(const stage *st, batch_task *task)
 {
-    const sweep_vector *v = &st->s->fast->acceleration.vector[VECTOR_IMPULSE];
-    KERNEL_PICK(st->s->ctx, solver_slide)(&st->view, task->first, task->end, v->start.rows, v->direction, task->slide);
+    const acceleration *a = &st->s->fast->acceleration;
+    const sweep_vector *v = &a->vector[VECTOR_IMPULSE];
+    KERNEL_PICK(st->s->ctx, solver_slide)
+    (&st->view, task->first, task->end, v->start.rows, v->direction, 1 + a->directions, task->slide);
 }
 
 /* The work of each direction in the tangents of sliding contacts and at caps. */
@@ -266,35 +312,20 @@ typedef struct combination {
     const double *share;
 } combination;
 
-/* Doubles of a block. */
-enum { COMBINE_BLOCK = 1 << 11 };
-
-static int32_t combine_blocks(const sweep_vector *v)
-{
-    return (int32_t)((v->count + COMBINE_BLOCK - 1) / COMBINE_BLOCK);
-}
-
-/* Blocks of the first vector, then of the second and so on. */
 static void combine_block(void *arg, int32_t block, int32_t thread)
 {
     const combination *c = arg;
-    const sweep_vector *v = c->a->vector;
+    vector_part p = part_of(c->a, block);
     (void)thread;
-    for (; block >= combine_blocks(v); v++)
-        block -= combine_blocks(v);
-    int64_t first = (int64_t)block * COMBINE_BLOCK, end = first + COMBINE_BLOCK;
     KERNEL_PICK(c->ctx, solver_combine)
-    (v->x->rows, v->start.rows, v->kept.rows, v->direction, c->share, first, end < v->count ? end : v->count);
+    (p.v->x->rows, p.v->start.rows, p.v->kept.rows, p.v->direction, 1 + c->a->directions, c->share, p.first, p.end);
 }
 
 /* Moves all vectors on; the newest direction takes the place of the oldest. */
 static void move_on(context *ctx, acceleration *a, const double share[SEARCH_DIRECTIONS])
 {
     combination c = {ctx, a, share};
-    int32_t blocks = 0;
-    for (int i = 0; i < VECTORS; i++)
-        blocks += combine_blocks(&a->vector[i]);
-    pool_run(ctx, combine_block, &c, blocks);
+    run_on_vectors(ctx, a, combine_block, &c);
     for (int i = 0; i < VECTORS; i++) {
         sweep_vector *v = &a->vector[i];
         double *newest = v->direction[SEARCH_DIRECTIONS - 1];
@@ -339,10 +370,10 @@ static bool failed(const acceleration *a, double value, double energy)
 static void roll_back(solver *s)
 {
     acceleration *a = &s->fast->acceleration;
+    run_on_vectors(s->ctx, a, roll_back_block, a);
     for (int i = 0; i < VECTORS; i++) {
         sweep_vector *v = &a->vector[i];
         aligned_rows start = v->start;
-        memcpy(v->x->rows, v->kept.rows, (size_t)v->count * sizeof(double));
         v->start = v->kept; /* sweeps go on from there; what was kept is not asked for again */
         v->kept = start;
     }

@@ -1,6 +1,8 @@
 /* Which contacts are solved together: groups, tasks and their colours, batches. */
 #include "dynamics/solver_batch.h"
 
+#include "base/pool.h"
+
 #include <assert.h>
 #include <string.h>
 
@@ -17,6 +19,8 @@ void batch_plan_free(context *ctx, batch_plan *plan)
     array_free(ctx, &plan->owner);
     array_free(ctx, &plan->touched);
     array_free(ctx, &plan->hubs);
+    array_free(ctx, &plan->runs);
+    array_free(ctx, &plan->run_count);
     array_free(ctx, &plan->groups);
     array_free(ctx, &plan->order);
     array_free(ctx, &plan->slot);
@@ -38,40 +42,72 @@ static bool count_touch(context *ctx, batch_plan *plan, const body_table *bodies
     return plan->degree.data[slot]++ > 0 || array_push(ctx, &plan->touched, slot);
 }
 
-/* Contact i belongs to the last group. */
-static bool continues_group(const batch_plan *plan, const contact_array *contacts, int32_t i)
+typedef struct run_work {
+    batch_plan *plan;
+    const body_table *bodies;
+    const contact_array *contacts;
+} run_work;
+enum { RUN_BLOCK = 512 };
+
+/* The runs of a block of contacts: all that is read of every contact. */
+static void find_runs(void *arg, int32_t block, int32_t thread)
 {
-    if (plan->groups.count == 0)
-        return false;
-    const contact_group *last = &plan->groups.data[plan->groups.count - 1];
-    return last->first + last->count == i && last->count < BATCH_MOST_POINTS &&
-           contact_same_group(&contacts->data[i - 1], &contacts->data[i]);
+    const run_work *w = arg;
+    int32_t first = RUN_BLOCK * block, found = 0;
+    contact_run *runs = &w->plan->runs.data[first];
+    (void)thread;
+    for (int32_t i = first; i < pool_block_end(block, RUN_BLOCK, w->contacts->count); i++) {
+        const contact *c = &w->contacts->data[i];
+        if (!body_is_dynamic(w->bodies, c->a) && !body_is_dynamic(w->bodies, c->b))
+            continue;
+        bool continues = i > 0 && contact_same_group(c - 1, c);
+        if (continues && i > first)
+            runs[found - 1].count++;
+        else
+            runs[found++] = (contact_run){c->a, c->b, i, 1, continues};
+    }
+    w->plan->run_count.data[block] = found;
+}
+
+/* Cuts a run into groups. */
+static bool add_run(context *ctx, batch_plan *plan, const body_table *bodies, contact_run run)
+{
+    if (run.continues) {
+        contact_group *last = &plan->groups.data[plan->groups.count - 1];
+        int32_t room = BATCH_MOST_POINTS - last->count, more = run.count < room ? run.count : room;
+        last->count += more;
+        run.first += more;
+        run.count -= more;
+    }
+    while (run.count > 0) {
+        int32_t count = run.count < BATCH_MOST_POINTS ? run.count : BATCH_MOST_POINTS;
+        if (!array_push(ctx, &plan->groups, (contact_group){run.first, count, -1}) ||
+            !count_touch(ctx, plan, bodies, run.a) || !count_touch(ctx, plan, bodies, run.b))
+            return false;
+        run.first += count;
+        run.count -= count;
+    }
+    return true;
 }
 
 static bool find_groups(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts)
 {
-    int32_t slots = bodies->count;
+    int32_t slots = bodies->count, blocks = pool_blocks(contacts->count, RUN_BLOCK);
     array_clear(&plan->groups);
     array_clear(&plan->touched);
     if (!array_resize(ctx, &plan->degree, slots) || !array_resize(ctx, &plan->chunk, slots) ||
-        !array_resize(ctx, &plan->row, slots) || !array_resize(ctx, &plan->owner, slots))
+        !array_resize(ctx, &plan->row, slots) || !array_resize(ctx, &plan->owner, slots) ||
+        !array_resize(ctx, &plan->runs, contacts->count) || !array_resize(ctx, &plan->run_count, blocks))
         return false;
+    pool_run(ctx, find_runs, &(run_work){plan, bodies, contacts}, blocks);
     for (int32_t i = 0; i < slots; i++) {
         plan->degree.data[i] = 0;
         plan->row.data[i] = plan->owner.data[i] = -1;
     }
-    for (int32_t i = 0; i < contacts->count; i++) {
-        const contact *c = &contacts->data[i];
-        if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b))
-            continue;
-        if (continues_group(plan, contacts, i)) {
-            plan->groups.data[plan->groups.count - 1].count++;
-            continue;
-        }
-        if (!array_push(ctx, &plan->groups, (contact_group){i, 1, -1}) || !count_touch(ctx, plan, bodies, c->a) ||
-            !count_touch(ctx, plan, bodies, c->b))
-            return false;
-    }
+    for (int32_t b = 0; b < blocks; b++)
+        for (int32_t i = 0; i < plan->run_count.data[b]; i++)
+            if (!add_run(ctx, plan, bodies, plan->runs.data[RUN_BLOCK * b + i]))
+                return false;
     return true;
 }
 

@@ -79,6 +79,13 @@ typedef struct batch_task {
     bool fits; /* its rows are still those of the contacts */
 } batch_task;
 
+/* Contacts of one block in a row that belong together; `continues`: with the last ones of the block before, too. */
+typedef struct contact_run {
+    int32_t a, b; /* body slots */
+    int32_t first, count;
+    bool continues;
+} contact_run;
+
 /* Points of one pair of bodies with one normal. */
 typedef struct contact_group {
     int32_t first, count; /* contacts */
@@ -97,8 +104,10 @@ typedef struct batch_plan {
     int32_array row;    /* of a movable body; of others that of the task at hand */
     int32_array owner;  /* of other bodies: the task that `row` belongs to */
     /* */
-    int32_array touched; /* slots of movable bodies in order of their first contact */
-    int32_array hubs;    /* slots */
+    int32_array touched;     /* slots of movable bodies in order of their first contact */
+    int32_array hubs;        /* slots */
+    ARRAY(contact_run) runs; /* of each block of contacts, from the place of its first contact on */
+    int32_array run_count;   /* of each block */
     ARRAY(contact_group) groups;
     int32_array order; /* groups by task */
     int32_array slot;  /* of each body row, -1 for the world and for copies of a hub */

@@ -67,17 +67,27 @@ int32_t solver_contact_place(solver *s, const body_table *bodies, const contact_
     return array_push(s->ctx, &s->bodies, edge) ? s->bodies.count - 1 : -1;
 }
 
-fram_status bodies_check(const body_table *bodies, fram_error *error)
+static int32_t find_massless(const void *arg, int32_t first, int32_t end)
 {
-    for (int32_t i = 0; i < bodies->count; i++) {
+    const body_table *bodies = arg;
+    for (int32_t i = first; i < end; i++) {
         sym3 inertia = body_total_inertia(bodies, i);
         bool massive = bodies->mass[i] > 0 && inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0;
         if (body_is_dynamic(bodies, i) && !massive)
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL,
-                             "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2",
-                             (int)i, bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
+            return i;
     }
-    return FRAM_OK;
+    return end;
+}
+
+fram_status bodies_check(context *ctx, const body_table *bodies, fram_error *error)
+{
+    int32_t i = pool_find(ctx, find_massless, bodies, bodies->count);
+    if (i == bodies->count)
+        return FRAM_OK;
+    sym3 inertia = body_total_inertia(bodies, i);
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL,
+                     "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2", (int)i,
+                     bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
 }
 
 typedef struct acceleration_work {

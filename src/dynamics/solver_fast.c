@@ -260,6 +260,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return status;
     stage st = {.s = s,
                 .bodies = bodies,
+                .moved = bodies,
                 .contacts = contacts,
                 .results = contacts,
                 .memory = settings->warm_start ? memory : NULL,
@@ -270,7 +271,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return error_memory(error);
     bodies_accelerate(s->ctx, bodies, loads, dt);
     guided_bodies_drive(s, bodies);
-    fast_velocities_load(f, bodies, contacts);
+    fast_velocities_load(&st);
     fast_velocities_centre(f);
     fast_driven_make(&st);
     st.free_energy = fast_energy(f);
@@ -283,7 +284,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
                  &report->iterations))
         return error_memory(error);
     fast_velocities_of_impulses(&st);
-    fast_velocities_store(f, bodies);
+    fast_velocities_store(&st);
     stage_run(&st, finish_task);
     guided_bodies_load(s, bodies, contacts);
     joint_rows_finish(s, dt, joints);
@@ -297,40 +298,66 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
 /* A velocity that no impulse is asked to reach. */
 #define NEVER (-1e300)
 
-static void fill_bias(const stage *st, batch_task *task)
+static void fill_batch_bias(const stage *st, contact_batch *batch)
 {
     const fast_rows *f = st->s->fast;
-    task->energy = 0;
-    for (int32_t i = task->first; i < task->end; i++) {
-        contact_batch *batch = &f->plan.batches.data[i];
-        batch->overlaps = false;
-        for (int32_t k = 0; k < batch->points; k++) {
-            double *bias = row_of(&f->bias, batch->first + k);
-            for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
-                const contact *c = batch->contact[k][lane] < 0 ? NULL : &st->contacts->data[batch->contact[k][lane]];
-                bias[lane] = !c                                       ? 0
-                             : c->correct && !st->settings->baumgarte ? correction_velocity(c, st->settings, st->dt)
-                                                                      : NEVER;
-                batch->overlaps = batch->overlaps || bias[lane] > 0;
-            }
+    batch->overlaps = false;
+    for (int32_t k = 0; k < batch->points; k++) {
+        double *bias = row_of(&f->bias, batch->first + k);
+        for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+            const contact *c = batch->contact[k][lane] < 0 ? NULL : &st->contacts->data[batch->contact[k][lane]];
+            bias[lane] = !c                                       ? 0
+                         : c->correct && !st->settings->baumgarte ? correction_velocity(c, st->settings, st->dt)
+                                                                  : NEVER;
+            batch->overlaps = batch->overlaps || bias[lane] > 0;
         }
+    }
+}
+
+/* Biases, and whether rows and contacts still belong together: one look at each contact. */
+static void bias_task(const stage *st, batch_task *task)
+{
+    task->energy = 0;
+    task->fits = true;
+    for (int32_t i = task->first; i < task->end && task->fits; i++) {
+        contact_batch *batch = &st->s->fast->plan.batches.data[i];
+        task->fits = fast_batch_fits(st, i);
+        if (!task->fits)
+            break;
+        fill_batch_bias(st, batch);
         task->energy += batch->overlaps ? 1 : 0;
     }
+}
+
+/* false without memory; *fit: whether the rows are still those of these contacts. */
+static bool fill_bias(stage *st, bool *fit)
+{
+    fast_rows *f = st->s->fast;
+    if (!rows_reserve(st->s->ctx, &f->bias, f->plan.points) ||
+        !rows_reserve(st->s->ctx, &f->correction, f->plan.points))
+        return false;
+    stage_run(st, bias_task);
+    *fit = true;
+    for (int32_t t = 0; t < f->plan.tasks.count; t++)
+        *fit = *fit && f->plan.tasks.data[t].fits;
+    return true;
 }
 
 static bool begin_correction(stage *st)
 {
     solver *s = st->s;
     fast_rows *f = s->fast;
-    bool fits = fast_rows_fit(st);
-    if (!fits && !batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts))
+    bool fit = f->planned == st->contacts->count;
+    if (fit && !fill_bias(st, &fit))
         return false;
     f->planned = -1;
-    if (fits ? !fast_bodies_make(st) : !fast_rows_make(st))
+    if (fit && !fast_bodies_make(st))
         return false;
+    if (!fit &&
+        (!batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts) || !fast_rows_make(st) || !fill_bias(st, &fit)))
+        return false;
+    assert(fit);
     st->view = fast_view(f);
-    if (!rows_reserve(s->ctx, &f->bias, f->plan.points) || !rows_reserve(s->ctx, &f->correction, f->plan.points))
-        return false;
     rows_clear(&f->velocity, padded_rows(f));
     rows_clear(&f->correction, f->plan.points);
     return true;
@@ -371,7 +398,6 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
                 .positions = true};
     if (!begin_correction(&st))
         return error_memory(error);
-    stage_run(&st, fill_bias);
     int32_t sweeps;
     bool needed = s->joints.count > 0;
     for (int32_t t = 0; t < f->plan.tasks.count; t++)

@@ -51,6 +51,7 @@ typedef struct fast_rows {
     acceleration acceleration;
     int32_array joint_row;            /* body row of each entry of solver.bodies */
     int32_array island;               /* of each body row, see solver_warm.c */
+    int32_array lane_island;          /* of each lane of each batch, -1: nothing in it can move */
     ARRAY(energy_gain) gain;          /* of each body row that leads an island */
     ARRAY(direction_products) blocks; /* sums of each block of body rows */
     int32_t planned;                  /* number of contacts that the rows were made for, -1: none */
@@ -61,7 +62,7 @@ typedef struct stage {
     solver *s;
     batch_view view;
     const body_table *bodies;
-    body_table *moved; /* the same, for those that may move them */
+    body_table *moved; /* the same, for those that may move them or change their velocities */
     const contact_array *contacts;
     contact_array *results;
     const contact_memory_table *memory; /* NULL: start cold */
@@ -100,8 +101,8 @@ batch_view fast_view(const fast_rows *f);
 
 /* Rows of the bodies in the plan, and of joints' bodies; velocities as in the table. */
 bool fast_bodies_make(stage *st);
-void fast_velocities_load(fast_rows *f, const body_table *bodies, const contact_array *contacts);
-void fast_velocities_store(const fast_rows *f, body_table *bodies);
+void fast_velocities_load(stage *st);
+void fast_velocities_store(stage *st);
 /* From here on velocities, those of bodies that nothing moves included, are relative to the mean of all that is
    movable: what is judged by energies is then the same in every frame, and a common drift costs no digits. */
 void fast_velocities_centre(fast_rows *f);
@@ -111,8 +112,8 @@ void fast_driven_make(stage *st);
 double fast_energy(const fast_rows *f);
 /* Rows of bodies and contacts. */
 bool fast_rows_make(stage *st);
-/* Whether the rows are still those of these contacts: bodies, normals, arms. */
-bool fast_rows_fit(stage *st);
+/* Whether the rows of a batch are still those of its contacts: bodies, normals, arms. */
+bool fast_batch_fits(const stage *st, int32_t number);
 
 /* ---- solver_fast_warm.c ---- */
 

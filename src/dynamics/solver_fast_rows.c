@@ -31,6 +31,7 @@ void fast_rows_free(context *ctx, fast_rows *f)
     acceleration_free(ctx, &f->acceleration);
     array_free(ctx, &f->joint_row);
     array_free(ctx, &f->island);
+    array_free(ctx, &f->lane_island);
     array_free(ctx, &f->gain);
     array_free(ctx, &f->blocks);
     batch_plan_free(ctx, &f->plan);
@@ -170,26 +171,43 @@ bool fast_bodies_make(stage *st)
     return true;
 }
 
-void fast_velocities_load(fast_rows *f, const body_table *bodies, const contact_array *contacts)
+static void load_velocities(void *arg, int32_t block, int32_t thread)
 {
-    for (int32_t row = 0; row < f->plan.slot.count; row++)
+    const stage *st = arg;
+    fast_rows *f = st->s->fast;
+    (void)thread;
+    for (int32_t row = ROW_BLOCK * block; row < pool_block_end(block, ROW_BLOCK, f->plan.slot.count); row++)
         if (f->plan.slot.data[row] >= 0)
-            put_velocity(f, row, bodies, f->plan.slot.data[row]);
+            put_velocity(f, row, st->bodies, f->plan.slot.data[row]);
+}
+
+void fast_velocities_load(stage *st)
+{
+    const fast_rows *f = st->s->fast;
+    pool_run(st->s->ctx, load_velocities, st, pool_blocks(f->plan.slot.count, ROW_BLOCK));
     for (int32_t i = 0; i < f->plan.edges.count; i++) {
         const bending_edge *e = &f->plan.edges.data[i];
-        row_of(&f->velocity, e->row)[BODY_VELOCITY + 2] += contacts->data[e->contact].recoil;
+        row_of(&f->velocity, e->row)[BODY_VELOCITY + 2] += st->contacts->data[e->contact].recoil;
     }
 }
 
-void fast_velocities_store(const fast_rows *f, body_table *bodies)
+static void store_velocities(void *arg, int32_t block, int32_t thread)
 {
-    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+    const stage *st = arg;
+    const fast_rows *f = st->s->fast;
+    (void)thread;
+    for (int32_t row = ROW_BLOCK * block; row < pool_block_end(block, ROW_BLOCK, f->plan.slot.count); row++) {
         int32_t slot = f->plan.slot.data[row];
-        if (slot < 0 || !body_is_dynamic(bodies, slot))
+        if (slot < 0 || !body_is_dynamic(st->bodies, slot))
             continue;
-        memcpy(&bodies->velocity[slot], row_of(&f->velocity, row) + BODY_VELOCITY, sizeof(vec3));
-        memcpy(&bodies->angular_velocity[slot], row_of(&f->velocity, row) + BODY_SPIN, sizeof(vec3));
+        memcpy(&st->moved->velocity[slot], row_of(&f->velocity, row) + BODY_VELOCITY, sizeof(vec3));
+        memcpy(&st->moved->angular_velocity[slot], row_of(&f->velocity, row) + BODY_SPIN, sizeof(vec3));
     }
+}
+
+void fast_velocities_store(stage *st)
+{
+    pool_run(st->s->ctx, store_velocities, st, pool_blocks(st->s->fast->plan.slot.count, ROW_BLOCK));
 }
 
 void fast_velocities_centre(fast_rows *f)
@@ -375,7 +393,7 @@ static bool has_woken(const stage *st, const contact_batch *batch, int32_t row, 
     return !copy && row >= st->s->fast->plan.movable && body_is_dynamic(st->bodies, slot);
 }
 
-static bool batch_fits(const stage *st, int32_t number)
+bool fast_batch_fits(const stage *st, int32_t number)
 {
     const fast_rows *f = st->s->fast;
     const contact_batch *batch = &f->plan.batches.data[number];
@@ -394,23 +412,4 @@ static bool batch_fits(const stage *st, int32_t number)
         }
     }
     return true;
-}
-
-static void fit_task(const stage *st, batch_task *task)
-{
-    task->fits = true;
-    for (int32_t i = task->first; i < task->end && task->fits; i++)
-        task->fits = batch_fits(st, i);
-}
-
-bool fast_rows_fit(stage *st)
-{
-    const fast_rows *f = st->s->fast;
-    if (f->planned != st->contacts->count)
-        return false;
-    stage_run(st, fit_task);
-    bool fits = true;
-    for (int32_t t = 0; t < f->plan.tasks.count; t++)
-        fits = fits && f->plan.tasks.data[t].fits;
-    return fits;
 }

@@ -45,10 +45,16 @@ static int32_t member(const fast_rows *f, const body_table *bodies, const contac
     return is_movable(f, bodies, row) ? row : -1;
 }
 
-static int32_t lane_island(fast_rows *f, const body_table *bodies, const contact_batch *batch, int32_t lane)
+static void island_task(const stage *st, batch_task *task)
 {
-    int32_t a = member(f, bodies, batch, batch->a[lane]), b = member(f, bodies, batch, batch->b[lane]);
-    return a < 0 && b < 0 ? -1 : island_leader(f->island.data, a >= 0 ? a : b);
+    const fast_rows *f = st->s->fast;
+    for (int32_t i = task->first; i < task->end; i++) {
+        const contact_batch *batch = &f->plan.batches.data[i];
+        for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+            int32_t a = member(f, st->bodies, batch, batch->a[lane]), b = member(f, st->bodies, batch, batch->b[lane]);
+            f->lane_island.data[BATCH_LANES * i + lane] = a < 0 && b < 0 ? -1 : f->island.data[a >= 0 ? a : b];
+        }
+    }
 }
 
 static int32_t joint_island(const solver *s, const body_table *bodies, const joint_block *j)
@@ -56,14 +62,17 @@ static int32_t joint_island(const solver *s, const body_table *bodies, const joi
     const fast_rows *f = s->fast;
     int32_t a = member(f, bodies, NULL, f->joint_row.data[j->body]);
     int32_t b = member(f, bodies, NULL, f->joint_row.data[j->base]);
-    return island_leader(f->island.data, a >= 0 ? a : b);
+    return f->island.data[a >= 0 ? a : b];
 }
 
-static bool find_islands(solver *s, const body_table *bodies)
+static bool find_islands(stage *st)
 {
+    solver *s = st->s;
     fast_rows *f = s->fast;
+    const body_table *bodies = st->bodies;
     int32_t rows = f->plan.slot.count;
-    if (!array_resize(s->ctx, &f->island, rows) || !array_resize(s->ctx, &f->gain, rows))
+    if (!array_resize(s->ctx, &f->island, rows) || !array_resize(s->ctx, &f->gain, rows) ||
+        !array_resize(s->ctx, &f->lane_island, BATCH_LANES * f->plan.batches.count))
         return false;
     for (int32_t i = 0; i < rows; i++) {
         f->island.data[i] = i;
@@ -83,6 +92,10 @@ static bool find_islands(solver *s, const body_table *bodies)
         if (a >= 0 && b >= 0)
             island_join(f->island.data, a, b);
     }
+    /* Leaders come first in their islands: from here on every row names its own. */
+    for (int32_t i = 0; i < rows; i++)
+        f->island.data[i] = f->island.data[f->island.data[i]];
+    stage_run(st, island_task);
     return true;
 }
 
@@ -93,13 +106,10 @@ static void weigh(stage *st, bool square)
     fast_rows *f = s->fast;
     stage_run(st, work_task);
     joints_borrow(s);
-    for (int32_t i = 0; i < f->plan.batches.count; i++) {
-        for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
-            int32_t island = lane_island(f, st->bodies, &f->plan.batches.data[i], lane);
-            double work = row_of(&f->work, i)[lane];
-            if (island >= 0)
-                *(square ? &f->gain.data[island].square : &f->gain.data[island].linear) += work;
-        }
+    for (int32_t i = 0; i < f->lane_island.count; i++) {
+        int32_t island = f->lane_island.data[i];
+        if (island >= 0)
+            *(square ? &f->gain.data[island].square : &f->gain.data[island].linear) += f->work.rows[i];
     }
     for (int32_t i = 0; i < s->joints.count; i++) {
         const joint_block *j = &s->joints.data[i];
@@ -128,7 +138,7 @@ static void push_joints(stage *st, bool shrink)
 
 void fast_velocities_of_impulses(stage *st)
 {
-    fast_velocities_load(st->s->fast, st->bodies, st->contacts);
+    fast_velocities_load(st);
     st->share = NULL;
     stage_run_colours(st, push_task);
     push_joints(st, false);
@@ -139,8 +149,7 @@ bool fast_warm_start(stage *st)
     solver *s = st->s;
     fast_rows *f = s->fast;
     int32_t batches = f->plan.batches.count;
-    if (!find_islands(s, st->bodies) || !rows_reserve(s->ctx, &f->work, batches) ||
-        !rows_reserve(s->ctx, &f->share, batches))
+    if (!find_islands(st) || !rows_reserve(s->ctx, &f->work, batches) || !rows_reserve(s->ctx, &f->share, batches))
         return false;
     stage_run(st, recall_task);
     weigh(st, false);
@@ -155,11 +164,9 @@ bool fast_warm_start(stage *st)
     }
     if (whole)
         return true;
-    for (int32_t i = 0; i < batches; i++) {
-        for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
-            int32_t island = lane_island(f, st->bodies, &f->plan.batches.data[i], lane);
-            row_of(&f->share, i)[lane] = island < 0 ? 0 : energy_share(f->gain.data[island]) - 1;
-        }
+    for (int32_t i = 0; i < f->lane_island.count; i++) {
+        int32_t island = f->lane_island.data[i];
+        f->share.rows[i] = island < 0 ? 0 : energy_share(f->gain.data[island]) - 1;
     }
     st->share = f->share.rows;
     stage_run_colours(st, shrink_task);

@@ -48,8 +48,8 @@ typedef struct product_sums {
     real direction[SEARCH_DIRECTIONS][PARTS], velocity[SEARCH_DIRECTIONS][PARTS], square[PARTS];
 } product_sums;
 
-V8_INLINE void products_part(const double *velocity, const double *start, double *const *direction, const double *mass,
-                             const double *inertia, int32_t first, int part, product_sums *sums)
+V8_INLINE void products_part(const double *velocity, const double *start, double *const *direction, int directions,
+                             const double *mass, const double *inertia, int32_t first, int part, product_sums *sums)
 {
     lanes_rows m = rows_load(mass, first), j = rows_load(inertia, first), v = rows_load(velocity, first);
     lanes_rows now = rows_subtract(v, rows_load(start, first));
@@ -57,15 +57,17 @@ V8_INLINE void products_part(const double *velocity, const double *start, double
     sums->square[part] = sums->square[part] + rows_dot(&momentum, &v);
     sums->direction[0][part] = sums->direction[0][part] + rows_dot(&change, &now);
     sums->velocity[0][part] = sums->velocity[0][part] + rows_dot(&momentum, &now);
-    for (int w = 1; w < SEARCH_DIRECTIONS; w++) {
+    for (int w = 1; w < directions; w++) {
         lanes_rows d = rows_load(direction[w], first);
         sums->direction[w][part] = sums->direction[w][part] + rows_dot(&change, &d);
         sums->velocity[w][part] = sums->velocity[w][part] + rows_dot(&momentum, &d);
     }
 }
 
-direction_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *direction,
-                                           const double *mass, const double *inertia, int32_t first, int32_t end)
+/* directions: a constant of the caller, so that sums stay in registers. */
+V8_INLINE direction_products products_of(const double *velocity, const double *start, double *const *direction,
+                                         int directions, const double *mass, const double *inertia, int32_t first,
+                                         int32_t end)
 {
     product_sums all;
     for (int h = 0; h < PARTS; h++) {
@@ -75,7 +77,7 @@ direction_products KERNEL(solver_products)(const double *velocity, const double 
     }
     for (int32_t i = first; i < end; i += BATCH_LANES)
         for (int h = 0; h < PARTS; h++)
-            products_part(velocity, start, direction, mass, inertia, i + LANES * h, h, &all);
+            products_part(velocity, start, direction, directions, mass, inertia, i + LANES * h, h, &all);
     direction_products sums = {.square = parts_sum(all.square)};
     for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
         sums.direction[w] = parts_sum(all.direction[w]);
@@ -84,14 +86,30 @@ direction_products KERNEL(solver_products)(const double *velocity, const double 
     return sums;
 }
 
+direction_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *direction,
+                                           int32_t directions, const double *mass, const double *inertia, int32_t first,
+                                           int32_t end)
+{
+    switch (directions) {
+    case 1:
+        return products_of(velocity, start, direction, 1, mass, inertia, first, end);
+    case 2:
+        return products_of(velocity, start, direction, 2, mass, inertia, first, end);
+    case 3:
+        return products_of(velocity, start, direction, 3, mass, inertia, first, end);
+    default:
+        return products_of(velocity, start, direction, SEARCH_DIRECTIONS, mass, inertia, first, end);
+    }
+}
+
 /* ---- solver_combine ---- */
 
-void KERNEL(solver_combine)(double *x, double *start, double *kept, double *const *direction,
+void KERNEL(solver_combine)(double *x, double *start, double *kept, double *const *direction, int32_t directions,
                             const double share[SEARCH_DIRECTIONS], int64_t first, int64_t end)
 {
     for (int64_t i = first; i < end; i += LANES) {
         real old = load(x + i), began = load(start + i), next = old + share[0] * (old - began);
-        for (int w = 1; w < SEARCH_DIRECTIONS; w++)
+        for (int32_t w = 1; w < directions; w++)
             next = next + share[w] * load(direction[w] + i);
         store(kept + i, old);
         store(direction[SEARCH_DIRECTIONS - 1] + i, next - began);

@@ -85,6 +85,7 @@ struct solver {
     int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
     ARRAY(energy_gain) gain; /* of each leader */
     ARRAY(vec3) recalled;    /* of each contact: impulse of the last step */
+    int32_array carriers;    /* contacts of each block that carry something */
     struct memory_entry *entries;
     int32_t entry_capacity;
     struct fast_rows *fast; /* of the fast solver, made when it is first used */
@@ -103,7 +104,7 @@ int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
 int32_t solver_contact_place(solver *s, const body_table *bodies, const contact_array *contacts, int32_t number,
                              int32_t slot, const contact_row *before);
 /* Refuses dynamic bodies without mass or inertia. */
-fram_status bodies_check(const body_table *bodies, fram_error *error);
+fram_status bodies_check(context *ctx, const body_table *bodies, fram_error *error);
 /* Velocities of all dynamic bodies after dt under the loads alone; the gyroscopic moment acts in integrate_poses. */
 void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt);
 /* Velocities of the table into the list. */

@@ -635,7 +635,7 @@ typedef struct slide_sums {
 } slide_sums;
 
 V8_INLINE void slide_part(const batch_view *view, int32_t number, int part, const friction_lanes *mu,
-                          const double *start, double *const *direction, slide_sums *sums)
+                          const double *start, double *const *direction, int32_t directions, slide_sums *sums)
 {
     const contact_batch *batch = &view->batch[number];
     lanes_body a = first_body(view, batch, part, false), b = second_body(view, batch, part, false);
@@ -651,7 +651,7 @@ V8_INLINE void slide_part(const batch_view *view, int32_t number, int part, cons
         real step0 = row(impulse, 0) - row(start + at, 0);
         real step1 = row(impulse, 1) - row(start + at, 1), step2 = row(impulse, 2) - row(start + at, 2);
         sums->along[0][part] = sums->along[0][part] + (u0 * step0 + (u1 * step1 + u2 * step2));
-        for (int w = 1; w < SEARCH_DIRECTIONS; w++)
+        for (int32_t w = 1; w < directions; w++)
             sums->along[w][part] =
                 sums->along[w][part] +
                 (u0 * row(direction[w] + at, 0) + (u1 * row(direction[w] + at, 1) + u2 * row(direction[w] + at, 2)));
@@ -659,7 +659,7 @@ V8_INLINE void slide_part(const batch_view *view, int32_t number, int part, cons
 }
 
 void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, const double *start,
-                          double *const *direction, double sum[SEARCH_DIRECTIONS])
+                          double *const *direction, int32_t directions, double sum[SEARCH_DIRECTIONS])
 {
     slide_sums sums;
     for (int w = 0; w < SEARCH_DIRECTIONS; w++)
@@ -679,7 +679,7 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
             if (!spread)
                 hub_spread(view, batch);
             spread = true;
-            slide_part(&part, i, h, &mu, start, direction, &sums);
+            slide_part(&part, i, h, &mu, start, direction, directions, &sums);
         }
     }
     for (int w = 0; w < SEARCH_DIRECTIONS; w++)

@@ -43,21 +43,21 @@ KERNEL_DECLARE(sweep_sums, solver_correct,
 
 /* ---- for solver_accelerate.c ---- */
 
-/* sum[k] = velocity . direction k over the tangents of sliding contacts and the normals at their cap.
-   Direction 0 is that from `start` to the impulses, the
+/* `directions` of the SEARCH_DIRECTIONS are looked at, the others give zeros.  sum[k] = velocity . direction k over the
+   tangents of sliding contacts and the normals at their cap.  Direction 0 is that from `start` to the impulses, the
    others are given; all are laid out like the impulses. */
 KERNEL_DECLARE(void, solver_slide,
                (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *direction,
-                double sum[SEARCH_DIRECTIONS]));
+                int32_t directions, double sum[SEARCH_DIRECTIONS]));
 /* Products of bodies [first, end), eight at a time, weighted by their mass and inertia.  Directions as above, rows of
    velocities. */
 KERNEL_DECLARE(direction_products, solver_products,
-               (const double *velocity, const double *start, double *const *direction, const double *mass,
-                const double *inertia, int32_t first, int32_t end));
+               (const double *velocity, const double *start, double *const *direction, int32_t directions,
+                const double *mass, const double *inertia, int32_t first, int32_t end));
 /* x, start and directions are vectors alike.  x goes on by share[k] of direction k; `kept` becomes the old x, start the
-   new one; the direction from the old start to the new one takes the place of the last one. */
+   new one; the direction from the old start to the new one takes the place of the last of SEARCH_DIRECTIONS. */
 KERNEL_DECLARE(void, solver_combine,
-               (double *x, double *start, double *kept, double *const *direction, const double share[SEARCH_DIRECTIONS],
-                int64_t first, int64_t end));
+               (double *x, double *start, double *kept, double *const *direction, int32_t directions,
+                const double share[SEARCH_DIRECTIONS], int64_t first, int64_t end));
 
 #endif

@@ -382,7 +382,7 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
                     pairs,
                     patch_pairs,
                     policies};
-    crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
+    crushing_limit_sides(ctx, settings, bodies, shapes, floes, policies, contacts);
     fram_status status = make_surfaces(&w);
     if (status != FRAM_OK)
         return status;

@@ -77,7 +77,8 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
    the pressure of the weaker floe on A_c, the width of the reference side's section through the other floe (within the
    skin) times the height that both have in common, shared by the points that touch; points that are still open carry
    nothing.  None of them is position-corrected: overlap that was crushed stays. */
-void crushing_limit_sides(const crushing_settings *settings, const body_table *bodies, const shape_store *shapes,
-                          const floe_table *floes, const pair_policies *policies, contact_array *contacts);
+void crushing_limit_sides(context *ctx, const crushing_settings *settings, const body_table *bodies,
+                          const shape_store *shapes, const floe_table *floes, const pair_policies *policies,
+                          contact_array *contacts);
 
 #endif

@@ -3,6 +3,8 @@
    cost more than the rest of its step. */
 #include "ice/crushing.h"
 
+#include "base/pool.h"
+
 #include <assert.h>
 
 /* Points nearer than this many skins touch: at rest they stand one skin apart, to rounding. */
@@ -144,15 +146,52 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
     }
 }
 
-void crushing_limit_sides(const crushing_settings *settings, const body_table *bodies, const shape_store *shapes,
-                          const floe_table *floes, const pair_policies *policies, contact_array *contacts)
+typedef struct sides_work {
+    const crushing_settings *settings;
+    const body_table *bodies;
+    const shape_store *shapes;
+    const floe_table *floes;
+    const pair_policies *policies;
+    contact_array *contacts;
+} sides_work;
+enum { SIDES_BLOCK = 512 };
+
+static bool same_pair(const contact *c, const contact *d) { return c->a == d->a && c->b == d->b; }
+
+/* The pairs that begin in a block of contacts. */
+static void limit_block(void *arg, int32_t block, int32_t thread)
 {
-    for (int32_t i = 0; i < contacts->count;) {
-        side_group g = {contacts->data[i].a, contacts->data[i].b, i, i};
-        while (g.end < contacts->count && contacts->data[g.end].a == g.a && contacts->data[g.end].b == g.b)
+    const sides_work *w = arg;
+    const contact *c = w->contacts->data;
+    int32_t count = w->contacts->count, i = SIDES_BLOCK * block, end = pool_block_end(block, SIDES_BLOCK, count);
+    (void)thread;
+    while (i > 0 && i < end && same_pair(&c[i - 1], &c[i]))
+        i++;
+    while (i < end) {
+        side_group g = {c[i].a, c[i].b, i, i};
+        while (g.end < count && same_pair(&c[i], &c[g.end]))
             g.end++;
         i = g.end;
-        if (contacts->data[g.first].patch < 0 && policies->of[bodies->material[g.a]][bodies->material[g.b]].sides)
-            limit_group(settings, bodies, shapes, floes, contacts, &g);
+        if (c[g.first].patch < 0 && w->policies->of[w->bodies->material[g.a]][w->bodies->material[g.b]].sides)
+            limit_group(w->settings, w->bodies, w->shapes, w->floes, w->contacts, &g);
     }
+}
+
+static bool any_sides(const pair_policies *policies)
+{
+    for (int i = 0; i < MATERIAL_COUNT; i++)
+        for (int j = 0; j < MATERIAL_COUNT; j++)
+            if (policies->of[i][j].sides)
+                return true;
+    return false;
+}
+
+void crushing_limit_sides(context *ctx, const crushing_settings *settings, const body_table *bodies,
+                          const shape_store *shapes, const floe_table *floes, const pair_policies *policies,
+                          contact_array *contacts)
+{
+    if (!any_sides(policies))
+        return;
+    sides_work w = {settings, bodies, shapes, floes, policies, contacts};
+    pool_run(ctx, limit_block, &w, pool_blocks(contacts->count, SIDES_BLOCK));
 }

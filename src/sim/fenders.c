@@ -35,8 +35,18 @@ static void limit_pair(contact *c, int32_t count, double yielding, double dt)
     }
 }
 
+static bool any_yields(const model *m)
+{
+    for (int32_t v = 0; v < m->vessels.count; v++)
+        if (m->vessels.data[v].yielding > 0)
+            return true;
+    return false;
+}
+
 void fenders_limit(const model *m, world *w)
 {
+    if (!any_yields(m))
+        return;
     contact *all = w->scratch.contacts.data;
     int32_t count = w->scratch.contacts.count;
     for (int32_t first = 0, end; first < count; first = end) {

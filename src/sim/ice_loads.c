@@ -1,5 +1,6 @@
 #include "sim/ice_loads.h"
 
+#include "base/pool.h"
 #include "sim/fenders.h"
 #include "sim/mechanisms.h"
 
@@ -58,16 +59,62 @@ static bool keep_hull_contacts(context *ctx, world *w)
     return true;
 }
 
+/* ---- which contacts count ---- */
+
+typedef struct listing {
+    const world *w;
+    int32_t *row;   /* of each block its rows, from the place of its first contact on */
+    int32_t *found; /* by each block */
+} listing;
+enum { LIST_BLOCK = 512 };
+
+static void list_block(void *arg, int32_t block, int32_t thread)
+{
+    const listing *l = arg;
+    const contact_array *contacts = &l->w->scratch.contacts;
+    const uint8_t *kind = l->w->bodies.material;
+    int32_t first = LIST_BLOCK * block, found = 0;
+    (void)thread;
+    for (int32_t i = first; i < pool_block_end(block, LIST_BLOCK, contacts->count); i++) {
+        const contact *c = &contacts->data[i];
+        bool hull = kind[c->a] == MATERIAL_HULL || kind[c->b] == MATERIAL_HULL;
+        if (hull || (isfinite(c->impulse_limit) && is_capped(c)))
+            l->row[first + found++] = i;
+    }
+    l->found[block] = found;
+}
+
+/* Lists the contacts with a hull and those at their limit: of a field a few, each other a look into far memory. */
+static bool list_load_contacts(context *ctx, world *w)
+{
+    int32_t count = w->scratch.contacts.count, blocks = pool_blocks(count, LIST_BLOCK);
+    int32_array *rows = &w->scratch.load_contacts;
+    if (!array_resize(ctx, rows, count + blocks))
+        return false;
+    listing l = {w, rows->data, rows->data + count};
+    pool_run(ctx, list_block, &l, blocks);
+    int32_t listed = 0;
+    for (int32_t b = 0; b < blocks; b++) {
+        int32_t found = l.found[b]; /* its place may be written over once it is read */
+        memmove(rows->data + listed, rows->data + LIST_BLOCK * b, (size_t)found * sizeof *rows->data);
+        listed += found;
+    }
+    rows->count = listed;
+    return true;
+}
+
+/* ---- sums ---- */
+
 fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *error)
 {
     int32_t vessels = w->vessels.count;
-    if (!array_resize(ctx, &w->scratch.ice_loads, vessels))
+    if (!array_resize(ctx, &w->scratch.ice_loads, vessels) || !list_load_contacts(ctx, w))
         return error_memory(error);
     ice_load *loads = w->scratch.ice_loads.data;
     if (vessels > 0)
         memset(loads, 0, (size_t)vessels * sizeof *loads);
-    for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
-        const contact *c = &w->scratch.contacts.data[i];
+    for (int32_t i = 0; i < w->scratch.load_contacts.count; i++) {
+        const contact *c = &w->scratch.contacts.data[w->scratch.load_contacts.data[i]];
         bool ice = contact_is_of_ice(w, c);
         if (ice && isfinite(c->impulse_limit) && is_capped(c))
             w->clock.work_crushed[0] += crushing_work(w, c);

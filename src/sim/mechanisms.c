@@ -115,8 +115,8 @@ fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *
     search s = {.last = {.hull = -1, .body = -1}};
     array_clear(&w->scratch.shares);
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < w->scratch.contacts.count && status == FRAM_OK; i++) {
-        const contact *c = &w->scratch.contacts.data[i];
+    for (int32_t i = 0; i < w->scratch.load_contacts.count && status == FRAM_OK; i++) {
+        const contact *c = &w->scratch.contacts.data[w->scratch.load_contacts.data[i]];
         bool none = c->impulse[0] == 0 && c->impulse[1] == 0 && c->impulse[2] == 0;
         if (none || !contact_is_of_ice(w, c))
             continue;

@@ -5,7 +5,7 @@
 
 #include "model/world.h"
 
-/* After the solve, before floes break: fills scratch.shares. */
+/* After the solve, before floes break, from scratch.load_contacts: fills scratch.shares. */
 fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *error);
 /* After floes broke: the loads on those that split are of splitting; sums the shares into scratch.ice_loads. */
 void mechanisms_sum(world *w);

@@ -1,6 +1,7 @@
 #include "sim/step.h"
 
 #include "base/lent_threads.h"
+#include "base/pool.h"
 #include "model/world_invariants.h"
 #include "sim/approach_watch.h"
 #include "sim/events_tell.h"
@@ -351,22 +352,40 @@ static fram_status tell_state(const model *m, const world *w, int32_t body, doub
     return refuse_state(w, body, what, error);
 }
 
-/* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Comparisons are written so that a value
-   that is no number fails them. */
-static fram_status check_state(const model *m, const world *w, fram_error *error)
+typedef struct state_check {
+    const world *w;
+    double speed_limit;
+} state_check;
+
+static double reach_of(const world *w, int32_t body)
 {
-    double limit = m->speed_limit * m->speed_limit;
-    for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (w->bodies.motion[i] == MOTION_NONE)
+    return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
+}
+
+/* Comparisons are written so that a value that is no number fails them. */
+static int32_t find_astray(const void *arg, int32_t first, int32_t end)
+{
+    const state_check *check = arg;
+    const body_table *b = &check->w->bodies;
+    double limit = check->speed_limit * check->speed_limit;
+    for (int32_t i = first; i < end; i++) {
+        if (b->motion[i] == MOTION_NONE)
             continue;
-        vec3 r = w->bodies.position[i], v = w->bodies.velocity[i], o = w->bodies.angular_velocity[i];
-        double reach = w->bodies.shape[i] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[i]] : 0;
+        vec3 r = b->position[i], v = b->velocity[i], o = b->angular_velocity[i];
+        double reach = reach_of(check->w, i);
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;
         bool finite = isfinite(r.x) && isfinite(r.y) && isfinite(r.z);
         if (!slow || !finite)
-            return tell_state(m, w, i, reach, error);
+            return i;
     }
-    return FRAM_OK;
+    return end;
+}
+
+/* A run that goes wrong stops with a diagnosis, never with silent nonsense. */
+static fram_status check_state(context *ctx, const model *m, const world *w, fram_error *error)
+{
+    int32_t body = pool_find(ctx, find_astray, &(state_check){w, m->speed_limit}, w->bodies.count);
+    return body < w->bodies.count ? tell_state(m, w, body, reach_of(w, body), error) : FRAM_OK;
 }
 
 /* The rooms below tell a polygon or a table that cannot be as bad input; in a step nobody has given it: the simulation
@@ -425,7 +444,7 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
     }
     w->clock.step[0]++;
     w->clock.time[0] = (double)w->clock.step[0] * m->time_step;
-    fram_status status = check_state(m, w, error);
+    fram_status status = check_state(ctx, m, w, error);
     return status == FRAM_OK ? lent_threads_check(ctx, error) : status;
 }
 

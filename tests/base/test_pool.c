@@ -221,7 +221,35 @@ START_TEST(small_jobs_have_blocks_for_several_threads)
 }
 END_TEST
 
-TEST_MAIN("pool", every_block_runs_once, many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits,
-          results_do_not_depend_on_threads, small_jobs_have_blocks_for_several_threads,
-          a_single_block_runs_on_the_caller, a_pool_without_memory_is_null, a_pool_makes_do_with_the_threads_there_are,
-          a_pool_without_any_thread_is_null)
+/* Looks for multiples of *arg beyond zero. */
+static int32_t find_multiple(const void *arg, int32_t first, int32_t end)
+{
+    const int32_t *step = arg;
+    for (int32_t i = first; i < end; i++)
+        if (i > 0 && i % *step == 0)
+            return i;
+    return end;
+}
+
+START_TEST(the_least_is_found_of_all_blocks)
+{
+    for (int threads = 1; threads <= 4; threads += 3) {
+        context ctx;
+        context_init(&ctx);
+        ctx.threads = pool_create(&ctx, threads);
+        static const int32_t steps[] = {1, 7, 1023, 1024, 1025, 2048, 30001, 49999};
+        for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
+            for (int again = 0; again < 20; again++)
+                ck_assert_int_eq(pool_find(&ctx, find_multiple, &steps[k], 50000), steps[k]);
+        int32_t none = 50000;
+        ck_assert_int_eq(pool_find(&ctx, find_multiple, &none, 50000), 50000);
+        ck_assert_int_eq(pool_find(&ctx, find_multiple, &none, 0), 0);
+        pool_free(&ctx, ctx.threads);
+    }
+}
+END_TEST
+
+TEST_MAIN("pool", the_least_is_found_of_all_blocks, every_block_runs_once, many_small_jobs_follow_each_other,
+          sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
+          small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
+          a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)

@@ -152,6 +152,40 @@ START_TEST(unmoved_boxes_are_kept)
 }
 END_TEST
 
+/* Of more pairs than a block holds each keeps what was remembered of it while some others come and go. */
+START_TEST(pairs_keep_their_axes)
+{
+    enum { SIDE = 40 };
+    rig r = rig_make(0.1);
+    random_stream draw = random_begin(3, 0, 0);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        regular(&r, MOTION_DYNAMIC, 5, 3, 0.1 * i, vec3_make(5.5 * (i % SIDE), 5.5 * (i / SIDE), 0));
+    update_pairs(&r);
+    ck_assert_int_gt(r.pairs.count, 3 * 2048); /* several blocks */
+    int32_t fresh = 0;
+    for (int k = 0; k < 10; k++) {
+        for (int32_t i = 0; i < r.pairs.count; i++) {
+            r.pairs.axis[i] = vec3_make(r.pairs.a[i], r.pairs.b[i], 1);
+            r.pairs.clear[i] = r.pairs.a[i];
+        }
+        int32_t moved = (int32_t)(random_unit(&draw) * SIDE * SIDE);
+        r.bodies.position[moved].x += 9;
+        update_pairs(&r);
+        for (int32_t i = 0; i < r.pairs.count; i++) {
+            bool kept = r.pairs.axis[i].z == 1;
+            ck_assert(kept || r.pairs.a[i] == moved || r.pairs.b[i] == moved);
+            fresh += !kept;
+            if (kept) {
+                assert_vec3_close(r.pairs.axis[i], vec3_make(r.pairs.a[i], r.pairs.b[i], 1), 0);
+                ck_assert(r.pairs.clear[i] == r.pairs.a[i]);
+            }
+        }
+    }
+    ck_assert_int_gt(fresh, 10);
+    rig_free(&r);
+}
+END_TEST
+
 START_TEST(lost_bodies_are_named)
 {
     rig r = rig_make(0.1);
@@ -430,7 +464,7 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("collision", broad_phase_finds_all_pairs, a_state_of_another_time_finds_its_pairs,
+TEST_MAIN("collision", broad_phase_finds_all_pairs, pairs_keep_their_axes, a_state_of_another_time_finds_its_pairs,
           pairs_of_a_crowd_adrift_are_found, unmoved_boxes_are_kept, lost_bodies_are_named,
           level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter,
           crossed_edges_meet_in_a_point, keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal,

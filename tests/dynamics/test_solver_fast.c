@@ -81,6 +81,76 @@ START_TEST(batches_share_no_body)
 }
 END_TEST
 
+/* Groups told one contact after the other. */
+static void assert_groups(const rig *r, const batch_plan *plan)
+{
+    int32_t group = -1, size = 0;
+    for (int32_t i = 0; i < r->contacts.count; i++) {
+        const contact *c = &r->contacts.data[i];
+        if (!body_is_dynamic(&r->bodies, c->a) && !body_is_dynamic(&r->bodies, c->b)) {
+            size = 0;
+            continue;
+        }
+        bool more = size > 0 && size < BATCH_MOST_POINTS && contact_same_group(c - 1, c);
+        size = more ? size + 1 : 1;
+        group += !more;
+        ck_assert_int_lt(group, plan->groups.count);
+        ck_assert_int_eq(plan->groups.data[group].first, i + 1 - size);
+        ck_assert_int_ge(plan->groups.data[group].count, size);
+    }
+    ck_assert_int_eq(group + 1, plan->groups.count);
+}
+
+/* Runs of up to eleven contacts with one normal, of which blocks are full at any of them; some of two walls. */
+START_TEST(groups_do_not_depend_on_blocks)
+{
+    rig r = packed_fast(6, 6, 0.3, 3);
+    random_stream random = random_begin(5, 0, 0);
+    batch_plan plan = {0};
+    for (int round = 0; round < 40; round++) {
+        array_clear(&r.contacts);
+        while (r.contacts.count < 2300) {
+            int32_t a = (int32_t)(random_unit(&random) * r.bodies.count);
+            int32_t b = (a + 1 + (int32_t)(random_unit(&random) * 3)) % r.bodies.count;
+            contact c = {.a = a, .b = b, .normal = {1, 0, 0}, .friction_static = random_unit(&random)};
+            for (int32_t k = (int32_t)(random_unit(&random) * 11); k >= 0; k--)
+                ck_assert(array_push(&r.ctx, &r.contacts, c));
+        }
+        ck_assert(batch_plan_make(&r.ctx, &plan, &r.bodies, &r.contacts));
+        assert_groups(&r, &plan);
+    }
+    batch_plan_free(&r.ctx, &plan);
+    rig_free(&r);
+}
+END_TEST
+
+/* What is remembered: contacts that carry something, by ascending keys, equal ones in their order. */
+START_TEST(memory_does_not_depend_on_blocks)
+{
+    rig r = packed_fast(30, 30, 0.3, 3);
+    for (int i = 0; i < 20; i++)
+        rig_step(&r);
+    ck_assert_int_gt(r.contacts.count, 2000);
+    int32_t carriers = 0;
+    for (int32_t i = 0; i < r.contacts.count; i++) {
+        const contact *c = &r.contacts.data[i];
+        int32_t place = 0;
+        int32_t row = contact_memory_find(&r.memory, c->key, &place);
+        bool carries = c->impulse[0] > 0 && (body_is_dynamic(&r.bodies, c->a) || body_is_dynamic(&r.bodies, c->b));
+        ck_assert_msg((row >= 0) == carries, "contact %d", (int)i);
+        carriers += carries;
+        vec3 impulse = contact_impulse(c);
+        if (carries)
+            assert_vec3_close(r.memory.on_lower[row], c->a < c->b ? impulse : vec3_neg(impulse), 0);
+    }
+    ck_assert_int_gt(carriers, 1000);
+    ck_assert_int_eq(r.memory.count, carriers);
+    for (int32_t i = 1; i < r.memory.count; i++)
+        ck_assert(r.memory.key[i - 1] < r.memory.key[i]);
+    rig_free(&r);
+}
+END_TEST
+
 /* ---- hubs ---- */
 
 /* Caps that some contacts of plates reach and others do not [N s]. */
@@ -334,6 +404,7 @@ START_TEST(a_body_woken_after_the_solve_is_one)
 END_TEST
 
 TEST_MAIN("solver_fast", hubs_move_as_their_contacts_push, a_driven_body_meets_what_it_should_in_any_frame,
-          batches_share_no_body, a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
+          batches_share_no_body, groups_do_not_depend_on_blocks, memory_does_not_depend_on_blocks,
+          a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
           bits_do_not_depend_on_the_instruction_set, a_body_woken_after_the_solve_is_one,
           long_runs_agree_with_the_reference)

@@ -6,7 +6,7 @@ static void crush(void *user) { ice_rig_crush(user); }
 static void limit(void *user)
 {
     ice_rig *r = user;
-    crushing_limit_sides(&r->settings, &r->bodies, &r->shapes, &r->floes, &r->policies, &r->contacts);
+    crushing_limit_sides(&r->ctx, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->policies, &r->contacts);
 }
 
 /* Points of a patch on a body that is no rigid turn, or of ice of no strength that there is. */

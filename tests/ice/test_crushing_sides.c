@@ -266,7 +266,7 @@ START_TEST(points_apart_carry_nothing)
         contact c = {.a = 0, .b = 1, .point = {5, 5.0 * i - 5, 0}, .normal = {1, 0, 0}, .depth = depth[i], .patch = -1};
         ck_assert(array_push(&r.ctx, &r.contacts, c));
     }
-    crushing_limit_sides(&r.settings, &r.bodies, &r.shapes, &r.floes, &r.policies, &r.contacts);
+    crushing_limit_sides(&r.ctx, &r.settings, &r.bodies, &r.shapes, &r.floes, &r.policies, &r.contacts);
     for (int i = 0; i < 3; i++)
         assert_relative(r.contacts.data[i].impulse_limit, i == 1 ? 0 : 2e6 * 10 * 0.01 / 2, 1e-7);
     ice_rig_free(&r);

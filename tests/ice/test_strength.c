@@ -284,7 +284,7 @@ START_TEST(limits_crushing)
     contact c = {.a = ice, .b = floe, .point = {10, -3, 0}, .normal = {-1, 0, 0}, .depth = 0.1, .patch = -1};
     array_clear(&r.contacts);
     ck_assert(array_push(&r.ctx, &r.contacts, c));
-    crushing_limit_sides(&r.settings, &r.bodies, &r.shapes, &r.floes, &r.policies, &r.contacts);
+    crushing_limit_sides(&r.ctx, &r.settings, &r.bodies, &r.shapes, &r.floes, &r.policies, &r.contacts);
     double face = fmin(factor_at(&r, row, c.point), factor_at(&r, other, c.point));
     assert_relative(r.contacts.data[0].impulse_limit, 2e6 * face * 4 * 0.01, 1e-6);
     ice_rig_free(&r);
