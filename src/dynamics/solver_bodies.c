@@ -71,9 +71,10 @@ static int32_t find_massless(const void *arg, int32_t first, int32_t end)
 {
     const body_table *bodies = arg;
     for (int32_t i = first; i < end; i++) {
+        if (!body_is_dynamic(bodies, i))
+            continue;
         sym3 inertia = body_total_inertia(bodies, i);
-        bool massive = bodies->mass[i] > 0 && inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0;
-        if (body_is_dynamic(bodies, i) && !massive)
+        if (!(bodies->mass[i] > 0 && inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0))
             return i;
     }
     return end;

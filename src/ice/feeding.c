@@ -29,8 +29,19 @@ static double clear_distance(const feeding_world *w) { return feeding_clearance(
 
 /* ---- places ---- */
 
+double feeding_periods(double x, double period)
+{
+    /* Nearly all are plain: no division, and no call of floor. */
+    double size = fabs(x);
+    if (size < 0.499 * period)
+        return 0;
+    if (size > 0.501 * period && size < 1.499 * period)
+        return x > 0 ? 1 : -1;
+    return floor(x / period + 0.5);
+}
+
 /* x less whole periods, in -period/2 .. period/2. */
-static double wrap(double x, double period) { return x - period * floor(x / period + 0.5); }
+static double wrap(double x, double period) { return x - period * feeding_periods(x, period); }
 
 vec2 feeding_place_at(const feeding_world *w, int32_t row, vec2 displacement)
 {
@@ -45,10 +56,12 @@ vec2 feeding_place(const feeding_world *w, int32_t row)
     return feeding_place_at(w, row, w->feeding->displacement[0]);
 }
 
-/* Least distance of a point inside the window from its edge; negative outside [m]. */
+/* Least distance of a point inside the window from its edge; negative outside [m].  Without fmin, which is a call. */
 static double depth_inside(const feeding_table *f, vec2 p)
 {
-    return fmin(fmin(p.x - f->lo[0].x, f->hi[0].x - p.x), fmin(p.y - f->lo[0].y, f->hi[0].y - p.y));
+    double left = p.x - f->lo[0].x, right = f->hi[0].x - p.x, low = p.y - f->lo[0].y, high = f->hi[0].y - p.y;
+    double x = left < right ? left : right, y = low < high ? low : high;
+    return x < y ? x : y;
 }
 
 bool feeding_reaches(const feeding_world *w, vec2 place, double radius, double margin)
@@ -192,13 +205,13 @@ static void sort_floes(const feeding_world *w)
         if (body < 0 || b->motion[body] == MOTION_STATIC)
             continue;
         vec3 r = b->position[body];
-        double reach = w->shapes->shapes.radius[b->shape[body]];
-        if (!feeding_reaches(w, vec2_make(r.x, r.y), reach, clear_distance(w))) {
+        double reach = w->shapes->shapes.radius[b->shape[body]], depth = depth_inside(w->feeding, vec2_make(r.x, r.y));
+        if (!(depth + reach + clear_distance(w) >= 0)) {
             *w->left += b->mass[body];
             floe_remove(b, w->shapes, w->floes, i);
             continue;
         }
-        bool held = in_band(w->feeding, r);
+        bool held = depth < w->feeding->band[0];
         if (held && b->motion[body] == MOTION_DYNAMIC)
             go_with_sheet(w, body);
         b->motion[body] = held ? MOTION_PRESCRIBED : MOTION_DYNAMIC;

@@ -18,11 +18,23 @@ typedef struct tiles {
     int32_t x, y;
 } tiles;
 
+/* Half a tile from the middle of the window, where places change to the other side, is farther than the sheet moved. */
+static bool is_far_from_seam(const feeding_table *f, vec2 place, vec2 moved)
+{
+    const double rounding = 1e-6; /* of a tile */
+    vec2 tile = f->tile[0], from = vec2_sub(place, vec2_scale(vec2_add(f->lo[0], f->hi[0]), 0.5));
+    return fabs(from.x) + fabs(moved.x) < (0.5 - rounding) * tile.x &&
+           fabs(from.y) + fabs(moved.y) < (0.5 - rounding) * tile.y;
+}
+
 static tiles jump_of(const feeding_world *w, int32_t row, vec2 before, vec2 moved)
 {
-    vec2 from = feeding_place_at(w, row, before), to = feeding_place(w, row), tile = w->feeding->tile[0];
+    vec2 to = feeding_place(w, row), tile = w->feeding->tile[0];
+    if (is_far_from_seam(w->feeding, to, moved))
+        return (tiles){0, 0};
+    vec2 from = feeding_place_at(w, row, before);
     vec2 jump = vec2_sub(vec2_sub(to, from), moved);
-    return (tiles){(int32_t)floor(jump.x / tile.x + 0.5), (int32_t)floor(jump.y / tile.y + 0.5)};
+    return (tiles){(int32_t)feeding_periods(jump.x, tile.x), (int32_t)feeding_periods(jump.y, tile.y)};
 }
 
 /* Copies whose body is gone are forgotten, the others are counted from the copy that is shown now. */

@@ -6,6 +6,8 @@
 
 /* A floe has left the window when it is clear of it by this [m]. */
 double feeding_clearance(double band);
+/* The whole number of periods that x is nearest to: floor(x / period + 1/2). */
+double feeding_periods(double x, double period);
 /* Where a floe of the pattern is nearest to the window [m]. */
 vec2 feeding_place(const feeding_world *w, int32_t row);
 /* The same when the sheet has another displacement. */
