@@ -9,7 +9,16 @@
 /* Exit codes. */
 enum { EXIT_GOOD = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_INTERRUPTED = 130 };
 
-typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_REAL, OPTION_INTEGER, OPTION_LIST } option_kind;
+/* OPTION_SIZE and OPTION_COUNT are a real and a whole number above zero, which in definitions means the default. */
+typedef enum option_kind {
+    OPTION_FLAG,
+    OPTION_TEXT,
+    OPTION_REAL,
+    OPTION_SIZE,
+    OPTION_INTEGER,
+    OPTION_COUNT,
+    OPTION_LIST
+} option_kind;
 
 enum { OPTION_LIST_ROOM = 64 };
 typedef struct option_list {

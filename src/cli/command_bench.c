@@ -9,6 +9,9 @@ typedef struct bench_words {
     const char *path; /* of the scenario, or of the scene */
     bool is_scene, all_solvers, exact_water;
     double warm, time; /* NOT_GIVEN: the default */
+    double time_step;  /* of a scene, 0: the default */
+    int iterations;    /* so, too */
+    const char *solver;
     option_list overrides;
     fram_bench_scene_definition scene;
 } bench_words;
@@ -135,8 +138,14 @@ static int check_words(const bench_words *w, const char *scene)
         return answer_usage(&w->common, w->path, "one scenario or one scene, not both");
     if (!scene && !w->path)
         return answer_usage(&w->common, "SCENARIO", "name a scenario file, or a scene with --scene FILE");
-    const char *of_scenes = w->all_solvers ? "--solvers" : w->scene.dump ? "--dump" : "--exact-water";
-    if (!scene && (w->all_solvers || w->scene.dump || w->exact_water))
+    const char *of_scenes = w->all_solvers      ? "--solvers"
+                            : w->scene.dump     ? "--dump"
+                            : w->exact_water    ? "--exact-water"
+                            : w->time_step > 0  ? "--dt"
+                            : w->iterations > 0 ? "--iterations"
+                            : w->solver != NULL ? "--solver"
+                                                : NULL;
+    if (!scene && of_scenes)
         return answer_usage(&w->common, of_scenes, "is for scenes: --scene FILE");
     if (scene && w->overrides.count > 0)
         return answer_usage(&w->common, "--set", "is for scenarios");
@@ -153,9 +162,9 @@ int command_bench(const command_row *self, int argc, char **argv)
         {"--time", NULL, OPTION_REAL, &w.time, "T", "simulated seconds to measure (10); scene: total (20)"},
         {"--set", NULL, OPTION_LIST, &w.overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--scene", NULL, OPTION_TEXT, &scene, "FILE", "a scene in the format of bench/peers, instead of a scenario"},
-        {"--dt", NULL, OPTION_REAL, &w.scene.time_step, "S", "scene: time step (0.02 s)"},
-        {"--iterations", NULL, OPTION_INTEGER, &w.scene.iterations, "N", "scene: solver iterations (10)"},
-        {"--solver", NULL, OPTION_TEXT, &w.scene.solver, "NAME", "scene: sequential, fast or accurate"},
+        {"--dt", NULL, OPTION_SIZE, &w.time_step, "S", "scene: time step (0.02 s)"},
+        {"--iterations", NULL, OPTION_COUNT, &w.iterations, "N", "scene: solver iterations (10)"},
+        {"--solver", NULL, OPTION_TEXT, &w.solver, "NAME", "scene: sequential, fast or accurate"},
         {"--solvers", NULL, OPTION_FLAG, &w.all_solvers, NULL,
          "scene: compare load, residual, overlap and time of each solver"},
         {"--exact-water", NULL, OPTION_FLAG, &w.exact_water, NULL,
@@ -175,6 +184,9 @@ int command_bench(const command_row *self, int argc, char **argv)
         w.is_scene = true;
         w.path = scene;
         w.scene.exact_water = w.exact_water;
+        w.scene.time_step = w.time_step > 0 ? w.time_step : w.scene.time_step;
+        w.scene.iterations = w.iterations > 0 ? w.iterations : w.scene.iterations;
+        w.scene.solver = w.solver ? w.solver : w.scene.solver;
         w.scene.warm = w.warm < 0 ? w.scene.warm : w.warm;
         w.scene.time = w.time < 0 ? w.scene.time : w.time;
     }

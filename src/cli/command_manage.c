@@ -12,9 +12,9 @@ int command_manage(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "the protected vessel (the only one without propulsion)"},
         {"--beside", NULL, OPTION_TEXT, &d.beside, "RUN", "a run to compare with, for instance without icebreakers"},
-        {"--limit", NULL, OPTION_REAL, &d.limit, "M",
+        {"--limit", NULL, OPTION_SIZE, &d.limit, "M",
          "largest size of a floe that counts as managed [m] (the vessel's beam)"},
-        {"--depth", NULL, OPTION_REAL, &d.depth, "M",
+        {"--depth", NULL, OPTION_SIZE, &d.depth, "M",
          "length of the ice windows along the drift [m] (the width of the corridor)"},
         {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the page (RUN/manage.html); tables are written beside it"},
     };

@@ -277,7 +277,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
         {"--block", NULL, OPTION_TEXT, &block, "T", "block length for block maxima (a fiftieth of the data)"},
         {"--threshold", NULL, OPTION_REAL, &d.threshold, "X", "threshold of peaks and crossing rates (from quantiles)"},
         {"--separation", NULL, OPTION_TEXT, &separation, "T", "least time between independent peaks (4 time scales)"},
-        {"--order", NULL, OPTION_INTEGER, &d.order, "K",
+        {"--order", NULL, OPTION_COUNT, &d.order, "K",
          "ACER: order of conditioning, in values (as many as the separation holds)"},
         {"--fit", NULL, OPTION_TEXT, &fit, "NAME", "likelihood, or moments: L-moments with bootstrap (likelihood)"},
         {"--maxima", NULL, OPTION_FLAG, &d.maxima, NULL,
@@ -299,6 +299,8 @@ int command_extremes(const command_row *self, int argc, char **argv)
         code = take_numbers(&common, "--level", &levels, d.probability, FRAM_EXTREME_LEVELS, &d.levels);
     if (code < 0 && fit && strcmp(fit, "likelihood") != 0 && strcmp(fit, "moments") != 0)
         code = answer_usage(&common, "--fit", "expected likelihood or moments");
+    if (code < 0 && d.maxima && (words.from || words.step))
+        code = answer_usage(&common, words.from ? "--from" : "--step", "is for a series; maxima have no times");
     if (code < 0 && d.maxima && !block)
         code = answer_usage(&common, "--block", "is missing: the length of the blocks that the maxima are of");
     d.moments = fit && strcmp(fit, "moments") == 0;

@@ -90,8 +90,12 @@ static const char *store_value(const option_row *row, const char *text)
         return NULL;
     case OPTION_REAL:
         return store_real(text, row->value) ? NULL : "needs a number";
+    case OPTION_SIZE:
+        return store_real(text, row->value) && *(double *)row->value > 0 ? NULL : "needs a number above zero";
     case OPTION_INTEGER:
         return store_integer(text, row->value) ? NULL : "needs a whole number";
+    case OPTION_COUNT:
+        return store_integer(text, row->value) && *(int *)row->value > 0 ? NULL : "needs a whole number above zero";
     case OPTION_LIST: {
         option_list *list = row->value;
         if (list->count == OPTION_LIST_ROOM)

@@ -355,7 +355,7 @@ static void trim(double_array *value, const double_array *time, double step, dou
     while (first < value->count && (time->count > 0 ? time->data[first] : first * step) < from)
         first++;
     for (int32_t i = first; i < value->count; i++)
-        value->data[i - first] = minima ? -value->data[i] : value->data[i];
+        value->data[i - first] = minima ? 0 - value->data[i] : value->data[i]; /* 0, not -0 */
     value->count -= first;
 }
 
