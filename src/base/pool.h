@@ -21,7 +21,7 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
 /* How many of `count` things make a block: `most`, or so few in a small job that there are about sixteen blocks, but a
    multiple of `least`.  By the count alone. */
 int32_t pool_block(int32_t count, int32_t least, int32_t most);
-/* Blocks of `size` things, `count` altogether, and the end of one of them. */
+/* How many blocks of `size` things `count` things make, and where one of them ends. */
 static inline int32_t pool_blocks(int32_t count, int32_t size) { return count / size + (count % size != 0); }
 static inline int32_t pool_block_end(int32_t block, int32_t size, int32_t count)
 {

@@ -9,7 +9,7 @@
 /* Exit codes. */
 enum { EXIT_GOOD = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_INTERRUPTED = 130 };
 
-/* OPTION_SIZE and OPTION_COUNT are a real and a whole number above zero, which in definitions means the default. */
+/* OPTION_SIZE and OPTION_COUNT: a real and a whole number above zero, where the API takes zero for the default. */
 typedef enum option_kind {
     OPTION_FLAG,
     OPTION_TEXT,

@@ -9,8 +9,9 @@ typedef struct bench_words {
     const char *path; /* of the scenario, or of the scene */
     bool is_scene, all_solvers, exact_water;
     double warm, time; /* NOT_GIVEN: the default */
-    double time_step;  /* of a scene, 0: the default */
-    int iterations;    /* so, too */
+    /* Of a scene; 0, 0, NULL: the defaults. */
+    double time_step;
+    int iterations;
     const char *solver;
     option_list overrides;
     fram_bench_scene_definition scene;
@@ -147,6 +148,8 @@ static int check_words(const bench_words *w, const char *scene)
                                                 : NULL;
     if (!scene && of_scenes)
         return answer_usage(&w->common, of_scenes, "is for scenes: --scene FILE");
+    if (w->all_solvers && (w->solver || w->scene.dump))
+        return answer_usage(&w->common, w->solver ? "--solver" : "--dump", "is of one solver, --solvers of all");
     if (scene && w->overrides.count > 0)
         return answer_usage(&w->common, "--set", "is for scenarios");
     return -1;

@@ -32,7 +32,7 @@ int command_export(const command_row *self, int argc, char **argv)
          "NetCDF-4 for xarray and h5py: all channels and floes (RUN/run.nc)"},
         {"--geojson", NULL, OPTION_FLAG, &geojson, NULL, "floe outlines at one time (RUN/field-T.geojson)"},
         {"--time", NULL, OPTION_REAL, &time, "T", "time of --geojson [s]"},
-        {"--every", NULL, OPTION_COUNT, &every, "N", "only every N-th frame, for --vtk (1)"},
+        {"--every", NULL, OPTION_INTEGER, &every, "N", "only every N-th frame, for --vtk (1)"},
         {"--output", "-o", OPTION_TEXT, &output, "PATH", "the file, or the folder of --vtk"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
@@ -43,6 +43,8 @@ int command_export(const command_row *self, int argc, char **argv)
     if (geojson == isnan(time))
         return answer_usage(&common, "--time",
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
+    if (every < 1)
+        return answer_usage(&common, "--every", "must be at least 1");
     const command_files files = {.runs = {run},
                                  .outputs = {{"--output", output,
                                               vtk      ? "pvd"

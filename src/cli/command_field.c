@@ -27,7 +27,7 @@ static int read_words(const command_row *self, field_words *w, common_options *c
         {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE", "draw the field from above, .png or .svg"},
         {"--cover", NULL, OPTION_TEXT, &w->cover, "FILE",
          "draw the concentration on a grid of square cells, .png or .svg"},
-        {"--cell", NULL, OPTION_REAL, &w->cell, "L", "side of a cell [m] (about a fortieth of the field)"},
+        {"--cell", NULL, OPTION_SIZE, &w->cell, "L", "side of a cell [m] (about a fortieth of the field)"},
         {"--table", NULL, OPTION_TEXT, &w->table, "FILE.csv",
          "write one row per floe, with the shape and size it was drawn from"},
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE.geojson", "write the floes; numbers read back to the bit"},

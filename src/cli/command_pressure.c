@@ -89,12 +89,12 @@ int command_pressure(const command_row *self, int argc, char **argv)
     fram_pressure_default(&d);
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.output, "DIR", "folder for the results (required)"},
-        {"--panel", NULL, OPTION_SIZE, &d.panel, "M", "side of a panel [m] (1)"},
+        {"--panel", NULL, OPTION_REAL, &d.panel, "M", "side of a panel [m] (1)"},
         {"--frames", NULL, OPTION_TEXT, &frames, "LIST",
          "x of frames instead of every M: coordinates or FIRST:SPACING:LAST, separated by commas [m]"},
         {"--stringers", NULL, OPTION_TEXT, &stringers, "LIST", "z of stringers, in the same way [m]"},
         {"--from", NULL, OPTION_REAL, &d.from, "T", "start after this time [s] (0)"},
-        {"--to", NULL, OPTION_REAL, &d.to, "T", "stop at this time [s] (the end of the run)"},
+        {"--to", NULL, OPTION_SIZE, &d.to, "T", "stop at this time [s] (the end of the run)"},
         {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "of several vessels: whose hull (the first)"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);

@@ -239,9 +239,9 @@ int command_video(const command_row *self, int argc, char **argv)
         {"--camera", NULL, OPTION_TEXT, &d.camera, "NAME",
          "orbit (default), follow (the vessel), or plan (from above)"},
         {"--span", NULL, OPTION_SIZE, &d.span, "M", "plan camera: follow the vessel, M metres across"},
-        {"--fps", NULL, OPTION_COUNT, &d.frames_per_second, "N", "frames per second (25)"},
-        {"--width", NULL, OPTION_COUNT, &d.width, "PX", "width of the picture [pixels] (1280)"},
-        {"--height", NULL, OPTION_COUNT, &d.height, "PX", "height of the picture [pixels] (720)"},
+        {"--fps", NULL, OPTION_INTEGER, &d.frames_per_second, "N", "frames per second (25)"},
+        {"--width", NULL, OPTION_INTEGER, &d.width, "PX", "width of the picture [pixels] (1280)"},
+        {"--height", NULL, OPTION_INTEGER, &d.height, "PX", "height of the picture [pixels] (720)"},
         {"--pictures", NULL, OPTION_FLAG, &d.pictures, NULL, "numbered PNG files instead; needs no ffmpeg"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);

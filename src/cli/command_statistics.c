@@ -37,6 +37,13 @@ static int take_time(const common_options *common, const char *option, const cha
     return answer_usage(common, option, "expected a time, as 3h, 90min or 10800 (seconds)");
 }
 
+/* The same of a length of time, of which zero is none. */
+static int take_period(const common_options *common, const char *option, const char *text, double *out)
+{
+    int code = take_time(common, option, text, out);
+    return code >= 0 || !text || *out > 0 ? code : answer_usage(common, option, "needs a time above zero");
+}
+
 /* Numbers divided by commas, from any number of options.  -1 to go on. */
 static int take_numbers(const common_options *common, const char *option, const option_list *list, double *out,
                         int room, int *count)
@@ -290,11 +297,11 @@ int command_extremes(const command_row *self, int argc, char **argv)
     if (code < 0)
         code = take_source(&common, &words, files, &d.source);
     if (code < 0)
-        code = take_time(&common, "--duration", duration, &d.duration);
+        code = take_period(&common, "--duration", duration, &d.duration);
     if (code < 0)
-        code = take_time(&common, "--block", block, &d.block);
+        code = take_period(&common, "--block", block, &d.block);
     if (code < 0)
-        code = take_time(&common, "--separation", separation, &d.separation);
+        code = take_period(&common, "--separation", separation, &d.separation);
     if (code < 0)
         code = take_numbers(&common, "--level", &levels, d.probability, FRAM_EXTREME_LEVELS, &d.levels);
     if (code < 0 && fit && strcmp(fit, "likelihood") != 0 && strcmp(fit, "moments") != 0)

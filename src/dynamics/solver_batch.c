@@ -49,7 +49,7 @@ typedef struct run_work {
 } run_work;
 enum { RUN_BLOCK = 512 };
 
-/* The runs of a block of contacts: all that is read of every contact. */
+/* The runs of a block of contacts: one look at each; what follows looks at the first of each group. */
 static void find_runs(void *arg, int32_t block, int32_t thread)
 {
     const run_work *w = arg;

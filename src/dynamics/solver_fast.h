@@ -50,7 +50,7 @@ typedef struct fast_rows {
     aligned_rows joint_impulse;    /* a row for each joint */
     acceleration acceleration;
     int32_array joint_row;            /* body row of each entry of solver.bodies */
-    int32_array island;               /* of each body row, see solver_warm.c */
+    int32_array island;               /* of each body row: the row that leads its island, see solver_warm.c */
     int32_array lane_island;          /* of each lane of each batch, -1: nothing in it can move */
     ARRAY(energy_gain) gain;          /* of each body row that leads an island */
     ARRAY(direction_products) blocks; /* sums of each block of body rows */

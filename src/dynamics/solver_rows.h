@@ -85,7 +85,7 @@ struct solver {
     int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
     ARRAY(energy_gain) gain; /* of each leader */
     ARRAY(vec3) recalled;    /* of each contact: impulse of the last step */
-    int32_array carriers;    /* contacts of each block that carry something */
+    int32_array carriers;    /* how many contacts of each block carry something */
     struct memory_entry *entries;
     int32_t entry_capacity;
     struct fast_rows *fast; /* of the fast solver, made when it is first used */

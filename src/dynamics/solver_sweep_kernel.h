@@ -43,8 +43,8 @@ KERNEL_DECLARE(sweep_sums, solver_correct,
 
 /* ---- for solver_accelerate.c ---- */
 
-/* `directions` of the SEARCH_DIRECTIONS are looked at, the others give zeros.  sum[k] = velocity . direction k over the
-   tangents of sliding contacts and the normals at their cap.  Direction 0 is that from `start` to the impulses, the
+/* The first `directions` of the SEARCH_DIRECTIONS are looked at, the others give zeros. */
+/* sum[k] = velocity . direction k over the tangents of sliding contacts and the normals at their cap.  Direction 0 is that from `start` to the impulses, the
    others are given; all are laid out like the impulses. */
 KERNEL_DECLARE(void, solver_slide,
                (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *direction,

@@ -64,9 +64,11 @@ static double depth_inside(const feeding_table *f, vec2 p)
     return x < y ? x : y;
 }
 
+static bool depth_reaches(double depth, double radius, double margin) { return depth + radius + margin >= 0; }
+
 bool feeding_reaches(const feeding_world *w, vec2 place, double radius, double margin)
 {
-    return depth_inside(w->feeding, place) + radius + margin >= 0;
+    return depth_reaches(depth_inside(w->feeding, place), radius, margin);
 }
 
 polygon feeding_outline(const feeding_world *w, int32_t row)
@@ -76,7 +78,13 @@ polygon feeding_outline(const feeding_world *w, int32_t row)
 
 /* ---- floes ---- */
 
-static bool in_band(const feeding_table *f, vec3 r) { return depth_inside(f, vec2_make(r.x, r.y)) < f->band[0]; }
+static double depth_of(const feeding_world *w, int32_t body)
+{
+    vec3 r = w->bodies->position[body];
+    return depth_inside(w->feeding, vec2_make(r.x, r.y));
+}
+
+static bool in_band(const feeding_table *f, double depth) { return depth < f->band[0]; }
 
 static void go_with_sheet(const feeding_world *w, int32_t body)
 {
@@ -110,7 +118,7 @@ fram_status feeding_make_floe(context *ctx, overlay *o, const feeding_world *w, 
     if (status != FRAM_OK)
         return status;
     int32_t body = w->floes->body[floe];
-    if (!in_band(w->feeding, w->bodies->position[body]))
+    if (!in_band(w->feeding, depth_of(w, body)))
         w->bodies->motion[body] = MOTION_DYNAMIC;
     go_with_sheet(w, body);
     w->pattern->body[row] = body;
@@ -204,14 +212,13 @@ static void sort_floes(const feeding_world *w)
         int32_t body = w->floes->body[i];
         if (body < 0 || b->motion[body] == MOTION_STATIC)
             continue;
-        vec3 r = b->position[body];
-        double reach = w->shapes->shapes.radius[b->shape[body]], depth = depth_inside(w->feeding, vec2_make(r.x, r.y));
-        if (!(depth + reach + clear_distance(w) >= 0)) {
+        double depth = depth_of(w, body), reach = w->shapes->shapes.radius[b->shape[body]];
+        if (!depth_reaches(depth, reach, clear_distance(w))) {
             *w->left += b->mass[body];
             floe_remove(b, w->shapes, w->floes, i);
             continue;
         }
-        bool held = depth < w->feeding->band[0];
+        bool held = in_band(w->feeding, depth);
         if (held && b->motion[body] == MOTION_DYNAMIC)
             go_with_sheet(w, body);
         b->motion[body] = held ? MOTION_PRESCRIBED : MOTION_DYNAMIC;

@@ -66,7 +66,7 @@ typedef struct listing {
     int32_t *row;   /* of each block its rows, from the place of its first contact on */
     int32_t *found; /* by each block */
 } listing;
-enum { LIST_BLOCK = 512 };
+enum { LIST_BLOCK = 2048 }; /* some microseconds */
 
 static void list_block(void *arg, int32_t block, int32_t thread)
 {
@@ -84,20 +84,21 @@ static void list_block(void *arg, int32_t block, int32_t thread)
     l->found[block] = found;
 }
 
-/* Lists the contacts with a hull and those at their limit: of a field a few, each other a look into far memory. */
+/* Lists the contacts with a hull and those at their limit: in a field whose ice does not crush a few of many. */
 static bool list_load_contacts(context *ctx, world *w)
 {
     int32_t count = w->scratch.contacts.count, blocks = pool_blocks(count, LIST_BLOCK);
     int32_array *rows = &w->scratch.load_contacts;
     if (!array_resize(ctx, rows, count + blocks))
         return false;
+    if (count == 0)
+        return true;
     listing l = {w, rows->data, rows->data + count};
     pool_run(ctx, list_block, &l, blocks);
     int32_t listed = 0;
     for (int32_t b = 0; b < blocks; b++) {
-        int32_t found = l.found[b]; /* its place may be written over once it is read */
-        memmove(rows->data + listed, rows->data + LIST_BLOCK * b, (size_t)found * sizeof *rows->data);
-        listed += found;
+        memmove(rows->data + listed, rows->data + LIST_BLOCK * b, (size_t)l.found[b] * sizeof *rows->data);
+        listed += l.found[b];
     }
     rows->count = listed;
     return true;

@@ -381,11 +381,21 @@ static int32_t find_astray(const void *arg, int32_t first, int32_t end)
     return end;
 }
 
-/* A run that goes wrong stops with a diagnosis, never with silent nonsense. */
-static fram_status check_state(context *ctx, const model *m, const world *w, fram_error *error)
+static void count_step(const model *m, world *w)
+{
+    w->clock.step[0]++;
+    w->clock.time[0] = (double)w->clock.step[0] * m->time_step;
+}
+
+/* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Before what crosses the edge is taken out:
+   a floe that flew off would be gone. */
+static fram_status check_state(context *ctx, const model *m, world *w, fram_error *error)
 {
     int32_t body = pool_find(ctx, find_astray, &(state_check){w, m->speed_limit}, w->bodies.count);
-    return body < w->bodies.count ? tell_state(m, w, body, reach_of(w, body), error) : FRAM_OK;
+    if (body == w->bodies.count)
+        return FRAM_OK;
+    count_step(m, w);
+    return tell_state(m, w, body, reach_of(w, body), error);
 }
 
 /* The rooms below tell a polygon or a table that cannot be as bad input; in a step nobody has given it: the simulation
@@ -439,13 +449,15 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
 #ifndef NDEBUG
         assert_stage(ctx, m, w, i);
 #endif
+        if (i == STAGE_INTEGRATION)
+            status = check_state(ctx, m, w, error);
+        if (status != FRAM_OK)
+            return status;
         if (watch)
             watch->done(watch->user, (step_stage)i);
     }
-    w->clock.step[0]++;
-    w->clock.time[0] = (double)w->clock.step[0] * m->time_step;
-    fram_status status = check_state(ctx, m, w, error);
-    return status == FRAM_OK ? lent_threads_check(ctx, error) : status;
+    count_step(m, w);
+    return lent_threads_check(ctx, error);
 }
 
 fram_status world_step(context *ctx, const model *m, world *w, fram_error *error)

@@ -111,24 +111,23 @@ refuse_zero() {
     local option=$1
     shift
     expect 2 "$FRAM" "$@" "$option" 0
-    says "$option: needs a" err
+    says "$option: needs" err
     says "above zero" err
     expect 2 "$FRAM" "$@" "$option" -3
     says "$option: needs a" err
     says "above zero" err
 }
-refuse_zero --every export run --vtk
 refuse_zero --limit manage run
 refuse_zero --depth manage run
 refuse_zero --order extremes run
-refuse_zero --fps video run
-refuse_zero --width video run
 refuse_zero --speed video run
 refuse_zero --span video run --camera plan
-refuse_zero --panel pressure run
-refuse_zero --directions capability scene.yaml -o none
-refuse_zero --measure capability scene.yaml -o none
-refuse_zero --dt bench --scene none
+refuse_zero --to pressure run
+refuse_zero --window capability scene.yaml -o none
+refuse_zero --unbroken-as capability scene.yaml -o none
+refuse_zero --cell field --cover run
+refuse_zero --separation extremes run
+refuse_zero --block extremes run
 # What a command would not look at is refused, not passed over.
 expect 2 "$FRAM" bench scene.yaml --iterations 5
 says "--iterations: is for scenes" err
@@ -138,6 +137,11 @@ expect 2 "$FRAM" bench scene.yaml --solver fast
 says "--solver: is for scenes" err
 expect 2 "$FRAM" extremes maxima.csv --channel x --maxima --block 1h --from 3
 says "--from: is for a series" err
+expect 2 "$FRAM" extremes maxima.csv --channel x --maxima --block 1h --step 3
+says "--step: is for a series" err
+expect 2 "$FRAM" bench --scene none --solvers --solver fast
+says "--solver: is of one solver" err
+expect 2 "$FRAM" export run --vtk --every 0
 expect 2 "$FRAM" export scene.yaml --vtk
 
 # Export.

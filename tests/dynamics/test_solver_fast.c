@@ -84,13 +84,14 @@ END_TEST
 /* Groups told one contact after the other. */
 static void assert_groups(const rig *r, const batch_plan *plan)
 {
-    int32_t group = -1, size = 0;
+    int32_t group = -1, size = 0, movable = 0, grouped = 0;
     for (int32_t i = 0; i < r->contacts.count; i++) {
         const contact *c = &r->contacts.data[i];
         if (!body_is_dynamic(&r->bodies, c->a) && !body_is_dynamic(&r->bodies, c->b)) {
             size = 0;
             continue;
         }
+        movable++;
         bool more = size > 0 && size < BATCH_MOST_POINTS && contact_same_group(c - 1, c);
         size = more ? size + 1 : 1;
         group += !more;
@@ -99,12 +100,16 @@ static void assert_groups(const rig *r, const batch_plan *plan)
         ck_assert_int_ge(plan->groups.data[group].count, size);
     }
     ck_assert_int_eq(group + 1, plan->groups.count);
+    for (int32_t i = 0; i < plan->groups.count; i++)
+        grouped += plan->groups.data[i].count;
+    ck_assert_int_eq(grouped, movable);
 }
 
 /* Runs of up to eleven contacts with one normal, of which blocks are full at any of them; some of two walls. */
 START_TEST(groups_do_not_depend_on_blocks)
 {
     rig r = packed_fast(6, 6, 0.3, 3);
+    r.ctx.threads = pool_create(&r.ctx, 3);
     random_stream random = random_begin(5, 0, 0);
     batch_plan plan = {0};
     for (int round = 0; round < 40; round++) {
@@ -120,6 +125,8 @@ START_TEST(groups_do_not_depend_on_blocks)
         assert_groups(&r, &plan);
     }
     batch_plan_free(&r.ctx, &plan);
+    pool_free(&r.ctx, r.ctx.threads);
+    r.ctx.threads = NULL;
     rig_free(&r);
 }
 END_TEST
@@ -128,6 +135,7 @@ END_TEST
 START_TEST(memory_does_not_depend_on_blocks)
 {
     rig r = packed_fast(30, 30, 0.3, 3);
+    r.ctx.threads = pool_create(&r.ctx, 3);
     for (int i = 0; i < 20; i++)
         rig_step(&r);
     ck_assert_int_gt(r.contacts.count, 2000);
@@ -147,6 +155,8 @@ START_TEST(memory_does_not_depend_on_blocks)
     ck_assert_int_eq(r.memory.count, carriers);
     for (int32_t i = 1; i < r.memory.count; i++)
         ck_assert(r.memory.key[i - 1] < r.memory.key[i]);
+    pool_free(&r.ctx, r.ctx.threads);
+    r.ctx.threads = NULL;
     rig_free(&r);
 }
 END_TEST

@@ -2,6 +2,7 @@
    steps. */
 #include "scene.h"
 
+#include "base/pool.h"
 #include "sim/contact_sums.h"
 #include "sim/ice_loads.h"
 #include "sim/steady_load.h"
@@ -179,5 +180,33 @@ START_TEST(steady_loads_add_up)
 }
 END_TEST
 
-TEST_MAIN("ice_loads", sums_of_a_floes_contacts, steady_loads_add_up, either_side_of_a_contact, parts_of_the_load,
-          work_at_the_cap, the_window_of_loads)
+/* Contacts of a hull are found among many others, on any number of threads. */
+START_TEST(many_contacts)
+{
+    enum { COUNT = 9000, EVERY = 7 };
+    for (int threads = 1; threads <= 3; threads += 2) {
+        scene k;
+        scene_open(&k, still);
+        k.ctx.threads = threads > 1 ? pool_create(&k.ctx, threads) : NULL;
+        int32_t hull = k.w.vessels.body[0], floe = scene_floe(&k, 0), other = scene_floe(&k, 1);
+        fram_error error = {0};
+        array_clear(&k.w.scratch.contacts);
+        for (int i = 0; i < COUNT; i++) {
+            contact c = contact_of(i % EVERY == 3 ? hull : other, floe, 1 + i, HUGE_VAL);
+            ck_assert(array_push(&k.ctx, &k.w.scratch.contacts, c));
+        }
+        assert_ok(sum_ice_loads(&k.ctx, &k.m, &k.w, &error), error);
+        double sum = 0;
+        for (int i = 3; i < COUNT; i += EVERY)
+            sum -= (1 + i) / k.m.time_step;
+        assert_relative(k.w.scratch.ice_loads.data[0].total.force.x, sum, 1e-12);
+        ck_assert_int_eq(k.w.scratch.ice_loads.data[0].contacts, (COUNT - 3 + EVERY - 1) / EVERY);
+        pool_free(&k.ctx, k.ctx.threads);
+        k.ctx.threads = NULL;
+        scene_close(&k);
+    }
+}
+END_TEST
+
+TEST_MAIN("ice_loads", many_contacts, sums_of_a_floes_contacts, steady_loads_add_up, either_side_of_a_contact,
+          parts_of_the_load, work_at_the_cap, the_window_of_loads)
