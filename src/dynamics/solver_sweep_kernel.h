@@ -43,9 +43,10 @@ KERNEL_DECLARE(sweep_sums, solver_correct,
 
 /* ---- for solver_accelerate.c ---- */
 
-/* The first `directions` of the SEARCH_DIRECTIONS are looked at, the others give zeros. */
-/* sum[k] = velocity . direction k over the tangents of sliding contacts and the normals at their cap.  Direction 0 is that from `start` to the impulses, the
-   others are given; all are laid out like the impulses. */
+/* The first `directions` of the SEARCH_DIRECTIONS are looked at, the others give zeros.  Direction 0 is that from
+   `start` to what the sweeps have made of it, the others are given; all are laid out like the vector they belong to. */
+/* sum[k] = velocity . direction k of the impulses, over the tangents of sliding contacts and the normals at their cap.
+ */
 KERNEL_DECLARE(void, solver_slide,
                (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *direction,
                 int32_t directions, double sum[SEARCH_DIRECTIONS]));
