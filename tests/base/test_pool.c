@@ -231,7 +231,7 @@ static int32_t find_multiple(const void *arg, int32_t first, int32_t end)
     return end;
 }
 
-START_TEST(the_least_is_found_of_all_blocks)
+START_TEST(the_least_is_found_on_any_threads)
 {
     for (int threads = 1; threads <= 4; threads += 3) {
         context ctx;
@@ -249,7 +249,7 @@ START_TEST(the_least_is_found_of_all_blocks)
 }
 END_TEST
 
-TEST_MAIN("pool", the_least_is_found_of_all_blocks, every_block_runs_once, many_small_jobs_follow_each_other,
+TEST_MAIN("pool", the_least_is_found_on_any_threads, every_block_runs_once, many_small_jobs_follow_each_other,
           sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
           small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
           a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)

@@ -106,7 +106,7 @@ static void assert_groups(const rig *r, const batch_plan *plan)
 }
 
 /* Runs of up to eleven contacts with one normal, of which blocks are full at any of them; some of two walls. */
-START_TEST(groups_do_not_depend_on_blocks)
+START_TEST(groups_do_not_depend_on_threads)
 {
     rig r = packed_fast(6, 6, 0.3, 3);
     r.ctx.threads = pool_create(&r.ctx, 3);
@@ -132,7 +132,7 @@ START_TEST(groups_do_not_depend_on_blocks)
 END_TEST
 
 /* What is remembered: contacts that carry something, by ascending keys, equal ones in their order. */
-START_TEST(memory_does_not_depend_on_blocks)
+START_TEST(memory_does_not_depend_on_threads)
 {
     rig r = packed_fast(30, 30, 0.3, 3);
     r.ctx.threads = pool_create(&r.ctx, 3);
@@ -414,7 +414,7 @@ START_TEST(a_body_woken_after_the_solve_is_one)
 END_TEST
 
 TEST_MAIN("solver_fast", hubs_move_as_their_contacts_push, a_driven_body_meets_what_it_should_in_any_frame,
-          batches_share_no_body, groups_do_not_depend_on_blocks, memory_does_not_depend_on_blocks,
+          batches_share_no_body, groups_do_not_depend_on_threads, memory_does_not_depend_on_threads,
           a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
           bits_do_not_depend_on_the_instruction_set, a_body_woken_after_the_solve_is_one,
           long_runs_agree_with_the_reference)
