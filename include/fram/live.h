@@ -60,8 +60,10 @@ FRAM_API fram_status fram_world_copy(const fram_world *world, fram_world **copy,
    bytes.  What belongs to the last step alone (contacts, fractures, channels that are made of them) is no part of it
    and is empty after loading until the next step. */
 FRAM_API fram_status fram_world_save_memory(const fram_world *world, void **data, size_t *size, fram_error *error);
-/* Take over a state of the same scenario, files and version; FRAM_ERROR_INPUT, and the world stays as it is, for any
-   other and for damaged bytes.  FRAM_ERROR_USAGE while the world is recorded. */
+/* Take over a state of the same scenario, files (what is in them, wherever they lie) and version: one that was saved
+   here, or a run's checkpoint (checkpoint-*.fram in its folder), from which the world goes on as the resumed run does.
+   FRAM_ERROR_INPUT, and the world stays as it is, for any other and for damaged bytes.  FRAM_ERROR_USAGE while the
+   world is recorded.  A run is not resumed from a state that was saved here. */
 FRAM_API fram_status fram_world_load_memory(fram_world *world, const void *data, size_t size, fram_error *error);
 /* The same in a file, which is there whole or not at all. */
 FRAM_API fram_status fram_world_save(const fram_world *world, const char *path, fram_error *error);

@@ -37,7 +37,7 @@ typedef struct world_base {
     model model;
     control_array controls;
     series_layout columns;
-    char inputs[SHA256_TEXT_SIZE]; /* of the contents of all files that the scenario names: SHA-256 */
+    char inputs[SHA256_TEXT_SIZE]; /* run_inputs_digest of the files that the scenario names */
 } world_base;
 
 /* Of a world, beside its state. */

@@ -2,12 +2,11 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
-#include "base/hash.h"
 #include "fram/live.h"
 #include "io/atomic_file.h"
 #include "io/table_file.h"
 #include "sim/checkpoint.h"
-#include "sim/run_folder.h"
+#include "sim/run_inputs.h"
 
 #include <string.h>
 
@@ -39,21 +38,14 @@ fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *e
     return FRAM_OK;
 }
 
-/* The contents of the files, wherever they lie: the digests of the run folder's list without its paths. */
 fram_status world_find_inputs(fram_world *w, fram_error *error)
 {
     context *ctx = &w->scenario->context->inner;
-    text_buffer list = {0}, digests = {0};
-    fram_status status = run_folder_inputs(ctx, &w->scenario->inner, &list, error);
-    text_add(ctx, &digests, "");
-    for (const char *line = list.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)
-        text_add_bytes(ctx, &digests, line, 64);
-    if (status == FRAM_OK && (digests.failed || !digests.data))
-        status = error_memory(error);
+    text_buffer list = {0};
+    fram_status status = run_inputs_list(ctx, &w->scenario->inner, &list, error);
     if (status == FRAM_OK)
-        sha256_text(digests.data, (size_t)digests.count, w->base->inputs);
+        status = run_inputs_digest(ctx, list.data, (size_t)list.count, w->base->inputs, error);
     text_free(ctx, &list);
-    text_free(ctx, &digests);
     return status;
 }
 

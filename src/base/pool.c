@@ -17,6 +17,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <string.h>
 #include <unistd.h>
 
 /* Looks before sleeping: about 10 to 40 microseconds, a few times what waking a sleeper costs.  Serial gaps between
@@ -271,4 +272,40 @@ int32_t pool_find(context *ctx, find_function fn, const void *arg, int32_t count
     search s = {fn, arg, count, count};
     pool_run(ctx, find_in_block, &s, pool_blocks(count, FIND_BLOCK));
     return atomic_load(&s.least);
+}
+
+/* ---- what is picked ---- */
+
+typedef struct picking {
+    pick_function fn;
+    const void *arg;
+    int32_t count;
+    int32_t *out;   /* of each block from the place of its first on */
+    int32_t *found; /* by each block */
+} picking;
+enum { PICK_BLOCK = 2048 };
+
+static void pick_in_block(void *arg, int32_t block, int32_t thread)
+{
+    const picking *p = arg;
+    int32_t first = PICK_BLOCK * block;
+    (void)thread;
+    p->found[block] = p->fn(p->arg, first, pool_block_end(block, PICK_BLOCK, p->count), p->out + first);
+}
+
+bool pool_pick(context *ctx, pick_function fn, const void *arg, int32_t count, int32_array *picked)
+{
+    int32_t blocks = pool_blocks(count, PICK_BLOCK), found = 0;
+    if (blocks > INT32_MAX - count || !array_resize(ctx, picked, count + blocks))
+        return false;
+    if (count > 0) { /* else there may be no memory to point to */
+        picking p = {fn, arg, count, picked->data, picked->data + count};
+        pool_run(ctx, pick_in_block, &p, blocks);
+        for (int32_t b = 0; b < blocks; b++) {
+            memmove(p.out + found, p.out + PICK_BLOCK * b, (size_t)p.found[b] * sizeof *p.out);
+            found += p.found[b];
+        }
+    }
+    picked->count = found;
+    return true;
 }

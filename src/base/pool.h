@@ -4,7 +4,7 @@
 #ifndef BASE_POOL_H
 #define BASE_POOL_H
 
-#include "base/context.h"
+#include "base/array.h"
 
 typedef void (*block_function)(void *arg, int32_t block, int32_t thread);
 
@@ -31,6 +31,10 @@ static inline int32_t pool_block_end(int32_t block, int32_t size, int32_t count)
    without. */
 typedef int32_t (*find_function)(const void *arg, int32_t first, int32_t end);
 int32_t pool_find(context *ctx, find_function fn, const void *arg, int32_t count);
+/* Those of 0..count-1 that are picked, ascending: fn writes those of [first, end) to `out`, which has room for as many,
+   and returns how many they are.  false: no memory. */
+typedef int32_t (*pick_function)(const void *arg, int32_t first, int32_t end, int32_t *out);
+bool pool_pick(context *ctx, pick_function fn, const void *arg, int32_t count, int32_array *picked);
 /* Of the pool or the program; 1 without both. */
 int context_threads(const context *ctx);
 

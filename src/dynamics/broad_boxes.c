@@ -143,7 +143,7 @@ static void look_at_block(void *arg, int32_t block, int32_t thread)
     const box_work *w = arg;
     box_block *found = &w->scratch->box_blocks.data[block];
     *found = (box_block){false, -1};
-    for (int32_t i = block * BLOCK_BODIES; i < (block + 1) * BLOCK_BODIES && i < w->bodies->count; i++)
+    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, w->bodies->count); i++)
         look_at_body(w, i, found);
 }
 
@@ -189,7 +189,7 @@ static void renew_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const box_work *w = arg;
-    for (int32_t i = block * BLOCK_BODIES; i < (block + 1) * BLOCK_BODIES && i < w->bodies->count; i++)
+    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, w->bodies->count); i++)
         renew_body(w, i, &w->scratch->box_blocks.data[block]);
 }
 
@@ -198,7 +198,7 @@ fram_status broad_boxes_update(context *ctx, const body_table *bodies, const sha
                                fram_error *error)
 {
     *any = false;
-    int32_t count = bodies->count, blocks = count / BLOCK_BODIES + (count % BLOCK_BODIES != 0);
+    int32_t count = bodies->count, blocks = pool_blocks(count, BLOCK_BODIES);
     if (!table_resize(ctx, boxes, &broad_table_info, count) || !array_resize(ctx, &s->change, count) ||
         !array_resize(ctx, &s->box_blocks, blocks))
         return error_memory(error);

@@ -4,10 +4,10 @@
 
 #include "dynamics/collision.h"
 
-/* A body in the grid of its level, filed by the middle of its fat box. */
+/* A body in its grid, filed by the middle of its wide box. */
 typedef struct grid_entry {
     int64_t column, row;
-    int32_t slot, level;
+    int32_t slot, grid;
 } grid_entry;
 
 /* What the broad phase found of a slot in this update. */
@@ -20,6 +20,14 @@ typedef struct wide_box {
     uint8_t fixed;
     bool renewed; /* in this update */
 } wide_box;
+
+/* Pairs, the lower slot << 32 | the higher one. */
+typedef ARRAY(uint64_t) pair_key_array;
+/* What a thread found. */
+typedef struct found_pairs {
+    pair_key_array keys;
+    bool memory_failed;
+} found_pairs;
 
 /* What a block of bodies or pairs found; every block writes its own. */
 typedef struct box_block {
@@ -48,9 +56,14 @@ struct collision_scratch {
     ARRAY(grid_entry) entries; /* in the order of their buckets */
     int32_array bucket;        /* of each slot */
     int32_array bucket_start;
-    ARRAY(uint64_t) fresh;      /* pairs that were found, a << 32 | b */
+    ARRAY(found_pairs) found;   /* of each thread, in any order */
+    found_pairs by_higher;      /* all of them, by their higher slot */
+    int32_array first_key;      /* of each slot in a list by slots */
+    pair_key_array fresh;       /* ascending */
     ARRAY(wide_box) wide;       /* of each slot */
-    ARRAY(uint64_t) candidates; /* pairs whose wide boxes met when the later one was made, ascending */
+    int32_array kept;           /* places of candidates that stay */
+    pair_key_array merged_keys; /* candidates while they are made, and those of before */
+    pair_key_array candidates;  /* pairs whose wide boxes met when the later one was made, ascending */
     index_array chosen;         /* of each candidate, see broad_phase.c */
     index_array chosen_end;     /* pairs up to the end of each block of candidates */
     pair_table merged;

@@ -109,13 +109,8 @@ static bool touch_of_patch(pair_case *c)
     return true;
 }
 
-static box3 box3_grown(box3 b, double by)
-{
-    vec3 rim = vec3_make(by, by, by);
-    return (box3){vec3_sub(b.lo, rim), vec3_add(b.hi, rim)};
-}
-
-/* Any two bodies, piece by piece. */
+/* Any two bodies, piece by piece.  Where none touches they are as far apart as the nearest two pieces: a piece in a bay
+   of another body is parted from it by no plane. */
 static bool touch_compounds(context *ctx, narrow_room *room, const body_table *bodies, pair_case *c,
                             contact_array *contacts)
 {
@@ -125,9 +120,10 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
         return true;
     bool compound = piece_count(a) > 1 || piece_count(b) > 1;
     box3 box_a, box_b;
+    double apart = HUGE_VAL;
     if (!party_boxes(ctx, a, &room->box_a, &box_a) || !party_boxes(ctx, b, &room->box_b, &box_b) ||
-        !gather_pieces(ctx, &room->box_a, box3_grown(box_b, c->near.slack), &room->near_a) ||
-        !gather_pieces(ctx, &room->box_b, box3_grown(box_a, c->near.slack), &room->near_b))
+        !gather_pieces(ctx, &room->box_a, box_b, c->near.slack, &room->near_a, &apart) ||
+        !gather_pieces(ctx, &room->box_b, box_a, c->near.slack, &room->near_b, &apart))
         return false;
     int32_t first = contacts->count;
     vec3 last = {0, 0, 0};
@@ -142,15 +138,19 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
                 return false;
             if (c->whether && count > 0)
                 return touch_of_patch(c);
+            if (contacts->count == first)
+                apart = fmin(apart, piece_axis_gap(a, piece_a, b, piece_b, axis));
             if (vec3_dot(axis, axis) > 0)
                 last = axis;
         }
     }
     c->touches = contacts->count > first;
     contact_keys_part(contacts->data + first, contacts->count - first);
-    c->gap = contacts->count == first ? axis_gap(a, b, last) : 0;
-    bool remember = contacts->count == first && (!compound || c->gap > c->near.slack);
+    c->gap = c->touches ? 0 : axis_gap(a, b, last);
+    bool remember = !c->touches && (!compound || c->gap > c->near.slack);
     c->axis = remember ? last : vec3_make(0, 0, 0);
+    if (!c->touches)
+        c->gap = fmax(c->gap, apart);
     return true;
 }
 
@@ -395,7 +395,7 @@ fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape
     array_clear(patch_pairs);
     int32_t block = pool_block(pairs->count, LEAST_PAIRS, MOST_PAIRS);
     narrow_work work = {ctx, bodies, shapes, boxes, policies, pairs, scratch, contacts, patch_pairs, block};
-    int32_t threads = context_threads(ctx), blocks = pairs->count / block + (pairs->count % block != 0);
+    int32_t threads = context_threads(ctx), blocks = pool_blocks(pairs->count, block);
     bool ok = make_rooms(ctx, scratch, threads);
     if (ok && threads == 1) { /* in order and into the arrays themselves: the same contacts, and no copy */
         ok = test_pairs(&work, 0, pairs->count, &scratch->rooms.data[0], contacts, patch_pairs);

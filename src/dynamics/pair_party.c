@@ -30,41 +30,55 @@ prism prism_piece(const party *p, int32_t piece)
 
 /* ---- remembered axis ---- */
 
-/* Extent of a whole body along a unit axis. */
-static void body_span(const party *p, vec3 axis, double *low, double *high)
+typedef struct span {
+    double low, high;
+} span;
+
+static span span_of_hull(span s, vec3 n, const polyhedron *hull)
+{
+    for (int32_t i = 0; i < hull->vertex.count; i++) {
+        double d = vec3_dot(n, hull->vertex.data[i]);
+        s.low = d < s.low ? d : s.low;
+        s.high = d > s.high ? d : s.high;
+    }
+    return s;
+}
+
+/* Extent along a unit axis, of a whole body or of one piece. */
+enum { ALL_PIECES = -1 };
+static span party_span(const party *p, int32_t piece, vec3 axis)
 {
     vec3 n = mat3_tmul_vec(p->rotation, axis);
-    double middle = vec3_dot(axis, p->centre), least = HUGE_VAL, most = -HUGE_VAL, rise = 0;
+    double middle = vec3_dot(axis, p->centre), rise = 0;
+    span s = {HUGE_VAL, -HUGE_VAL};
     if (p->is_prism) {
-        polygon outline = shape_outline(p->shapes, p->shape);
+        polygon outline =
+            piece == ALL_PIECES ? shape_outline(p->shapes, p->shape) : shape_piece(p->shapes, p->shape, piece);
         rise = p->shapes->shapes.half_height[p->shape] * fabs(n.z);
         for (int32_t i = 0; i < outline.count; i++) {
             double d = n.x * outline.vertex[i].x + n.y * outline.vertex[i].y;
-            least = d < least ? d : least;
-            most = d > most ? d : most;
+            s.low = d < s.low ? d : s.low;
+            s.high = d > s.high ? d : s.high;
         }
     } else {
         const polyhedron_array *pieces = solid_pieces(p);
-        for (int32_t k = 0; k < pieces->count; k++) {
-            for (int32_t i = 0; i < pieces->data[k].vertex.count; i++) {
-                double d = vec3_dot(n, pieces->data[k].vertex.data[i]);
-                least = d < least ? d : least;
-                most = d > most ? d : most;
-            }
-        }
+        int32_t first = piece == ALL_PIECES ? 0 : piece, end = piece == ALL_PIECES ? pieces->count : piece + 1;
+        for (int32_t k = first; k < end; k++)
+            s = span_of_hull(s, n, &pieces->data[k]);
     }
-    *low = middle + least - rise;
-    *high = middle + most + rise;
+    return (span){middle + s.low - rise, middle + s.high + rise};
+}
+
+double piece_axis_gap(const party *a, int32_t piece_a, const party *b, int32_t piece_b, vec3 axis)
+{
+    if (vec3_dot(axis, axis) == 0)
+        return -HUGE_VAL;
+    return party_span(a, piece_a, axis).low - party_span(b, piece_b, axis).high;
 }
 
 double axis_gap(const party *a, const party *b, vec3 axis)
 {
-    if (vec3_dot(axis, axis) == 0)
-        return -HUGE_VAL;
-    double low_a, high_a, low_b, high_b;
-    body_span(a, axis, &low_a, &high_a);
-    body_span(b, axis, &low_b, &high_b);
-    return low_a - high_b;
+    return piece_axis_gap(a, ALL_PIECES, b, ALL_PIECES, axis);
 }
 
 /* ---- pieces of compounds ---- */
@@ -100,11 +114,22 @@ bool party_boxes(context *ctx, const party *p, box3_array *boxes, box3 *whole)
     return true;
 }
 
-bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, int32_array *near)
+/* How far apart two boxes are along some edge of them; negative where they overlap along all. */
+static double box_gap(box3 a, box3 b)
+{
+    double x = fmax(a.lo.x - b.hi.x, b.lo.x - a.hi.x), y = fmax(a.lo.y - b.hi.y, b.lo.y - a.hi.y);
+    return fmax(fmax(x, y), fmax(a.lo.z - b.hi.z, b.lo.z - a.hi.z));
+}
+
+bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, double slack, int32_array *near, double *apart)
 {
     array_clear(near);
-    for (int32_t i = 0; i < boxes->count; i++)
-        if ((boxes->count == 1 || box3_meet(boxes->data[i], box)) && !array_push(ctx, near, i))
+    for (int32_t i = 0; i < boxes->count; i++) {
+        double gap = box_gap(boxes->data[i], box);
+        if (boxes->count > 1 && gap > slack)
+            *apart = fmin(*apart, gap);
+        else if (!array_push(ctx, near, i))
             return false;
+    }
     return true;
 }

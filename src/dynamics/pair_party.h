@@ -29,11 +29,14 @@ prism prism_piece(const party *p, int32_t piece);
 
 /* How far apart two bodies are along an axis from b to a; -infinity without an axis. */
 double axis_gap(const party *a, const party *b, vec3 axis);
+/* The same of two of their pieces. */
+double piece_axis_gap(const party *a, int32_t piece_a, const party *b, int32_t piece_b, vec3 axis);
 
 /* A box around each piece, and around all.  false: no memory. */
 bool party_boxes(context *ctx, const party *p, box3_array *boxes, box3 *whole);
 
-/* The pieces whose boxes reach into the box, and the only one wherever it is.  false: no memory. */
-bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, int32_array *near);
+/* The pieces whose boxes come nearer to the box than `slack`, and the only one wherever it is; *apart becomes no more
+   than how far the others are from it [m].  false: no memory. */
+bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, double slack, int32_array *near, double *apart);
 
 #endif

@@ -29,6 +29,7 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->island);
     array_free(ctx, &s->gain);
     array_free(ctx, &s->recalled);
+    array_free(ctx, &s->picked);
     array_free(ctx, &s->carriers);
     memory_free(ctx, s->entries);
     fast_rows_free(ctx, s->fast);
@@ -113,7 +114,8 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
     report->iterations = iterations;
     report->residual = largest_residual(s);
     status = contact_rows_finish(s, bodies, contacts, memory, error);
-    guided_bodies_load(s, bodies, contacts);
+    if (status == FRAM_OK && !guided_bodies_load(s, bodies, contacts))
+        return error_memory(error);
     joint_rows_finish(s, dt, joints);
     return status;
 }

@@ -195,8 +195,7 @@ enum { FIND_BLOCK = 512 };
 static void find_block(void *arg, int32_t block, int32_t thread)
 {
     const find_work *w = arg;
-    int32_t count = w->contacts->count, first = FIND_BLOCK * block;
-    int32_t end = first + FIND_BLOCK < count ? first + FIND_BLOCK : count;
+    int32_t first = FIND_BLOCK * block, end = pool_block_end(block, FIND_BLOCK, w->contacts->count);
     (void)thread;
     for (int32_t i = first; i < end; i++) {
         contact *c = &w->contacts->data[i];
@@ -218,7 +217,7 @@ static bool find_contacts(solver *s, const contact_memory_table *memory, const b
     find_work work = {s, memory, bodies, contacts};
     if (!array_resize(s->ctx, &s->recalled, contacts->count))
         return false;
-    pool_run(s->ctx, find_block, &work, (contacts->count + FIND_BLOCK - 1) / FIND_BLOCK);
+    pool_run(s->ctx, find_block, &work, pool_blocks(contacts->count, FIND_BLOCK));
     return true;
 }
 
@@ -286,7 +285,8 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
     fast_velocities_of_impulses(&st);
     fast_velocities_store(&st);
     stage_run(&st, finish_task);
-    guided_bodies_load(s, bodies, contacts);
+    if (!guided_bodies_load(s, bodies, contacts))
+        return error_memory(error);
     joint_rows_finish(s, dt, joints);
     report->residual = largest_residual(&st);
     f->planned = contacts->count;
@@ -314,49 +314,68 @@ static void fill_batch_bias(const stage *st, contact_batch *batch)
     }
 }
 
-/* Biases, and whether rows and contacts still belong together: one look at each contact. */
+/* Biases of one more batch; `energy` counts those with overlap. */
+static void add_bias(const stage *st, batch_task *task, int32_t number)
+{
+    contact_batch *batch = &st->s->fast->plan.batches.data[number];
+    fill_batch_bias(st, batch);
+    task->energy += batch->overlaps ? 1 : 0;
+}
+
+/* Of rows that were just made. */
 static void bias_task(const stage *st, batch_task *task)
+{
+    task->energy = 0;
+    for (int32_t i = task->first; i < task->end; i++)
+        add_bias(st, task, i);
+}
+
+/* Of rows of before, while they still belong to these contacts: one look at each. */
+static void fit_task(const stage *st, batch_task *task)
 {
     task->energy = 0;
     task->fits = true;
     for (int32_t i = task->first; i < task->end && task->fits; i++) {
-        contact_batch *batch = &st->s->fast->plan.batches.data[i];
         task->fits = fast_batch_fits(st, i);
-        if (!task->fits)
-            break;
-        fill_batch_bias(st, batch);
-        task->energy += batch->overlaps ? 1 : 0;
+        if (task->fits)
+            add_bias(st, task, i);
     }
 }
 
-/* false without memory; *fit: whether the rows are still those of these contacts. */
-static bool fill_bias(stage *st, bool *fit)
+static bool fill_bias(stage *st, void (*fill)(const stage *, batch_task *))
 {
     fast_rows *f = st->s->fast;
     if (!rows_reserve(st->s->ctx, &f->bias, f->plan.points) ||
         !rows_reserve(st->s->ctx, &f->correction, f->plan.points))
         return false;
-    stage_run(st, bias_task);
-    *fit = true;
-    for (int32_t t = 0; t < f->plan.tasks.count; t++)
-        *fit = *fit && f->plan.tasks.data[t].fits;
+    stage_run(st, fill);
     return true;
 }
 
+static bool all_fit(const batch_plan *plan)
+{
+    bool fit = true;
+    for (int32_t t = 0; t < plan->tasks.count; t++)
+        fit = fit && plan->tasks.data[t].fits;
+    return fit;
+}
+
+/* Rows of the solve where they will do, else new ones. */
 static bool begin_correction(stage *st)
 {
     solver *s = st->s;
     fast_rows *f = s->fast;
     bool fit = f->planned == st->contacts->count;
-    if (fit && !fill_bias(st, &fit))
-        return false;
     f->planned = -1;
-    if (fit && !fast_bodies_make(st))
+    if (fit) {
+        if (!fill_bias(st, fit_task))
+            return false;
+        fit = all_fit(&f->plan);
+    }
+    if (fit ? !fast_bodies_make(st)
+            : !batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts) || !fast_rows_make(st) ||
+                  !fill_bias(st, bias_task))
         return false;
-    if (!fit &&
-        (!batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts) || !fast_rows_make(st) || !fill_bias(st, &fit)))
-        return false;
-    assert(fit);
     st->view = fast_view(f);
     rows_clear(&f->velocity, padded_rows(f));
     rows_clear(&f->correction, f->plan.points);
@@ -367,9 +386,8 @@ static void move_block(void *arg, int32_t block, int32_t thread)
 {
     const stage *st = arg;
     const fast_rows *f = st->s->fast;
-    int32_t first = FIND_BLOCK * block, rows = f->plan.slot.count;
     (void)thread;
-    for (int32_t row = first; row < rows && row < first + FIND_BLOCK; row++) {
+    for (int32_t row = FIND_BLOCK * block; row < pool_block_end(block, FIND_BLOCK, f->plan.slot.count); row++) {
         const double *r = row_of(&f->velocity, row);
         int32_t slot = f->plan.slot.data[row];
         if (slot < 0 || !body_is_dynamic(st->bodies, slot))
@@ -405,7 +423,7 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     if (needed && !iterate(&st, correct_task, &f->correction, f->plan.points, settings->position_iterations, &sweeps))
         return error_memory(error);
     if (needed)
-        pool_run(s->ctx, move_block, &st, (f->plan.slot.count + FIND_BLOCK - 1) / FIND_BLOCK);
+        pool_run(s->ctx, move_block, &st, pool_blocks(f->plan.slot.count, FIND_BLOCK));
     guided_bodies_place(s, bodies, dt);
     return FRAM_OK;
 }

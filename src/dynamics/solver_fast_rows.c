@@ -75,7 +75,7 @@ static void fill_body_rows(void *arg, int32_t block, int32_t thread)
     const stage *st = arg;
     fast_rows *f = st->s->fast;
     (void)thread;
-    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row += BATCH_LANES) {
+    for (int32_t row = ROW_BLOCK * block; row < pool_block_end(block, ROW_BLOCK, padded_rows(f)); row += BATCH_LANES) {
         int32_t slot[BATCH_LANES];
         body_rows rows = rows_at(f, row);
         for (int32_t i = 0; i < BATCH_LANES; i++) {
@@ -160,7 +160,7 @@ bool fast_bodies_make(stage *st)
         !rows_reserve(ctx, &f->inverse, rows) || !rows_reserve(ctx, &f->tensor, rows) ||
         !rows_reserve(ctx, &f->mass, rows) || !rows_reserve(ctx, &f->inertia, rows))
         return false;
-    pool_run(ctx, fill_body_rows, st, (rows + ROW_BLOCK - 1) / ROW_BLOCK);
+    pool_run(ctx, fill_body_rows, st, pool_blocks(rows, ROW_BLOCK));
     for (int32_t h = 0; h < f->plan.hubs.count; h++) { /* an eighth of the hub in each of its copies */
         int32_t hub = f->plan.hubs.data[h], slot[BATCH_LANES] = {hub, hub, hub, hub, hub, hub, hub, hub};
         body_rows copies = rows_at(f, f->plan.movable + BATCH_LANES * h);

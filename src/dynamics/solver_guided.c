@@ -5,6 +5,7 @@
 
    Were joint and contacts swept in turn, friction would stand against what the joint has not yet undone, and keep it:
    joint and friction both hold the body, and any division between them satisfies all rows. */
+#include "base/pool.h"
 #include "dynamics/motion.h"
 #include "dynamics/solver_rows.h"
 
@@ -165,17 +166,32 @@ void guided_bodies_drive(solver *s, body_table *bodies)
     }
 }
 
-void guided_bodies_load(solver *s, const body_table *bodies, const contact_array *contacts)
+typedef struct contacts_of {
+    const contact_array *contacts;
+    int32_t slot;
+} contacts_of;
+
+static int32_t pick_contacts_of(const void *arg, int32_t first, int32_t end, int32_t *out)
+{
+    const contacts_of *w = arg;
+    int32_t found = 0;
+    for (int32_t i = first; i < end; i++)
+        if (w->contacts->data[i].a == w->slot || w->contacts->data[i].b == w->slot)
+            out[found++] = i;
+    return found;
+}
+
+bool guided_bodies_load(solver *s, const body_table *bodies, const contact_array *contacts)
 {
     for (int32_t i = 0; i < s->guided.count; i++) {
         guided_body *g = &s->guided.data[i];
         joint_block *j = &g->block;
         int32_t slot = s->bodies.data[g->place].slot;
         vec3 force = {0, 0, 0}, moment = {0, 0, 0};
-        for (int32_t k = 0; k < contacts->count; k++) {
-            const contact *c = &contacts->data[k];
-            if (c->a != slot && c->b != slot)
-                continue;
+        if (!pool_pick(s->ctx, pick_contacts_of, &(contacts_of){contacts, slot}, contacts->count, &s->picked))
+            return false;
+        for (int32_t k = 0; k < s->picked.count; k++) {
+            const contact *c = &contacts->data[s->picked.data[k]];
             vec3 p = vec3_scale(contact_impulse(c), c->a == slot ? 1 : -1);
             force = vec3_add(force, p);
             moment = vec3_add(moment, vec3_cross(c->a == slot ? c->arm_a : c->arm_b, p));
@@ -188,6 +204,7 @@ void guided_bodies_load(solver *s, const body_table *bodies, const contact_array
         moved->angular_velocity = vec3_add(moved->angular_velocity, sym3_mul_vec(g->inverse_inertia, moment));
         joint_block_solve(j, &body, &base);
     }
+    return true;
 }
 
 void guided_bodies_place(solver *s, body_table *bodies, double dt)

@@ -73,6 +73,38 @@ static void choose_counts(const extent *e, int32_t count, int32_t groups, int32_
     *pieces = wanted / *strips;
 }
 
+/* How strips from `first` on are cut along one axis, where they reach from lo to hi. */
+typedef struct cut {
+    int32_t first, strips, pieces;
+    bool y;
+    double lo, hi;
+} cut;
+enum { STRIPS_AT_ONCE = 8 };
+
+/* Numbers from `strips` on are regions of strips that are cut. */
+static void cut_strips(const body_table *bodies, const int32_t *slots, int32_t count, int32_t *region, const cut *c)
+{
+    binning across[STRIPS_AT_ONCE];
+    int32_t members[STRIPS_AT_ONCE] = {0};
+    for (int32_t k = 0; k < STRIPS_AT_ONCE; k++)
+        across[k] = binning_make(c->lo, c->hi);
+    for (int32_t i = 0; i < count; i++) {
+        int32_t k = region[slots[i]] - c->first;
+        if (k < 0 || k >= STRIPS_AT_ONCE || region[slots[i]] >= c->strips)
+            continue;
+        across[k].end[bin_of(&across[k], along(bodies, slots[i], c->y))]++;
+        members[k]++;
+    }
+    for (int32_t k = 0; k < STRIPS_AT_ONCE; k++)
+        share_out(&across[k], members[k], c->pieces);
+    for (int32_t i = 0; i < count; i++) {
+        int32_t strip = region[slots[i]], k = strip - c->first;
+        if (k >= 0 && k < STRIPS_AT_ONCE && strip < c->strips)
+            region[slots[i]] =
+                c->strips + strip * c->pieces + across[k].end[bin_of(&across[k], along(bodies, slots[i], c->y))];
+    }
+}
+
 void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t count, int32_t groups, int32_t *region,
                       int32_t *chunks)
 {
@@ -92,21 +124,8 @@ void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t co
     share_out(&bins, count, strips);
     for (int32_t i = 0; i < count; i++)
         region[slots[i]] = bins.end[bin_of(&bins, along(bodies, slots[i], y))];
-    for (int32_t s = 0; s < strips; s++) {
-        binning across = binning_make(e.lo[!y], e.hi[!y]);
-        int32_t members = 0;
-        for (int32_t i = 0; i < count; i++) {
-            if (region[slots[i]] != s)
-                continue;
-            across.end[bin_of(&across, along(bodies, slots[i], !y))]++;
-            members++;
-        }
-        share_out(&across, members, pieces);
-        /* Numbers from `strips` on are final until the last line. */
-        for (int32_t i = 0; i < count; i++)
-            if (region[slots[i]] == s)
-                region[slots[i]] = strips + s * pieces + across.end[bin_of(&across, along(bodies, slots[i], !y))];
-    }
+    for (int32_t s = 0; s < strips; s += STRIPS_AT_ONCE)
+        cut_strips(bodies, slots, count, region, &(cut){s, strips, pieces, !y, e.lo[!y], e.hi[!y]});
     for (int32_t i = 0; i < count; i++)
         region[slots[i]] -= strips;
 }

@@ -86,6 +86,8 @@ V8_INLINE direction_products products_of(const double *velocity, const double *s
     return sums;
 }
 
+_Static_assert(SEARCH_DIRECTIONS == 4, "a case for each number of directions");
+
 direction_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *direction,
                                            int32_t directions, const double *mass, const double *inertia, int32_t first,
                                            int32_t end)

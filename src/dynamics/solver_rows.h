@@ -85,6 +85,7 @@ struct solver {
     int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
     ARRAY(energy_gain) gain; /* of each leader */
     ARRAY(vec3) recalled;    /* of each contact: impulse of the last step */
+    int32_array picked;      /* contacts of one body */
     int32_array carriers;    /* how many contacts of each block carry something */
     struct memory_entry *entries;
     int32_t entry_capacity;
@@ -167,7 +168,7 @@ fram_status solver_joints_make(solver *s, double dt, const body_table *bodies, c
 /* Velocities of guided bodies in the table become those that their joints lock; the joints carry what that takes. */
 void guided_bodies_drive(solver *s, body_table *bodies);
 /* Joints of guided bodies carry what contacts press on them, besides. */
-void guided_bodies_load(solver *s, const body_table *bodies, const contact_array *contacts);
+bool guided_bodies_load(solver *s, const body_table *bodies, const contact_array *contacts);
 /* Draws joints of guided bodies together, after joint_rows_for_positions. */
 void guided_bodies_place(solver *s, body_table *bodies, double dt);
 /* The part of a guided body's velocity that its joint locks. */

@@ -175,7 +175,7 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
         work.details = *details;
     work.prisms.held = held;
     work.prisms.level_only = flooding != NULL;
-    int32_t blocks = bodies->count / work.block + (bodies->count % work.block != 0);
+    int32_t blocks = pool_blocks(bodies->count, work.block);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
     for (int32_t slot = 0; slot < bodies->count; slot++) {

@@ -126,5 +126,5 @@ void column_water_apply(context *ctx, const column_water *w, const body_table *b
     column_work work = {ctx, w, bodies, loads};
     int32_t groups = w->first.count - 1;
     if (groups > 0)
-        pool_run(ctx, apply_block, &work, groups / BLOCK_GROUPS + (groups % BLOCK_GROUPS != 0));
+        pool_run(ctx, apply_block, &work, pool_blocks(groups, BLOCK_GROUPS));
 }

@@ -230,7 +230,7 @@ void prisms_respond(context *ctx, const media *m, const drag_coefficients coeffi
                        loads,
                        is_plain(settings) && m->profile.count == 0,
                        limits_of(m, coefficients, time_step)};
-    pool_run(ctx, respond_block, &w, bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0));
+    pool_run(ctx, respond_block, &w, pool_blocks(bodies->count, BLOCK_SLOTS));
 }
 
 /* ---- matrices ---- */

@@ -57,6 +57,18 @@ bool polygon_farthest_apart(context *ctx, polygon p, double *out);
 bool polygon_contains(polygon p, vec2 point);
 /* Nearest point of the closed segment ab. */
 vec2 segment_nearest(vec2 a, vec2 b, vec2 point);
+/* Whether something between a and b along an axis, in any order, may come nearer than `reach` to p. */
+static inline bool span_may_reach(double a, double b, double p, double reach)
+{
+    return a < b ? p - b < reach && a - p < reach : p - a < reach && b - p < reach;
+}
+/* Whether a segment may be nearer to the point than `least`, by the box around it: never false for one that is,
+   rounding included. */
+static inline bool segment_may_reach(vec2 a, vec2 b, vec2 point, double least)
+{
+    double reach = least * (1 + 1e-9);
+    return span_may_reach(a.x, b.x, point.x, reach) && span_may_reach(a.y, b.y, point.y, reach);
+}
 /* Nearest boundary point; edge (may be NULL) is the index of its first vertex, the lowest of equally near ones. */
 vec2 polygon_nearest_boundary(polygon p, vec2 point, int32_t *edge);
 

@@ -348,8 +348,7 @@ static void crush_block(void *arg, int32_t block, int32_t thread)
     j.patches = &to->patches;
     j.contacts = &to->contacts;
     j.error = &to->error;
-    int32_t first = block * BLOCK_PAIRS, rest = w->rows->count - first;
-    to->status = crush_rows(w, &j, first, first + (rest < BLOCK_PAIRS ? rest : BLOCK_PAIRS));
+    to->status = crush_rows(w, &j, BLOCK_PAIRS * block, pool_block_end(block, BLOCK_PAIRS, w->rows->count));
 }
 
 /* The surfaces of all prisms that pairs ask for. */
@@ -387,7 +386,7 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
     if (status != FRAM_OK)
         return status;
     int32_t threads = context_threads(ctx), count = patch_pairs->count;
-    int32_t blocks = count / BLOCK_PAIRS + (count % BLOCK_PAIRS != 0);
+    int32_t blocks = pool_blocks(count, BLOCK_PAIRS);
     /* In order and into the arrays themselves: the same, and no copy.  Sections go through a library that is asked by
        one thread. */
     if (threads == 1 || blocks <= 1 || settings->top_plane_area)

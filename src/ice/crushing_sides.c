@@ -109,10 +109,21 @@ static double largest_force(const pack_limit *limit, const pack_floe ice[2], dou
     return width > 0 ? fmin(force, pack_line_load(limit, ice, friction, width) * width) : force;
 }
 
-static void limit_group(const crushing_settings *s, const body_table *bodies, const shape_store *shapes,
-                        const floe_table *floes, contact_array *contacts, const side_group *g)
+typedef struct sides_work {
+    const crushing_settings *settings;
+    const body_table *bodies;
+    const shape_store *shapes;
+    const floe_table *floes;
+    const pair_policies *policies;
+    contact_array *contacts;
+} sides_work;
+
+static void limit_group(const sides_work *w, const side_group *g)
 {
-    const double *radius = shapes->shapes.radius;
+    const crushing_settings *s = w->settings;
+    const body_table *bodies = w->bodies;
+    contact_array *contacts = w->contacts;
+    const double *radius = w->shapes->shapes.radius;
     double rim = TOUCHING_SKINS * s->skin + SAME_PLACE * fmin(radius[bodies->shape[g->a]], radius[bodies->shape[g->b]]);
     int32_t touching = 0, deepest = g->first;
     vec3 middle = {0, 0, 0};
@@ -126,14 +137,14 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
     double limit = 0;
     if (touching > 0) {
         middle = vec3_scale(middle, 1.0 / touching);
-        const side_floe floe[2] = {floe_of(bodies, shapes, g->a), floe_of(bodies, shapes, g->b)};
+        const side_floe floe[2] = {floe_of(bodies, w->shapes, g->a), floe_of(bodies, w->shapes, g->b)};
         double width, area = contact_area(floe, middle, &contacts->data[deepest], rim, &width);
         const int32_t row[2] = {bodies->owner[g->a], bodies->owner[g->b]};
         pack_floe ice[2];
         for (int i = 0; i < 2; i++) {
             vec3 local = mat3_tmul_vec(floe[i].turn, vec3_sub(middle, floe[i].at));
-            ice[i] = (pack_floe){strength_crushing_at(&s->strength, floes, row[i], vec2_make(local.x, local.y)),
-                                 floes->thickness[row[i]]};
+            ice[i] = (pack_floe){strength_crushing_at(&s->strength, w->floes, row[i], vec2_make(local.x, local.y)),
+                                 w->floes->thickness[row[i]]};
         }
         double friction = contacts->data[deepest].friction_static;
         limit = largest_force(&s->pack, ice, friction, area, width) * s->time_step / touching;
@@ -146,14 +157,6 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
     }
 }
 
-typedef struct sides_work {
-    const crushing_settings *settings;
-    const body_table *bodies;
-    const shape_store *shapes;
-    const floe_table *floes;
-    const pair_policies *policies;
-    contact_array *contacts;
-} sides_work;
 enum { SIDES_BLOCK = 512 };
 
 static bool same_pair(const contact *c, const contact *d) { return c->a == d->a && c->b == d->b; }
@@ -173,7 +176,7 @@ static void limit_block(void *arg, int32_t block, int32_t thread)
             g.end++;
         i = g.end;
         if (c[g.first].patch < 0 && w->policies->of[w->bodies->material[g.a]][w->bodies->material[g.b]].sides)
-            limit_group(w->settings, w->bodies, w->shapes, w->floes, w->contacts, &g);
+            limit_group(w, &g);
     }
 }
 

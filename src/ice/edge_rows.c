@@ -1,6 +1,7 @@
 /* What edges give in rows of the solver; see edge_rows.h. */
 #include "ice/edge_rows.h"
 
+#include "base/pool.h"
 #include "ice/edge_gap.h"
 #include "ice/sheet.h"
 
@@ -43,17 +44,44 @@ static edge_piece piece_of(const edge_job *j, const contact *contacts, edge_piec
     return p;
 }
 
+typedef struct edge_search {
+    const edge_job *job;
+    const contact *contacts;
+} edge_search;
+
+static int32_t pick_edge_contacts(const void *arg, int32_t first, int32_t end, int32_t *out)
+{
+    const edge_search *w = arg;
+    int32_t found = 0;
+    for (int32_t i = first; i < end; i++)
+        if (edge_body(w->job->bodies, w->job->floes, &w->contacts[i]) >= 0)
+            out[found++] = i;
+    return found;
+}
+
+/* The end of the contacts of one pair that begin here, and the largest of their limits. */
+static int32_t pair_end(const contact_array *contacts, int32_t first, double *limit)
+{
+    const contact *c = contacts->data;
+    int32_t end = first;
+    for (*limit = 0; end < contacts->count && c[end].a == c[first].a && c[end].b == c[first].b; end++)
+        *limit = fmax(*limit, c[end].impulse_limit);
+    return end;
+}
+
 static bool find_pieces(context *ctx, const edge_job *j, edge_rows_work *w, const contact_array *contacts)
 {
     const contact *c = contacts->data;
     array_clear(&w->pieces);
-    for (int32_t first = 0, end; first < contacts->count; first = end) {
-        int32_t held = edge_body(j->bodies, j->floes, &c[first]);
-        double limit = 0;
-        for (end = first; end < contacts->count && c[end].a == c[first].a && c[end].b == c[first].b; end++)
-            limit = fmax(limit, c[end].impulse_limit);
-        if (held < 0 || !(limit > 0))
+    if (!pool_pick(ctx, pick_edge_contacts, &(edge_search){j, c}, contacts->count, &w->picked))
+        return false;
+    for (int32_t i = 0, first, end; i < w->picked.count; i += end - first) {
+        double limit;
+        first = w->picked.data[i];
+        end = pair_end(contacts, first, &limit);
+        if (!(limit > 0))
             continue;
+        int32_t held = edge_body(j->bodies, j->floes, &c[first]);
         edge_piece p = {.first = first, .end = end};
         if (!array_push(ctx, &w->pieces, piece_of(j, c, p, j->bodies->owner[held], held == c[first].a)))
             return false;
@@ -206,6 +234,7 @@ bool edge_rows_set(context *ctx, const edge_job *j, edge_rows_work *w, const cru
 
 void edge_rows_free(context *ctx, edge_rows_work *w)
 {
+    array_free(ctx, &w->picked);
     array_free(ctx, &w->pieces);
     array_free(ctx, &w->support);
     array_free(ctx, &w->claimed);

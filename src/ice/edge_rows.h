@@ -29,6 +29,7 @@ typedef struct edge_piece {
 typedef ARRAY(edge_piece) edge_piece_array;
 
 typedef struct edge_rows_work {
+    int32_array picked; /* contacts with an edge that may give */
     edge_piece_array pieces;
     int32_array support;   /* of each patch: row, -1 without */
     ARRAY(double) claimed; /* of each support: horizontal area of its patches [m2] */

@@ -4,12 +4,6 @@
 #include "base/transcendental.h"
 #include "geometry/predicate.h"
 
-/* Whether a segment between a and b along an axis may come nearer than `least` to p. */
-static bool spans(double a, double b, double p, double least)
-{
-    return a < b ? p - b < least && a - p < least : p - a < least && b - p < least;
-}
-
 /* The segment nearest to a place, -1 without any; *near gets the point there. */
 static int32_t nearest_segment(const tile_segment_array *line, vec2 place, vec2 *near)
 {
@@ -17,7 +11,7 @@ static int32_t nearest_segment(const tile_segment_array *line, vec2 place, vec2 
     int32_t best = -1;
     for (int32_t i = 0; i < line->count; i++) {
         const tile_segment *e = &line->data[i];
-        if (!spans(e->a.x, e->b.x, place.x, least) || !spans(e->a.y, e->b.y, place.y, least))
+        if (!segment_may_reach(e->a, e->b, place, least))
             continue;
         vec2 p = segment_nearest(e->a, e->b, place);
         double way = vec2_length(vec2_sub(p, place));
@@ -48,7 +42,9 @@ static int32_t segment_after(const tile_segment_array *line, int32_t i, bool on,
     int32_t best = -1;
     for (int32_t k = 0; k < line->count; k++) {
         const tile_segment *e = &line->data[k];
-        if (k == i || !(vec2_length(vec2_sub(end_of(e, !on), at)) <= snap))
+        vec2 apart = vec2_sub(end_of(e, !on), at);
+        /* Nearly all lie far off. */
+        if (k == i || fabs(apart.x) > 2 * snap || !(vec2_length(apart) <= snap))
             continue;
         vec2 away = vec2_sub(end_of(e, on), end_of(e, !on));
         double turn = on ? clockwise(back, away) : clockwise(away, back);

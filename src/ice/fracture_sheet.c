@@ -41,6 +41,8 @@ static bool nearest_start(const tile_segment_array *boundary, vec2 load, double 
     double least = reach;
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
+        if (!segment_may_reach(e->a, e->b, load, least))
+            continue;
         vec2 near = segment_nearest(e->a, e->b, load);
         double distance = vec2_length(vec2_sub(near, load));
         if (distance < least) {
@@ -59,7 +61,8 @@ static bool nearest_start(const tile_segment_array *boundary, vec2 load, double 
     vec2 sum = {0, 0};
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
-        if (vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
+        if (segment_may_reach(e->a, e->b, start->point, 2 * snap) &&
+            vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
             sum = vec2_add(sum, e->normal);
     }
     double length = vec2_length(sum);

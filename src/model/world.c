@@ -99,6 +99,7 @@ static void scratch_free(context *ctx, world *w)
     edge_rows_free(ctx, &w->scratch.edge_rows);
     array_free(ctx, &w->scratch.patches);
     array_free(ctx, &w->scratch.load_contacts);
+    array_free(ctx, &w->scratch.contact_work);
     array_free(ctx, &w->scratch.ice_loads);
     array_free(ctx, &w->scratch.shares);
     array_free(ctx, &w->scratch.web_first);
@@ -135,6 +136,7 @@ void world_poison_scratch(world *w)
     POISON(patch_pairs);
     POISON(patches);
     POISON(load_contacts);
+    POISON(contact_work);
     POISON(ice_loads);
     POISON(shares);
     POISON(web_first);

@@ -127,6 +127,7 @@ typedef struct world {
         crushing_patch_array patches;
         edge_rows_work edge_rows;
         int32_array load_contacts;      /* rows of contacts with a hull, and of those at their limit */
+        ARRAY(double) contact_work;     /* of each of them: energy that it dissipates in crushing [J] */
         ARRAY(ice_load) ice_loads;      /* one per vessel */
         ARRAY(ice_share) shares;        /* the vessels' contacts with other bodies that carry something */
         int32_array web_first;          /* sim/force_chain.h: one per body slot */

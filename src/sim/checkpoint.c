@@ -5,6 +5,7 @@
 #include "io/path.h"
 #include "io/table_file.h"
 #include "model/world_check.h"
+#include "sim/run_inputs.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -177,6 +178,55 @@ static bool copy_bytes(context *ctx, const table_file_bytes *from, byte_array *t
     return true;
 }
 
+/* A run goes on with the files of its checkpoint's list to the letter; a state alone (`alone`) goes with their
+   contents, and so does the state in a run's checkpoint. */
+static fram_status check_inputs(context *ctx, const char *path, const table_file_bytes *found, const char *expected,
+                                bool alone, bool *other, fram_error *error)
+{
+    char digest[SHA256_TEXT_SIZE];
+    fram_error reason = {0};
+    if (same_text(found, expected))
+        return FRAM_OK;
+    fram_status status = run_inputs_digest(ctx, found->data, found->size, digest, &reason);
+    if (status == FRAM_ERROR_INPUT)
+        return error_set(error, status, path, 0, NULL, "%s", reason.message);
+    if (status != FRAM_OK)
+        return error_memory(error);
+    if (alone && strcmp(digest, expected) == 0)
+        return FRAM_OK;
+    *other = true;
+    if (alone)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "a file that the scenario names was changed since the state was saved; restore it");
+    if (same_text(found, digest))
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "expected a checkpoint of a run, found a state that a program saved from a world: load it "
+                         "into one");
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                     "a file that the run was started with was changed since; restore it or start a new run");
+}
+
+/* That the file is of this version, scenario and inputs; `other` is true when it is sound, but of others. */
+static fram_status check_origin(context *ctx, const char *path, const table_file_bytes bytes[BYTES_COUNT],
+                                const checkpoint_note *note, bool alone, bool *other, fram_error *error)
+{
+    if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
+        *other = true;
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that "
+                         "version, or start it again",
+                         FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
+                         bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
+    }
+    if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
+        *other = true;
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         alone ? "the state belongs to another scenario; load it into a world of the one it is of"
+                               : "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
+    }
+    return check_inputs(ctx, path, &bytes[BYTES_INPUTS], note->inputs, alone, other, error);
+}
+
 /* Read one file, or `data` in its place; `other` is true when it is sound but belongs to something else. */
 static fram_status read_one(context *ctx, const char *path, const void *data, size_t size, const model *m, world *w,
                             checkpoint_note *note, bool *other, fram_error *error)
@@ -195,33 +245,13 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     note->differs = content.differs;
     if (status != FRAM_OK)
         return status;
-    if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
-        *other = true;
-        status =
-            error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                      "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that version, "
-                      "or start it again",
-                      FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
-                      bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
-    } else if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
-        *other = true;
-        status =
-            error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                      data ? "the state belongs to another scenario; load it into a world of the one it is of"
-                           : "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
-    } else if (!same_text(&bytes[BYTES_INPUTS], note->inputs)) {
-        *other = true;
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                           data ? "a file that the scenario names was changed since the state was saved; restore it"
-                                : "a file that the run was started with was changed since; restore it or start a new "
-                                  "run");
-    } else if (world_check(m, w, &unsound) != FRAM_OK) {
+    status = check_origin(ctx, path, bytes, note, data, other, error);
+    if (status == FRAM_OK && world_check(m, w, &unsound) != FRAM_OK)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
-    } else if (world_hash(w) != numbers[NUMBER_HASH].value) {
+    if (status == FRAM_OK && world_hash(w) != numbers[NUMBER_HASH].value)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
-    } else if (note->peaks && !copy_bytes(ctx, &bytes[BYTES_PEAKS], note->peaks)) {
+    if (status == FRAM_OK && note->peaks && !copy_bytes(ctx, &bytes[BYTES_PEAKS], note->peaks))
         status = error_memory(error);
-    }
     note->series_length = numbers[NUMBER_SERIES].value;
     note->record_length = numbers[NUMBER_RECORD].value;
     note->fractures_length = numbers[NUMBER_FRACTURES].value;

@@ -11,7 +11,7 @@
 #include "sim/controls.h"
 #include "sim/fmu_description.h"
 #include "sim/fmu_documentation.h"
-#include "sim/run_folder.h"
+#include "sim/run_inputs.h"
 #include "sim/series.h"
 
 #include <fnmatch.h>
@@ -148,7 +148,7 @@ static fram_status find_guid(packer *p, const char *list, fram_error *error)
     text_buffer inputs = {0}, all = {0};
     fram_status status = scenario_hash(p->ctx, p->s, hash, error);
     if (status == FRAM_OK)
-        status = run_folder_inputs(p->ctx, p->s, &inputs, error);
+        status = run_inputs_list(p->ctx, p->s, &inputs, error);
     if (status == FRAM_OK) {
         text_format(p->ctx, &all, "%s %s\n%s", FRAM_VERSION, hash, list);
         for (const char *line = inputs.data; *line; line = strchr(line, '\n') + 1)

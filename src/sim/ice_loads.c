@@ -61,46 +61,43 @@ static bool keep_hull_contacts(context *ctx, world *w)
 
 /* ---- which contacts count ---- */
 
-typedef struct listing {
-    const world *w;
-    int32_t *row;   /* of each block its rows, from the place of its first contact on */
-    int32_t *found; /* by each block */
-} listing;
-enum { LIST_BLOCK = 2048 }; /* some microseconds */
-
-static void list_block(void *arg, int32_t block, int32_t thread)
+static int32_t pick_load_contacts(const void *arg, int32_t first, int32_t end, int32_t *out)
 {
-    const listing *l = arg;
-    const contact_array *contacts = &l->w->scratch.contacts;
-    const uint8_t *kind = l->w->bodies.material;
-    int32_t first = LIST_BLOCK * block, found = 0;
-    (void)thread;
-    for (int32_t i = first; i < pool_block_end(block, LIST_BLOCK, contacts->count); i++) {
-        const contact *c = &contacts->data[i];
+    const world *w = arg;
+    const uint8_t *kind = w->bodies.material;
+    int32_t found = 0;
+    for (int32_t i = first; i < end; i++) {
+        const contact *c = &w->scratch.contacts.data[i];
         bool hull = kind[c->a] == MATERIAL_HULL || kind[c->b] == MATERIAL_HULL;
         if (hull || (isfinite(c->impulse_limit) && is_capped(c)))
-            l->row[first + found++] = i;
+            out[found++] = i;
     }
-    l->found[block] = found;
+    return found;
 }
 
-/* Lists the contacts with a hull and those at their limit: in a field whose ice does not crush a few of many. */
+/* Work of the listed contacts; 0 for those that crush no ice [J]. */
+enum { WORK_BLOCK = 512 };
+static void work_block(void *arg, int32_t block, int32_t thread)
+{
+    world *w = arg;
+    const int32_array *rows = &w->scratch.load_contacts;
+    (void)thread;
+    for (int32_t i = WORK_BLOCK * block; i < pool_block_end(block, WORK_BLOCK, rows->count); i++) {
+        const contact *c = &w->scratch.contacts.data[rows->data[i]];
+        bool crushes = contact_is_of_ice(w, c) && isfinite(c->impulse_limit) && is_capped(c);
+        w->scratch.contact_work.data[i] = crushes ? crushing_work(w, c) : 0;
+    }
+}
+
+/* Lists the contacts with a hull and those at their limit, in a field whose ice does not crush a few of many, and what
+   work they do. */
 static bool list_load_contacts(context *ctx, world *w)
 {
-    int32_t count = w->scratch.contacts.count, blocks = pool_blocks(count, LIST_BLOCK);
     int32_array *rows = &w->scratch.load_contacts;
-    if (!array_resize(ctx, rows, count + blocks))
+    if (!pool_pick(ctx, pick_load_contacts, w, w->scratch.contacts.count, rows) ||
+        !array_resize(ctx, &w->scratch.contact_work, rows->count))
         return false;
-    if (count == 0)
-        return true;
-    listing l = {w, rows->data, rows->data + count};
-    pool_run(ctx, list_block, &l, blocks);
-    int32_t listed = 0;
-    for (int32_t b = 0; b < blocks; b++) {
-        memmove(rows->data + listed, rows->data + LIST_BLOCK * b, (size_t)l.found[b] * sizeof *rows->data);
-        listed += l.found[b];
-    }
-    rows->count = listed;
+    pool_run(ctx, work_block, w, pool_blocks(rows->count, WORK_BLOCK));
     return true;
 }
 
@@ -117,8 +114,7 @@ fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *er
     for (int32_t i = 0; i < w->scratch.load_contacts.count; i++) {
         const contact *c = &w->scratch.contacts.data[w->scratch.load_contacts.data[i]];
         bool ice = contact_is_of_ice(w, c);
-        if (ice && isfinite(c->impulse_limit) && is_capped(c))
-            w->clock.work_crushed[0] += crushing_work(w, c);
+        w->clock.work_crushed[0] += w->scratch.contact_work.data[i];
         int32_t va = vessel_of(w, c->a), vb = vessel_of(w, c->b);
         if (va >= 0 && ice)
             add_contact(w, c, va, 1, 1 / m->time_step, &loads[va]);

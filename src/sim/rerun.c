@@ -8,6 +8,7 @@
 #include "sim/peak_watch.h"
 #include "sim/recording.h"
 #include "sim/run_folder.h"
+#include "sim/run_inputs.h"
 #include "sim/step.h"
 
 #include <string.h>
@@ -131,7 +132,7 @@ fram_status rerun_start(context *ctx, const char *folder, const scenario *s, dou
     bool found = false;
     fram_status status = scenario_hash(ctx, s, note.scenario_hash, error);
     if (status == FRAM_OK)
-        status = run_folder_inputs(ctx, s, &inputs, error);
+        status = run_inputs_list(ctx, s, &inputs, error);
     if (status == FRAM_OK)
         status = world_init(ctx, m, w, error);
     if (status == FRAM_OK) {

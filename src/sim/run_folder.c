@@ -7,9 +7,7 @@
 #include "io/file.h"
 #include "io/folder.h"
 #include "io/path.h"
-#include "io/scenario_file.h"
 #include "io/temporary.h"
-#include "model/scenario_schema.h"
 #include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
 
@@ -22,7 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { INPUT_LIMIT = 1 << 30, SUMMARY_LIMIT = 1 << 26 };
+enum { SUMMARY_LIMIT = 1 << 26 };
 
 /* ---- folder ---- */
 
@@ -210,44 +208,6 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int
     checkpoint_remove_all(ctx, folder);
     remove_results(folder);
     return FRAM_OK;
-}
-
-/* ---- inputs ---- */
-
-typedef struct input_list {
-    context *ctx;
-    const scenario *s;
-    text_buffer *out;
-} input_list;
-
-static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name,
-                             fram_error *error)
-{
-    input_list *list = user;
-    const char *given = member;
-    if (key->kind != KEY_PATH || !*given)
-        return FRAM_OK;
-    char path[SCENARIO_TEXT_SIZE], digest[SHA256_TEXT_SIZE];
-    char *data = NULL;
-    size_t size = 0;
-    /* Absolute, as in the run folder's scenario: the run is resumed from any folder. */
-    fram_status status = scenario_absolute_path(list->s, name, given, path, error);
-    if (status == FRAM_OK)
-        status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
-    if (status != FRAM_OK)
-        return status;
-    sha256_text(data, size, digest);
-    memory_free(list->ctx, data);
-    text_format(list->ctx, list->out, "%s  %s\n", digest, path);
-    return FRAM_OK;
-}
-
-fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error)
-{
-    input_list list = {ctx, s, out};
-    text_add(ctx, out, "");
-    fram_status status = scenario_walk(s, add_input, &list, error);
-    return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
 }
 
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,

@@ -8,6 +8,7 @@
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "sim/run_folder.h"
+#include "sim/run_inputs.h"
 #include "sim/scene_size.h"
 #include "study/processes.h"
 #include "study/study_file.h"
@@ -74,7 +75,7 @@ static fram_status name_condition(study_folder *f, int32_t condition, const scen
     text_buffer b = {0}, inputs = {0};
     fram_status status = scenario_hash(f->ctx, one, of, error);
     if (status == FRAM_OK)
-        status = run_folder_inputs(f->ctx, one, &inputs, error);
+        status = run_inputs_list(f->ctx, one, &inputs, error);
     text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? of : "");
     /* Of each line "sha256  path" the hash: the same files elsewhere are the same input. */
     for (const char *line = inputs.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)

@@ -249,7 +249,41 @@ START_TEST(the_least_is_found_on_any_threads)
 }
 END_TEST
 
-TEST_MAIN("pool", the_least_is_found_on_any_threads, every_block_runs_once, many_small_jobs_follow_each_other,
-          sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
+/* Picks multiples of *arg. */
+static int32_t pick_multiples(const void *arg, int32_t first, int32_t end, int32_t *out)
+{
+    const int32_t *step = arg;
+    int32_t found = 0;
+    for (int32_t i = first; i < end; i++)
+        if (i % *step == 0)
+            out[found++] = i;
+    return found;
+}
+
+START_TEST(what_is_picked_is_ascending_on_any_threads)
+{
+    enum { COUNT = 50000 };
+    for (int threads = 1; threads <= 4; threads += 3) {
+        context ctx;
+        context_init(&ctx);
+        ctx.threads = pool_create(&ctx, threads);
+        int32_array picked = {0};
+        static const int32_t steps[] = {1, 7, 2047, 2048, 2049, COUNT + 1};
+        for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+            ck_assert(pool_pick(&ctx, pick_multiples, &steps[k], COUNT, &picked));
+            ck_assert_int_eq(picked.count, (COUNT - 1) / steps[k] + 1);
+            for (int32_t i = 0; i < picked.count; i++)
+                ck_assert_int_eq(picked.data[i], steps[k] * i);
+        }
+        ck_assert(pool_pick(&ctx, pick_multiples, steps, 0, &picked));
+        ck_assert_int_eq(picked.count, 0);
+        array_free(&ctx, &picked);
+        pool_free(&ctx, ctx.threads);
+    }
+}
+END_TEST
+
+TEST_MAIN("pool", what_is_picked_is_ascending_on_any_threads, the_least_is_found_on_any_threads, every_block_runs_once,
+          many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
           small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
           a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)

@@ -1,5 +1,6 @@
 /* Broad phase against all pairs, narrow phase against plan-view geometry and against itself in other frames. */
 #include "base/hash.h"
+#include "base/pool.h"
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "rig.h"
@@ -124,6 +125,34 @@ START_TEST(pairs_of_a_crowd_adrift_are_found)
         update_pairs(&r);
     }
     rig_free(&r);
+}
+END_TEST
+
+/* Enough bodies for several blocks of each thread, of sizes from grid to grid; some renew their boxes among many that
+   do not. */
+START_TEST(pairs_of_many_are_found_on_any_threads)
+{
+    enum { MANY = 1300 };
+    for (int threads = 1; threads <= 3; threads += 2) {
+        rig r = rig_make(0.1);
+        r.gravity = vec3_make(0, 0, 0);
+        r.ctx.threads = threads > 1 ? pool_create(&r.ctx, threads) : NULL;
+        random_stream draw = random_begin(9, 0, 0);
+        for (int i = 0; i < MANY; i++) {
+            double size = random_power_law(&draw, 0.5, 8, 1.5);
+            vec3 p = {random_uniform(&draw, -60, 60), random_uniform(&draw, -60, 60), 0};
+            int32_t slot = regular(&r, MOTION_DYNAMIC, 3 + i % 6, size, 0.1 * i, p);
+            double speed = i % 4 == 0 ? 2 : 0.05;
+            r.bodies.velocity[slot] = vec3_make(speed * random_normal(&draw), speed * random_normal(&draw), 0);
+        }
+        for (int k = 0; k < 30; k++) {
+            integrate_poses(&r.ctx, &r.bodies, r.dt);
+            update_pairs(&r);
+        }
+        pool_free(&r.ctx, r.ctx.threads);
+        r.ctx.threads = NULL;
+        rig_free(&r);
+    }
 }
 END_TEST
 
@@ -428,6 +457,91 @@ START_TEST(no_contact_takes_the_normal_of_a_seam)
 }
 END_TEST
 
+/* A channel of 6 by 8 m, open at one end, with walls of 2 m. */
+static int32_t bay(rig *r, overlay *o, vec3 position)
+{
+    vec2 corner[] = {{-5, -5}, {5, -5}, {5, 5}, {3, 5}, {3, -3}, {-3, -3}, {-3, 5}, {-5, 5}};
+    int32_t slot = rig_box(r, MOTION_DYNAMIC, vec3_make(10, 10, 1), 900, position);
+    fram_error e = {0};
+    polygon outline = {corner, sizeof corner / sizeof *corner};
+    assert_ok(shape_add_prism(&r->ctx, &r->shapes, o, outline, 0.5, 0, &r->bodies.shape[slot], &e), e);
+    return slot;
+}
+
+static int32_t count_waiting(const rig *r)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < r->pairs.count; i++)
+        count += r->boxes.travel[r->pairs.a[i]] + r->boxes.travel[r->pairs.b[i]] < r->pairs.clear[i];
+    return count;
+}
+
+/* No plane parts a body in a bay from the other one, which is remembered all the same. */
+START_TEST(a_body_in_a_bay_is_not_tested_again_and_again)
+{
+    rig r = rig_make(0.1);
+    overlay *o = overlay_create(&r.ctx);
+    bay(&r, o, vec3_make(0, 0, 0));
+    regular(&r, MOTION_DYNAMIC, 8, 2.5, 0.1, vec3_make(0, 1, 0));
+    rig_detect(&r);
+    ck_assert_int_eq(r.pairs.count, 1);
+    ck_assert_int_eq(r.contacts.count, 0);
+    ck_assert_int_eq(count_waiting(&r), 1);
+    ck_assert_double_gt(r.pairs.clear[0], 0.3); /* 0.5 m to the walls, less the reach */
+    ck_assert_double_lt(r.pairs.clear[0], 0.7);
+    overlay_free(o);
+    rig_free(&r);
+}
+END_TEST
+
+static uint64_t contacts_hash(const rig *r)
+{
+    uint64_t hash = 0;
+    for (int32_t i = 0; i < r->contacts.count; i++) {
+        const contact *c = &r->contacts.data[i];
+        const double numbers[] = {c->point.x, c->point.y, c->point.z, c->normal.x, c->normal.y, c->normal.z, c->depth};
+        hash = hash_bytes(numbers, sizeof numbers, hash_bytes(&c->key, sizeof c->key, hash));
+    }
+    return hash;
+}
+
+/* Bodies with bays and round ones pass through each other: what is remembered of a pair leaves no contact out. */
+START_TEST(what_is_remembered_of_compounds_leaves_nothing_out)
+{
+    rig r = rig_make(0.02);
+    random_stream draw = random_begin(12, 0, 0);
+    overlay *o = overlay_create(&r.ctx);
+    for (int i = 0; i < 24; i++) {
+        vec3 p = {random_uniform(&draw, -12, 12), random_uniform(&draw, -12, 12), random_uniform(&draw, -0.3, 0.3)};
+        int32_t slot = i % 2 ? bay(&r, o, p) : regular(&r, MOTION_DYNAMIC, 6, 1.5, 0.1 * i, p);
+        r.bodies.velocity[slot] = vec3_make(0.5 * random_normal(&draw), 0.5 * random_normal(&draw), 0);
+        r.bodies.angular_velocity[slot] = vec3_make(0.02 * random_normal(&draw), 0, 0.1 * random_normal(&draw));
+    }
+    int32_t waiting = 0, touching = 0;
+    for (int k = 0; k < 300; k++) {
+        rig_detect(&r);
+        waiting += count_waiting(&r);
+        touching += r.contacts.count;
+        uint64_t remembered = contacts_hash(&r);
+        pair_table kept = {0};
+        ck_assert(table_copy(&r.ctx, &kept, &r.pairs, &pair_table_info));
+        for (int32_t i = 0; i < r.pairs.count; i++) {
+            r.pairs.axis[i] = vec3_make(0, 0, 0);
+            r.pairs.clear[i] = 0;
+        }
+        rig_detect(&r);
+        ck_assert_uint_eq(contacts_hash(&r), remembered);
+        ck_assert(table_copy(&r.ctx, &r.pairs, &kept, &pair_table_info));
+        table_free(&r.ctx, &kept, &pair_table_info);
+        integrate_poses(&r.ctx, &r.bodies, r.dt);
+    }
+    ck_assert_int_gt(waiting, 3000);
+    ck_assert_int_gt(touching, 3000);
+    overlay_free(o);
+    rig_free(&r);
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     for (long n = 1;; n++) {
@@ -465,7 +579,9 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("collision", broad_phase_finds_all_pairs, pairs_keep_their_axes, a_state_of_another_time_finds_its_pairs,
-          pairs_of_a_crowd_adrift_are_found, unmoved_boxes_are_kept, lost_bodies_are_named,
-          level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter,
-          crossed_edges_meet_in_a_point, keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal,
-          patch_pairs_are_left_to_others, no_contact_takes_the_normal_of_a_seam, memory_runs_out)
+          pairs_of_a_crowd_adrift_are_found, pairs_of_many_are_found_on_any_threads, unmoved_boxes_are_kept,
+          lost_bodies_are_named, level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies,
+          order_of_the_bodies_does_not_matter, crossed_edges_meet_in_a_point,
+          a_body_in_a_bay_is_not_tested_again_and_again, what_is_remembered_of_compounds_leaves_nothing_out,
+          keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal, patch_pairs_are_left_to_others,
+          no_contact_takes_the_normal_of_a_seam, memory_runs_out)

@@ -13,6 +13,46 @@ static rig packed_fast(int columns, int rows, double friction, uint64_t seed)
     return r;
 }
 
+/* ---- regions ---- */
+
+/* A long field makes more strips than are cut at once: every body has its region, all regions are about equally large
+   and none reaches into another strip. */
+START_TEST(regions_of_a_long_field_are_equally_large)
+{
+    enum { BODIES = 40000, STRIPS = 32, PIECES = 2 };
+    const double length = 1600, width = 100;
+    rig r = rig_make(0.01);
+    random_stream random = random_begin(11, 0, 0);
+    int32_array slots = {0}, region = {0};
+    ck_assert(table_resize(&r.ctx, &r.bodies, &body_table_info, BODIES) && array_resize(&r.ctx, &slots, BODIES) &&
+              array_resize(&r.ctx, &region, BODIES));
+    for (int32_t i = 0; i < BODIES; i++) {
+        r.bodies.position[i] = vec3_make(random_uniform(&random, 0, width), random_uniform(&random, 0, length), 0);
+        slots.data[i] = i;
+    }
+    int32_t chunks, size[PARTITION_MOST] = {0};
+    double lo[PARTITION_MOST], hi[PARTITION_MOST];
+    bodies_partition(&r.bodies, slots.data, BODIES, BODIES, region.data, &chunks);
+    ck_assert_int_eq(chunks, STRIPS * PIECES);
+    for (int32_t c = 0; c < chunks; c++)
+        lo[c] = length, hi[c] = 0;
+    for (int32_t i = 0; i < BODIES; i++) {
+        int32_t c = region.data[i];
+        ck_assert(c >= 0 && c < chunks);
+        size[c]++;
+        lo[c] = fmin(lo[c], r.bodies.position[i].y);
+        hi[c] = fmax(hi[c], r.bodies.position[i].y);
+    }
+    for (int32_t c = 0; c < chunks; c++) {
+        ck_assert(size[c] > 0.85 * BODIES / chunks && size[c] < 1.15 * BODIES / chunks);
+        ck_assert(c < PIECES || lo[c] > hi[c - PIECES]);
+    }
+    array_free(&r.ctx, &slots);
+    array_free(&r.ctx, &region);
+    rig_free(&r);
+}
+END_TEST
+
 /* ---- plan ---- */
 
 /* Every lane's bodies, once each, as slots; hubs left out. */
@@ -414,7 +454,7 @@ START_TEST(a_body_woken_after_the_solve_is_one)
 END_TEST
 
 TEST_MAIN("solver_fast", hubs_move_as_their_contacts_push, a_driven_body_meets_what_it_should_in_any_frame,
-          batches_share_no_body, groups_do_not_depend_on_threads, memory_does_not_depend_on_threads,
-          a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
+          batches_share_no_body, regions_of_a_long_field_are_equally_large, groups_do_not_depend_on_threads,
+          memory_does_not_depend_on_threads, a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
           bits_do_not_depend_on_the_instruction_set, a_body_woken_after_the_solve_is_one,
           long_runs_agree_with_the_reference)

@@ -216,6 +216,31 @@ START_TEST(nearest_boundary_point)
 END_TEST
 
 /* No sampled point of the boundary is nearer, and the distance is that of a sample in the limit. */
+/* No segment is passed over that is nearer, to the last bit; those that are left have the point in the box around them,
+   grown by as much. */
+START_TEST(segments_that_may_reach_a_point)
+{
+    random_stream draw = random_begin(41, 0, 0);
+    int32_t near = 0, passed = 0;
+    for (int k = 0; k < 20000; k++) {
+        vec2 c[3];
+        for (int i = 0; i < 3; i++)
+            c[i] = vec2_make(random_uniform(&draw, -1, 1), random_uniform(&draw, -1, 1));
+        if (k % 3 == 0)
+            c[1].x = c[0].x; /* upright */
+        double way = vec2_length(vec2_sub(segment_nearest(c[0], c[1], c[2]), c[2]));
+        ck_assert(segment_may_reach(c[0], c[1], c[2], nextafter(way, HUGE_VAL)));
+        double least = random_uniform(&draw, 0, 1);
+        double x = fmax(fmin(c[0].x, c[1].x) - c[2].x, c[2].x - fmax(c[0].x, c[1].x));
+        double y = fmax(fmin(c[0].y, c[1].y) - c[2].y, c[2].y - fmax(c[0].y, c[1].y));
+        ck_assert(segment_may_reach(c[0], c[1], c[2], least) == (fmax(x, y) < least * (1 + 1e-9)));
+        near += way < least;
+        passed += !segment_may_reach(c[0], c[1], c[2], least);
+    }
+    ck_assert(near > 4000 && passed > 4000);
+}
+END_TEST
+
 START_TEST(nearest_boundary_against_samples)
 {
     random_stream r = random_begin(24, 0, 0);
@@ -274,5 +299,5 @@ END_TEST
 
 TEST_MAIN("polygon_measure", diameter_is_that_of_all_pairs, area_perimeter_bounds_diameter, moments_of_known_shapes,
           moments_without_area, moments_add_up_over_triangles, far_from_the_origin, contains_inside_edge_and_vertex,
-          contains_as_the_triangles_do, nearest_boundary_point, nearest_boundary_against_samples, pool_of_polygons,
-          pool_without_memory)
+          contains_as_the_triangles_do, nearest_boundary_point, segments_that_may_reach_a_point,
+          nearest_boundary_against_samples, pool_of_polygons, pool_without_memory)

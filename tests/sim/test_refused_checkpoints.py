@@ -103,6 +103,18 @@ def other_components(data):
     return with_sums(bytes(data))
 
 
+def with_inputs(text):
+    """The list of the scenario's files, which is empty in this scene, is this text; every checksum fits."""
+    def change(data):
+        name = struct.pack("<I", 6) + b"inputs"
+        at = data.index(name) + len(name)
+        assert struct.unpack_from("<Q", data, at)[0] == 0, "no files"
+        data = bytearray(data[:at] + struct.pack("<Q", len(text)) + text + data[at + 8:])
+        struct.pack_into("<Q", data, 16, len(data))
+        return with_sums(bytes(data))
+    return change
+
+
 def longer(data):
     """More bytes behind the last table, told in the head; every checksum fits."""
     data = bytearray(data) + b"more"
@@ -113,6 +125,8 @@ def longer(data):
 DAMAGE = {
     "a field of other components": (other_components, "of another, in which the type of the field position"),
     "bytes behind the last table": (longer, "in which the end of the file is not the same"),
+    "a list of files that is none": (with_inputs(b"\0\xffhull.obj\n"), "expected a list of files"),
+    "a list of files that is cut": (with_inputs(b"0" * 64 + b"  /hull.obj"), "found something else at byte 0 of it"),
     "empty": (lambda data: b"", "too short|cut short|expected"),
     "cut in its head": (lambda data: data[:20], "short|expected"),
     "cut in its middle": (lambda data: data[:len(data) // 2], r"of \d+ bytes, found"),
@@ -189,6 +203,14 @@ def main():
         for file in run.glob("checkpoint-*.fram"):
             file.write_bytes(other_program(file.read_bytes()))
         refused(run, "continue the run with that version")
+        # Nor is one that lists other files, or is the state that a program saved from a world.
+        for name, text, words in (("files", b"0" * 64 + b"  /hull.obj\n", "was started with was changed since"),
+                                  ("program", b"0" * 64, "found a state that a program saved from a world")):
+            run = folder / name
+            shutil.copytree(folder / "run", run)
+            for file in run.glob("checkpoint-*.fram"):
+                file.write_bytes(with_inputs(text)(file.read_bytes()))
+            refused(run, words)
         # Streams that are shorter than the checkpoint says are no run to go on with.
         for name in ("record.fram", "series.csv"):
             run = folder / f"short-{name}"
@@ -215,7 +237,7 @@ def main():
             told = refused(run, "record.fram: an earlier version of Fram wrote this record")
             done = subprocess.run([FRAM, "report", run], capture_output=True, text=True, check=False)
             assert (done.returncode, done.stderr) == (2, told), (done.stderr, told)
-    print(f"{len(DAMAGE)} ways of damage and {5 + len(EARLIER_BLOCKS)} of disagreement are refused with the reason")
+    print(f"{len(DAMAGE)} ways of damage and {7 + len(EARLIER_BLOCKS)} of disagreement are refused with the reason")
 
 
 main()

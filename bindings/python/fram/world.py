@@ -563,7 +563,7 @@ class World:
             lib.fram_data_free(self.scenario._context._pointer, data[0])
 
     def from_bytes(self, state: bytes) -> None:
-        """Take over a state of the same scenario; InputError, and nothing changes, for any other."""
+        """Take over a state of the same scenario and files; InputError, and nothing changes, for any other."""
         self._call(lib.fram_world_load_memory, ffi.from_buffer(state), len(state))
 
     def save(self, path: Union[str, os.PathLike]) -> None:
@@ -571,7 +571,8 @@ class World:
         self._call(lib.fram_world_save, bytes_of(path))
 
     def load(self, path: Union[str, os.PathLike]) -> None:
-        """Take over a state of the same scenario from a file."""
+        """Take over a state of the same scenario and files from a file: one of `save`, or a run's checkpoint
+        (``checkpoint-*.fram`` in its folder), from which the world goes on as the resumed run does."""
         self._call(lib.fram_world_load, bytes_of(path))
 
     def snapshot(self) -> Snapshot:

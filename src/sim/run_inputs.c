@@ -1,0 +1,98 @@
+#include "sim/run_inputs.h"
+
+#include "io/file.h"
+#include "io/scenario_file.h"
+#include "model/scenario_schema.h"
+
+#include <string.h>
+
+enum { INPUT_LIMIT = 1 << 30, DIGEST_LENGTH = SHA256_TEXT_SIZE - 1, GAP_LENGTH = 2 };
+
+typedef struct input_list {
+    context *ctx;
+    const scenario *s;
+    text_buffer *out;
+} input_list;
+
+static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name,
+                             fram_error *error)
+{
+    input_list *list = user;
+    const char *given = member;
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
+    char path[SCENARIO_TEXT_SIZE], digest[SHA256_TEXT_SIZE];
+    char *data = NULL;
+    size_t size = 0;
+    /* Absolute, as in the run folder's scenario: the run is resumed from any folder. */
+    fram_status status = scenario_absolute_path(list->s, name, given, path, error);
+    if (status == FRAM_OK)
+        status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    sha256_text(data, size, digest);
+    memory_free(list->ctx, data);
+    text_format(list->ctx, list->out, "%s  %s\n", digest, path);
+    return FRAM_OK;
+}
+
+fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *out, fram_error *error)
+{
+    input_list list = {ctx, s, out};
+    text_add(ctx, out, "");
+    fram_status status = scenario_walk(s, add_input, &list, error);
+    return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
+}
+
+static bool begins_with_digest(const char *text, size_t size)
+{
+    if (size < DIGEST_LENGTH)
+        return false;
+    for (int i = 0; i < DIGEST_LENGTH; i++) {
+        if (!(text[i] >= '0' && text[i] <= '9') && !(text[i] >= 'a' && text[i] <= 'f'))
+            return false;
+    }
+    return true;
+}
+
+/* Length of the line "sha256  path" that the text begins with, 0: it begins with none. */
+static size_t input_line(const char *text, size_t size)
+{
+    if (!begins_with_digest(text, size) || size <= DIGEST_LENGTH + GAP_LENGTH ||
+        memcmp(text + DIGEST_LENGTH, "  ", GAP_LENGTH) != 0)
+        return 0;
+    const char *path = text + DIGEST_LENGTH + GAP_LENGTH;
+    const char *end = memchr(path, '\n', size - DIGEST_LENGTH - GAP_LENGTH);
+    return end && end > path ? (size_t)(end - text) + 1 : 0;
+}
+
+fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],
+                              fram_error *error)
+{
+    if (size == DIGEST_LENGTH && begins_with_digest(text, size)) {
+        memcpy(out, text, DIGEST_LENGTH);
+        out[DIGEST_LENGTH] = '\0';
+        return FRAM_OK;
+    }
+    text_buffer digests = {0};
+    text_add(ctx, &digests, "");
+    size_t at = 0;
+    while (at < size) {
+        size_t length = input_line(text + at, size - at);
+        if (length == 0)
+            break;
+        text_add_bytes(ctx, &digests, text + at, DIGEST_LENGTH);
+        at += length;
+    }
+    fram_status status = FRAM_OK;
+    if (at < size)
+        status = error_set(
+            error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+            "expected a list of files, lines of SHA-256 and path; found something else at byte %zu of it", at);
+    else if (digests.failed)
+        status = error_memory(error);
+    else
+        sha256_text(digests.data, (size_t)digests.count, out);
+    text_free(ctx, &digests);
+    return status;
+}

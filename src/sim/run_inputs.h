@@ -1,0 +1,17 @@
+/* The files that a scenario names: what is in them decides a run as the scenario does.  Knows nothing of what they
+   mean, nor of who keeps the list. */
+#ifndef SIM_RUN_INPUTS_H
+#define SIM_RUN_INPUTS_H
+
+#include "base/hash.h"
+#include "io/text_buffer.h"
+#include "model/scenario.h"
+
+/* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
+fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
+/* What such a list says of the files' contents, wherever they lie: SHA-256 of its digests, one after the other.  A text
+   that is one digest already is taken as it is; FRAM_ERROR_INPUT, with no place, for any other. */
+fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],
+                              fram_error *error);
+
+#endif

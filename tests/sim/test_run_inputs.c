@@ -1,0 +1,76 @@
+/* What a list of files says of their contents. */
+#include "sim/run_inputs.h"
+#include "testing.h"
+
+#define ONE "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad" /* of "abc": FIPS 180-4, B.1 */
+#define TWO "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1" /* B.2 */
+
+static fram_status digest_of(context *ctx, const char *text, char out[SHA256_TEXT_SIZE], fram_error *error)
+{
+    return run_inputs_digest(ctx, text, strlen(text), out, error);
+}
+
+START_TEST(contents_count_and_places_do_not)
+{
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    char expected[SHA256_TEXT_SIZE], found[SHA256_TEXT_SIZE];
+    sha256_text(ONE TWO, strlen(ONE TWO), expected);
+    assert_ok(digest_of(&ctx, ONE "  /here/hull.obj\n" TWO "  /here/floes.geojson\n", found, &error), error);
+    ck_assert_str_eq(found, expected);
+    assert_ok(digest_of(&ctx, ONE "  /a place/\xc3\xb8.obj\n" TWO "  x\n", found, &error), error);
+    ck_assert_str_eq(found, expected);
+    assert_ok(digest_of(&ctx, TWO "  /here/hull.obj\n" ONE "  /here/floes.geojson\n", found, &error), error);
+    ck_assert_str_ne(found, expected);
+    assert_ok(digest_of(&ctx, expected, found, &error), error);
+    ck_assert_str_eq(found, expected);
+    /* Of no file: SHA-256 of nothing. */
+    assert_ok(run_inputs_digest(&ctx, NULL, 0, found, &error), error);
+    ck_assert_str_eq(found, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+END_TEST
+
+START_TEST(other_texts_are_refused)
+{
+    context ctx;
+    context_init(&ctx);
+    static const char *const bad[] = {"\n",
+                                      "x",
+                                      ONE "\n",
+                                      ONE "  ",
+                                      ONE "  \n",
+                                      ONE "  /hull.obj",
+                                      ONE " \t/hull.obj\n",
+                                      ONE "  /hull.obj\n\n",
+                                      ONE "  /hull.obj\n" ONE,
+                                      "BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD",
+                                      "ga7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad  /hull.obj\n"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        fram_error error = {0};
+        char found[SHA256_TEXT_SIZE] = "";
+        assert_fails(digest_of(&ctx, bad[i], found, &error), error, FRAM_ERROR_INPUT, "expected a list of files");
+        ck_assert_str_eq(found, "");
+    }
+}
+END_TEST
+
+START_TEST(without_memory_there_is_no_digest)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        fram_error error = {0};
+        char found[SHA256_TEXT_SIZE];
+        fram_status status = digest_of(&ctx, ONE "  /hull.obj\n" TWO "  /floes.geojson\n", found, &error);
+        ck_assert_int_eq(memory.live, 0);
+        if (status == FRAM_OK) {
+            ck_assert_int_gt(n, 1);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("run_inputs", contents_count_and_places_do_not, other_texts_are_refused, without_memory_there_is_no_digest)
