@@ -20,8 +20,8 @@
    C library's can.
 
    After a failed step (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to step it
-   again is FRAM_ERROR_USAGE until a good state was loaded.  A call of this header that fails changes nothing, unless it
-   says so.
+   again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the world
+   that loads it as failed.  A call of this header that fails changes nothing, unless it says so.
 
    Older programs run with a newer library, whose structs may have more members at their ends; fram.h says how. */
 #ifndef FRAM_LIVE_H

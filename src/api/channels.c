@@ -49,8 +49,8 @@ static const struct {
     {"thruster_force", "all thrusters on the vessel"},
     {"thruster_moment", "all thrusters on the vessel, about the centre of mass"},
     {"thruster_power", "power drawn by all thrusters"},
-    {"offset", "of the watched point from where it shall be"},
-    {"heading_deviation", "of the heading from the one that is wanted"},
+    {"offset", "of the watched point from where it shall be, at the end of the step"},
+    {"heading_deviation", "of the heading from the one that is wanted, at the end of the step"},
     ICE_MECHANISMS(MECHANISM_MEANING) /* forces, and moments about the centre of mass */
     {"thrusters_failed", "number of thrusters that have failed"},
     {"thrusters_saturated", "1 while the demand cannot be met"},

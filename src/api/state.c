@@ -51,7 +51,7 @@ fram_status world_find_inputs(fram_world *w, fram_error *error)
 
 static checkpoint_note note_of(const fram_world *w)
 {
-    checkpoint_note note = {.inputs = w->base->inputs};
+    checkpoint_note note = {.inputs = w->base->inputs, .failed = w->failed};
     memcpy(note.scenario_hash, w->scenario->hash, sizeof note.scenario_hash);
     return note;
 }
@@ -84,11 +84,12 @@ static fram_status take_over(fram_world *w, const char *name, const void *data, 
                          "it is recorded, and its series would not follow from one another: end the recording before");
     context *ctx = &w->scenario->context->inner;
     checkpoint_note note = note_of(w);
+    bool failed;
     world loaded;
     fram_status status = world_init(ctx, &w->base->model, &loaded, error);
     if (status != FRAM_OK)
         return status;
-    status = state_decode(ctx, name, data, size, &w->base->model, &loaded, &note, error);
+    status = state_decode(ctx, name, data, size, &w->base->model, &loaded, &note, &failed, error);
     if (status != FRAM_OK) {
         world_free(ctx, &loaded);
         return status;
@@ -101,7 +102,7 @@ static fram_status take_over(fram_world *w, const char *name, const void *data, 
     loaded.shapes.changes += w->inner.shapes.changes + 1;
     world_free(ctx, &w->inner);
     w->inner = loaded;
-    w->failed = false;
+    w->failed = failed; /* a state that was saved after a failed step is none to go on from */
     w->step_wall = 0;
     world_changed(w);
     return FRAM_OK;

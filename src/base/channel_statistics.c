@@ -19,38 +19,40 @@ static void add_peak(double *peaks, int32_t *count, double peak)
         peaks[(*count)++] = peak;
 }
 
-static void find_peaks(const double *value, int32_t first, int32_t count, channel_statistics *s)
+/* Upwards (side 1) or downwards (-1) of the mean; *found: how many. */
+static double significant_peak(const double *value, int32_t first, int32_t count, double mean, double side,
+                               int32_t *found)
 {
-    double peaks[MOST_PEAKS], peak = 0;
-    bool above = false;
+    double peaks[MOST_PEAKS], peak = 0, sum = 0;
+    bool beyond = false;
+    *found = 0;
     for (int32_t i = first; i < count; i++) {
-        if (value[i] > s->mean) {
-            peak = above ? fmax(peak, value[i]) : value[i];
-            above = true;
-        } else if (above) {
-            add_peak(peaks, &s->peaks, peak);
-            above = false;
+        if (side * value[i] > side * mean) {
+            peak = beyond ? fmax(peak, side * value[i]) : side * value[i];
+            beyond = true;
+        } else if (beyond) {
+            add_peak(peaks, found, peak);
+            beyond = false;
         }
     }
-    if (above)
-        add_peak(peaks, &s->peaks, peak);
-    if (s->peaks == 0)
-        return;
-    qsort(peaks, (size_t)s->peaks, sizeof *peaks, falling);
-    int32_t third = (s->peaks + 2) / 3;
+    if (beyond)
+        add_peak(peaks, found, peak);
+    qsort(peaks, (size_t)*found, sizeof *peaks, falling);
+    int32_t third = (*found + 2) / 3;
     for (int32_t i = 0; i < third; i++)
-        s->significant += peaks[i] / third;
+        sum += peaks[i] / third;
+    return *found > 0 ? side * sum : 0;
 }
 
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient)
 {
-    channel_statistics s = {0};
-    int32_t first = 0;
+    const double none = (double)NAN;
+    int32_t first = 0, above;
     while (first < count && time[first] < transient)
         first++;
     if (first == count)
-        return s;
-    s.least = s.greatest = value[first];
+        return (channel_statistics){none, none, none, none, none, none, none, 0};
+    channel_statistics s = {.least = value[first], .greatest = value[first]};
     for (int32_t i = first; i < count; i++) {
         s.mean += value[i] / (count - first);
         s.least = fmin(s.least, value[i]);
@@ -60,6 +62,10 @@ channel_statistics channel_statistics_of(const double *time, const double *value
     for (int32_t i = first; i < count; i++)
         square += (value[i] - s.mean) * (value[i] - s.mean) / (count - first);
     s.deviation = sqrt(square);
-    find_peaks(value, first, count, &s);
+    s.significant_above = significant_peak(value, first, count, s.mean, 1, &above);
+    bool down = -s.least > s.greatest;
+    s.peak = down ? s.least : s.greatest;
+    s.peaks = above;
+    s.significant = down ? significant_peak(value, first, count, s.mean, -1, &s.peaks) : s.significant_above;
     return s;
 }

@@ -8,11 +8,16 @@
 /* Deviations of a normal distribution that hold 95 % of it between them and their opposite. */
 #define NORMAL_95 1.959963984540054
 
-/* Statistics of one channel after the transient. */
+/* Statistics of one channel after the transient; NaN where it has no value there.  A peak is the outermost value
+   between two crossings of the mean, and the significant one the mean of the highest third of the peaks.  Both are told
+   of the side on which the channel goes farthest from zero, with their sign: a load against its axis peaks downwards.
+ */
 typedef struct channel_statistics {
     double mean, deviation, least, greatest;
-    double significant; /* mean of the highest third of the peaks between crossings of the mean upwards; 0: no peak */
-    int32_t peaks;
+    double peak;              /* least or greatest, whichever is larger in size */
+    double significant;       /* on the side of `peak`; 0: no peak there */
+    double significant_above; /* the same upwards, whatever the side of `peak` */
+    int32_t peaks;            /* on the side of `peak` */
 } channel_statistics;
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient);
 

@@ -5,17 +5,18 @@ void peak_picker_init(peak_picker *p, double separation, double from)
     *p = (peak_picker){.separation = separation, .from = from};
 }
 
-static bool would_be_kept(const peak_picker *p, double value)
+bool peak_picker_keeps(const peak_picker *p)
 {
-    return value > 0 && (p->count < PEAKS_KEPT || value > p->kept[PEAKS_KEPT - 1].value);
+    double value = p->candidate.value;
+    return p->open && p->candidate.time >= p->from && value > 0 &&
+           (p->count < PEAKS_KEPT || value > p->kept[PEAKS_KEPT - 1].value);
 }
 
 int32_t peak_picker_ends(peak_picker *p)
 {
-    if (!p->open)
-        return -1;
+    bool keeps = peak_picker_keeps(p);
     p->open = false;
-    if (!would_be_kept(p, p->candidate.value))
+    if (!keeps)
         return -1;
     int32_t at = p->count < PEAKS_KEPT ? p->count++ : PEAKS_KEPT - 1;
     for (; at > 0 && p->kept[at - 1].value < p->candidate.value; at--)
@@ -34,9 +35,9 @@ bool peak_picker_rises(peak_picker *p, double time, double value)
     /* Down a flank nothing is a peak. */
     bool rises = value > p->last;
     p->last = value;
-    if (!rises || time < p->from || (p->open && value <= p->candidate.value))
+    if (!rises || (p->open && value <= p->candidate.value))
         return false;
     p->open = true;
     p->candidate = (load_peak){time, value};
-    return would_be_kept(p, value);
+    return peak_picker_keeps(p);
 }

@@ -16,7 +16,7 @@ typedef struct load_peak {
 
 typedef struct peak_picker {
     double separation; /* [unit of time] */
-    double from;       /* values before it do not count */
+    double from;       /* peaks before it are not kept; what stands too near to a larger one of them is none */
     int32_t count;
     load_peak kept[PEAKS_KEPT]; /* by falling value */
     bool open;                  /* `candidate` may still be overtaken */
@@ -25,6 +25,8 @@ typedef struct peak_picker {
 } peak_picker;
 
 void peak_picker_init(peak_picker *p, double separation, double from);
+/* Whether the candidate, as it is, is among the largest. */
+bool peak_picker_keeps(const peak_picker *p);
 /* Before the value of `time`: the place in `kept` of the candidate, when nothing overtook it for the separation and it
    is among the largest; -1 otherwise.  What stood there and after moves on by one, the last of ten goes. */
 int32_t peak_picker_settles(peak_picker *p, double time);

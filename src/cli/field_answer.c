@@ -25,7 +25,7 @@ static void print_summary(const field_words *w, const fram_field_summary *s)
            w->scenario ? "the domain"
            : w->crop   ? "the window"
                        : "the box around it");
-    printf("  floes of %.4g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
+    printf("  floes of %.6g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
            s->largest_diameter);
     printf("  diameter of equal area   floes\n");
     for (int i = 0; i < FRAM_FIELD_BINS; i++)

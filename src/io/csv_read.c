@@ -30,6 +30,13 @@ static fram_status check_unit(const char *path, const char *cell, const char *wa
                      cell + name);
 }
 
+fram_status csv_refuse_twice(const char *path, const char *name, int32_t first, int32_t second, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, path, 1, name,
+                     "expected one column of this name, found columns %d and %d: rename the one that is not meant",
+                     (int)first + 1, (int)second + 1);
+}
+
 /* Column number of each name in the header row. */
 static fram_status find_columns(const char *path, const char *header, const char *const *names, int32_t count,
                                 int32_t *at, fram_error *error)
@@ -43,6 +50,8 @@ static fram_status find_columns(const char *path, const char *header, const char
             while (length > 0 && c[length - 1] == ' ')
                 length--;
             if (length == strcspn(names[k], "[") && strncmp(c, names[k], length) == 0) {
+                if (at[k] >= 0)
+                    return csv_refuse_twice(path, names[k], at[k], column, error);
                 at[k] = column;
                 if (check_unit(path, c, names[k], error) != FRAM_OK)
                     return FRAM_ERROR_INPUT;

@@ -11,10 +11,13 @@ typedef ARRAY(double) double_array;
 enum { CSV_LINE_MOST = 1 << 20 };
 
 /* The columns of the given names appended to columns[0..count).  A name may have a unit ("tension[N]"): the file may
-   leave it out, but not name another one.  FRAM_ERROR_INPUT for a missing column, another unit, or a value that is no
-   number, with its line. */
+   leave it out, but not name another one.  FRAM_ERROR_INPUT for a missing column, two of one name, another unit, or a
+   value that is no number, with its line. */
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
+
+/* That a file's header has a name that is asked for twice: in columns first and second, from 0. */
+fram_status csv_refuse_twice(const char *path, const char *name, int32_t first, int32_t second, fram_error *error);
 
 /* Bytes of the text of a unit, and of a column's name: a vessel's, and what is told of it. */
 enum { UNIT_SIZE = 16, COLUMN_NAME_SIZE = 80 };

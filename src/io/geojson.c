@@ -406,7 +406,8 @@ static void add_ring(context *ctx, text_buffer *b, polygon p)
 static void add_property(context *ctx, text_buffer *b, const geojson_property *p, int32_t row)
 {
     if (p->text) {
-        text_format(ctx, b, ",\"%s\":\"%s\"", p->name, p->text[row]);
+        if (p->text[row])
+            text_format(ctx, b, ",\"%s\":\"%s\"", p->name, p->text[row]);
     } else if (!isnan(p->value[row])) {
         text_format(ctx, b, ",\"%s\":", p->name);
         add_number(ctx, b, p->value[row]);

@@ -29,8 +29,8 @@ fram_status geojson_parse(context *ctx, const char *name, const char *data, size
 fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
                           fram_error *error);
 
-/* A property of every feature: numbers (a NaN leaves it out) or, when `text` is not NULL, texts without characters that
-   JSON escapes. */
+/* A property of every feature: numbers (a NaN leaves it out) or, when `text` is not NULL, texts (so does a NULL)
+   without characters that JSON escapes. */
 typedef struct geojson_property {
     const char *name;
     const double *value;

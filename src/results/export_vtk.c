@@ -153,6 +153,8 @@ static void add_hull(vtk_export *e, const replay_body *b, const replay_pose *p)
     bool is_first = first == 0;
     const double none = (double)NAN;
     fill_vec3(e->ctx, s, 1, "ice force, averaged [N]", is_first ? e->r.frame.ice_force : vec3_make(none, none, none));
+    /* From 1 on, in the order of the scenario's list. */
+    fill_real(e->ctx, s, 2, "vessel", b->vessel + 1);
 }
 
 /* A vertex at the point of each force on the vessel. */

@@ -154,8 +154,7 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
     if (!p.panels)
         status = error_memory(error);
     else if (d.series.rows == 0)
-        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
-                           "the run's series has no rows; give the scenario a shorter output.csv_interval");
+        status = run_data_refuse_empty(&d, error);
     else if (!p.time)
         status = no_channel(&d, "time", error);
     if (status == FRAM_OK && p.time)

@@ -97,7 +97,8 @@ static bool add_body(replay *r, const replay_body *b)
 
 static replay_body new_body(const replay *r, cursor *c)
 {
-    replay_body b = {.slot = take_i32(c), .born = r->frames_read, .died = INT64_MAX, .number = -1, .parent = -1};
+    replay_body b = {.slot = take_i32(c), .born = r->frames_read, .died = INT64_MAX};
+    b.number = b.parent = b.vessel = -1;
     (void)take_i32(c); /* generation */
     if (b.slot < 0 || b.slot >= SLOTS_MOST)
         c->unsound = true;
@@ -109,6 +110,7 @@ static bool read_solid(replay *r, cursor *c)
     replay_body b = new_body(r, c);
     b.material = MATERIAL_HULL;
     b.moves = b.solid = true;
+    b.vessel = r->vessels++;
     b.vertex_count = take_i32(c);
     b.face_count = take_i32(c);
     b.vertex_first = r->points.count;

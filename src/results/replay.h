@@ -17,6 +17,7 @@ typedef struct replay_body {
     double density;                     /* of a floe [kg/m3] */
     double area;                        /* of a prism's outline [m2] */
     int32_t number, parent;             /* running numbers of a floe and of the one it broke from; -1: none */
+    int32_t vessel;                     /* row in the scenario of a hull's vessel; -1: no hull */
     int32_t vertex_first, vertex_count; /* prism: in replay.outlines; solid: in replay.points */
     int32_t face_first, face_count;     /* solid: triangles in replay.faces */
     int64_t born, died;                 /* number of the first frame with it, and of the first without */
@@ -60,7 +61,8 @@ typedef struct replay_frame {
 typedef struct replay {
     context *ctx;
     record_reader reader;
-    char *scenario; /* text */
+    char *scenario;  /* text */
+    int32_t vessels; /* hulls so far: a run's are recorded in the scenario's order */
     ARRAY(replay_body) bodies;
     vec2_array outlines;
     ARRAY(vec3) points;

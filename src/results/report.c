@@ -13,7 +13,9 @@ static void figure(report *r, const char *name, double value, const char *unit)
 {
     char text[32];
     /* Counts and times are told whole. */
-    if (!*unit || strcmp(unit, "s") == 0)
+    if (isnan(value))
+        html_number_text(value, text); /* nothing was measured */
+    else if (!*unit || strcmp(unit, "s") == 0)
         snprintf(text, sizeof text, "%.10g", value);
     else
         report_number(value, text);
@@ -52,7 +54,7 @@ static void station_figure(report *r, int32_t vessel)
         return;
     r->vessel = vessel;
     const double *x = run_vessel_channel(&r->d, vessel, "offset_x"), *y = run_vessel_channel(&r->d, vessel, "offset_y");
-    double most = 0;
+    double most = (double)NAN;
     for (int32_t i = run_first_row(&r->d); x && y && i < r->d.series.rows; i++)
         most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
     vessel_figure(r, "largest offset", most, "m");

@@ -108,17 +108,13 @@ void report_statistics(report *r, const char *channel, const char *name, double 
     const double *time = run_channel(&r->d, "time"), *value = report_scaled(r, channel, factor, 0);
     if (!time || !value)
         return;
-    channel_statistics s = channel_statistics_of(time, value, r->d.series.rows, r->d.s.run.transient), p = s;
-    const double side = s.mean < 0 ? -1 : 1; /* a load against its axis peaks downwards */
-    const double *turned = side < 0 ? report_scaled(r, channel, -factor, 0) : value;
-    if (turned && side < 0)
-        p = channel_statistics_of(time, turned, r->d.series.rows, r->d.s.run.transient);
+    channel_statistics s = channel_statistics_of(time, value, r->d.series.rows, r->d.s.run.transient);
     html_row_begin(&r->page);
     html_cell(&r->page, name);
     html_number(&r->page, s.mean);
     html_number(&r->page, s.deviation);
     html_number(&r->page, s.least);
     html_number(&r->page, s.greatest);
-    html_number(&r->page, p.peaks > 0 ? side * p.significant : (double)NAN);
+    html_number(&r->page, s.peaks > 0 ? s.significant : (double)NAN);
     html_row_end(&r->page);
 }

@@ -223,6 +223,11 @@ static void judge_station(verdict *v)
     const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
     if (!station_has_results(&r->d.s, r->vessel))
         return;
+    if (run_first_row(&r->d) == r->d.series.rows) {
+        char name[48];
+        find(v, VERDICT_CAUTION, "", "%swhether it kept its station was not measured.", whose(r, name));
+        return;
+    }
     limit_use offset = limit_of(r, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
     limit_use heading = limit_of(r, "heading_deviation", NULL, automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
     judge_limit(v, "offset", "m", offset, keys->station.offset_limit, "station.offset_limit");
@@ -240,7 +245,9 @@ static void judge_transient(verdict *v)
     const run_data *d = &v->r->d;
     int rows = (int)(d->series.rows - run_first_row(d));
     if (rows < 2)
-        find(v, VERDICT_CAUTION, "Make run.transient shorter or the run longer.",
+        find(v, VERDICT_CAUTION,
+             d->series.rows > 1 ? "Make run.transient shorter or the run longer."
+                                : "Make output.csv_interval or run.transient shorter, or the run longer.",
              "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.", rows,
              (int)d->series.rows, d->s.run.transient);
 }
@@ -316,7 +323,7 @@ static void judge_solver(verdict *v)
     const report *r = v->r;
     const double *time = run_channel(&r->d, "time"), *residual = run_channel(&r->d, "solver_residual");
     double speed = approach_speed(&r->d.s);
-    if (!time || !residual || r->d.series.rows == 0)
+    if (!time || !residual || run_first_row(&r->d) == r->d.series.rows)
         return;
     double mean = channel_statistics_of(time, residual, r->d.series.rows, r->d.s.run.transient).mean;
     if (!(speed > 0)) {

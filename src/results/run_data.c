@@ -281,3 +281,9 @@ int32_t run_first_row(const run_data *d)
         first++;
     return first;
 }
+
+fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
+                     "the run's series has no rows; give the scenario a shorter output.csv_interval");
+}

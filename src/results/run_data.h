@@ -61,5 +61,7 @@ const double *run_channel(const run_data *d, const char *name);
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
+/* That the series has no rows. */
+fram_status run_data_refuse_empty(const run_data *d, fram_error *error);
 
 #endif

@@ -139,25 +139,45 @@ static bool is_moored(const world *w, int32_t vessel)
     return moored;
 }
 
-static void find_equilibrium(context *ctx, const scenario_mooring *keys, const model *m, int32_t vessel, world *w)
+/* From which on a turn is told [deg]. */
+#define TOLD_TURN 0.1
+
+/* left: what of the search is left at that pose. */
+static void tell_equilibrium(context *ctx, const vessel_entry *entry, bool found, vec3 by, double turn, double heading,
+                             const mooring_balance *left)
 {
-    if (!is_moored(w, vessel) || !keys->equilibrium)
+    char turned[64] = "", onward[96] = "";
+    if (fabs(degrees(turn)) >= TOLD_TURN)
+        snprintf(turned, sizeof turned, " and turned by %.3g degrees, to heading %.4g", degrees(turn),
+                 degrees(heading));
+    if (fabs(degrees(left->turn_left)) >= TOLD_TURN)
+        snprintf(onward, sizeof onward, "; it is not stable: any touch turns the vessel from it, to heading %.4g",
+                 degrees(plane_angle(heading + left->turn_left)));
+    vessel_title title = vessel_title_of(entry);
+    if (found)
+        log_write(ctx, LOG_INFO, "%s begins at the equilibrium of its mooring, (%.3g, %.3g) m off%s%s", title.text,
+                  by.x, by.y, turned, onward);
+    else
+        log_write(ctx, LOG_WARNING,
+                  "no equilibrium of the mooring of %s was found; %.4g kN are left (%.3g, %.3g) m off%s", title.text,
+                  left->residual * 1e-3, by.x, by.y, turned);
+}
+
+static void find_equilibrium(context *ctx, const vessel_entry *entry, const model *m, int32_t vessel, world *w)
+{
+    if (!is_moored(w, vessel) || !entry->keys->mooring.equilibrium)
         return;
     int32_t body = w->vessels.body[vessel];
     const still_hull hull = {m, w, vessel};
     bool fluid = m->forces == FORCES_FLUID;
     vec3 position = w->bodies.position[body];
     quat orientation = w->bodies.orientation[body];
-    double residual;
+    mooring_balance left;
     bool found = mooring_equilibrium(&w->lines, vessel, w->vessels.length[vessel], fluid ? still_load : NULL, &hull,
-                                     &position, &orientation, &residual);
-    vec3 by = vec3_sub(position, w->bodies.position[body]);
-    if (found)
-        log_write(ctx, LOG_INFO, "the moored vessel begins at its equilibrium, (%.3g, %.3g) m off", by.x, by.y);
-    else
-        log_write(ctx, LOG_WARNING,
-                  "no equilibrium of the moored vessel was found; %.4g kN are left (%.3g, %.3g) m off", residual * 1e-3,
-                  by.x, by.y);
+                                     &position, &orientation, &left);
+    double heading = quat_roll_pitch_yaw(orientation).z;
+    double turn = plane_angle(heading - quat_roll_pitch_yaw(w->bodies.orientation[body]).z);
+    tell_equilibrium(ctx, entry, found, vec3_sub(position, w->bodies.position[body]), turn, heading, &left);
     w->bodies.position[body] = position;
     w->bodies.orientation[body] = orientation;
 }
@@ -308,6 +328,6 @@ fram_status build_station(context *ctx, const scenario *s, const vessel_entry *e
     station_definition d = definition_of(s, v, vessel, w);
     status = station_add(ctx, &d, vessel, &w->vessels, &w->bodies, &w->stations, error);
     if (status == FRAM_OK)
-        find_equilibrium(ctx, &v->mooring, m, vessel, w);
+        find_equilibrium(ctx, entry, m, vessel, w);
     return status;
 }

@@ -192,7 +192,7 @@ static vec3 significant_load(const load_history *h, double after)
     double *along = h->force[0].data;
     for (int32_t i = 0; i < count; i++)
         along[i] = (along[i] * mean.x + h->force[1].data[i] * mean.y) / size;
-    double significant = channel_statistics_of(h->time.data, along, count, after).significant;
+    double significant = channel_statistics_of(h->time.data, along, count, after).significant_above;
     return vec3_scale(mean, fmax(significant, size) / size);
 }
 

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_FRACTURES, NUMBER_HASH, NUMBER_COUNT };
+enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_FRACTURES, NUMBER_HASH, NUMBER_FAILED, NUMBER_COUNT };
 enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_PEAKS, BYTES_COUNT };
 enum { CHECKPOINTS_KEPT = 2 };
 
@@ -101,7 +101,8 @@ static void content_of(const world *w, const checkpoint_note *note, state_conten
     const table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
                                                      {"record_length", note->record_length},
                                                      {"fractures_length", note->fractures_length},
-                                                     {"state_hash", world_hash(w)}};
+                                                     {"state_hash", world_hash(w)},
+                                                     {"failed", note->failed}};
     /* Writing only reads; the container's one struct for both ways has no const. */
     const table_file_bytes bytes[BYTES_COUNT] = {
         {"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
@@ -157,7 +158,9 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
     if (path_join(folder, "failed.fram", path, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
     atomic_file file;
-    fram_status status = begin_file(ctx, path, w, note, &file, error);
+    checkpoint_note failed = *note;
+    failed.failed = true;
+    fram_status status = begin_file(ctx, path, w, &failed, &file, error);
     return status == FRAM_OK ? atomic_file_commit(&file, error) : status;
 }
 
@@ -212,11 +215,11 @@ static fram_status check_origin(context *ctx, const char *path, const table_file
 {
     if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
         *other = true;
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                         "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that "
-                         "version, or start it again",
-                         FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
-                         bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a %s of Fram %s, found one of Fram %.*s: %s",
+                         alone ? "state" : "checkpoint", FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
+                         bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "",
+                         alone ? "load it with that version, or bring a world of this one to that state again"
+                               : "continue the run with that version, or start it again");
     }
     if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
@@ -234,7 +237,7 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
     table_file_number numbers[NUMBER_COUNT] = {
-        {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}};
+        {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}, {"failed", 0}};
     table_file_bytes bytes[BYTES_COUNT] = {
         {"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}, {"peaks", NULL, 0}};
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT, false};
@@ -250,21 +253,29 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     if (status == FRAM_OK && world_hash(w) != numbers[NUMBER_HASH].value)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
+    if (status == FRAM_OK && !data && numbers[NUMBER_FAILED].value != 0)
+        status =
+            error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                      "expected a checkpoint of a run, found the state of a step that failed: load it into a world "
+                      "for a look at it");
     if (status == FRAM_OK && note->peaks && !copy_bytes(ctx, &bytes[BYTES_PEAKS], note->peaks))
         status = error_memory(error);
     note->series_length = numbers[NUMBER_SERIES].value;
     note->record_length = numbers[NUMBER_RECORD].value;
     note->fractures_length = numbers[NUMBER_FRACTURES].value;
+    note->failed = numbers[NUMBER_FAILED].value != 0;
     table_file_free_bytes(ctx, &content);
     return status;
 }
 
 fram_status state_decode(context *ctx, const char *name, const void *data, size_t size, const model *m, world *w,
-                         const checkpoint_note *note, fram_error *error)
+                         const checkpoint_note *note, bool *failed, fram_error *error)
 {
     checkpoint_note found = *note;
     bool other;
-    return read_one(ctx, name, data, size, m, w, &found, &other, error);
+    fram_status status = read_one(ctx, name, data, size, m, w, &found, &other, error);
+    *failed = found.failed;
+    return status;
 }
 
 /* The newest good one that is not after a step; *found says whether there is any not after it, good or bad, *other

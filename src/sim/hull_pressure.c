@@ -6,6 +6,7 @@
 #include "sim/build.h"
 #include "sim/recording.h"
 #include "sim/rerun.h"
+#include "sim/rerun_check.h"
 #include "sim/run_folder.h"
 #include "sim/step.h"
 
@@ -29,56 +30,96 @@ static void add_part(pressure_map *p, const ice_share *share, vec3 normal, vec3 
     part[MECHANISM_FRICTION] = vec3_mad(part[MECHANISM_FRICTION], friction, time_step);
 }
 
-static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose, double time_step)
+static vec3 ship_place(const hull_pose *pose, vec3 point)
+{
+    return vec3_add(mat3_tmul_vec(pose->rotation, vec3_sub(point, pose->position)), pose->centre);
+}
+
+/* What a point stands for: a part of its patch, whose other points may carry nothing in this step. */
+static pressure_area area_of(const world *w, const hull_pose *pose, const ice_share *share)
 {
     enum { POINTS = 4 };
+    vec3 point[POINTS] = {ship_place(pose, share->point)};
+    if (share->patch < 0)
+        return pressure_area_of(point, 1);
+    const crushing_patch *patch = &w->scratch.patches.data[share->patch];
+    const contact *c = &w->scratch.contacts.data[patch->contact_first];
+    int32_t count = patch->contact_count < POINTS ? patch->contact_count : POINTS;
+    for (int32_t i = 0; i < count; i++)
+        point[i] = ship_place(pose, c[i].point);
+    return pressure_area_of(point, count);
+}
+
+static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose, double time_step)
+{
     const ice_share *share = w->scratch.shares.data;
     bool good = true;
-    for (int32_t i = 0; i < w->scratch.shares.count && good;) {
-        vec3 point[POINTS], normal[POINTS], friction[POINTS];
-        int32_t count = 0, patch = share[i].patch, vessel = share[i].vessel;
-        /* Points of a patch stand together. */
-        do {
-            point[count] =
-                vec3_add(mat3_tmul_vec(pose->rotation, vec3_sub(share[i].point, pose->position)), pose->centre);
-            normal[count] = mat3_tmul_vec(pose->rotation, share[i].normal);
-            friction[count] = mat3_tmul_vec(pose->rotation, share[i].friction);
-            if (vessel == p->vessel)
-                add_part(p, &share[i], normal[count], friction[count], time_step);
-            count++;
-            i++;
-        } while (patch >= 0 && count < POINTS && i < w->scratch.shares.count && share[i].patch == patch &&
-                 share[i].vessel == vessel);
-        if (vessel == p->vessel)
-            good = pressure_add(p, point, normal, friction, count);
+    for (int32_t i = 0; i < w->scratch.shares.count && good; i++) {
+        if (share[i].vessel != p->vessel)
+            continue;
+        pressure_area area = area_of(w, pose, &share[i]);
+        vec3 normal = mat3_tmul_vec(pose->rotation, share[i].normal);
+        vec3 friction = mat3_tmul_vec(pose->rotation, share[i].friction);
+        add_part(p, &share[i], normal, friction, time_step);
+        good = pressure_add(p, &area, ship_place(pose, share[i].point), normal, friction);
     }
     return good;
 }
 
-static double end_of(const pressure_map *p)
+/* Where nothing tells how far the run went, as far as its scenario does. */
+static fram_status find_end(pressure_map *p, fram_error *error)
 {
-    double until = p->o->to > 0 ? p->o->to : p->s.run.duration;
-    return fmin(until, p->s.run.duration);
+    double until;
+    fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
+    p->end = until > 0 ? fmin(until, p->s.run.duration) : p->s.run.duration;
+    if (p->o->to > 0)
+        p->end = fmin(p->end, p->o->to);
+    return status;
 }
 
-static fram_status step_through(pressure_map *p, const model *m, world *w, fram_error *error)
+static fram_status step_once(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
+{
+    if (p->ctx->stop && *p->ctx->stop)
+        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
+                         w->clock.time[0]);
+    fram_status status = world_step(p->ctx, m, w, error);
+    return status == FRAM_OK ? rerun_check_step(check, w, error) : status;
+}
+
+static fram_status step_through(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
 {
     double slack = 1e-6 * m->time_step;
-    int64_t first = w->clock.step[0], last = step_at(end_of(p), m->time_step);
+    int64_t first = w->clock.step[0], last = step_at(p->end, m->time_step);
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && w->clock.step[0] < last) {
         work_tell(p->ctx, "computing again", (double)(w->clock.step[0] - first), (double)(last - first));
-        if (p->ctx->stop && *p->ctx->stop)
-            return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
-                             w->clock.time[0]);
         hull_pose pose = pose_of(w, p->vessel);
-        status = world_step(p->ctx, m, w, error);
+        status = step_once(p, check, m, w, error);
         if (status != FRAM_OK || w->clock.time[0] <= p->o->from + slack)
             continue;
         if (!add_contacts(p, w, &pose, m->time_step))
             return error_memory(error);
         pressure_end_step(p, w->clock.time[0], m->time_step);
     }
+    double end = (double)last * m->time_step;
+    while (status == FRAM_OK && rerun_check_awaits(check, end))
+        status = step_once(p, check, m, w, error);
+    return status == FRAM_OK ? rerun_check_end(check, w, end, error) : status;
+}
+
+static fram_status compute(pressure_map *p, const model *m, fram_error *error)
+{
+    world w = {0};
+    rerun_check check;
+    fram_status status = rerun_check_open(p->ctx, p->o->folder, &p->s, &check, error);
+    if (status != FRAM_OK)
+        return status;
+    status = rerun_start(p->ctx, p->o->folder, &p->s, p->o->from, m, &w, error);
+    if (status == FRAM_OK) {
+        status = step_through(p, &check, m, &w, error);
+        world_free(p->ctx, &w);
+    }
+    rerun_check_close(&check);
     return status;
 }
 
@@ -98,17 +139,12 @@ static fram_status make_panels(pressure_map *p, const model *m, fram_error *erro
 static fram_status build_and_compute(pressure_map *p, fram_error *error)
 {
     model m = {0};
-    world w = {0};
     fram_status status = build_model(p->ctx, &p->s, &m, error);
     if (status != FRAM_OK)
         return status;
     status = make_panels(p, &m, error);
     if (status == FRAM_OK)
-        status = rerun_start(p->ctx, p->o->folder, &p->s, p->o->from, &m, &w, error);
-    if (status == FRAM_OK) {
-        status = step_through(p, &m, &w, error);
-        world_free(p->ctx, &w);
-    }
+        status = compute(p, &m, error);
     model_free(p->ctx, &m);
     return status;
 }
@@ -117,10 +153,10 @@ static fram_status build_and_compute(pressure_map *p, fram_error *error)
 
 static fram_status check_times(const pressure_map *p, fram_error *error)
 {
-    if ((double)step_at(end_of(p), p->s.run.time_step) * p->s.run.time_step > p->o->from * (1 + 1e-12))
+    if ((double)step_at(p->end, p->s.run.time_step) * p->s.run.time_step > p->o->from * (1 + 1e-12))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "from", "no step ends after %g s and up to %g s",
-                     p->o->from, end_of(p));
+                     p->o->from, p->end);
 }
 
 fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error)
@@ -133,6 +169,8 @@ fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_er
     if (status != FRAM_OK)
         return status;
     status = scenario_choose_vessel(&p.s, p.o->folder, p.o->vessel, &p.vessel, error);
+    if (status == FRAM_OK)
+        status = find_end(&p, error);
     if (status == FRAM_OK)
         status = check_times(&p, error);
     if (status == FRAM_OK)

@@ -41,6 +41,7 @@ typedef struct pressure_map {
     scenario s;
     int32_t vessel; /* row */
     vec3 centre;    /* of its mass, ship coordinates */
+    double end;     /* of the time that is looked at [s] */
     hull_panels panels;
     panel_load *load;    /* by panel */
     int32_array touched; /* panels of this step */
@@ -56,9 +57,16 @@ typedef struct pressure_map {
 /* The panels of the hull, and room for their loads. */
 fram_status pressure_begin(pressure_map *p, const mesh *hull, fram_error *error);
 void pressure_free(pressure_map *p);
-/* Points of one contact of the step, at most four, in ship coordinates: where, the normal forces and all forces on the
-   vessel (ship axes), spread over the rectangle of the points' second moments. */
-bool pressure_add(pressure_map *p, const vec3 *point, const vec3 *normal, const vec3 *friction, int32_t count);
+/* The rectangle of a contact that has the second moments of all its points, ship coordinates; they lie at its half
+   sides over sqrt(3). */
+typedef struct pressure_area {
+    vec3 middle, a, b; /* from the middle to the middles of two sides, 0: the contact is a line, or a point [m] */
+} pressure_area;
+/* Of 1, 2 or 4 points, loaded or not. */
+pressure_area pressure_area_of(const vec3 *point, int32_t count);
+/* A point of the contact in a step, in ship coordinates: where, its normal force and its friction (ship axes), spread
+   over the quarter of the rectangle, or the half of the line, that it lies in.  false: no memory. */
+bool pressure_add(pressure_map *p, const pressure_area *area, vec3 point, vec3 normal, vec3 friction);
 /* At the end of a step, after all of its contacts. */
 void pressure_end_step(pressure_map *p, double time, double time_step);
 

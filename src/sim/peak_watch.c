@@ -39,8 +39,10 @@ bool peak_watch_begin(peak_watch *p, const world *w)
         return true;
     if (!array_resize(p->ctx, &p->vessels, w->vessels.count))
         return false;
-    for (int32_t v = 0; v < p->vessels.count; v++)
+    for (int32_t v = 0; v < p->vessels.count; v++) {
         peak_picker_init(&p->vessels.data[v].picker, PEAK_SEPARATION * p->window, p->from);
+        p->vessels.data[v].candidate = (peak_detail){.vessel = v}; /* none is explained before `from` */
+    }
     int32_t had = p->ring.count;
     if (!array_resize(p->ctx, &p->ring, (int32_t)steps))
         return false;
@@ -253,8 +255,8 @@ static fram_status append_vessel(record_writer *file, unsigned char *room, const
     for (int32_t i = 0; i < v->picker.count && status == FRAM_OK; i++)
         status = append(file, room, &v->kept[i], error);
     /* Explained when it would be kept. */
-    bool large = v->picker.count < PEAKS_KEPT || v->picker.candidate.value > v->picker.kept[PEAKS_KEPT - 1].value;
-    return status == FRAM_OK && v->picker.open && large ? append(file, room, &v->candidate, error) : status;
+    bool large = peak_picker_keeps(&v->picker);
+    return status == FRAM_OK && large ? append(file, room, &v->candidate, error) : status;
 }
 
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)

@@ -147,10 +147,10 @@ void pressure_free(pressure_map *p)
     p->sum_area = p->sum_cells = p->sum_force = NULL;
 }
 
-static bool panel_of(pressure_map *p, vec3 point, vec3 normal, vec3 friction, int32_t *panel)
+static int32_t panel_of(pressure_map *p, vec3 point, vec3 normal, vec3 friction)
 {
     vec3 push = vec3_length(normal) > 0 ? normal : friction;
-    return hull_panel_at(p->ctx, &p->panels, point, vec3_scale(push, -1 / vec3_length(push)), panel);
+    return hull_panel_at(&p->panels, point, vec3_scale(push, -1 / vec3_length(push)));
 }
 
 static bool add_to(pressure_map *p, int32_t panel, vec3 normal, vec3 friction, double part)
@@ -176,17 +176,18 @@ typedef struct even_load {
 static const double FINEST = 1.0 / 16;
 enum { PIECES_MOST = 64 }; /* waiting: each of at most 40 halvings leaves one */
 
-/* The panels of the corners, just inside, so that a piece that ends on a line of the grid lies on one side of it: that
-   of `corner`, along a, along b, across. */
-static bool panels_of_corners(pressure_map *p, const even_load *e, int32_t panel[4])
+/* A piece, and the panels of its corners. */
+typedef struct piece {
+    even_load load;
+    int32_t panel[4];
+} piece;
+
+/* The panel of a corner, just inside, so that a piece that ends on a line of the grid lies on one side of it: 0 that
+   of `corner`, 1 along a, 2 along b, 3 across. */
+static int32_t panel_of_corner(pressure_map *p, const even_load *e, int k)
 {
-    bool good = true;
-    for (int k = 0; k < 4 && good; k++) {
-        double s = 1e-6 + (1 - 2e-6) * (k & 1), t = 1e-6 + (1 - 2e-6) * (k >> 1);
-        vec3 at = vec3_mad(vec3_mad(e->corner, e->a, s), e->b, t);
-        good = panel_of(p, at, e->normal, e->friction, &panel[k]);
-    }
-    return good;
+    double s = 1e-6 + (1 - 2e-6) * (k & 1), t = 1e-6 + (1 - 2e-6) * (k >> 1);
+    return panel_of(p, vec3_mad(vec3_mad(e->corner, e->a, s), e->b, t), e->normal, e->friction);
 }
 
 typedef enum halving { HALVE_NOT, HALVE_A, HALVE_B } halving;
@@ -204,66 +205,86 @@ static halving choose_halving(const even_load *e, const int32_t panel[4], double
     return may_a ? HALVE_A : may_b ? HALVE_B : HALVE_NOT;
 }
 
+/* Two halves side by side, which keep the corners that they have of the whole. */
+static void halve(pressure_map *p, const piece *whole, halving way, piece half[2])
+{
+    int along = way == HALVE_A ? 1 : 2;
+    for (int i = 0; i < 2; i++) {
+        half[i] = *whole;
+        even_load *e = &half[i].load;
+        vec3 *side = way == HALVE_A ? &e->a : &e->b;
+        e->part *= 0.5;
+        *side = vec3_scale(*side, 0.5);
+        if (i == 1)
+            e->corner = vec3_add(e->corner, *side);
+        for (int k = 0; k < 4; k++)
+            if (((k & along) != 0) != (i == 1))
+                half[i].panel[k] = panel_of_corner(p, e, k);
+    }
+}
+
+/* What is not halved goes to the panel of its corners, or of its middle where that is several. */
+static bool add_piece(pressure_map *p, const piece *w)
+{
+    const even_load *e = &w->load;
+    int32_t panel = w->panel[0];
+    if (panel != w->panel[1] || panel != w->panel[2] || panel != w->panel[3])
+        panel = panel_of(p, vec3_mad(vec3_mad(e->corner, e->a, 0.5), e->b, 0.5), e->normal, e->friction);
+    return add_to(p, panel, e->normal, e->friction, e->part);
+}
+
 /* Halves it until each piece lies on one panel, or is too small to matter. */
 static bool add_spread(pressure_map *p, even_load whole)
 {
-    even_load wait[PIECES_MOST];
+    piece wait[PIECES_MOST];
     double size = p->o->rules.size;
     double least_a = FINEST * fmin(vec3_length(whole.a), size), least_b = FINEST * fmin(vec3_length(whole.b), size);
-    int32_t count = 1, panel[4];
+    int32_t count = 1;
     bool good = true;
-    wait[0] = whole;
+    wait[0].load = whole;
+    for (int k = 0; k < 4; k++)
+        wait[0].panel[k] = panel_of_corner(p, &whole, k);
     while (count > 0 && good) {
-        even_load e = wait[--count];
-        good = panels_of_corners(p, &e, panel);
-        halving way = count + 2 <= PIECES_MOST ? choose_halving(&e, panel, size, least_a, least_b) : HALVE_NOT;
-        if (!good)
-            continue;
+        piece w = wait[--count];
+        halving way = count + 2 <= PIECES_MOST ? choose_halving(&w.load, w.panel, size, least_a, least_b) : HALVE_NOT;
         if (way == HALVE_NOT) {
-            vec3 middle = vec3_mad(vec3_mad(e.corner, e.a, 0.5), e.b, 0.5);
-            good = panel_of(p, middle, e.normal, e.friction, &panel[0]) &&
-                   add_to(p, panel[0], e.normal, e.friction, e.part);
+            good = add_piece(p, &w);
             continue;
         }
-        vec3 *side = way == HALVE_A ? &e.a : &e.b;
-        e.part *= 0.5;
-        *side = vec3_scale(*side, 0.5);
-        wait[count] = e;
-        wait[count].corner = vec3_add(e.corner, *side);
-        wait[count + 1] = e;
+        halve(p, &w, way, &wait[count]);
         count += 2;
     }
     return good;
 }
 
-bool pressure_add(pressure_map *p, const vec3 *point, const vec3 *normal, const vec3 *friction, int32_t count)
+pressure_area pressure_area_of(const vec3 *point, int32_t count)
 {
-    vec3 middle = {0, 0, 0}, a = {0, 0, 0}, b = {0, 0, 0};
-    bool good = true;
+    /* Points at the half sides over sqrt(3) have the second moments of a rectangle. */
+    const double reach = 1.7320508075688772;
+    pressure_area area = {0};
     for (int32_t i = 0; i < count; i++)
-        middle = vec3_mad(middle, point[i], 1.0 / count);
+        area.middle = vec3_mad(area.middle, point[i], 1.0 / count);
+    vec3 u = vec3_scale(vec3_sub(point[0], area.middle), reach);
     if (count == 2)
-        a = vec3_sub(point[0], middle);
+        area.a = u;
     for (int32_t i = 1; i < 4 && count == 4; i++) {
         /* Beside the first point, not across from it: half their sum and half their difference are the sides. */
-        vec3 u = vec3_sub(point[0], middle), v = vec3_sub(point[i], middle);
+        vec3 v = vec3_scale(vec3_sub(point[i], area.middle), reach);
         if (vec3_length(vec3_add(u, v)) < 1e-6 * vec3_length(u))
             continue;
-        a = vec3_scale(vec3_add(u, v), 0.5);
-        b = vec3_scale(vec3_sub(u, v), 0.5);
+        area.a = vec3_scale(vec3_add(u, v), 0.5);
+        area.b = vec3_scale(vec3_sub(u, v), 0.5);
         break;
     }
-    /* The points of a patch have its second moments: those of a rectangle lie at its half sides over sqrt(3). */
-    const double reach = 1.7320508075688772;
-    for (int32_t i = 0; i < count && good; i++) {
-        vec3 u = vec3_sub(point[i], middle);
-        double sa = vec3_dot(u, a) < 0 ? -reach : reach, sb = vec3_dot(u, b) < 0 ? -reach : reach;
-        even_load e = {middle, vec3_scale(a, sa), vec3_scale(b, sb), normal[i], friction[i], 1};
-        if (count != 2 && count != 4)
-            e = (even_load){point[i], {0, 0, 0}, {0, 0, 0}, normal[i], friction[i], 1};
-        good = add_spread(p, e);
-    }
-    return good;
+    return area;
+}
+
+bool pressure_add(pressure_map *p, const pressure_area *area, vec3 point, vec3 normal, vec3 friction)
+{
+    vec3 u = vec3_sub(point, area->middle);
+    vec3 a = vec3_scale(area->a, vec3_dot(u, area->a) < 0 ? -1 : 1);
+    vec3 b = vec3_scale(area->b, vec3_dot(u, area->b) < 0 ? -1 : 1);
+    return add_spread(p, (even_load){area->middle, a, b, normal, friction, 1});
 }
 
 void pressure_end_step(pressure_map *p, double time, double time_step)

@@ -7,6 +7,7 @@
 #include "sim/ice_loads.h"
 #include "sim/peak_watch.h"
 #include "sim/recording.h"
+#include "sim/rerun_check.h"
 #include "sim/run_folder.h"
 #include "sim/run_inputs.h"
 #include "sim/step.h"
@@ -26,6 +27,7 @@ typedef struct rerun {
     scenario s;
     double time;
     int32_t vessel;
+    rerun_check check;
     rerun_result *out;
 } rerun;
 
@@ -41,21 +43,30 @@ static fram_status step_once(const rerun *r, const model *m, world *w, fram_erro
     return world_step(r->ctx, m, w, error);
 }
 
+/* As the run was made: what comes out is the run's, or an error. */
+static fram_status step_same(rerun *r, const model *m, world *w, fram_error *error)
+{
+    fram_status status = step_once(r, m, w, error);
+    return status == FRAM_OK ? rerun_check_step(&r->check, w, error) : status;
+}
+
 /* Largest averaged load from where the world is to the end, which is half a window after the moment: another method has
    its peak a little earlier or later. */
-static fram_status follow(const rerun *r, const model *m, world *w, double *largest, fram_error *error)
+static fram_status follow(rerun *r, const model *m, world *w, bool same, double *largest, fram_error *error)
 {
     fram_status status = FRAM_OK;
     int64_t end = step_at(r->time, m->time_step);
     int64_t first = w->clock.step[0] + load_window_length(w), last = end + load_window_length(w) / 2;
     *largest = 0;
     while (status == FRAM_OK && w->clock.step[0] < last) {
-        status = step_once(r, m, w, error);
+        status = same ? step_same(r, m, w, error) : step_once(r, m, w, error);
         vec3 f = load_window_average(w, r->vessel).force;
         if (w->clock.step[0] >= first)
             *largest = fmax(*largest, sqrt(f.x * f.x + f.y * f.y));
     }
-    return status;
+    while (status == FRAM_OK && same && rerun_check_awaits(&r->check, r->time))
+        status = step_same(r, m, w, error);
+    return status == FRAM_OK && same ? rerun_check_end(&r->check, w, r->time, error) : status;
 }
 
 /* As the run was made, with what carries the load at the moment. */
@@ -77,7 +88,7 @@ static fram_status explain(const rerun *r, const model *m, world *w, fram_error 
 }
 
 /* A copy of the world goes on by another method. */
-static fram_status follow_other(const rerun *r, const world *from, double time_step, bool accurate, double *largest,
+static fram_status follow_other(rerun *r, const world *from, double time_step, bool accurate, double *largest,
                                 fram_error *error)
 {
     scenario s = r->s;
@@ -98,7 +109,7 @@ static fram_status follow_other(const rerun *r, const world *from, double time_s
         if (time_step != r->s.run.time_step)
             status = build_load_window(r->ctx, &s, w.vessels.count, &w, error);
         if (status == FRAM_OK)
-            status = follow(r, &m, &w, largest, error);
+            status = follow(r, &m, &w, !accurate && time_step == r->s.run.time_step, largest, error);
         world_free(r->ctx, &w);
     }
     model_free(r->ctx, &m);
@@ -106,7 +117,7 @@ static fram_status follow_other(const rerun *r, const world *from, double time_s
 }
 
 /* From the fork: the run's own method twice, for the moment and for the largest load, then the others. */
-static fram_status compare(const rerun *r, const model *m, world *w, fram_error *error)
+static fram_status compare(rerun *r, const model *m, world *w, fram_error *error)
 {
     double dt = r->s.run.time_step;
     world again = {0};
@@ -151,7 +162,7 @@ fram_status rerun_start(context *ctx, const char *folder, const scenario *s, dou
     return build_world(ctx, s, m, w, &report, error);
 }
 
-static fram_status go_back(const rerun *r, const model *m, fram_error *error)
+static fram_status go_back(rerun *r, const model *m, fram_error *error)
 {
     world w = {0};
     double fork = fmax(r->time - DIFFERS_FOR - r->s.output.averaging_window, 0);
@@ -165,7 +176,7 @@ static fram_status go_back(const rerun *r, const model *m, fram_error *error)
                            "the run has %d vessels, expected one of them", (int)w.vessels.count);
     int64_t first = step_at(fork, m->time_step);
     while (status == FRAM_OK && w.clock.step[0] < first)
-        status = step_once(r, m, &w, error);
+        status = step_same(r, m, &w, error);
     r->out->fork = w.clock.time[0];
     if (status == FRAM_OK)
         status = compare(r, m, &w, error);
@@ -191,7 +202,10 @@ fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t 
     if (status == FRAM_OK)
         status = build_model(ctx, &r.s, &m, error);
     if (status == FRAM_OK) {
-        status = go_back(&r, &m, error);
+        status = rerun_check_open(ctx, folder, &r.s, &r.check, error);
+        if (status == FRAM_OK)
+            status = go_back(&r, &m, error);
+        rerun_check_close(&r.check);
         model_free(ctx, &m);
     }
     scenario_free(ctx, &r.s);

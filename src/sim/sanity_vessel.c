@@ -179,8 +179,11 @@ static bool tell_leg(const teller *t, int32_t i)
     double turn = fabs(to->heading_deg - from->heading_deg) / time;
     double fastest = FASTEST_TURN * fmax(1, sanity_at_scale(t->s, -0.5));
     if (time > 0 && speed <= most && turn > fastest)
-        sanity_say(t->tell, t->to, "%s.path[%d].heading_deg: %g degrees are reached with %.4g deg/s: give degrees",
-                   t->e->path, (int)i, to->heading_deg, turn);
+        sanity_say(
+            t->tell, t->to,
+            "%s.path[%d].heading_deg: from %g to %g degrees it turns with %.4g deg/s, faster than vessels do: give "
+            "the point a later time or a nearer heading, in degrees",
+            t->e->path, (int)i, from->heading_deg, to->heading_deg, turn);
     if (!(time > 0) || speed <= most)
         return turn > fastest;
     sanity_say(t->tell, t->to, "%s.path[%d]: (%.5g, %.5g) m is reached with %.4g m/s: give seconds and metres",

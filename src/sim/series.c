@@ -31,7 +31,9 @@ static void add_station(const world *w, int32_t v, vessel_channels *c)
     if (v < s->count) {
         c->mooring = s->mooring_load[v];
         c->thrust = s->thruster_load[v];
-        c->offset = vec3_make(s->offset[v].x, s->offset[v].y, degrees(s->offset[v].z));
+        if (station_is_kept(s, &w->vessels, v))
+            c->offset = station_deviation(s, v, w->clock.time[0], &w->vessels, &w->bodies, &w->waypoints);
+        c->offset.z = degrees(c->offset.z);
         c->estimate = s->estimate[v].place;
         c->estimate.z = degrees(plane_angle(c->estimate.z));
         c->bias = s->estimate[v].bias;

@@ -239,8 +239,10 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
         return;
     int32_t body = w->vessels.body[row];
     double weight = s->environment.water_density * s->environment.gravity;
+    char name[64];
+    snprintf(name, sizeof name, "the buoyancy of %s", vessel_title_of(e).text);
     if (s->environment.water)
-        warn_of_stiffness(ctx, s, "the buoyancy of the hull", weight * hull->floats.waterplane_area,
+        warn_of_stiffness(ctx, s, name, weight * hull->floats.waterplane_area,
                           w->bodies.mass[body] + w->bodies.added_mass[body].z);
     warn_of_lines(ctx, s, e, w, row);
 }

@@ -44,7 +44,7 @@ static fram_status statistics(context *ctx, const run_data *d, int32_t vessel, c
     const double *time = run_channel(d, "time"), *a = run_vessel_channel(d, vessel, x),
                  *b = y ? run_vessel_channel(d, vessel, y) : NULL;
     double none = (double)NAN;
-    *out = (channel_statistics){none, none, none, none, none, 0};
+    *out = (channel_statistics){none, none, none, none, none, none, none, 0};
     if (!time || !a || (y && !b))
         return FRAM_OK;
     double_array value = {0};
@@ -86,12 +86,12 @@ static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, cons
     return good ? FRAM_OK : error_memory(error);
 }
 
-/* The largest tension of a line as it parted [N], after the transient; 0 without.  Series have what came before and
+/* The largest tension of a line as it parted [N], after the transient; NaN without.  Series have what came before and
    after that step. */
 static double tension_of_parting(const run_data *d, int32_t vessel)
 {
     const char *name = scenario_vessel_name(&d->s, vessel);
-    double most = 0;
+    double most = (double)NAN;
     for (int32_t i = 0; i < d->note.events.count; i++) {
         const run_event *e = &d->note.events.data[i];
         if (e->time >= d->s.run.transient && strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 &&

@@ -1,6 +1,7 @@
 #include "study/series_file.h"
 
 #include "base/number_text.h"
+#include "io/csv_read.h"
 #include "io/file.h"
 #include "io/utf8.h"
 #include "model/scenario_vessel.h"
@@ -58,28 +59,36 @@ static void split_head(char *head, char unit[UNIT_SIZE])
         head[n - 1] = '\0';
 }
 
-/* Number of the column, or -1 with the error set. */
+enum { NO_HEAD = -1, TWO_HEADS = -2 };
+
+/* Number of the column; NO_HEAD without one, with the error set if it must be there; TWO_HEADS with the error set. */
 static int find_head(const char *path, const char *line, const char *name, bool must, char unit[UNIT_SIZE],
                      fram_error *error)
 {
-    char head[CELL_ROOM], near[CELL_ROOM] = "";
-    int least = WORD_ROOM, at = 0;
+    char head[CELL_ROOM], near[CELL_ROOM] = "", own[UNIT_SIZE];
+    int least = WORD_ROOM, at = 0, found = NO_HEAD;
+    unit[0] = '\0';
     for (const char *c = line + utf8_mark(line, strlen(line)); c && at < HEADS_MOST; at++) {
         c = next_cell(c, head, sizeof head);
-        split_head(head, unit);
-        if (strcmp(head, name) == 0)
-            return at;
+        split_head(head, own);
+        if (strcmp(head, name) == 0 && found >= 0) {
+            csv_refuse_twice(path, name, found, at, error);
+            return TWO_HEADS;
+        }
+        if (strcmp(head, name) == 0) {
+            found = at;
+            memcpy(unit, own, sizeof own);
+        }
         int distance = word_distance(head, name);
         if (distance < least) {
             least = distance;
             memcpy(near, head, sizeof near);
         }
     }
-    unit[0] = '\0';
-    if (must)
+    if (must && found < 0)
         error_set(error, FRAM_ERROR_INPUT, path, 1, name, "the file has no column of this name%s%s%s",
                   *near ? "; did you mean " : "", near, *near ? "?" : "");
-    return -1;
+    return found;
 }
 
 typedef struct csv_want {
@@ -171,11 +180,13 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
     }
     if (status == FRAM_OK && !source->maxima && source->step > 0 &&
-        find_head(path, text, "time", false, time_unit, error) >= 0)
+        find_head(path, text, "time", false, time_unit, error) != NO_HEAD)
         status = refuse_step(path, error);
     if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
         want.time = find_head(path, text, "time", false, time_unit, error);
-        if (*time_unit && strcmp(time_unit, "s") != 0)
+        if (want.time == TWO_HEADS)
+            status = FRAM_ERROR_INPUT;
+        else if (*time_unit && strcmp(time_unit, "s") != 0)
             status =
                 error_set(error, FRAM_ERROR_INPUT, path, 1, "time", "expected the unit [s], found [%s]", time_unit);
         else if (want.time < 0)
@@ -267,7 +278,10 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     if (status != FRAM_OK)
         return status;
     const double *t = run_channel(&d, "time");
-    status = take_channel(ctx, &d, source->channel ? source->channel : "load", value, unit, error);
+    if (d.series.rows == 0)
+        status = run_data_refuse_empty(&d, error);
+    else
+        status = take_channel(ctx, &d, source->channel ? source->channel : "load", value, unit, error);
     if (status == FRAM_OK && (!t || !array_resize(ctx, time, d.series.rows)))
         status = error_memory(error);
     for (int32_t i = 0; status == FRAM_OK && i < time->count; i++)

@@ -119,14 +119,14 @@ static void count(holding *out, double share, holding_item item, int32_t number)
 static holding hold_by_lines(const holding_case *c, const rest_load *rest, double force)
 {
     rest_load held = *rest;
-    double pulls = 0, residual;
+    double pulls = 0;
     for (int32_t i = 0; i < c->lines->count; i++)
         pulls += c->lines->tension[i];
     held.stiffness = HEADING_STIFFNESS * (force + pulls) * c->length;
     vec3 position = c->position;
     quat orientation = quat_from_roll_pitch_yaw(0, 0, c->heading);
     holding out = {.number = -1};
-    if (!mooring_equilibrium(c->lines, c->vessel, c->length, rest_of, &held, &position, &orientation, &residual)) {
+    if (!mooring_nearest_balance(c->lines, c->vessel, c->length, rest_of, &held, &position, &orientation)) {
         out.use = HUGE_VAL;
         return out;
     }

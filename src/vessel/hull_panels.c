@@ -448,6 +448,5 @@ void hull_panels_free(context *ctx, hull_panels *p)
     mesh_free(ctx, &p->triangle);
     array_free(ctx, &p->triangle_panel);
     mesh_bvh_free(ctx, &p->tree);
-    array_free(ctx, &p->found);
     *p = (hull_panels){0};
 }

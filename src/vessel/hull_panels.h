@@ -65,7 +65,7 @@ typedef struct hull_panels {
     int32_array triangle_panel;
     mesh_bvh tree;
     box3 bounds;       /* of the triangles */
-    int32_array found; /* scratch of a search */
+    int32_t last_face; /* found last: where the next search begins */
 } hull_panels;
 
 /* The panels of a closed mesh without degenerate triangles.  out need not be initialised; it is empty on failure.
@@ -77,7 +77,7 @@ fram_status hull_panels_make(context *ctx, const mesh *hull, const panel_rules *
 void hull_panels_free(context *ctx, hull_panels *p);
 
 /* The panel whose surface is nearest to a point, of those that look along `outward` (within about 70 degrees; all where
-   there is none such nearby); *panel is -1 only for no panels.  false: no memory. */
-bool hull_panel_at(context *ctx, hull_panels *p, vec3 point, vec3 outward, int32_t *panel);
+   there is none such nearby); -1 only for no panels. */
+int32_t hull_panel_at(hull_panels *p, vec3 point, vec3 outward);
 
 #endif

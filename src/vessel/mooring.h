@@ -79,10 +79,19 @@ fram_status mooring_step(context *ctx, line_table *lines, const vessel_table *ve
 
 /* Steady load on the vessel apart from its mooring, at a heading: (force x, force y [N], yaw moment [N m]), global. */
 typedef vec3 (*steady_load)(const void *user, double heading);
-/* Where the mooring balances the steady load: x, y, yaw are moved from where they are, heave, roll and pitch stay
-   (damped Newton with a numerical Jacobian).  residual: horizontal force left [N].  false: it did not get under a
-   millionth of the lines' tensions; the pose is then the best that was found. */
+typedef struct mooring_balance {
+    double residual;  /* force, and moment over the length, that are left [N] */
+    double turn_left; /* by which the vessel turns from there once it is touched [rad]: 0 where it comes back */
+} mooring_balance;
+/* Where the mooring balances the steady load and the vessel comes to rest: x, y, yaw are moved from where they are,
+   heave, roll and pitch stay.  Of several such headings it is the one to which the moment turns the vessel from its
+   own, with its place where the forces balance at each heading.  One that lies in balance at its own heading stays
+   there, though any touch may turn it away (turn_left).  false: the residual did not get under a millionth of the
+   lines' tensions; the pose is then the best that was found. */
 bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
-                         vec3 *position, quat *orientation, double *residual);
+                         vec3 *position, quat *orientation, mooring_balance *out);
+/* The balance that Newton's method finds from that pose on, stable or not: for a load that holds the heading. */
+bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
+                             vec3 *position, quat *orientation);
 
 #endif

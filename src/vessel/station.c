@@ -99,19 +99,24 @@ static bool book(context *ctx, event_table *events, bool beyond, bool within, in
     return true;
 }
 
-/* Offset of the watched point from where it shall be: where it was, moved with the way points. */
-static bool watch(context *ctx, station_table *s, int32_t row, const station_moment *now, const vessel_table *vessels,
-                  const body_table *bodies, const waypoint_table *path, event_table *events)
+vec3 station_deviation(const station_table *s, int32_t row, double time, const vessel_table *vessels,
+                       const body_table *bodies, const waypoint_table *path)
 {
     int32_t body = vessels->body[row];
-    vec3 target = reference_target(path, row, s->home[row], now->time);
+    vec3 target = reference_target(path, row, s->home[row], time);
     vec3 wanted = vec3_add(s->watched_home[row], vec3_sub(target, s->home[row]));
     vec3 at = body_to_global(bodies, body, s->watched[row]);
     bool vanes = s->heading_rule[row] == HEADING_VANING;
     double heading = vanes ? s->vane_heading[row] : target.z;
-    double off = plane_angle(place_of(bodies, body).z - heading);
-    s->offset[row] = vec3_make(at.x - wanted.x, at.y - wanted.y, off);
-    double offset = sqrt(s->offset[row].x * s->offset[row].x + s->offset[row].y * s->offset[row].y), turn = fabs(off);
+    return vec3_make(at.x - wanted.x, at.y - wanted.y, plane_angle(place_of(bodies, body).z - heading));
+}
+
+static bool watch(context *ctx, station_table *s, int32_t row, const station_moment *now, const vessel_table *vessels,
+                  const body_table *bodies, const waypoint_table *path, event_table *events)
+{
+    s->offset[row] = station_deviation(s, row, now->time, vessels, bodies, path);
+    double offset = sqrt(s->offset[row].x * s->offset[row].x + s->offset[row].y * s->offset[row].y);
+    double off = s->offset[row].z, turn = fabs(off);
     return book(ctx, events, offset > s->offset_limit[row], offset < REGAINED * s->offset_limit[row], 0,
                 EVENT_POSITION_LOST, now->time, offset, row, &s->lost[row]) &&
            book(ctx, events, turn > s->heading_limit[row], turn < REGAINED * s->heading_limit[row], 1,

@@ -55,7 +55,7 @@ typedef enum heading_rule { HEADING_FIXED = 0, HEADING_VANING } heading_rule;
     X(missed, vec3, FIELD_F64, 3, "N, N, N m", "what the allocation could not give of it")                     \
     X(saturated, uint8_t, FIELD_U8, 1, "1", "the thrusters cannot give the demand")                            \
     X(lost, uint8_t, FIELD_U8, 1, "1", "bit 0: the offset exceeds its limit; bit 1: the heading does")         \
-    X(offset, vec3, FIELD_F64, 3, "m, m, rad", "of the watched point along X and Y, and of the heading")       \
+    X(offset, vec3, FIELD_F64, 3, "m, m, rad", "station_deviation at the begin of the last step")              \
     X(mooring_load, wrench, FIELD_F64, 6, "N, N m", "of all lines in the last step, global, about the centre") \
     X(thruster_load, wrench, FIELD_F64, 6, "N, N m", "of all thrusters in the last step, global")
 TABLE_DECLARE(station, STATION_FIELDS)
@@ -94,6 +94,10 @@ typedef struct station_moment {
     wrench ice; /* load on the vessel in the step before, global */
 } station_moment;
 
+/* How far the watched point is from where it shall be at a time, along X and Y [m] - where it was at the start, moved
+   with the way points - and the heading from the one that is wanted [rad]. */
+vec3 station_deviation(const station_table *s, int32_t row, double time, const vessel_table *vessels,
+                       const body_table *bodies, const waypoint_table *path);
 /* Measure, observe, control and give orders to the thrusters, where due; book offset and loss of position. */
 fram_status station_step(context *ctx, station_table *stations, int32_t row, const station_moment *now,
                          const vessel_table *vessels, const body_table *bodies, const waypoint_table *path,

@@ -220,6 +220,59 @@ static void set_sums_right(char *data, size_t size)
     memcpy(data + HEAD_SUM_AT, &sum, sizeof sum);
 }
 
+/* The version is another one's: told as of a state, and as of a run. */
+START_TEST(states_of_other_versions_are_refused)
+{
+    static const char name[] = {12, 0, 0, 0, 'f', 'r', 'a', 'm', '_', 'v', 'e', 'r', 's', 'i', 'o', 'n'};
+    run_half(with_files);
+    fram_scenario *s;
+    fram_world *w = world_in(with_files, place("first", hull, "20"), &s);
+    size_t size, at = HEAD_SIZE;
+    char *data = read_all(file, &size);
+    while (memcmp(data + at, name, sizeof name) != 0)
+        ck_assert_uint_lt(++at, size - sizeof name);
+    data[at + sizeof name + sizeof(uint64_t)] = '9';
+    set_sums_right(data, size);
+    assert_fails(fram_world_load_memory(w, data, size, &e), e, FRAM_ERROR_INPUT, "expected a state of Fram");
+    ck_assert_msg(strstr(e.message, "load it with that version") && !strstr(e.message, "run"), "%s", e.message);
+    free(data);
+    close_world(w, s);
+    close_all();
+}
+END_TEST
+
+/* A world that loads it is as failed as the one that saved it, until it loads a good one; no run goes on from it. */
+START_TEST(what_a_failed_world_saves_is_no_good_state)
+{
+    run_half(without_files);
+    fram_scenario *s;
+    fram_world *w = world_in(without_files, place("first", hull, "20"), &s), *other;
+    assert_ok(fram_world_create(s, &other, &e), e);
+    assert_ok(fram_world_load(w, file, &e), e);
+    fram_body_id id;
+    fram_body_arrays arrays = {.room = 1, .id = &id};
+    ck_assert_int_gt(fram_world_bodies(w, FRAM_SELECT_FLOES, &arrays), 0);
+    const double push[3] = {1e30, 0, 0}, none[3] = {0, 0, 0};
+    assert_ok(fram_body_apply_wrench(w, id, push, none, &e), e);
+    assert_fails(fram_world_step(w, &e), e, FRAM_ERROR_SIMULATION, "went wrong");
+    void *bad;
+    size_t size;
+    assert_ok(fram_world_save_memory(w, &bad, &size, &e), e);
+    assert_ok(fram_world_load_memory(other, bad, size, &e), e);
+    ck_assert_uint_eq(fram_world_hash(other), fram_world_hash(w));
+    assert_fails(fram_world_step(other, &e), e, FRAM_ERROR_USAGE, "failed");
+    fram_data_free(ctx, bad);
+    assert_ok(fram_world_load(other, file, &e), e);
+    assert_ok(fram_world_step(other, &e), e);
+    assert_ok(fram_world_save(w, file, &e), e);
+    fram_run_result result;
+    assert_fails(resume(&result), e, FRAM_ERROR_INPUT, "");
+    fram_world_destroy(other);
+    close_world(w, s);
+    close_all();
+}
+END_TEST
+
 /* Where the list of files stands in a checkpoint, behind its size. */
 static char *list_in(char *data, size_t size)
 {
@@ -282,4 +335,5 @@ START_TEST(damaged_lists_of_files_are_refused)
 END_TEST
 
 TEST_MAIN("saved_states", a_world_goes_on_from_a_checkpoint_as_the_resumed_run, states_of_other_files_are_refused,
-          a_run_does_not_go_on_from_a_state_of_a_program, damaged_lists_of_files_are_refused)
+          a_run_does_not_go_on_from_a_state_of_a_program, states_of_other_versions_are_refused,
+          what_a_failed_world_saves_is_no_good_state, damaged_lists_of_files_are_refused)

@@ -21,9 +21,38 @@ START_TEST(statistics_of_a_channel)
     assert_absolute(s.greatest, 3, 0);
     assert_absolute(s.least, 0, 0);
     assert_relative(s.deviation, sqrt(0.5 * 14 / 3 - 1), 1e-12);
-    s = channel_statistics_of(time, value, N, 1e9);
-    ck_assert(s.mean == 0 && s.peaks == 0);
+    ck_assert(s.peak == s.greatest && s.significant_above == s.significant);
 }
 END_TEST
 
-TEST_MAIN("channel_statistics", statistics_of_a_channel)
+/* What was not measured is no number. */
+START_TEST(nothing_is_measured)
+{
+    const double time[] = {0, 1}, value[] = {3, 4};
+    for (int32_t count = 0; count <= 2; count += 2) {
+        channel_statistics s = channel_statistics_of(time, value, count, 1.5);
+        ck_assert(isnan(s.mean) && isnan(s.deviation) && isnan(s.least) && isnan(s.greatest) && isnan(s.peak));
+        ck_assert(isnan(s.significant) && isnan(s.significant_above) && s.peaks == 0);
+    }
+}
+END_TEST
+
+/* The peak is what is largest in size, with its sign; the significant one is on its side, wherever the mean is. */
+START_TEST(peaks_have_a_side)
+{
+    const double time[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, value[] = {2, -5, 3, -1, 3, -4, 3, 3, 3};
+    double turned[9];
+    channel_statistics s = channel_statistics_of(time, value, 9, 0);
+    ck_assert(s.mean > 0 && s.least == -5 && s.greatest == 3 && s.peak == -5);
+    ck_assert_int_eq(s.peaks, 3); /* -5, -1 and -4 */
+    assert_absolute(s.significant, -5, 1e-12);
+    assert_absolute(s.significant_above, 3, 1e-12);
+    for (int i = 0; i < 9; i++)
+        turned[i] = -value[i];
+    s = channel_statistics_of(time, turned, 9, 0);
+    ck_assert(s.mean < 0 && s.peak == 5 && s.peaks == 3);
+    assert_absolute(s.significant, 5, 1e-12);
+}
+END_TEST
+
+TEST_MAIN("channel_statistics", statistics_of_a_channel, nothing_is_measured, peaks_have_a_side)

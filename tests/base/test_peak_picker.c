@@ -65,4 +65,21 @@ START_TEST(ten_of_many)
 }
 END_TEST
 
-TEST_MAIN("peak_picker", peaks_stand_apart, flanks_and_starts, ten_of_many)
+/* What is left of a larger peak from before the start is none: 40 at 21 belongs to 51 at 18; 20 at 26 stands apart. */
+START_TEST(the_rest_of_an_earlier_peak)
+{
+    static const double value[30] = {[17] = 45, 51, 44, 39, 40, 30, 20, 10, 5, 20, 10};
+    peak_picker p;
+    peak_picker_init(&p, 4, 20);
+    feed(&p, value, 30);
+    ck_assert_int_eq(p.count, 1);
+    ck_assert(p.kept[0].value == 20 && p.kept[0].time == 26);
+    peak_picker_init(&p, 4, 20);
+    ck_assert(!peak_picker_rises(&p, 19, 5) && !peak_picker_keeps(&p));
+    ck_assert(peak_picker_rises(&p, 20, 6) && peak_picker_keeps(&p)); /* larger: the peak is after the start */
+    ck_assert_int_eq(peak_picker_ends(&p), 0);
+    ck_assert(!peak_picker_keeps(&p));
+}
+END_TEST
+
+TEST_MAIN("peak_picker", peaks_stand_apart, flanks_and_starts, ten_of_many, the_rest_of_an_earlier_peak)

@@ -69,7 +69,8 @@ refused vessel.speed "expected less than run.speed_limit" --set run.speed_limit=
 refused environment.current_speed "found 3 m/s" --set run.speed_limit=3 --set environment.current_speed=3
 
 # Springs: heave at sqrt(rho g A / m) = sqrt(g / draught) = 1.566 rad/s: a step of 0.64 s is told, 0.63 s is not.
-told "the buoyancy of the hull is too stiff for the step: 1.566 rad/s with the vessel's mass; take run.time_step under \
+told "the buoyancy of the vessel is too stiff for the step: 1.566 rad/s with the vessel's mass; take \
+run.time_step under \
 0.319 s" --set run.time_step=0.64 --set output.csv_interval=0.64
 silent --set run.time_step=0.63
 cat >moored.yaml <<'YAML'

@@ -31,6 +31,9 @@ expect 0 "$FRAM" field floes.geojson --bad repair --json
 same "$(value 'j["floes"], j["area_m2"], len(j["repaired"]), sum(j["histogram"]["floes"])')" "4 250 1 4" repaired
 expect 0 "$FRAM" field floes.geojson --bad drop
 says "2 floes of 3 rings" out
+says "floes of 100 to 100 m2" out
+expect 0 "$FRAM" field floes.geojson --bad drop --scale 3.59198
+says "floes of 1290.23 to 1290.23 m2" out
 says "left out: feature 2" out
 
 # Scaled, moved, cut at a window.

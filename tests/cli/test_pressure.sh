@@ -152,6 +152,45 @@ assert len(port) == 2, port
 assert all(p["area"] <= 1.5 ** 2 * 1.5 for p in twin)
 assert any(p["pressure_largest"] > 0 for p in twin) and any(p["pressure_largest"] > 0 for p in other)
 PYTHON
+# A run that was stopped, one that was cut short, and one whose end nothing tells but its rows.
+expect 0 "$FRAM" run plate.yaml -o part --until 2.8 --quiet
+expect 0 "$FRAM" pressure part -o half --panel 2 --quiet
+python3 -c '
+from tables import balance, loads, table
+balance(table("half/panels.csv"), loads("part", "", 0)[0])
+' || fail "the mean of a run that was stopped"
+expect 2 "$FRAM" pressure part -o none --from 2.9
+says "up to 2.8 s" err
+sed -i 's/"status": "stopped"/"status": "running"/' part/run.json
+head -n 126 part/series.csv >rows && printf '2.52,0.5' >>rows && mv rows part/series.csv
+expect 2 "$FRAM" pressure part -o none --from 2.6
+says "up to 2.5 s" err
+expect 0 "$FRAM" pressure part -o half --panel 2 --force --quiet
+rm part/series.csv
+expect 0 "$FRAM" pressure part -o half --panel 2 --force --to 0.2
+says "is not known" err
+# A vertical ship among floes that turn away: patches of which some points carry.  Behind the stem, where patches are
+# flat, panels bear hardly more than the ice does: the hull bends a little, and a piece of 1/16 is on one panel.
+cat >wedge.yaml <<'YAML'
+run: {duration: 8, time_step: 0.02}
+vessel:
+  mode: prescribed
+  x: -60
+  speed: 2
+  hull: {form: ship, length: 60, beam: 14, draught: 5, freeboard: 4, stem_angle_deg: 90, entrance_angle_deg: 40}
+ice: {source: voronoi, concentration: 0.8, thickness: 0.8, mean_floe_area: 200, crushing_strength: 2.0e6}
+domain: {x_min: -110, x_max: 30, y_min: -40, y_max: 40}
+output: {frame_interval: 0}
+YAML
+expect 0 "$FRAM" run wedge.yaml -o wedge --quiet
+expect 0 "$FRAM" pressure wedge -o wedged --panel 0.4 --quiet
+python3 - <<'PYTHON' || fail "pressures of patches of which some points carry"
+from tables import balance, loads, table
+panels = table("wedged/panels.csv")
+balance(panels, loads("wedge", "", 0)[0])
+worst = max((p["pressure_largest"], p["x"]) for p in panels if p["x"] < 28)
+assert 1e6 < worst[0] <= 2.2e6, worst
+PYTHON
 expect 2 "$FRAM" pressure run
 expect 2 "$FRAM" pressure run -o map
 expect 0 "$FRAM" pressure run -o map --force --to 0.1 --quiet

@@ -106,7 +106,8 @@ all_told towed.yaml vessel.hull.draught=0.5 vessel.speed=0.001 vessel.course_deg
 all_told path.yaml "vessel.path[1].time=1" -- "vessel.path[1]: (60, 0) m is reached with 60 m/s" \
     "the vessel and the ice move 0.86 of its thickness past each other in a step at 60 m/s"
 all_told path.yaml "vessel.path[1].time=3600" -- "vessel.path: it goes on to 3600 s, and the run ends at 60 s"
-all_told path.yaml "vessel.path[1].heading_deg=3600" -- "heading_deg: 3600 degrees are reached with 60 deg/s"
+all_told path.yaml "vessel.path[1].heading_deg=3600" -- \
+    "heading_deg: from 0 to 3600 degrees it turns with 60 deg/s, faster than vessels do"
 all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.steering_rate_deg=0.04 \
     vessel.propulsion.steering_x=27 vessel.propulsion.lookahead=0.1 vessel.propulsion.ram_distance=5000 \
     vessel.propulsion.beset_speed=5 vessel.propulsion.propeller_diameter=0.03 vessel.propulsion.propeller_z=-50 \

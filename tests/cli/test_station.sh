@@ -31,8 +31,9 @@ printf 'offset[m],tension[N]\n-20,1e5\n0,3e5\n20,6e5\n' >"$scratch/line.csv"
 for words in 'line 1 was let go' 'line 2 broke' 'thruster 1 failed' 'position lost'; do
     says "$words" err
 done
+expect 0 "$FRAM" run "$scratch/scene.yaml" -o "$scratch/whole" -q --set output.csv_interval=0.1
 python3 - "$scratch/run" <<'END' || fail "station.json"
-import json, sys
+import json, math, sys
 j = json.load(open(sys.argv[1] + "/station.json"))
 kinds = [e["kind"] for e in j["events"]]
 for kind in ("line_break", "line_release", "thruster_failure", "position_lost"):
@@ -51,6 +52,27 @@ assert abs(j["heading_deviation_deg"]["exceedance"] - share) < 1e-12, (j["headin
 use = max(float(r["line_4_tension[N]"]) for r in rows) / 9.0e5
 assert abs(j["lines"][3]["utilisation"] - use) < 1e-9, (j["lines"][3], use)
 assert j["lines"][3]["mean"] < 0.99 * j["lines"][3]["peak"], "nothing to tell mean and peak apart"
+def ends(key, column):
+    values = [float(r[column]) for r in rows]
+    side = -1 if -min(values) > max(values) else 1
+    found = [j[key][k] for k in ("least", "greatest", "peak")]
+    assert found == [min(values), max(values), side * max(side * v for v in values)], (key, found)
+    assert side * j[key]["significant"] > 0 and abs(j[key]["significant"]) <= abs(j[key]["peak"]), (key, j[key])
+    return side
+# The peak is the largest in size, on either side; heading limits count both.
+sides = {ends("offset_x_m", "offset_x[m]"), ends("offset_y_m", "offset_y[m]"),
+         ends("heading_deviation_deg", "heading_deviation[deg]")}
+assert sides == {-1, 1}, "nothing to tell the sides apart"
+# Energy and mean power are of the same time.
+power = [(float(r["time[s]"]), float(r["thruster_power[W]"])) for r in rows]
+energy = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(power, power[1:]))
+assert abs(j["thruster_power_W"]["energy_J"] / energy - 1) < 1e-9, (j["thruster_power_W"], energy)
+# A row has the deviation at its time, as the event at that time has it.
+event = next(e for e in j["events"] if e["kind"] == "heading_lost")
+(row,) = [r for r in csv.DictReader(open(sys.argv[1] + "/../whole/series.csv"))
+          if abs(float(r["time[s]"]) - event["time_s"]) < 1e-6]
+off = float(row["heading_deviation[deg]"])
+assert abs(math.radians(off) - event["value"]) < 1e-11, (off, event)
 assert j["thruster_power_W"]["energy_J"] > 0 and len(j["lines"]) == 4 and len(j["thrusters"]) == 2
 END
 head -n 1 "$scratch/run/series.csv" | grep -q 'hydrodynamic_force_x' || fail "series.csv lacks hydrodynamic_force_x"
@@ -69,6 +91,46 @@ case $("$FRAM" --version) in
     mv "$scratch/kept.png" "$scratch/run/station.png"
     ;;
 esac
+
+# The report's significant peak is that of station.json.
+expect 0 "$FRAM" report "$scratch/run" -q
+python3 - "$scratch/run" <<'END' || fail "the report tells another peak than station.json"
+import json, re, sys
+j = json.load(open(sys.argv[1] + "/station.json"))
+page = open(sys.argv[1] + "/report.html").read()
+for name, key in (("along X [m]", "offset_x_m"), ("along Y [m]", "offset_y_m"),
+                  ("heading [deg]", "heading_deviation_deg")):
+    table = page[page.index("deviation from the set"):]
+    row = re.search(r"<tr><td>" + re.escape(name) + r"</td>(.*?)</tr>", table, re.S)
+    told = [float(c) for c in re.findall(r"<td[^>]*>([^<]*)</td>", row[1])]
+    wanted = [j[key][k] for k in ("mean", "deviation", "least", "greatest", "significant")]
+    assert all(abs(a - b) <= 1e-3 * abs(b) for a, b in zip(told, wanted)), (name, told, wanted)
+END
+
+# A series without rows measures nothing: null, and no other channel is meant.
+expect 0 "$FRAM" run "$scratch/scene.yaml" -o none -q --set output.csv_interval=100
+python3 - none <<'END' || fail "station.json of a series without rows"
+import json, sys
+j = json.load(open(sys.argv[1] + "/station.json"))
+for key in ("offset_m", "heading_deviation_deg", "ice_load_N", "thruster_power_W"):
+    assert all(v is None for k, v in j[key].items() if k != "limit"), (key, j[key])
+assert j["offset_m"]["limit"] == 0.5 and j["offset_envelope_m"] is None and j["thrusters_saturated"] is None
+assert any(e["kind"] == "position_lost" for e in j["events"])
+for line in j["lines"]:
+    assert line["mean"] is line["peak"] is None
+    assert (line["utilisation"] is None) == (line["tension_then"] is None), line
+assert all(t["largest_use"] is None and t["mean"] is None for t in j["thrusters"])
+END
+expect 0 "$FRAM" report none -q
+says "Whether it kept its station was not measured" none/report.html
+grep -q "held its station\|No line of" none/report.html && fail "a station that was not measured was held"
+for command in extremes fatigue; do
+    expect 2 "$FRAM" $command none
+    says "the run's series has no rows" err
+    expect 2 "$FRAM" $command none --channel offset_x
+    says "the run's series has no rows" err
+done
+expect 0 "$FRAM" compare none none -o none.html -q
 
 # As many lines and thrusters as a scenario may have, to the last result; one line more is refused before the run.
 {
@@ -96,6 +158,41 @@ expect 0 "$FRAM" report many -q
 sed 's/lines: \[/&{direction_deg: 3, distance: 400, pretension: 1.0e5}, /' many.yaml >more.yaml
 expect 2 "$FRAM" check more.yaml --json
 same "$(value 'j["error"]["key"], j["error"]["line"]')" "vessel.mooring.lines 7" "place of a line too many"
+
+# The start at equilibrium names its vessel and tells how far it is turned; so does one that is sought in vain: lines
+# that pull no harder than 2 kN.
+cat >two.yaml <<'END'
+run: {duration: 0.2, time_step: 0.1, scale: 30}
+vessels:
+  - name: box
+    mode: free
+    heading_deg: 40
+    hull: {form: box, length: 100, beam: 20, draught: 7, freeboard: 4}
+    mooring:
+      depth: 100
+      turret: true
+      x: 30
+      lines: [{count: 4, spacing_deg: 90, distance: 600, pretension: 5e5, weight: 1000}]
+  - name: weak
+    mode: free
+    x: 400
+    hull: {form: box, length: 100, beam: 20, draught: 7, freeboard: 4}
+    mooring:
+      depth: 100
+      lines:
+        - {kind: table, count: 4, spacing_deg: 90, distance: 600,
+           table: [{offset: -10, tension: 1e3}, {offset: 0, tension: 2e3}, {offset: 10, tension: 2e3}]}
+ice: {source: none}
+domain: {boundary: open, x_min: -600, x_max: 1000, y_min: -600, y_max: 600}
+environment: {current_speed: 1, current_direction_deg: 60}
+END
+expect 0 "$FRAM" run two.yaml -o two
+holds 'vessel box begins at the equilibrium of its mooring, .* m off and turned by -160 degrees, to heading -120' err
+says 'warning: no equilibrium of the mooring of vessel weak was found' err
+expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=60
+holds 'vessel box begins .* m off; it is not stable: any touch turns the vessel from it, to heading -120' err
+expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=-120
+holds 'vessel box begins at the equilibrium of its mooring, .* m off$' err
 
 # A table of a scenario in another folder is named with that folder, its line and its key.
 mkdir tables

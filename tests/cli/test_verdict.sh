@@ -86,6 +86,13 @@ expect 0 "$FRAM" run ship.yaml -o brief --quiet --set run.duration=4
 verdict brief
 says "1 of 80 rows of the run are after the transient of 4 s" verdict.txt
 grep -q 'mean ice load' verdict.txt && fail "one row has a mean"
+expect 0 "$FRAM" run ship.yaml -o before --quiet --set run.duration=4 --set run.transient=4 \
+    --set output.csv_interval=0.3
+verdict before
+says "0 of 13 rows of the run are after the transient of 4 s" verdict.txt
+says "Whether it kept its station was not measured" verdict.txt
+grep -q 'held its station\|nan' verdict.txt before/station.json && fail "a station that was not measured was held"
+grep -q '>-*nan' before/report.html && fail "the report tells no numbers"
 
 # Open water, towed: nothing to hold, no ice to speak of.
 grep -v -e mooring -e depth -e lines -e count -e breaking -e spring -e station ship.yaml >tow.yaml

@@ -58,6 +58,28 @@ for format in "--vtk" "--netcdf" "--geojson --time=1"; do
     # shellcheck disable=SC2086 # words of a format
     "$FRAM" export "$run" $format --quiet || fail "the export $format failed"
 done
+# Hulls by name in GeoJSON, by number in cells for ParaView.
+python3 - "$run" <<'END' || fail "exports do not tell the vessels apart"
+import json, re, struct, sys, zlib
+features = json.load(open(sys.argv[1] + "/field-1.geojson"))["features"]
+names = {f["properties"]["name"]: f["geometry"]["coordinates"][0]
+         for f in features if f["properties"]["kind"] == "vessel"}
+assert list(names) == ["icebreaker", "ship", "tug"], list(names)
+assert not any("name" in f["properties"] for f in features if f["properties"]["kind"] != "vessel")
+file = open(sys.argv[1] + "/vtk/data/hull_000002.vtp", "rb").read()
+head, body = file.split(b'<AppendedData encoding="raw">\n_', 1)
+def array(name, kind):
+    at = int(re.findall(rb'Name="' + name + rb'"[^>]*offset="(\d+)"', head)[-1]) # of vertices first, of faces last
+    _, size, _, packed = struct.unpack_from("<4Q", body, at)
+    return struct.unpack(f"<{size // 4}{kind}", zlib.decompress(body[at + 32:at + 32 + packed]))
+vessel, points = array(b"vessel", "f"), array(b"Points", "f")
+corners = array(b"connectivity", "i")
+assert sorted(set(vessel)) == [1, 2, 3] and len(vessel) * 3 == len(corners), set(vessel)
+for number, outline in enumerate(names.values(), 1): # of t = 1 s, the frame's time
+    xs = [points[3 * corners[3 * i + k]] for i in range(len(vessel)) if vessel[i] == number for k in range(3)]
+    plan = [p[0] for p in outline]
+    assert abs(min(xs) - min(plan)) < 0.01 and abs(max(xs) - max(plan)) < 0.01, (number, min(xs), min(plan))
+END
 "$FRAM" compare "$run" "$run" -o "$scratch/c.html" --quiet || fail "the comparison failed"
 grep -q "tug: ice load along X, mean" "$scratch/c.html" || fail "the comparison has no row of the tug"
 

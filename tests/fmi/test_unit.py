@@ -222,7 +222,7 @@ class Units:
         one.set("thruster_2_order", 3e4)
         self.assertEqual(one.get("thruster_2_order"), [3e4])
         one.initialise(start=5.0, stop=5 + 4 * dt)
-        one.step(5 + one.get("offset_x")[0], dt)  # 0 before the first step
+        one.step(5 + one.get("ice_force_x")[0], dt)  # 0 before the first step
         for name in "EnterInitializationMode", "ExitInitializationMode":
             state = one.keep()
             arguments = () if self.version == "2" or name[1] == "x" else (False, c.c_double(0), c.c_double(0), False,

@@ -91,6 +91,7 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
 {
     ASSERT_REFUSED("", 1, "no header");
     ASSERT_REFUSED("time[s],x[m]\n", 1, "no column");
+    ASSERT_REFUSED("time[s],force[N],y,force [N]\n1,2,3,4\n", 1, "one column of this name, found columns 2 and 4");
     ASSERT_REFUSED("time[s],force[N]\n1,2\n1,two\n", 3, "expected a number");
     ASSERT_REFUSED("time[s],force[kN]\n1,2\n", 1, "expected the unit [N], found [kN]");
     ASSERT_REFUSED("time[s],force[N]\n1\n1,2\n", 2, "has 1 values");

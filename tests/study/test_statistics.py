@@ -206,6 +206,10 @@ class Statistics(unittest.TestCase):
         self.refused(("fatigue", self.write("time[s],x\n1,1\n", "one.csv"), "--channel", "x"), "one value alone")
         self.refused(("extremes", self.write("time,x\n0,1\n1\n", "short.csv"), "--channel", "x"), "short.csv:3:")
         self.refused(("extremes", self.write("", "empty.csv"), "--channel", "x"), "empty.csv:1:")
+        twice = self.write("time,x,y,x\n0,1,2,3\n1,2,3,4\n", "twice.csv")
+        self.refused(("extremes", twice, "--channel", "x"), "twice.csv:1: x:", "found columns 2 and 4")
+        times = self.write("time,x,time\n0,1,0\n1,2,1\n", "times.csv")
+        self.refused(("fatigue", times, "--channel", "x"), "times.csv:1: time:", "found columns 1 and 3")
         self.refused(("extremes", self.at / "none.csv", "--channel", "x"), "none.csv")
         self.refused(("extremes", self.at, "--channel", "x"), str(self.at))
 

@@ -190,8 +190,8 @@ START_TEST(equilibrium_under_a_steady_load)
     moor(&m, sample_line(0.3), 8);
     vec3 load = {2e5, -1e5, 1e6}, at = m.b.bodies.position[0];
     quat q = quat_identity();
-    double residual;
-    ck_assert(mooring_equilibrium(&m.lines, 0, 76, steady, &load, &at, &q, &residual));
+    mooring_balance left;
+    ck_assert(mooring_equilibrium(&m.lines, 0, 76, steady, &load, &at, &q, &left));
     ck_assert(at.x > 0.5 && at.y < -0.2);
     wrench pull = mooring_pull(&m.lines, 0, at, q);
     assert_absolute(pull.force.x, -2e5, 1);
@@ -199,7 +199,7 @@ START_TEST(equilibrium_under_a_steady_load)
     assert_absolute(pull.moment.z, -1e6, 100);
     /* Without lines there is none. */
     line_table none = {0};
-    ck_assert(!mooring_equilibrium(&none, 0, 76, steady, &load, &at, &q, &residual));
+    ck_assert(!mooring_equilibrium(&none, 0, 76, steady, &load, &at, &q, &left));
     unmoor(&m);
 }
 END_TEST

@@ -1,0 +1,180 @@
+/* station.png: what a run says about keeping station on one page. */
+#include "results/station_parts.h"
+
+#include "base/transcendental.h"
+#include "geometry/polygon.h"
+#include "io/page.h"
+#include "io/path.h"
+#include "io/text_buffer.h"
+#include "model/scenario_vessel.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A limit of more than so many largest offsets is not drawn. */
+#define FAR_LIMIT 6
+
+enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, CIRCLE = 73 };
+
+/* The first events of the vessel. */
+static void describe_events(context *ctx, const station_data *d, text_buffer *b)
+{
+    enum { TOLD = 8 };
+    const event_table *events = d->outcome->events;
+    int32_t count = 0;
+    for (int32_t i = 0; i < events->count; i++) {
+        if (events->vessel[i] != d->vessel || count++ >= TOLD)
+            continue;
+        char text[160];
+        station_tell_event(d, i, text, sizeof text);
+        text_format(ctx, b, "t = %.1f s: %s.\n", events->time[i], text);
+    }
+    if (count > TOLD)
+        text_format(ctx, b, "and %d more events.\n", (int)(count - TOLD));
+}
+
+static void describe(context *ctx, const station_data *d, text_buffer *b)
+{
+    const scenario *s = d->s;
+    double transient = s->run.transient;
+    if (station_first_row(d, transient) == d->rows) {
+        text_format(ctx, b, "Nothing was measured: series.csv has no row from %g s on.\n", transient);
+        describe_events(ctx, d, b);
+        return;
+    }
+    channel_statistics offset = station_statistics(d, &d->offset, transient),
+                       load = station_statistics(d, &d->load, transient);
+    channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
+    channel_statistics power = station_statistics(d, &d->column[POWER], transient);
+    text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient, s->output.averaging_window);
+    text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
+    double limit = automatic_or(station_limits(d)->offset_limit, HUGE_VAL);
+    if (limit < HUGE_VAL)
+        text_format(ctx, b, "; beyond the limit of %.3g m %.3g %% of the time.\n", limit,
+                    100 * station_exceedance(d, &d->offset, limit, transient));
+    else
+        text_add(ctx, b, "; no limit is set.\n");
+    text_format(ctx, b, "Ice load: mean %.4g kN, significant %.4g kN, peak %.4g kN.\n", load.mean * 1e-3,
+                load.significant * 1e-3, load.greatest * 1e-3);
+    if (d->lines > 0)
+        text_format(ctx, b, "Largest line tension: mean %.4g kN, peak %.4g kN.\n", tension.mean * 1e-3,
+                    tension.greatest * 1e-3);
+    if (station_lines_gone(d) > 0)
+        text_format(ctx, b, "%d of %d lines parted or were let go: tensions are those of the lines that were left.\n",
+                    (int)station_lines_gone(d), (int)d->lines);
+    if (d->thrusters > 0)
+        text_format(ctx, b,
+                    "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",
+                    power.mean * 1e-6, power.greatest * 1e-6, station_energy(d, transient) * 1e-9,
+                    100 * station_statistics(d, &d->column[SATURATED], transient).mean);
+    describe_events(ctx, d, b);
+}
+
+static void scale(double_array *values, double by)
+{
+    for (int32_t i = 0; i < values->count; i++)
+        values->data[i] *= by;
+}
+
+/* The track from its first row after the transient on, and round it the line that encloses it (its convex hull). */
+static fram_status enclose(context *ctx, const station_data *d, int32_t first, vec2_array *hull, double_array out[2],
+                           fram_error *error)
+{
+    vec2_array points = {0};
+    bool good = true;
+    for (int32_t i = first; i < d->rows && good; i++)
+        good = array_push(ctx, &points, vec2_make(d->column[OFFSET_X].data[i], d->column[OFFSET_Y].data[i]));
+    good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, hull);
+    for (int32_t i = 0; good && hull->count > 0 && i <= hull->count; i++) {
+        vec2 corner = hull->data[i % hull->count];
+        good = array_push(ctx, &out[0], corner.x) && array_push(ctx, &out[1], corner.y);
+    }
+    array_free(ctx, &points);
+    return good ? FRAM_OK : error_memory(error);
+}
+
+/* A channel over time; the palette's first colour is for backgrounds. */
+static chart_line over_time(const station_data *d, const char *name, int32_t column, int32_t place)
+{
+    chart_line line = chart_line_make(name, d->column[TIME].data, d->column[column].data, d->rows, true);
+    line.colour = place + 2;
+    return line;
+}
+
+static fram_status draw(context *ctx, const station_data *d, const char *text, const char *path, fram_error *error)
+{
+    const scenario *s = d->s;
+    double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(station_limits(d)->offset_limit, 0);
+    for (int i = 0; i < CIRCLE; i++) {
+        double a = 2 * PI * i / (CIRCLE - 1);
+        round_x[i] = limit * real_cos(a), round_y[i] = limit * real_sin(a);
+    }
+    int32_t n = d->rows;
+    int32_t first = station_first_row(d, s->run.transient);
+    double largest = 0;
+    vec2_array hull = {0};
+    double_array edge[2] = {0};
+    fram_status status = enclose(ctx, d, first, &hull, edge, error);
+    for (int32_t i = first; i < n; i++)
+        largest = fmax(largest, d->offset.data[i]);
+    /* A limit that is far away would leave nothing of the track to be seen. */
+    bool far = limit > FAR_LIMIT * largest;
+    char note[96];
+    snprintf(note, sizeof note,
+             far ? "offset of the watched point; the limit, %.3g m, lies outside"
+                 : "offset of the watched point; envelope of its track after %.4g s",
+             far ? limit : s->run.transient);
+    chart_line footprint[4] = {
+        chart_line_make("", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, first, false),
+        chart_line_make("track", d->column[OFFSET_X].data + first, d->column[OFFSET_Y].data + first, n - first, false),
+        chart_line_make("envelope", edge[0].data, edge[1].data, edge[0].count, false),
+        chart_line_make("limit", round_x, round_y, CIRCLE, true)};
+    const chart_line offsets[2] = {over_time(d, "along X", OFFSET_X, 0), over_time(d, "along Y", OFFSET_Y, 1)};
+    const chart_line heading = over_time(d, "heading", HEADING, 0);
+    const chart_line loads[2] = {over_time(d, "along X", LOAD_X, 0), over_time(d, "along Y", LOAD_Y, 1)};
+    const chart_line tension = over_time(d, "largest of all lines", TENSION, 0);
+    const chart_line power = over_time(d, "thruster power", POWER, 0);
+    const page_panel panels[5] = {
+        {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 4 : 3), 20, 60, 620, 560, true},
+        {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
+        {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
+        {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},
+        d->lines > 0
+            ? (page_panel){chart_make("Line tension", "", "time [s]", "tension [kN]", &tension, 1), 660, 840, 920, 270,
+                           false}
+            : (page_panel){chart_make("Power", "", "time [s]", "power [MW]", &power, 1), 660, 840, 920, 270, false},
+    };
+    char title[SCENARIO_TEXT_SIZE + 40];
+    bool named = scenario_names_vessels(s);
+    snprintf(title, sizeof title, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
+             (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, d->vessel).keys->name : "");
+    const page p = {title, panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
+    if (status == FRAM_OK)
+        status = page_write(ctx, &p, path, error);
+    array_free(ctx, &hull);
+    array_free(ctx, &edge[0]);
+    array_free(ctx, &edge[1]);
+    return status;
+}
+
+fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                               const char *folder, fram_error *error)
+{
+    station_data d = {.s = s, .vessel = vessel, .outcome = o};
+    text_buffer b = {0};
+    char path[PATH_ROOM];
+    fram_status status = station_data_read(ctx, &d, folder, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, vessel_file_name(s, vessel, "station", ".png").text, path, error);
+    if (status == FRAM_OK) {
+        describe(ctx, &d, &b);
+        scale(&d.column[LOAD_X], 1e-3);
+        scale(&d.column[LOAD_Y], 1e-3);
+        scale(&d.column[TENSION], 1e-3);
+        scale(&d.column[POWER], 1e-6);
+        status = b.failed ? error_memory(error) : draw(ctx, &d, b.data, path, error);
+    }
+    text_free(ctx, &b);
+    station_data_free(ctx, &d);
+    return status;
+}

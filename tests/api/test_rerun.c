@@ -1,0 +1,184 @@
+/* fram_pressure and fram_why compute a recorded run again: one that a program steered on the way is refused from there
+   on, before that it is told; rows far apart, rows that are not there, and states at the end tell as well. */
+#include "fram/live.h"
+#include "fram/results.h"
+#include "testing.h"
+
+static fram_error e;
+static fram_context *ctx;
+static char folder[200], run[240], map[240];
+
+/* A tow that presses a floe on a fixed one from the first second on. */
+static const char tow[] = "run: {duration: 3, time_step: 0.02}\n"
+                          "vessel:\n  mode: towed\n  x: -22\n  speed: 1\n  ramp: 0.1\n"
+                          "  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}\n"
+                          "ice:\n  source: floes\n  thickness: 0.5\n  floes:\n"
+                          "    - {length: 20, width: 20, x: 8.5}\n    - {length: 20, width: 20, x: 28.6, fixed: true}\n"
+                          "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}\n";
+
+static void open_all(void)
+{
+    const char *root = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/fram_rerun_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(run, sizeof run, "%s/run", folder);
+    snprintf(map, sizeof map, "%s/map", folder);
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+}
+
+static void close_all(void)
+{
+    char command[300];
+    fram_context_destroy(ctx);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+}
+
+/* The run, told another speed of the tow after `told` of 150 steps. */
+static void record(const char *const *overrides, int count, int told)
+{
+    fram_scenario *s;
+    fram_world *w;
+    fram_record_definition d;
+    fram_run_result result;
+    assert_ok(fram_scenario_parse(ctx, tow, NULL, overrides, count, &s, &e), e);
+    assert_ok(fram_world_create(s, &w, &e), e);
+    fram_record_default(&d);
+    d.folder = run;
+    d.force = true;
+    assert_ok(fram_world_record(w, &d, &e), e);
+    for (int i = 0; i < 150; i++) {
+        if (i == told)
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), 1.5, &e), e);
+        assert_ok(fram_world_step(w, &e), e);
+    }
+    assert_ok(fram_world_record_end(w, &result, &e), e);
+    fram_world_destroy(w);
+    fram_scenario_destroy(s);
+}
+
+static fram_status pressure(double from, double to)
+{
+    fram_pressure_definition d;
+    fram_pressure_default(&d);
+    d.output = map;
+    d.force = true;
+    d.panel = 2;
+    d.from = from;
+    d.to = to;
+    return fram_pressure(ctx, run, &d, &e);
+}
+
+static fram_status why(double time, int peak)
+{
+    fram_why_definition d;
+    char *text = NULL;
+    fram_why_default(&d);
+    d.time = time;
+    d.peak = peak;
+    fram_status status = fram_why(ctx, run, &d, &text, &e);
+    fram_text_free(ctx, text);
+    return status;
+}
+
+static void remove_rows(void)
+{
+    char path[300];
+    snprintf(path, sizeof path, "%s/series.csv", run);
+    ck_assert_int_eq(unlink(path), 0);
+}
+
+static const char *const no_checkpoints[] = {"output.checkpoint_interval=0"};
+
+START_TEST(steered)
+{
+    open_all();
+    record(no_checkpoints, 1, 75);
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    assert_fails(pressure(2, 0), e, FRAM_ERROR_INPUT, "up to t = 1.5 s it is the same");
+    ck_assert_str_eq(e.key, "position_x");
+    ck_assert_int_eq(access(map, F_OK), -1);
+    assert_ok(pressure(0, 1.5), e);
+    assert_fails(why(2.5, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    assert_ok(why(1, 0), e);
+    close_all();
+}
+END_TEST
+
+/* From a checkpoint behind the input it is the run again. */
+START_TEST(from_a_checkpoint)
+{
+    static const char *const each_second[] = {"output.checkpoint_interval=1"};
+    open_all();
+    record(each_second, 1, 75);
+    assert_fails(pressure(1.2, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    assert_ok(pressure(2, 0), e);
+    close_all();
+}
+END_TEST
+
+/* A row each second: what was told at 2.2 s shows in the row of 3 s alone. */
+START_TEST(rows_far_apart)
+{
+    static const char *const words[] = {"output.checkpoint_interval=0", "output.csv_interval=1"};
+    open_all();
+    record(words, 2, 110);
+    assert_fails(pressure(0, 2.5), e, FRAM_ERROR_INPUT, "at t = 3 s");
+    assert_ok(pressure(0, 2), e);
+    record(words, 2, -1);
+    assert_ok(pressure(0, 2.5), e);
+    assert_ok(why(2.2, 0), e);
+    close_all();
+}
+END_TEST
+
+/* Without a row behind the input the state at the end tells. */
+START_TEST(no_row_behind)
+{
+    static const char *const words[] = {"output.checkpoint_interval=0", "output.csv_interval=2"};
+    open_all();
+    record(words, 2, 125);
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "ended in another state");
+    record(words, 2, -1);
+    assert_ok(pressure(0, 0), e);
+    remove_rows();
+    assert_ok(pressure(0, 0), e);
+    close_all();
+}
+END_TEST
+
+START_TEST(without_memory)
+{
+    open_all();
+    record(no_checkpoints, 1, -1);
+    for (long n = 1;; n += 1 + n / 4) {
+        failing_memory memory;
+        fram_context_definition d;
+        fram_context *scarce = NULL;
+        fram_pressure_definition p;
+        (void)failing_context(&memory, n);
+        fram_context_default(&d);
+        d.memory = failing_memory_resize;
+        d.memory_user = &memory;
+        fram_pressure_default(&p);
+        p.output = map;
+        p.force = true;
+        p.panel = 4;
+        p.to = 0.2;
+        fram_status status = fram_context_create(&d, &scarce, &e);
+        if (status == FRAM_OK)
+            status = fram_pressure(scarce, run, &p, &e);
+        fram_context_destroy(scarce);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+    close_all();
+}
+END_TEST
+
+TEST_MAIN("rerun", steered, from_a_checkpoint, rows_far_apart, no_row_behind, without_memory)
