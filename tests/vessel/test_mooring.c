@@ -1,27 +1,11 @@
 /* Mooring lines on a vessel: pulls, symmetry, springs, turret, failure, equilibrium. */
+#include "sample_line.h"
 #include "supply_ship.h"
-#include "vessel/mooring.h"
 
 typedef struct moored {
     bare_vessel b;
     line_table lines;
 } moored;
-
-static line_definition sample_line(double direction)
-{
-    return (line_definition){.kind = LINE_CATENARY,
-                             .centre = {0, 0, -5},
-                             .fairlead_distance = 10,
-                             .direction = direction,
-                             .distance = 600,
-                             .depth = 105,
-                             .length = (double)NAN,
-                             .pretension = 4e5,
-                             .weight = 1000,
-                             .stiffness = 6e8,
-                             .breaking_load = 5e6,
-                             .release_time = HUGE_VAL};
-}
 
 static void moor(moored *m, line_definition d, int count)
 {

@@ -1,6 +1,6 @@
 /* Where a moored vessel comes to rest under a steady load: on a turret in current and wind, stable and unstable. */
+#include "sample_line.h"
 #include "supply_ship.h"
-#include "vessel/mooring.h"
 #include "vessel/plane_motion.h"
 
 #define LENGTH 76.2
@@ -17,17 +17,10 @@ static void moor(moored *m, double turret)
 {
     bare_vessel_open(&m->b);
     m->lines = (line_table){0};
-    line_definition d = {.kind = LINE_CATENARY,
-                         .turret = true,
-                         .centre = {turret, 0, -5},
-                         .distance = 600,
-                         .depth = 105,
-                         .length = (double)NAN,
-                         .pretension = 4e5,
-                         .weight = 1000,
-                         .stiffness = 6e8,
-                         .breaking_load = 5e6,
-                         .release_time = HUGE_VAL};
+    line_definition d = sample_line(0);
+    d.turret = true;
+    d.centre.x = turret;
+    d.fairlead_distance = 0;
     for (int i = 0; i < 5; i++) {
         d.direction = 0.1 + 2 * PI * i / 5;
         assert_ok(mooring_add_line(&m->b.ctx, &d, &m->b.vessels, &m->b.bodies, &m->lines, &m->b.error), m->b.error);
