@@ -51,10 +51,22 @@ function(fram_link_quickly program)
     endif()
 endfunction()
 
+# The interpreter itself: what is found may be a script that looks for it anew at every start, in ten times the time,
+# and tests start it thousands of times.
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(Python3_FOUND)
+    execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import sys; print(sys.executable)"
+                    OUTPUT_VARIABLE fram_python OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    cmake_path(GET fram_python PARENT_PATH fram_python_folder)
+endif()
+
 function(fram_test name label)
     add_test(NAME ${name} COMMAND ${ARGN} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_RETURN_CODE 77
                          ENVIRONMENT "${test_environment}")
+    if(Python3_FOUND)
+        set_tests_properties(${name} PROPERTIES ENVIRONMENT_MODIFICATION "PATH=path_list_prepend:${fram_python_folder}")
+    endif()
 endfunction()
 
 if(FRAM_TESTS)
@@ -93,7 +105,6 @@ if(FRAM_TESTS)
         fram_label_threads(${room}/${topic} "${source}" ${program})
     endforeach()
 
-    find_package(Python3 COMPONENTS Interpreter QUIET)
     file(GLOB scripts CONFIGURE_DEPENDS "tests/*/test_*.sh" "tests/*/test_*.py")
     foreach(script ${scripts})
         get_filename_component(group "${script}" DIRECTORY)
@@ -103,7 +114,7 @@ if(FRAM_TESTS)
         if(NOT script MATCHES "\\.py$")
             fram_test(${group}/${topic} ${group} bash "${script}")
         elseif(Python3_FOUND)
-            fram_test(${group}/${topic} ${group} "${Python3_EXECUTABLE}" "${script}")
+            fram_test(${group}/${topic} ${group} "${fram_python}" "${script}")
         else()
             message(STATUS "no Python: ${group}/${topic} is left out")
         endif()
