@@ -89,11 +89,13 @@ test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and thos
 # Statistics of many trials, and studies killed on the way: other tests of their rooms walk the same code, as those of
 # crushing do for its oracles.
 MANY_TRIALS = study/(worst|station|kills|annual_coverage|extremes_coverage|extremes_doubts)|ice/field_sized
+# What the command says of scenarios, one key after another: how they are read is walked by fuzzers under sanitizers.
+WORDS = idle_keys|sanity|sanity_gear|sanity_units|verdict|faults|vessel_list
 # Left to the release build: scripts around the program, browsers, and commands of which each has its own test here.
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
 	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
-		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/(bench|packed_field|tutorials|capability_met|effective))$$'
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads
@@ -110,7 +112,7 @@ test-bare: build/bare/build.ninja ## build without the optional libraries, and r
 	@cmake --build --preset bare -j$(JOBS) --target fram_command example_controller \
 		tests_io tests_api tests_results
 	@cd build/bare && $(CTEST) -L '^(io|cli|api|results)$$' \
-		-E '^(cli/(bench|packed_field|hull_files|check|effective|tracks|capability_met)|io/geojson)$$'
+		-E '^(cli/($(WORDS)|bench|packed_field|hull_files|check|effective|tracks|capability_met)|io/geojson)$$'
 
 lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
 	@tools/lint.sh

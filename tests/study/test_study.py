@@ -412,7 +412,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                      "100000000 runs")
 
     def test_ctrl_c_keeps_what_ended(self):
-        study = self.write("set: {run.duration: 20}\nseeds: 6\n")
+        study = self.write("set: {run.duration: %d}\nseeds: 6\n" % (4 if SHORT else 20))
         process = subprocess.Popen([FRAM, "study", study, "-o", self.at / "out", "--quiet"], stderr=subprocess.DEVNULL)
         end = time.monotonic() + 60
         while not list(self.at.glob("out/runs/*/*.row")) and time.monotonic() < end:
