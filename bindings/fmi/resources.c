@@ -101,7 +101,9 @@ unit_status unit_read_resources(unit *u, const char *token)
         return unit_fail(u, "resources/variables.txt cannot be read");
     status = read_variables(u, file, token);
     fclose(file);
-    if (status == UNIT_OK)
+    if (status == UNIT_OK) {
+        snprintf(u->token, sizeof u->token, "%s", token);
         unit_read_start(u);
+    }
     return status;
 }

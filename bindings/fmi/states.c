@@ -154,17 +154,19 @@ unit_status unit_state_set(unit *u, const void *state)
 
 typedef struct state_head {
     char mark[8];
+    char token[UNIT_TOKEN_ROOM];
     int64_t count, phase;
     double start, stop;
 } state_head;
-static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '2'};
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '3'};
 
 static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
 
-static void write_head(const kept_state *s, char *out)
+static void write_head(const unit *u, const kept_state *s, char *out)
 {
     state_head head = {.count = s->count, .phase = s->phase, .start = s->start, .stop = s->stop};
     memcpy(head.mark, mark, sizeof mark);
+    memcpy(head.token, u->token, sizeof head.token);
     memcpy(out, &head, sizeof head);
     for (int i = 0; i < s->count; i++) {
         const double values[2] = {s->variables[i].value, s->variables[i].told};
@@ -177,8 +179,9 @@ static bool read_head(const unit *u, const char *in, kept_state *s)
 {
     state_head head;
     memcpy(&head, in, sizeof head);
-    if (memcmp(head.mark, mark, sizeof mark) != 0 || head.count != u->count || head.phase < 0 ||
-        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start) || isnan(head.stop))
+    if (memcmp(head.mark, mark, sizeof mark) != 0 || memcmp(head.token, u->token, sizeof head.token) != 0 ||
+        head.count != u->count || head.phase < 0 || head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE ||
+        !isfinite(head.start) || isnan(head.stop))
         return false;
     s->start = head.start;
     s->stop = head.stop;
@@ -208,7 +211,7 @@ static unit_status save(unit *u, const void *state, void *out, size_t room, size
     *size = head_size(u) + bytes;
     bool fits = !out || room >= *size;
     if (out && fits) {
-        write_head(s, out);
+        write_head(u, s, out);
         memcpy((char *)out + head_size(u), data, bytes);
     }
     fram_data_free(u->context, data);

@@ -287,19 +287,28 @@ unit_status unit_reset(unit *u)
 
 /* ---- variables ---- */
 
+static unit_status fail_reference(unit *u, uint32_t reference, const char *what)
+{
+    char text[120];
+    snprintf(text, sizeof text, "value reference %u %s", (unsigned)reference, what);
+    return unit_fail(u, text);
+}
+
 unit_status unit_get(unit *u, const uint32_t references[], size_t count, double values[])
 {
     if (!u)
         return UNIT_ERROR;
     if (count > 0 && (!references || !values))
         return unit_fail(u, "value references or values are NULL");
-    if (!are_variables(u, references, count))
-        return unit_fail(u, "a value reference names no variable");
+    for (size_t i = 0; i < count; i++) {
+        if (!are_variables(u, &references[i], 1))
+            return fail_reference(u, references[i], "names no variable");
+    }
     for (size_t i = 0; i < count; i++) {
         const variable *v = &u->variables[references[i]];
         if (u->phase == UNIT_INTERMEDIATE && !v->is_looked_at)
-            return unit_fail(u,
-                             "a variable is read during a step that was not asked for when the unit was instantiated");
+            return fail_reference(u, references[i],
+                                  "is read during a step and was not asked for when the unit was instantiated");
         values[i] = v->kind == VARIABLE_TIME ? unit_time(u) : v->value;
     }
     return UNIT_OK;
@@ -317,9 +326,9 @@ unit_status unit_set(unit *u, const uint32_t references[], size_t count, const d
         return unit_fail(u, "value references or values are NULL");
     for (size_t i = 0; i < count; i++) {
         if (!are_variables(u, &references[i], 1) || u->variables[references[i]].kind != VARIABLE_INPUT)
-            return unit_fail(u, "a value reference names no input");
+            return fail_reference(u, references[i], "names no input");
         if (!isfinite(values[i]))
-            return unit_fail(u, "an input is not finite");
+            return fail_reference(u, references[i], "is an input, and the value is not finite");
     }
     for (size_t i = 0; i < count; i++)
         u->variables[references[i]].value = values[i];

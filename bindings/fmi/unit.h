@@ -39,16 +39,18 @@ typedef struct variable {
     bool is_looked_at; /* may be read while the importer looks on */
 } variable;
 
+enum { UNIT_TOKEN_ROOM = 40 }; /* {8-4-4-4-12 hexadecimal digits} */
 typedef struct kept_state kept_state;
 typedef struct unit unit;
 
 typedef void (*unit_any_function)(void); /* the importer's, of the type that its version gives it */
 
 struct unit {
-    int version;       /* of the standard: 2 or 3 */
-    char *name;        /* the importer's, of the instance */
-    char *folder;      /* resources */
-    void *environment; /* the importer's */
+    int version;                 /* of the standard: 2 or 3 */
+    char *name;                  /* the importer's, of the instance */
+    char *folder;                /* resources */
+    char token[UNIT_TOKEN_ROOM]; /* of the unit: scenario, files and variables */
+    void *environment;           /* the importer's */
     unit_any_function logger, update;
     void (*tell)(const unit *u, unit_status status, const char *category, const char *text); /* the face's, to logger */
     /* The face's: let the importer look on at `time` after an internal step.  While may_return, *return_at may be set

@@ -16,8 +16,8 @@
    Threads.  One world from one thread at a time.  A call on a world while another one steps, loads or records it, on
    another thread or from a callback of it, is refused where it is seen: FRAM_ERROR_USAGE with key "world", functions
    without a status as for NULL, and fram_world_destroy does nothing.  Worlds of one context may be used from different
-   threads at once when the context has one thread (the default) and its memory and log functions can be called so; the
-   C library's can.
+   threads at once when its memory and log functions can be called so; the C library's can.  The context's threads then
+   work for one of them at a time, and the others' work is done by the threads that called.
 
    After a failed step (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to step it
    again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the world

@@ -23,6 +23,7 @@ struct lent_threads {
     block_function fn;
     void *arg;
     int32_t blocks;
+    atomic_bool busy; /* somebody has a job: another caller does its own alone */
     atomic_bool open;
     atomic_int running;   /* calls from outside that have not returned */
     atomic_int left;      /* blocks that nobody took */
@@ -47,6 +48,7 @@ lent_threads *lent_threads_create(context *ctx, int threads, lent_function run, 
     lent->working = working;
     for (int i = 0; i < threads; i++)
         atomic_init(&working[i], false);
+    atomic_init(&lent->busy, false);
     atomic_init(&lent->open, false);
     atomic_init(&lent->running, 0);
     atomic_init(&lent->left, 0);
@@ -122,14 +124,8 @@ static bool make_room(context *ctx, lent_threads *lent, int32_t blocks)
     return true;
 }
 
-void lent_threads_run(context *ctx, block_function fn, void *arg, int32_t blocks)
+static void run_job(lent_threads *lent, block_function fn, void *arg, int32_t blocks)
 {
-    lent_threads *lent = ctx->lent;
-    if (blocks <= 1 || !make_room(ctx, lent, blocks)) {
-        for (int32_t block = 0; block < blocks; block++)
-            fn(arg, block, 0);
-        return;
-    }
     lent->fn = fn;
     lent->arg = arg;
     lent->blocks = blocks;
@@ -148,6 +144,20 @@ void lent_threads_run(context *ctx, block_function fn, void *arg, int32_t blocks
         if (take_block(lent, block))
             fn(arg, block, 0);
     }
+}
+
+void lent_threads_run(context *ctx, block_function fn, void *arg, int32_t blocks)
+{
+    lent_threads *lent = ctx->lent;
+    bool has_threads = blocks > 1 && !atomic_exchange(&lent->busy, true);
+    if (has_threads && make_room(ctx, lent, blocks)) {
+        run_job(lent, fn, arg, blocks);
+    } else {
+        for (int32_t block = 0; block < blocks; block++)
+            fn(arg, block, 0);
+    }
+    if (has_threads)
+        atomic_store(&lent->busy, false);
 }
 
 fram_status lent_threads_check(const context *ctx, fram_error *error)

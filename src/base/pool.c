@@ -1,5 +1,8 @@
 /* Threads that share out the blocks of one job at a time.  Knows no work of its own.
 
+   Whoever sets `busy` has the threads until its job is done.  A job of another caller meanwhile, for another world of
+   the context, is done by that caller alone.
+
    Invariants.  `ticket` holds the job's number in its upper half and the blocks not yet taken in its lower half; a
    block is taken by decreasing it.  `unfinished` counts the blocks of the job not yet credited as done; a thread
    credits its blocks after its last one, and the caller does not return before all are credited.  Hence while a
@@ -36,6 +39,7 @@ struct pool {
     atomic_int sleepers;        /* workers that wait for `work` or are about to */
     atomic_bool caller_waiting; /* the caller waits for `done` or is about to */
     atomic_bool stop;
+    atomic_bool busy; /* somebody has a job */
     /* The job: written while `unfinished` is 0, published by `ticket`. */
     block_function fn;
     void *arg;
@@ -148,6 +152,7 @@ pool *pool_create(context *ctx, int threads)
     atomic_init(&p->sleepers, 0);
     atomic_init(&p->caller_waiting, false);
     atomic_init(&p->stop, false);
+    atomic_init(&p->busy, false);
     pthread_mutex_init(&p->mutex, NULL);
     pthread_cond_init(&p->work, NULL);
     pthread_cond_init(&p->done, NULL);
@@ -230,7 +235,7 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
         return;
     }
     pool *p = ctx->threads;
-    if (!p || p->threads == 1 || blocks <= 1) {
+    if (!p || p->threads == 1 || blocks <= 1 || atomic_exchange(&p->busy, true)) {
         for (int32_t block = 0; block < blocks; block++)
             fn(arg, block, 0);
         return;
@@ -244,6 +249,7 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
     workers_wake(p, blocks);
     blocks_run(p, 0);
     job_await(p);
+    atomic_store(&p->busy, false);
 }
 
 /* ---- what is looked for ---- */

@@ -15,8 +15,8 @@ pool *pool_create(context *ctx, int threads);
 void pool_free(context *ctx, pool *p);
 int pool_threads(const pool *p);
 /* Run fn for block 0..blocks-1 and wait.  thread is 0..context_threads-1 (for per-thread scratch).  On the program's
-   threads where it lent some; with neither these nor ctx->threads, or a single block, on the caller.  Not re-entrant.
- */
+   threads where it lent some; with neither these nor ctx->threads, a single block, or while another thread has a job
+   of the same context, on the caller, as thread 0.  Not re-entrant. */
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
 /* How many of `count` things make a block: `most`, or so few in a small job that there are about sixteen blocks, but a
    multiple of `least`.  By the count alone. */

@@ -136,7 +136,9 @@ static fram_status name_of(packer *p, fram_error *error)
     if (!letter || length >= sizeof p->names.identifier || strcmp(stem + length, ".fmu") != 0)
         return error_set(
             error, FRAM_ERROR_USAGE, p->o->output, 0, "output",
-            "expected NAME.fmu, where NAME is a letter and then letters, digits and _; it names the model");
+            "expected NAME.fmu, where NAME, which names the model, is a letter and then letters, digits and _, "
+            "at most %d in all",
+            (int)sizeof p->names.identifier - 1);
     memcpy(p->names.identifier, stem, length);
     return FRAM_OK;
 }

@@ -79,6 +79,10 @@ START_TEST(units_are_written_and_mistakes_refused)
         d.output = bad[i];
         ck_assert_msg(fram_fmu(s, &d, NULL, &e) == FRAM_ERROR_USAGE, "%s", bad[i]);
     }
+    memset(command, 'a', 80);
+    snprintf(command + 80, sizeof command - 80, ".fmu");
+    d.output = command;
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "at most 79");
     d.output = "/no/such/folder/ship.fmu";
     ck_assert_int_ne(fram_fmu(s, &d, NULL, &e), FRAM_OK);
     fram_scenario_destroy(s);

@@ -159,6 +159,58 @@ START_TEST(any_task_system_gives_the_same_bits)
 }
 END_TEST
 
+/* ---- several worlds of one context, each on a thread of its own ---- */
+
+static void *step_world(void *world)
+{
+    for (int i = 0; i < STEPS; i++) {
+        if (fram_world_step(world, NULL) != FRAM_OK)
+            return NULL;
+    }
+    return world;
+}
+
+static void step_side_by_side(int threads, fram_parallel_function parallel, void *user, uint64_t expected)
+{
+    enum { WORLDS = 4 };
+    fram_context *ctx;
+    fram_scenario *s;
+    fram_world *w[WORLDS];
+    pthread_t thread[WORLDS];
+    fram_context_definition d;
+    fram_context_default(&d);
+    d.threads = threads;
+    d.parallel = parallel;
+    d.parallel_user = user;
+    assert_ok(fram_context_create(&d, &ctx, &e), e);
+    assert_ok(fram_scenario_parse(ctx, scene, NULL, NULL, 0, &s, &e), e);
+    for (int i = 0; i < WORLDS; i++)
+        assert_ok(fram_world_create(s, &w[i], &e), e);
+    for (int i = 0; i < WORLDS; i++)
+        ck_assert_int_eq(pthread_create(&thread[i], NULL, step_world, w[i]), 0);
+    for (int i = 0; i < WORLDS; i++) {
+        void *good;
+        pthread_join(thread[i], &good);
+        ck_assert_ptr_nonnull(good);
+        ck_assert_uint_eq(fram_world_hash(w[i]), expected);
+        fram_world_destroy(w[i]);
+    }
+    fram_scenario_destroy(s);
+    fram_context_destroy(ctx);
+}
+
+START_TEST(worlds_of_a_context_may_be_stepped_side_by_side)
+{
+    uint64_t own = hash_with(1, NULL, NULL);
+    program_pool p;
+    step_side_by_side(1, NULL, NULL, own);
+    step_side_by_side(2, NULL, NULL, own);
+    start_pool(&p, 2);
+    step_side_by_side(2, run_on_pool, &p, own);
+    stop_pool(&p);
+}
+END_TEST
+
 /* ---- misuse ---- */
 
 typedef struct breaker {
@@ -235,5 +287,5 @@ START_TEST(the_definition_is_checked)
 }
 END_TEST
 
-TEST_MAIN("tasks", any_task_system_gives_the_same_bits, a_broken_contract_is_refused_and_harms_nothing,
-          the_definition_is_checked)
+TEST_MAIN("tasks", any_task_system_gives_the_same_bits, worlds_of_a_context_may_be_stepped_side_by_side,
+          a_broken_contract_is_refused_and_harms_nothing, the_definition_is_checked)

@@ -146,6 +146,27 @@ START_TEST(a_single_block_runs_on_the_caller)
 }
 END_TEST
 
+static void *run_jobs(void *arg)
+{
+    for (int i = 0; i < 100; i++)
+        run_and_check(arg, i % 40, -1);
+    return NULL;
+}
+
+START_TEST(several_threads_may_have_jobs_at_a_time)
+{
+    enum { OTHERS = 3 };
+    context ctx = pool_context(3);
+    pthread_t others[OTHERS];
+    for (int i = 0; i < OTHERS; i++)
+        ck_assert_int_eq(pthread_create(&others[i], NULL, run_jobs, &ctx), 0);
+    run_jobs(&ctx);
+    for (int i = 0; i < OTHERS; i++)
+        pthread_join(others[i], NULL);
+    pool_free(&ctx, ctx.threads);
+}
+END_TEST
+
 START_TEST(a_pool_without_memory_is_null)
 {
     for (long n = 1;; n++) {
@@ -285,5 +306,6 @@ END_TEST
 
 TEST_MAIN("pool", what_is_picked_is_ascending_on_any_threads, the_least_is_found_on_any_threads, every_block_runs_once,
           many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
-          small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
+          small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller,
+          several_threads_may_have_jobs_at_a_time, a_pool_without_memory_is_null,
           a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)

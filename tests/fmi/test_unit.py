@@ -178,12 +178,12 @@ class Units:
         instance.step(0, 3 * dt * (1 + 1e-9))
         for now in (0, 2.9 * dt, nan, float("inf")):
             self.refused(instance, lambda time=now: instance.step(time, dt, status=ERROR), "stands at")
-        self.refused(instance, lambda: instance.set("wind_x", nan, status=ERROR), "not finite")
+        self.refused(instance, lambda: instance.set("wind_y", nan, status=ERROR), "reference 1 is an input")
         self.refused(instance, lambda: instance.set("ice_force_x", 1, status=ERROR), "no input")
         for number in (len(self.unit.variables), 10**6, 2**32 - 1):
             self.unit.reference["nothing"] = number
-            self.refused(instance, lambda: instance.set("nothing", 1, status=ERROR), "no input")
-            self.refused(instance, lambda: instance.get("nothing", status=ERROR), "no variable")
+            self.refused(instance, lambda: instance.set("nothing", 1, status=ERROR), f"{number} names no input")
+            self.refused(instance, lambda: instance.get("nothing", status=ERROR), f"{number} names no variable")
 
         def wind():
             instance.set("wind_x", 1e9)
@@ -209,6 +209,24 @@ class Units:
         self.assertFalse(self.unit.instance(token="{of another}").c)
         self.assertFalse(self.unit.instance(where="/no/such/folder").c)
         self.assertFalse(self.unit.instance(name=" ").c)
+
+    def test_states_of_another_unit_are_refused(self):
+        """The same scenario and as many variables, but others."""
+        units = []
+        for number, (told, read) in enumerate((("wind_x", "position_x"), ("wind_y", "velocity_x"))):
+            path = self.folder / f"other_{number}.fmu"
+            self.fram("fmu", self.scene, "-o", path, "-q", "--fmi", self.version, "--in", told, "--out", read)
+            units.append(Unit(path, self.folder / path.stem))
+        one, two = (unit.instance().initialise() for unit in units)
+        one.set("wind_x", 17)
+        one.step(0, self.unit.step_size)
+        data, before = one.bytes_of(one.keep()), two.get("wind_y", "velocity_x")
+        two.from_bytes(data, status=ERROR)
+        self.assertIn("none of this unit", two.told[-1][2])
+        self.assertEqual(two.get("wind_y", "velocity_x"), before)
+        one.back(one.from_bytes(data))
+        one.free()
+        two.free()
 
     def test_the_order_of_calls(self):
         one, dt = self.unit.instance(), self.unit.step_size

@@ -5,18 +5,22 @@ values that cannot be, damaged folders of runs, orders of calls of the environme
 import copy
 import gc
 import json
+import os
 import pathlib
 import pickle
 import shutil
+import signal
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import package  # noqa: F401  first: it finds the package `fram`
 import numpy as np
 
 import fram
+from fram import _library
 
 TOWED = """
 run: {duration: 0.4, time_step: 0.02}
@@ -31,6 +35,10 @@ vessel: {mode: free, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}, thr
 ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
 domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 """
+PACKED = FREE.replace(
+    "{concentration: 0.3, mean_floe_area: 64,",
+    "{source: packed, concentration: 0.85, populations: [{size: power, diameter_min: 6, diameter_max: 20}],"
+).replace("x_max: 64", "x_max: 2000")
 
 
 def towed(**more):
@@ -78,6 +86,67 @@ class Worlds(unittest.TestCase):
         world._calls.pop()
         world.close()
 
+    def test_worlds_of_one_context_in_threads(self):
+        alone = fram.Scenario.from_text(FREE).world()
+        alone.step(30)
+        scenario = fram.Scenario.from_text(FREE, context=fram.Context(threads=2))
+        hashes = []
+
+        def work():
+            world = scenario.world()
+            world.step(30)
+            hashes.append(world.hash)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(hashes, [alone.hash] * 4)
+
+    def test_what_threads_make_and_leave_is_destroyed_once(self):
+        scenario = fram.Scenario.from_text(FREE, overrides={"ice.source": "none"})
+        address, before = _library._address(scenario._pointer), len(_library._made)
+
+        def work():
+            for _ in range(15):
+                with scenario.world() as world:
+                    world.copy()
+
+        interval = sys.getswitchinterval()
+        self.addCleanup(sys.setswitchinterval, interval)
+        sys.setswitchinterval(1e-6)
+        threads = [threading.Thread(target=work) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        gc.collect()
+        self.assertEqual((_library._users[address], len(_library._made)), ([], before))
+
+    def test_interrupts_are_seen_while_the_library_works(self):
+        """Ctrl-C ends what would take minutes."""
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        with tempfile.TemporaryDirectory() as folder:
+
+            def interrupt_the_run():
+                while not (pathlib.Path(folder) / "series.csv").exists():
+                    time.sleep(0.01)
+                os.kill(os.getpid(), signal.SIGALRM)
+
+            other = threading.Thread(target=interrupt_the_run)
+            other.start()
+            with self.assertRaises(KeyboardInterrupt):
+                fram.Scenario.from_text(FREE, overrides={"run.duration": 50000}).run(folder)
+            other.join()
+            self.assertEqual(fram.open(folder).info["status"], "interrupted")
+        packed = fram.Scenario.from_text(PACKED)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with self.assertRaises(KeyboardInterrupt):
+            packed.world()
+        self.assertGreater(len(packed.replaced({"domain.x_max": 64, "ice.concentration": 0.3}).world().bodies()), 10)
+
     def test_copies_and_pickles(self):
         world = towed().world()
         world.step(5)
@@ -109,12 +178,20 @@ class Worlds(unittest.TestCase):
             self.assertEqual(caught.exception.key, "force")
         with self.assertRaises(fram.InputError):
             world.apply_wrench(world.vessel, (0, 0, 0), moment=(1,))
-        with self.assertRaisesRegex(fram.InputError, r"shape \(2, 2\)"):
-            world.set_path([1, 2], [[1, 2], [3, 4]])
+        for places in (np.zeros((2, 2)), np.zeros((3, 2)), np.zeros(6)):  # x, y and heading are the columns
+            with self.assertRaisesRegex(fram.InputError, r"shape \("):
+                world.set_path([1, 2], places)
+        for until in (0, -1, float("nan"), float("inf")):
+            with self.assertRaises(fram.UsageError) as caught:
+                world.scenario.run("/no/such/folder", until=until)
+            self.assertEqual(caught.exception.key, "until")
         with self.assertRaisesRegex(fram.InputError, "empty text"):
             world.save("")
         with self.assertRaisesRegex(fram.InputError, "state belongs to another scenario"):
             world.from_bytes(towed(overrides="run.seed=8").world().to_bytes())
+        state = world.to_bytes()
+        for form in (bytearray(state), memoryview(state), np.frombuffer(state, np.uint8).reshape(1, -1)):
+            world.from_bytes(form)
         self.assertEqual(towed(overrides="run.seed=8").hash, towed(overrides={"run.seed": np.int64(8)}).hash)
         self.assertEqual(towed(overrides={"ice.breakable": np.bool_(True)}).hash,
                          towed(overrides={"ice.breakable": True}).hash)

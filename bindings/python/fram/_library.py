@@ -11,6 +11,7 @@ import ctypes.util
 import os
 import pathlib
 import re
+import threading
 
 import cffi
 
@@ -131,12 +132,14 @@ def new_error():
 
 
 # What the library made for Python: address -> (how it is destroyed, addresses of what it needs, Python objects that it
-# uses), and how many need each.
+# uses), and an item for each that needs it.
 # Python's collector destroys the members of a cycle in any order, a world after its context too; hence nothing is
-# destroyed before what needs it, whatever the order in which it is asked for.
+# destroyed before what needs it, whatever the order in which it is asked for.  Threads take turns; the collector comes
+# at any moment, in the middle of these functions too, and finds what they have in order.
 _made: dict[int, tuple] = {}
-_users: dict[int, int] = {}
+_users: dict[int, list[None]] = {}
 _unwanted: dict[int, object] = {}
+_turn = threading.RLock()
 _gone: list = []  # at the end of Python: what the library may still call
 
 
@@ -146,26 +149,34 @@ def _address(pointer) -> int:
 
 def _end(pointer) -> None:
     address = _address(pointer)
-    if address not in _made:
-        return
-    if _users.get(address, 0) > 0:
+    with _turn:
+        if address not in _made:
+            return
         _unwanted[address] = pointer
+        if _users.get(address):
+            return
+        found = _made.pop(address, None)
+        _unwanted.pop(address, None)
+        _users.pop(address, None)
+    if found is None:
         return
-    destroy, needs, _used = _made.pop(address)
-    _unwanted.pop(address, None)
+    destroy, needs, _used = found
     destroy(pointer)
     for need in needs:
-        _users[need] -= 1
-        if _users[need] == 0 and need in _unwanted:
-            _end(_unwanted[need])
+        with _turn:
+            _users[need].pop()
+            last = None if _users[need] else _unwanted.get(need)
+        if last is not None:
+            _end(last)
 
 
 def owned(pointer, destroy, *needs, uses=None):
     """A pointer that is destroyed when Python has no more use of it, and before what it needs and uses is."""
     addresses = tuple(_address(need) for need in needs)
-    for address in addresses:
-        _users[address] = _users.get(address, 0) + 1
-    _made[_address(pointer)] = (destroy, addresses, uses)
+    with _turn:
+        for address in addresses:
+            _users.setdefault(address, []).append(None)
+        _made[_address(pointer)] = (destroy, addresses, uses)
     return ffi.gc(pointer, _end)
 
 

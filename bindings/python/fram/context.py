@@ -36,6 +36,13 @@ class Context:
         if isa is not None:
             self._keep.append(ffi.new("char[]", isa.encode()))
             definition.isa = self._keep[-1]
+
+        @ffi.callback("void(void *, const char *, double, double)", onerror=keep_exception)
+        def look(_user, _what, _done, _total):
+            """Python sees Ctrl-C when it comes to its own code: here, while the library is at work for long."""
+
+        self._keep.append(look)
+        definition.work = look
         if log is not None:
             @ffi.callback("void(void *, fram_log_level, const char *)", onerror=keep_exception)
             def forward(_user, level, text):

@@ -7,7 +7,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import bytes_of, ffi, lib, new_error, owned, text_of
+from ._library import UsageError, bytes_of, ffi, lib, new_error, owned, text_of
 from .context import Context, default_context
 
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
@@ -142,21 +142,24 @@ class Scenario:
             progress: Optional[Callable[[float, float], None]] = None) -> "Run":
         """Run to the end, or to the simulated time `until`, with all results in `folder`, as `fram run` does.
 
-        progress: called as ``progress(time, end)`` a few times a second; an exception in it ends the run with a
-        checkpoint and is raised.
+        progress: called as ``progress(time, end)`` a few times a second; an exception in it, or Ctrl-C at any time,
+        ends the run with a checkpoint and is raised.
         """
         from .runs import open_run
         definition = ffi.new("fram_run_definition *")
         lib.fram_run_default(definition, ffi.sizeof("fram_run_definition"))
         name = ffi.new("char[]", bytes_of(folder))
         definition.folder, definition.force, definition.stop = name, force, self._context._stop
+        if until is not None and not 0 < until < float("inf"):
+            raise UsageError("usage", f"expected a finite time after 0 s, found {until}", key="until")
         definition.until = 0 if until is None else until
-        if progress is not None:
-            @ffi.callback("void(void *, const fram_progress *)", onerror=self._context._keep_exception)
-            def forward(_user, told):
+
+        @ffi.callback("void(void *, const fram_progress *)", onerror=self._context._keep_exception)
+        def forward(_user, told):
+            if progress is not None:  # without it Python still looks for Ctrl-C here
                 progress(told.time, told.end)
 
-            definition.progress = forward
+        definition.progress = forward
         error = new_error()
         self._context._check(lib.fram_run(self._pointer, definition, ffi.NULL, error, 0), error)
         return open_run(folder)

@@ -439,7 +439,7 @@ class World:
         """
         t = np.ascontiguousarray(times, float).reshape(-1)
         p = np.ascontiguousarray(places, float)
-        if p.size != 3 * len(t):
+        if p.shape != (len(t), 3) and (p.size > 0 or len(t) > 0):
             raise InputError("input", f"expected x, y and heading of {len(t)} places, as many as times; found an array "
                              f"of shape {p.shape}", key="places")
         self._call(lib.fram_world_set_path, vessel, ffi.cast("double *", t.ctypes.data),
@@ -564,7 +564,8 @@ class World:
 
     def from_bytes(self, state: bytes) -> None:
         """Take over a state of the same scenario and files; InputError, and nothing changes, for any other."""
-        self._call(lib.fram_world_load_memory, ffi.from_buffer(state), len(state))
+        data = ffi.from_buffer(state)
+        self._call(lib.fram_world_load_memory, data, len(data))
 
     def save(self, path: Union[str, os.PathLike]) -> None:
         """The whole state into a file."""
