@@ -22,7 +22,8 @@ typedef struct fram_study_extent {
     int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow; those of conditions that are
                                       the same scenario are made once */
     double run_seconds;            /* processor time of one run, told by steps of the first and the last condition on
-                                      this machine, some seconds of computing into it, or at the end of a shorter run */
+                                      this machine, some seconds of computing into it, or at the end of a shorter run;
+                                      0.1 s of it for the program */
     double run_bytes;              /* on disk, that stay of a run */
     double
         run_seconds_packed; /* the same if the ice were packed all the time, or went on breaking: jams cost as much */

@@ -55,6 +55,8 @@ void fram_study_destroy(fram_study *s)
 /* Computing before the looks at a run [s]: at its start and on its way. */
 enum { LOOKS = 2 };
 static const double looks_after[LOOKS] = {0, 5};
+/* A program that starts, reads, and writes what a run leaves: what a run of no steps takes [s]. */
+#define PROGRAM_SECONDS 0.1
 /* A number of series.csv with its comma, and of a row of a summary. */
 enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame and in the last checkpoint, of the pictures of a run,
@@ -113,8 +115,8 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
         double steps = ceil(one.run.duration / one.run.time_step);
         double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
-        out->run_seconds += build + steps * late.time;
-        out->run_seconds_packed += build + steps * fmax(packed_step_time(&early, &late), breaking);
+        out->run_seconds += PROGRAM_SECONDS + build + steps * late.time;
+        out->run_seconds_packed += PROGRAM_SECONDS + build + steps * fmax(packed_step_time(&early, &late), breaking);
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, late.floes);
         out->record_bytes += record_bytes_of(&one, steps, late.floes);
         out->seen = fmin(out->seen, (double)(found[1].at + found[1].steps) / steps);
@@ -235,11 +237,11 @@ static fram_status check_slurm_word(const char *key, const char *word, fram_erro
 static fram_status check_slurm(const fram_study_definition *d, fram_error *error)
 {
     bool slurm = d->on && strcmp(d->on, "slurm") == 0;
-    bool asked =
-        d->slurm_partition || d->slurm_time || d->slurm_option_count > 0 || d->slurm_runs_per_task > 0 || d->dry_run;
+    bool asked = d->slurm_partition || d->slurm_time || d->slurm_option_count > 0 || d->slurm_runs_per_task > 0 ||
+                 d->slurm_poll > 0 || d->dry_run;
     if (!slurm && asked)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
-                         "partition, time, runs a task, options of sbatch and a dry run are for slurm alone");
+                         "partition, time, runs a task, options of sbatch, queries and a dry run are for slurm alone");
     fram_status status = check_slurm_word("slurm_partition", d->slurm_partition, error);
     if (status == FRAM_OK)
         status = check_slurm_word("slurm_time", d->slurm_time, error);

@@ -282,11 +282,11 @@ int command_study(const command_row *self, int argc, char **argv)
         {"--on", NULL, OPTION_TEXT, &d.on, "WHERE", "local, or slurm: job arrays over a shared folder (local)"},
         {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "Slurm partition (the cluster's default)"},
         {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "time limit of a task, as for sbatch: 1:00:00"},
-        {"--runs-per-task", NULL, OPTION_INTEGER, &d.slurm_runs_per_task, "N",
+        {"--runs-per-task", NULL, OPTION_COUNT, &d.slurm_runs_per_task, "N",
          "runs per task, one after another (so that there are at most 200 tasks)"},
         {"--sbatch", NULL, OPTION_LIST, &sbatch, "OPTION",
          "further option of sbatch, such as --account=ice; may be repeated"},
-        {"--poll", NULL, OPTION_REAL, &d.slurm_poll, "T", "seconds between queries to the scheduler (30)"},
+        {"--poll", NULL, OPTION_SIZE, &d.slurm_poll, "T", "seconds between queries to the scheduler (30)"},
         {"--dry-run", NULL, OPTION_FLAG, &d.dry_run, NULL, "print the script for Slurm, submit nothing"},
         {"--retry", NULL, OPTION_FLAG, &d.retry, NULL, "repeat failed runs"},
     };
@@ -307,6 +307,8 @@ int command_study(const command_row *self, int argc, char **argv)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
     if (d.jobs < 0 || d.jobs > 4096)
         return answer_usage(&common, "--jobs", "expected 0 to 4096 processes");
+    if (d.slurm_poll > 3600)
+        return answer_usage(&common, "--poll", "expected at most 3600 s");
     fram_context *context = NULL;
     work_view work;
     /* A study that runs has a line of its own for how far it is. */

@@ -70,13 +70,14 @@ static void put_text(netcdf_file *f, int variable, const char *name, const char 
 int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,
                     const char *units, const char *meaning)
 {
-    static const nc_type types[] = {[NETCDF_F64] = NC_DOUBLE, [NETCDF_F32] = NC_FLOAT, [NETCDF_I32] = NC_INT};
+    static const nc_type types[] = {
+        [NETCDF_F64] = NC_DOUBLE, [NETCDF_F32] = NC_FLOAT, [NETCDF_I32] = NC_INT, [NETCDF_TEXT] = NC_STRING};
     int variable = 0;
     if (f->failed)
         return variable;
     keep(f, nc_def_var(f->id, name, types[type], count, dimensions, &variable));
     size_t length = 0, rows = 0;
-    if (!f->failed && count > 0) {
+    if (!f->failed && count > 0 && type != NETCDF_TEXT) {
         keep(f, nc_inq_dimlen(f->id, dimensions[count - 1], &length));
         keep(f, nc_def_var_deflate(f->id, variable, SHUFFLE, DEFLATE, LEVEL));
     }
@@ -103,6 +104,12 @@ void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values)
 {
     if (!f->failed)
         keep(f, nc_put_var_int(f->id, variable, values));
+}
+
+void netcdf_put_text(netcdf_file *f, int variable, const char **values)
+{
+    if (!f->failed)
+        keep(f, nc_put_var_string(f->id, variable, values));
 }
 
 void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
@@ -154,6 +161,7 @@ int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const in
 void netcdf_attribute(netcdf_file *f, const char *name, const char *text) { (void)f, (void)name, (void)text; }
 void netcdf_put_f64(netcdf_file *f, int variable, const double *values) { (void)f, (void)variable, (void)values; }
 void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values) { (void)f, (void)variable, (void)values; }
+void netcdf_put_text(netcdf_file *f, int variable, const char **values) { (void)f, (void)variable, (void)values; }
 void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
 {
     (void)f, (void)variable, (void)row, (void)values, (void)count;

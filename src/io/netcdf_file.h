@@ -14,18 +14,20 @@ typedef struct netcdf_file {
     bool open;
 } netcdf_file;
 
-typedef enum netcdf_type { NETCDF_F64, NETCDF_F32, NETCDF_I32 } netcdf_type;
+typedef enum netcdf_type { NETCDF_F64, NETCDF_F32, NETCDF_I32, NETCDF_TEXT } netcdf_type;
 
 fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error);
 /* Number of a new dimension. */
 int netcdf_dimension(netcdf_file *f, const char *name, size_t length);
-/* Number of a new variable over `count` dimensions (at most 2); compressed; rows of 2-D ones are written one by one. */
+/* Number of a new variable over `count` dimensions (at most 2); compressed, but for text; rows of 2-D ones are
+   written one by one. */
 int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,
                     const char *units, const char *meaning);
 /* An attribute of the file. */
 void netcdf_attribute(netcdf_file *f, const char *name, const char *text);
 void netcdf_put_f64(netcdf_file *f, int variable, const double *values);
 void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values);
+void netcdf_put_text(netcdf_file *f, int variable, const char **values);
 /* Row `row` of a variable over two dimensions, or number `row` of one over one: `count` values. */
 void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count);
 /* Close, sync and give the file its name; or remove it and say what failed. */

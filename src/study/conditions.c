@@ -48,7 +48,7 @@ fram_status study_number(const study_source *r, const yaml_node *node, double lo
     char *end = NULL;
     double value = strtod(text, &end);
     if (!*text || *end || !(value >= lo && value <= hi))
-        return study_refuse(r, node, "expected a number from %g to %g, found %s", lo, hi, *text ? text : "none");
+        return study_refuse(r, node, "expected a number from %.10g to %.10g, found %s", lo, hi, *text ? text : "none");
     *out = value;
     return FRAM_OK;
 }

@@ -58,6 +58,16 @@ static fram_status check_parting(const study_folder *f, const condition_rows *co
     return FRAM_OK;
 }
 
+/* Whether a run of a condition that occurs saw any: where none did, the level is not zero but unknown. */
+static bool any_seen(const study_extremes *x, const condition_maxima *of, int32_t count)
+{
+    for (int32_t c = 0; c < count; c++)
+        for (int32_t i = 0; x->hours.data[c] > 0 && i < of[c].value.count; i++)
+            if (of[c].value.data[i] > 0)
+                return true;
+    return false;
+}
+
 fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
                          const double *block, annual_answer out[STUDY_LEVELS_MOST], fram_error *error)
 {
@@ -75,8 +85,12 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
         status = annual_levels(f->ctx, x, of, count, level, lack, error);
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
         out[i] = (annual_answer){.level = level[i]};
-        if (lack[i].condition >= 0)
+        if (lack[i].condition >= 0) {
             say_lack(&lack[i], &out[i]);
+        } else if (!any_seen(x, of, count)) {
+            out[i].level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
+            snprintf(out[i].why, sizeof out[i].why, "No answer: all runs saw none; longer runs, or more seeds.");
+        }
         status = check_parting(f, conditions, figure, &out[i], error);
     }
     for (int32_t c = 0; of && c < count; c++)

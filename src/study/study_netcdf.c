@@ -3,9 +3,9 @@
 #include "io/netcdf_file.h"
 #include "study/key_names.h"
 #include "study/study_answers.h"
+#include "study/study_series.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -16,19 +16,21 @@ static const struct {
 #undef FIGURE_HEAD
 };
 
-/* Values of a key: 1 and 0 for true and false, NaN for other words. */
-static void key_values(const study_folder *f, int32_t key, double *out)
+/* Values of a key, 1 and 0 for true and false; false where it has other words. */
+static bool key_values(const study_folder *f, int32_t key, double *out)
 {
     for (int32_t c = 0; c < f->s->conditions; c++) {
         const char *text = study_value(f->s, c, key);
-        char *end = NULL;
-        out[c] = strtod(text, &end);
-        if (end == text || *end)
-            out[c] = strcmp(text, "true") == 0 ? 1 : strcmp(text, "false") == 0 ? 0 : (double)NAN;
+        bool yes = strcmp(text, "true") == 0;
+        if (yes || strcmp(text, "false") == 0)
+            out[c] = yes ? 1 : 0;
+        else if (!study_series_number(text, &out[c]))
+            return false;
     }
+    return true;
 }
 
-static void put_keys(const study_folder *f, netcdf_file *nc, int over, double *value)
+static void put_keys(const study_folder *f, netcdf_file *nc, int over, double *value, const char **word)
 {
     for (int32_t k = 0; k < f->s->keys.count; k++) {
         char name[128];
@@ -36,10 +38,15 @@ static void put_keys(const study_folder *f, netcdf_file *nc, int over, double *v
         for (const char *c = f->s->keys.data[k]; *c && n + 1 < sizeof name; c++)
             name[n++] = *c;
         name[n] = '\0';
-        key_values(f, k, value);
-        int variable = netcdf_variable(nc, name, NETCDF_F64, &over, 1, key_unit(f->s->keys.data[k]),
-                                       "scenario key of the conditions");
-        netcdf_put_f64(nc, variable, value);
+        bool number = key_values(f, k, value);
+        int variable = netcdf_variable(nc, name, number ? NETCDF_F64 : NETCDF_TEXT, &over, 1,
+                                       key_unit(f->s->keys.data[k]), "scenario key of the conditions");
+        for (int32_t c = 0; c < f->s->conditions; c++)
+            word[c] = study_value(f->s, c, k);
+        if (number)
+            netcdf_put_f64(nc, variable, value);
+        else
+            netcdf_put_text(nc, variable, word);
     }
 }
 
@@ -67,7 +74,7 @@ static void put_status(const study_folder *f, netcdf_file *nc, const int over[2]
 }
 
 static void put_all(const study_folder *f, netcdf_file *nc, const condition_rows *conditions, int32_t seeds,
-                    double *value, int32_t *state)
+                    double *value, int32_t *state, const char **word)
 {
     const int over[2] = {netcdf_dimension(nc, "condition", (size_t)f->s->conditions),
                          netcdf_dimension(nc, "seed", (size_t)seeds)};
@@ -82,7 +89,7 @@ static void put_all(const study_folder *f, netcdf_file *nc, const condition_rows
     for (int32_t i = 0; i < seeds; i++)
         value[i] = (double)(f->s->seeds.first + i);
     netcdf_put_f64(nc, netcdf_variable(nc, "seed", NETCDF_F64, &over[1], 1, "1", "run.seed"), value);
-    put_keys(f, nc, over[0], value);
+    put_keys(f, nc, over[0], value, word);
     put_status(f, nc, over, conditions, seeds, state);
     for (int figure = 0; figure < ROW_FIGURES; figure++)
         put_figure(f, nc, over, conditions, seeds, figure, value);
@@ -101,17 +108,19 @@ fram_status study_netcdf_write(const study_folder *f, const condition_rows *cond
     text_format(f->ctx, &path, "%s/study.nc", f->path);
     double *value = memory_array(f->ctx, room, sizeof *value);
     int32_t *state = memory_array(f->ctx, room, sizeof *state);
-    fram_status status = path.failed || !value || !state ? error_memory(error) : FRAM_OK;
+    const char **word = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *word);
+    fram_status status = path.failed || !value || !state || !word ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
         status = netcdf_begin(f->ctx, path.data, &nc, error);
     if (status == FRAM_OK) {
-        put_all(f, &nc, conditions, seeds, value, state);
+        put_all(f, &nc, conditions, seeds, value, state, word);
         status = netcdf_end(&nc, error);
     } else if (status == FRAM_ERROR_UNSUPPORTED) {
         status = FRAM_OK; /* the tables have it all */
     }
     memory_free(f->ctx, value);
     memory_free(f->ctx, state);
+    memory_free(f->ctx, word);
     text_free(f->ctx, &path);
     return status;
 }

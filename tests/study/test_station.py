@@ -146,6 +146,17 @@ class StationTest(StudyTest):
         # The slowest meets no ice: its runs differ in nothing but rounding, and have no digits of that.
         self.assertRegex(page, r"<td>[0-9]\.[0-9]{2} ± 0\.00<")
 
+    def test_lines_that_a_vessel_does_not_have_are_not_on_the_page(self):
+        gear = "  thrusters: [{kind: azimuth, x: 20, z: -3, thrust: 5e5}, {kind: azimuth, x: -20, thrust: 5e5}]\n"
+        bare = MOORED[:MOORED.index("  mooring:")] + gear + "  positioning: {active: true}\n" + \
+            MOORED[MOORED.index("ice:"):]
+        self.plain()
+        self.assertIn("Largest line tension", self.page("plain"))
+        (self.at / "base.yaml").write_text(bare)
+        self.fram(self.write("seeds: 2\n"), "-o", self.at / "bare")
+        self.assertIn("Largest offset", self.page("bare"))
+        self.assertNotIn("tension", self.page("bare"))
+
     def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
                                            MOORED[MOORED.index("ice:"):])
