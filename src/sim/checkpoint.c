@@ -181,27 +181,30 @@ static bool copy_bytes(context *ctx, const table_file_bytes *from, byte_array *t
     return true;
 }
 
-/* A run goes on with the files of its checkpoint's list to the letter; a state alone (`alone`) goes with their
-   contents, and so does the state in a run's checkpoint. */
+/* A run goes on with what its checkpoint's list says of the files' contents, wherever they lie now; so does a state
+   alone (`alone`), whose expected text is a digest, and the state in a run's checkpoint. */
 static fram_status check_inputs(context *ctx, const char *path, const table_file_bytes *found, const char *expected,
                                 bool alone, bool *other, fram_error *error)
 {
-    char digest[SHA256_TEXT_SIZE];
+    char digest[SHA256_TEXT_SIZE], wanted[SHA256_TEXT_SIZE];
     fram_error reason = {0};
     if (same_text(found, expected))
         return FRAM_OK;
     fram_status status = run_inputs_digest(ctx, found->data, found->size, digest, &reason);
     if (status == FRAM_ERROR_INPUT)
         return error_set(error, status, path, 0, NULL, "%s", reason.message);
+    if (status == FRAM_OK)
+        status = run_inputs_digest(ctx, expected, strlen(expected), wanted, &reason);
     if (status != FRAM_OK)
         return error_memory(error);
-    if (alone && strcmp(digest, expected) == 0)
+    bool of_program = !alone && same_text(found, digest);
+    if (!of_program && strcmp(digest, wanted) == 0)
         return FRAM_OK;
     *other = true;
     if (alone)
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                          "a file that the scenario names was changed since the state was saved; restore it");
-    if (same_text(found, digest))
+    if (of_program)
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                          "expected a checkpoint of a run, found a state that a program saved from a world: load it "
                          "into one");

@@ -109,6 +109,30 @@ static void tell_flow(const teller *t, const flow *f)
     velocity_series_free(t->ctx, &h);
 }
 
+/* What a current has on top of it at depths. */
+static void tell_profile(const teller *t)
+{
+    const char *file = t->s->environment.current_profile_file;
+    velocity_rows rows = {0};
+    fram_error error = {0};
+    if (!file[0])
+        return;
+    fram_status status = velocity_rows_read(t->ctx, t->s, file, "depth[m]", &rows, &error);
+    const double *depth = rows.column[VELOCITY_AT].data, *x = rows.column[VELOCITY_X].data;
+    const double *y = rows.column[VELOCITY_Y].data;
+    int32_t count = status == FRAM_OK ? rows.column[VELOCITY_AT].count : 0;
+    double most = 0;
+    for (int32_t i = 0; i < count; i++)
+        most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
+    if (count > 0)
+        sanity_say(t->tell, t->to, "current: on top of that up to %.4g m/s at depths of %.4g to %.4g m, by %s", most,
+                   depth[0], depth[count - 1], file_name(file));
+    else
+        sanity_say(t->tell, t->to, "current: at depths by %s, which cannot be read here: %s", file_name(file),
+                   error.message);
+    velocity_rows_free(t->ctx, &rows);
+}
+
 /* Of two steady flows. */
 static void tell_angle_between(const teller *t, const flow *drift, const flow *wind)
 {
@@ -132,6 +156,7 @@ static void tell_flows(const teller *t)
     else if (fed)
         sanity_say(t->tell, t->to, "drift of the ice: with the current");
     tell_flow(t, &current);
+    tell_profile(t);
     tell_flow(t, &wind);
     tell_angle_between(t, own ? &drift : &current, &wind);
 }

@@ -77,11 +77,12 @@ static void note_ice(const note_taker *n, const scenario *s)
 #define OWN_POWER_IN_ICE 0.5
 
 /* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files of drift and current say is not
-   known here. */
+   known here, and a file stands in place of the speed that is given beside it. */
 static double speed_in_ice(const scenario *s, const scenario_vessel *v)
 {
     const scenario_domain *d = &s->domain;
-    double current = s->environment.water ? s->environment.current_speed : 0;
+    const scenario_environment *e = &s->environment;
+    double current = e->water && !e->current_file[0] ? e->current_speed : 0;
     double drift = d->boundary == DOMAIN_FEEDING ? automatic_or(d->drift_speed, current) : current;
     bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
     double ship = own ? fmax(v->speed, OWN_POWER_IN_ICE * vessel_fastest(v)) : vessel_fastest(v);
@@ -126,6 +127,12 @@ static void note_fracture(const note_taker *n, const scenario *s)
     }
 }
 
+/* A ship under its own power keeps its heading, whatever way it has at the start [deg]. */
+static double course_of(const scenario_vessel *v)
+{
+    return v->mode == VESSEL_FREE ? v->heading_deg : automatic_or(v->course_deg, v->heading_deg);
+}
+
 static void note_vessel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
     const scenario_vessel *v = entry->keys;
@@ -136,7 +143,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
                      "patches grow in jumps. Take run.time_step under %.3g s",
                      title.text, way / s->ice.thickness, speed, THICKNESS_STEP * s->ice.thickness / speed);
-    double far = vessel_fastest(v) * s->run.duration, course = radians(automatic_or(v->course_deg, v->heading_deg));
+    double far = vessel_fastest(v) * s->run.duration, course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
     if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && !inside)

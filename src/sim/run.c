@@ -92,7 +92,7 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
     r->pace = (pace){0};
     fram_error local = {0};
     fram_status status = step_loop(r, &local);
-    wall_remind(r->ctx, &r->model, &r->world);
+    wall_remind(r->ctx, r->record.s, &r->model, &r->world);
     /* A flag that is set from here on comes too late to be the reason for the end. */
     bool interrupted = status == FRAM_OK && r->world.clock.step[0] < r->record.stop_step;
     if (status == FRAM_OK) {
@@ -125,8 +125,11 @@ static void log_start(const run *r, const field_report *report)
         log_write(r->ctx, LOG_INFO, "%d floes", (int)report->floes);
     else if (report->floes > 0)
         log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->floes, report->concentration);
-    for (int32_t i = 0; i < r->model.vessels.count; i++)
-        log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", r->model.vessels.data[i].displaced_mass * 1e-3);
+    for (int32_t i = 0; i < r->model.vessels.count; i++) {
+        const vessel_model *v = &r->model.vessels.data[i];
+        log_write(r->ctx, LOG_INFO, "%s%s displaces %.6g t", v->name[0] ? "vessel " : "the hull", v->name,
+                  v->displaced_mass * 1e-3);
+    }
 }
 
 /* The stop flag of the run stands for that of the context while the world is made. */

@@ -384,7 +384,7 @@ static void tell_rest(const teller *t)
     const scenario_domain *d = &t->s->domain;
     int32_t count = scenario_vessel_count(t->s);
     bool moves = n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] || n->wind_file[0] ||
-                 d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
+                 n->current_profile_file[0] || d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
     for (int32_t i = 0; i < count; i++)
         moves = moves || vessel_moves(scenario_vessel_entry(t->s, i).keys);
     if (!moves && count > 0 && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
@@ -396,7 +396,29 @@ static void tell_rest(const teller *t)
    least breaking load. */
 #define TAUT 0.02
 
-/* A catenary whose length is given: too long to pull, or stretched from the start. */
+/* What lines are set to at full size [N], and as what a larger pull of a spring is told that nothing lets part. */
+#define MOST_PULL 3e7
+
+/* A spring whose length is given, under the tension of the start. */
+static void tell_spring(const teller *t, const vessel_entry *e, int32_t line, double straight)
+{
+    const scenario_mooring_line *l = &e->keys->mooring.lines.data[line];
+    double pull = l->stiffness * fmax(straight - l->length, 0), most = automatic_or(l->breaking_load, HUGE_VAL);
+    if (pull > 0.5 * most)
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %.4g N from the start, "
+            "%s the breaking load of %.4g N",
+            e->path, (int)line, l->length, straight, pull, pull >= most ? "over" : "more than half of", most);
+    else if (isinf(most) && pull > MOST_PULL * fmax(1, sanity_at_scale(t->s, 3)))
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %.4g N from the start: "
+            "it is the length without tension",
+            e->path, (int)line, l->length, straight, pull);
+}
+
+/* A line whose length is given: too long to pull, or stretched from the start. */
 static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
 {
     const scenario_mooring *m = &e->keys->mooring;
@@ -410,6 +432,8 @@ static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
             t->tell, t->to,
             "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
             e->path, (int)line, l->length);
+    else if (l->kind == LINE_SPRING)
+        tell_spring(t, e, line, straight);
     else if (l->kind == LINE_CATENARY && strain * l->stiffness > 0.5 * most)
         sanity_say(
             t->tell, t->to,
@@ -430,7 +454,7 @@ static void tell_station(const teller *t, const vessel_entry *e)
     for (int32_t i = 0; i < v->mooring.lines.count; i++) {
         const scenario_mooring_line *l = &v->mooring.lines.data[i];
         double most = automatic_or(l->breaking_load, HUGE_VAL);
-        if (is_automatic(l->length) && l->kind == LINE_CATENARY && l->pretension > 0.5 * most)
+        if (is_automatic(l->length) && l->kind != LINE_TABLE && l->pretension > 0.5 * most)
             sanity_say(t->tell, t->to, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N",
                        e->path, (int)i, l->pretension, l->pretension >= most ? "over" : "more than half of", most);
         tell_length(t, e, i);

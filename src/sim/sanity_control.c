@@ -43,11 +43,43 @@ static void tell_model_mass(const teller *t, const char *key, double mass)
                    t->e->path, key, mass, mass / own, own);
 }
 
+/* Levers, in lengths of the ship, under which thrusters do not turn it. */
+#define LEAST_LEVER 1e-3
+
+/* What no thruster gives whatever the others do: a controller that asks for it gets nothing.  Lines hold what thrusters
+   that assist them do not. */
+static void tell_reach(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    bool all = v->positioning.control != CONTROL_HEADING, ahead = false, aside = false, turns = false;
+    if (all && v->mooring.lines.count > 0)
+        return;
+    for (int32_t i = 0; i < v->thrusters.count; i++) {
+        const scenario_thruster *p = &v->thrusters.data[i], *first = v->thrusters.data;
+        bool along = p->kind != THRUSTER_TUNNEL, across = p->kind != THRUSTER_MAIN || p->rudder_deg > 0;
+        /* Where position is held too, turning takes two of them apart; one alone that pushes aside turns no less. */
+        double x = all ? p->x - first->x : p->x, y = all ? p->y - first->y : p->y;
+        double lever = fmax(along ? fabs(y) : 0, across ? fabs(x) : 0);
+        ahead = ahead || along;
+        aside = aside || across;
+        turns = turns || lever > LEAST_LEVER * v->hull.length;
+    }
+    const char *lacks = all && !ahead ? "ahead" : all && !aside ? "aside" : NULL;
+    if (lacks)
+        sanity_say(t->tell, t->to,
+                   "%s.positioning: no thruster pushes the vessel %s: its position is not held that way", t->e->path,
+                   lacks);
+    else if (!turns)
+        sanity_say(t->tell, t->to, "%s.positioning: the thrusters do not turn the vessel, %s: its heading is not held",
+                   t->e->path, all ? "for all of them are at one place" : "for they push through amidships");
+}
+
 static void tell_positioning(const teller *t)
 {
     const scenario_positioning *p = &t->e->keys->positioning;
     if (!p->active)
         return;
+    tell_reach(t);
     tell_interval(t, "interval", p->interval);
     tell_interval(t, "sample_interval", p->sample_interval);
     tell_model_mass(t, "mass_surge", p->mass_surge);

@@ -114,6 +114,11 @@ static void tell_populations(const teller *t)
                            "ice.populations[%d].%s_deviation: %.4g %s is more than the mean, %.4g %s: give the "
                            "standard deviation, not a percentage",
                            (int)k, spread[n].key, spread[n].deviation, spread[n].unit, spread[n].mean, spread[n].unit);
+        if (p->size == SIZE_LOGNORMAL && (p->diameter < p->diameter_min || p->diameter > p->diameter_max))
+            sanity_say(t->tell, t->to,
+                       "ice.populations[%d].diameter: the mean, %.4g m, is outside of the sizes that are drawn, "
+                       "diameter_min to diameter_max, %.4g to %.4g m: floes have another mean",
+                       (int)k, p->diameter, p->diameter_min, p->diameter_max);
         bool one = p->size == SIZE_CONSTANT || p->size == SIZE_LOGNORMAL;
         double size = one ? p->diameter : p->diameter_max;
         if (p->size != SIZE_HISTOGRAM && size > width)

@@ -4,10 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a rule asks of: the scenario, and the vessel whose key it is (NULL for keys that are of none). */
+/* What a rule asks of: the scenario, the vessel whose key it is, and its line or thruster (NULL for keys of none). */
 typedef struct question {
     const scenario *s;
     const scenario_vessel *v;
+    const scenario_mooring_line *line;
+    const scenario_thruster *thruster;
 } question;
 
 /* A key, or all keys of a section where it ends with a dot (without indices, vessels in a list as the one), what leaves
@@ -46,10 +48,23 @@ static bool is_not_accurate(const question *q) { return q->s->run.solver.kind !=
 static bool is_own_hull(const question *q) { return sanity_own_hull(q->v); }
 static bool is_mesh(const question *q) { return !sanity_own_hull(q->v); }
 static bool is_no_ship(const question *q) { return q->v->hull.form != HULL_SHIP; }
+static bool is_box(const question *q) { return q->v->hull.form == HULL_BOX; }
+static bool is_cone(const question *q) { return q->v->hull.form == HULL_CONE; }
 static bool has_path(const question *q) { return q->v->path.count > 0; }
 static bool is_free(const question *q) { return q->v->mode == VESSEL_FREE; }
+static bool is_moved(const question *q) { return !is_free(q); }
 static bool has_no_lines(const question *q) { return q->v->mooring.lines.count == 0; }
+static bool is_hung(const question *q) { return q->line->kind == LINE_CATENARY; }
+static bool is_not_hung(const question *q) { return !is_hung(q); }
+static bool is_by_table(const question *q) { return q->line->kind == LINE_TABLE; }
+static bool has_length(const question *q) { return !is_automatic(q->line->length); }
+static bool is_one_line(const question *q) { return q->line->count == 1; }
+static bool is_tunnel(const question *q) { return q->thruster->kind == THRUSTER_TUNNEL; }
+static bool is_azimuth(const question *q) { return q->thruster->kind == THRUSTER_AZIMUTH; }
+static bool is_no_azimuth(const question *q) { return !is_azimuth(q); }
+static bool is_no_main(const question *q) { return q->thruster->kind != THRUSTER_MAIN; }
 static bool is_not_positioned(const question *q) { return !q->v->positioning.active; }
+static bool is_positioned(const question *q) { return !is_not_positioned(q); }
 static bool is_passive(const question *q) { return q->v->positioning.observer != OBSERVER_KALMAN; }
 static bool is_kalman(const question *q) { return !is_passive(q); }
 static bool feeds_nothing(const question *q) { return q->v->positioning.feed_forward == FEED_NONE; }
@@ -60,11 +75,18 @@ static bool has_no_pattern(const question *q) { return q->v->propulsion.pattern.
 static bool goes_ahead(const question *q) { return q->v->propulsion.pattern.kind == PATTERN_AHEAD; }
 static bool watches_not(const question *q) { return is_automatic(q->v->approach.limit); }
 static bool has_no_wash(const question *q) { return !q->v->wash.active; }
+static bool has_no_table(const scenario_flow *c) { return c->table.count == 0 && !c->table_file[0]; }
+static bool has_no_current_table(const question *q) { return has_no_table(&q->v->current_coefficients); }
+static bool has_no_wind_table(const question *q) { return has_no_table(&q->v->wind_coefficients); }
+static bool has_current_file(const question *q) { return q->s->environment.current_file[0] != '\0'; }
+static bool has_wind_file(const question *q) { return q->s->environment.wind_file[0] != '\0'; }
 static bool is_no_estimate(const question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_ESTIMATE; }
 static bool is_not_given(const question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_GIVEN; }
 
 static const char OWN_FORM[] = "hull.form is not file", MESH[] = "with hull.form file the mesh has its own";
 static const char UNBREAKABLE[] = "ice.breakable is false";
+static const char BOX[] = "hull.form is box", CONE[] = "hull.form is cone";
+static const char TUNNEL[] = "kind is tunnel", NO_AZIMUTH[] = "kind is not azimuth";
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";
 
 static const idle_rule rules[] = {
@@ -134,10 +156,36 @@ static const idle_rule rules[] = {
     {"vessel.hull.stern_angle_deg", is_mesh, MESH},
     {"vessel.hull.parallel_midbody", is_mesh, MESH},
     {"vessel.hull.block_coefficient", is_mesh, MESH},
+    {"vessel.hull.stem_angle_deg", is_box, BOX},
+    {"vessel.hull.entrance_angle_deg", is_box, BOX},
+    {"vessel.hull.flare_angle_deg", is_box, BOX},
+    {"vessel.hull.stern_angle_deg", is_box, BOX},
+    {"vessel.hull.parallel_midbody", is_box, BOX},
+    {"vessel.hull.stem_angle_deg", is_cone, CONE},
+    {"vessel.hull.entrance_angle_deg", is_cone, CONE},
+    {"vessel.hull.stern_angle_deg", is_cone, CONE},
+    {"vessel.hull.parallel_midbody", is_cone, CONE},
+    {"vessel.hull.block_coefficient", is_cone, CONE},
     {"vessel.hull.bilge_radius", is_no_ship, "hull.form is not ship"},
     {"vessel.hull.transom", is_no_ship, "hull.form is not ship"},
     {"vessel.mooring.depth", has_no_lines, "there are no mooring.lines"},
     {"vessel.mooring.turret", has_no_lines, "there are no mooring.lines"},
+    {"vessel.mooring.equilibrium", has_no_lines, "there are no mooring.lines"},
+    {"vessel.mooring.lines[].weight", is_not_hung, "kind is not catenary"},
+    {"vessel.mooring.lines[].stiffness", is_by_table, "kind is table"},
+    {"vessel.mooring.lines[].length", is_by_table, "kind is table"},
+    {"vessel.mooring.lines[].pretension", is_by_table, "kind is table"},
+    {"vessel.mooring.lines[].pretension", has_length, "there is a length"},
+    {"vessel.mooring.lines[].spacing_deg", is_one_line, "count is 1"},
+    {"vessel.thrusters[].thrust_astern", is_azimuth, "kind is azimuth"},
+    {"vessel.thrusters[].turn_rate_deg", is_tunnel, TUNNEL},
+    {"vessel.thrusters[].rudder_deg", is_no_main, "kind is not main"},
+    {"vessel.thrusters[].forbidden_deg", is_no_azimuth, NO_AZIMUTH},
+    {"vessel.thrusters[].forbidden_width_deg", is_no_azimuth, NO_AZIMUTH},
+    {"vessel.thrusters[].cost", is_not_positioned, "positioning.active is false"},
+    {"vessel.thrusters[].setting", is_positioned, "positioning.active is true"},
+    {"vessel.thrusters[].direction_deg", is_tunnel, TUNNEL},
+    {"vessel.station.", is_moved, "mode is not free"},
     {"vessel.positioning.", is_not_positioned, "positioning.active is false"},
     {"vessel.positioning.bias_rate", is_passive, "positioning.observer is not kalman"},
     {"vessel.positioning.force_noise", is_passive, "positioning.observer is not kalman"},
@@ -149,6 +197,7 @@ static const idle_rule rules[] = {
     {"vessel.positioning.vaning_load", keeps_heading, NO_VANING},
     {"vessel.propulsion.", drives_not, "there is no propulsion.bollard_pull"},
     {"vessel.propulsion.pattern.", has_no_pattern, "propulsion.pattern.kind is none"},
+    {"vessel.propulsion.pattern.distance", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},
     {"vessel.propulsion.pattern.width", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},
     {"vessel.approach.look_ahead", watches_not, "there is no approach.limit"},
     {"vessel.wash.", has_no_wash, "wash.active is false"},
@@ -158,6 +207,10 @@ static const idle_rule rules[] = {
     {"vessel.hydrodynamics.axes", is_not_given, "hydrodynamics.source is not given"},
     {"vessel.hydrodynamics.added_mass", is_not_given, "hydrodynamics.source is not given"},
     {"vessel.hydrodynamics.damping", is_not_given, "hydrodynamics.source is not given"},
+    {"vessel.current_coefficients.", has_no_current_table, "current_coefficients has no table"},
+    {"vessel.wind_coefficients.", has_no_wind_table, "wind_coefficients has no table"},
+    {"environment.current_speed", has_current_file, "environment.current_file tells the current"},
+    {"environment.wind_speed", has_wind_file, "environment.wind_file tells the wind"},
 };
 
 static bool fits(const char *rule, const char *key)
@@ -222,17 +275,34 @@ static const scenario_vessel *vessel_of(const scenario *s, const char *path)
     return &s->vessel;
 }
 
+/* The line or thruster of a key of a vessel; false: a key of another item.  What an item of any other list says is idle
+   with its list, as is what an item of an item says. */
+static bool find_item(const char *key, question *q)
+{
+    const scenario_mooring_line_list *lines = &q->v->mooring.lines;
+    const scenario_thruster_list *thrusters = &q->v->thrusters;
+    const char *item = strchr(key, '[');
+    int i = -1;
+    if (!item || strchr(item + 1, '['))
+        return !item;
+    if (sscanf(key, "mooring.lines[%d]", &i) == 1 && i >= 0 && i < lines->count)
+        q->line = &lines->data[i];
+    else if (sscanf(key, "thrusters[%d]", &i) == 1 && i >= 0 && i < thrusters->count)
+        q->thruster = &thrusters->data[i];
+    return q->line || q->thruster;
+}
+
 static fram_status look_at_key(void *user, const scenario_key *key, const void *member, const char *path,
                                fram_error *error)
 {
     (void)error;
     idle_group *g = user;
     const scenario *s = g->t->s;
-    /* What an item of an idle list says is idle with it. */
-    const char *item = strncmp(path, "vessels[", 8) == 0 ? strchr(path, ']') : path;
-    const question q = {s, vessel_of(s, path)};
-    bool absent = strncmp(path, "vessel", 6) == 0 && !q.v->present;
-    if (absent || strchr(item, '[') || !is_set(key, member, s->run.scale))
+    question q = {.s = s, .v = vessel_of(s, path)};
+    bool of_vessel = strncmp(path, "vessel", 6) == 0;
+    const char *own = of_vessel ? strchr(path, '.') : NULL; /* the key within its vessel */
+    bool absent = of_vessel && !q.v->present;
+    if (absent || !find_item(own ? own + 1 : path, &q) || !is_set(key, member, s->run.scale))
         return FRAM_OK;
     char pattern[SANITY_PATTERN];
     sanity_pattern(path, pattern);

@@ -54,6 +54,23 @@ static void tell_thrusters(const teller *t)
     }
 }
 
+/* Corners so near to one another that the track is not rounded between them. */
+static void tell_legs(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    for (int32_t i = 1; sanity_own_hull(v) && i < v->propulsion.waypoints.count; i++) {
+        const scenario_course_point *a = &v->propulsion.waypoints.data[i - 1], *b = a + 1;
+        double way = sqrt((b->x - a->x) * (b->x - a->x) + (b->y - a->y) * (b->y - a->y));
+        if (way >= v->hull.length)
+            continue;
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.waypoints[%d]: it is %.4g m from the point before, less than the ship's length, %.4g "
+                   "m: no turn fits between them; leave one out",
+                   t->e->path, (int)i, way, v->hull.length);
+        return;
+    }
+}
+
 static void tell_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -68,6 +85,7 @@ static void tell_propulsion(const teller *t)
     if (sanity_own_hull(v) && !is_automatic(p->propeller_diameter) && p->propeller_diameter > v->hull.draught)
         sanity_say(t->tell, t->to, "%s.propulsion.propeller_diameter: %.4g m is more than the draught, %.4g m",
                    t->e->path, p->propeller_diameter, v->hull.draught);
+    tell_legs(t);
     const scenario_domain *d = &t->s->domain;
     for (int32_t i = 0; i < p->waypoints.count && d->boundary == DOMAIN_OPEN && t->s->ice.source != ICE_NONE; i++) {
         const scenario_course_point *w = &p->waypoints.data[i];
@@ -191,6 +209,24 @@ static bool tell_leg(const teller *t, int32_t i)
     return true;
 }
 
+/* The first point of a path that a vessel comes to in the run and that lies beyond an edge that is no wall. */
+static void tell_path_outside(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_domain *d = &t->s->domain;
+    bool ends = d->boundary != DOMAIN_WALLS && t->s->ice.source != ICE_NONE && v->mode != VESSEL_FREE;
+    for (int32_t i = 0; ends && i < v->path.count; i++) {
+        const scenario_path_point *p = &v->path.data[i];
+        bool inside = p->x >= d->x_min && p->x <= d->x_max && p->y >= d->y_min && p->y <= d->y_max;
+        if (inside || p->time > t->s->run.duration)
+            continue;
+        sanity_say(t->tell, t->to,
+                   "%s.path[%d]: (%.5g, %.5g) m, at t = %.4g s, lies outside of the domain, where there is no ice",
+                   t->e->path, (int)i, p->x, p->y, p->time);
+        return;
+    }
+}
+
 static void tell_motion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -214,6 +250,7 @@ static void tell_motion(const teller *t)
     if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->ramp >= r->duration)
         sanity_say(t->tell, t->to, "%s.ramp: %g s is not over when the run ends, at %g s", t->e->path, v->ramp,
                    r->duration);
+    tell_path_outside(t);
     const scenario_domain *d = &t->s->domain;
     const scenario_positioning *p = &v->positioning;
     for (int32_t i = 0; p->active && i < p->waypoints.count && d->boundary != DOMAIN_WALLS; i++) {

@@ -255,8 +255,25 @@ bool wall_watch(context *ctx, const model *m, world *w)
     return true;
 }
 
-void wall_remind(context *ctx, const model *m, const world *w)
+/* Beyond an edge that is no wall there is no ice, and nothing else tells so. */
+static void outside_remind(context *ctx, const scenario *s, const model *m, const world *w)
 {
+    for (int32_t v = 0; v < w->vessels.count && s->ice.source != ICE_NONE && m->boundary != DOMAIN_WALLS; v++) {
+        vec3 at = w->bodies.position[w->vessels.body[v]];
+        const char *name = m->vessels.data[v].name;
+        bool inside =
+            at.x >= m->domain.lo.x && at.x <= m->domain.hi.x && at.y >= m->domain.lo.y && at.y <= m->domain.hi.y;
+        if (!inside)
+            log_write(ctx, LOG_WARNING,
+                      "%s%s lies outside of the domain in the end, at (%.5g, %.5g) m, where there is no ice: means "
+                      "hold its time there too",
+                      name[0] ? "vessel " : "the vessel", name, at.x, at.y);
+    }
+}
+
+void wall_remind(context *ctx, const scenario *s, const model *m, const world *w)
+{
+    outside_remind(ctx, s, m, w);
     for (int32_t i = 0; i < w->events.count; i++) {
         if (w->events.kind[i] != EVENT_WALL)
             continue;

@@ -218,6 +218,9 @@ static fram_status check_block(const hull_particulars *p, fram_error *error)
     hull_block_range(p, &least, &most);
     if (asked >= least - slack && asked <= most + slack)
         return FRAM_OK;
+    if (p->form == HULL_BOX)
+        return error_value(error, "block_coefficient", "1, that of a box, or none: a finer hull takes another form",
+                           asked);
     return error_set(
         error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
         "with the other particulars the block coefficient can be %.4f to %.4f, found %g; a larger one takes "

@@ -45,6 +45,10 @@ told "current: by current.csv, 0.3 to 0.5 m/s in 2 rows to 400 s: 0.3 m/s toward
 at the start, 0.5 m/s towards -90 deg ↓ at the end of the run"
 told "current: its last row, of 400 s, holds until the end of the run at 600 s"
 told "wind: 9 m/s towards -80 deg ↓, from ahead"
+printf 'depth[m],x[m/s],y[m/s]\n2,0.3,0.4\n30,0.1,0\n' >deep.csv
+expect 0 "$FRAM" check ship.yaml --set environment.current_profile_file=deep.csv
+told "current: on top of that up to 0.5 m/s at depths of 2 to 30 m, by deep.csv"
+expect 0 "$FRAM" check ship.yaml
 told "drift of the ice ↗ and wind ↓ are 125 deg apart"
 
 # All eight arrows, and the sides from which a ship with its bow to the right is met.
@@ -110,6 +114,13 @@ expect 0 "$FRAM" check wall.yaml --build --set run.duration=10
 grep -q 'wall' err && fail "a wall out of reach is told: $(grep wall err)"
 expect 0 "$FRAM" check wall.yaml --build --set domain.boundary=open
 told "the vessel can leave the domain before the end"
+# Where there is ice, the end tells who has left it; 130 m from the middle are 30 m beyond the edge.
+sed 's/^ice:.*/ice: {mean_floe_area: 100, thickness: 0.5, concentration: 0.1}/' wall.yaml >left.yaml
+expect 0 "$FRAM" run left.yaml -o left --set domain.boundary=open --set vessel.mode=towed \
+    --set vessel.propulsion.bollard_pull=auto --set vessel.speed=10 --set run.duration=13 --set vessel.ramp=0
+says "the vessel lies outside of the domain in the end, at (1" err
+expect 0 "$FRAM" run left.yaml -o left --force --set domain.boundary=open --set run.duration=2
+grep -q 'outside of the domain' err && fail "a vessel inside of the domain is told as one that left it"
 expect 0 "$FRAM" run wall.yaml -o hit
 same "$(grep -c 'the hull runs into a wall of the domain' err)" 1 "walls are told once"
 expect 0 "$FRAM" report hit --quiet

@@ -45,6 +45,22 @@ for file in series.csv run.json scenario.yaml record.fram; do
     rm -r broken
 done
 
+# A run goes on with files that lie somewhere else, if they are the same.
+expect 0 "$FRAM" run scene.yaml -o moved -q --until 0.2
+mkdir elsewhere
+mv hull.stl elsewhere
+expect 2 "$FRAM" resume moved -q
+says "cannot read" err
+sed -i 's#/hull.stl#/elsewhere/hull.stl#' moved/scenario.yaml
+cp -r moved other
+expect 0 "$FRAM" resume moved -q
+same "$(grep state_hash moved/run.json)" "$(grep state_hash run/run.json)" "the state of a run whose file moved"
+says "elsewhere/hull.stl" moved/run.json
+expect 0 "$FRAM" hull --length 40 --beam 10 --draught 5 -o elsewhere/hull.stl --force
+expect 2 "$FRAM" resume other -q
+says "changed since" err
+expect 0 "$FRAM" hull --length 40 --beam 10 --draught 4 -o hull.stl
+
 # Sizes: a scenario of more than a mebibyte, a line of a table without end, a table of more than 16 GiB (with holes).
 { cat scene.yaml && head -c 1100000 /dev/zero | tr '\0' '#'; } >large.yaml
 refuse "at most 1048576 bytes" check large.yaml

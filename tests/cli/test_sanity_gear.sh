@@ -38,6 +38,17 @@ told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.moo
 no_end="vessel.mooring.lines[0].breaking_load=auto"
 told ship.yaml "lines[0].length: 870 m|is stretched by 4.36 % from the start" --set "$no_end" \
     --set "vessel.mooring.lines[0].length=870"
+spring="vessel.mooring.lines[0].kind=spring"
+told ship.yaml "lines[0].pretension: 8e+05 N is over the breaking load of 7e+05 N" --set "$spring" \
+    --set "vessel.mooring.lines[0].stiffness=5e4" --set "vessel.mooring.lines[0].breaking_load=7e5"
+# 908 m from fairlead to anchor: 8 m longer than the spring.
+told ship.yaml "lines[0].length: 900 m|pulls with 3.982e+05 N from the start, more than half of the breaking load" \
+    --set "$spring" --set "vessel.mooring.lines[0].length=900" --set "vessel.mooring.lines[0].stiffness=5e4" \
+    --set "vessel.mooring.lines[0].breaking_load=7e5"
+told ship.yaml "lines[0].length: 8 m|from the start: it is the length without tension" --set "$no_end" \
+    --set "$spring" --set "vessel.mooring.lines[0].length=8" --set "vessel.mooring.lines[0].stiffness=5e4"
+refused ship.yaml "hull.block_coefficient: expected 1, that of a box, or none" --set vessel.hull.form=box \
+    --set vessel.hull.block_coefficient=0.6
 refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
     --set "vessel.thrusters[0].setting=-0.5"
 refused ship.yaml "thrusters[0].direction_deg: expected a direction outside of forbidden_deg" \
@@ -51,6 +62,22 @@ refused ship.yaml "thrusters[0].direction_deg: expected 0 without rudder_deg, fo
 refused ship.yaml "thrusters[0].direction_deg: expected -35 to 35, as far as its rudder_deg turns, found 40" \
     --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[0].rudder_deg=35" \
     --set "vessel.thrusters[0].direction_deg=40"
+sed '/mooring:/,/breaking_load/d' ship.yaml >held.yaml
+held() { told held.yaml "vessel.positioning: $1" --set vessel.positioning.active=true "${@:2}"; }
+tunnels=(--set "vessel.thrusters[0].kind=tunnel" --set "vessel.thrusters[1].kind=tunnel")
+held "no thruster pushes the vessel ahead" "${tunnels[@]}"
+held "no thruster pushes the vessel aside" --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[1].kind=main"
+held "the thrusters do not turn the vessel, for all of them are at one place" --set "vessel.thrusters[1].x=30"
+held "the thrusters do not turn the vessel|through amidships" --set vessel.positioning.control=heading \
+    --set "vessel.thrusters[0].x=0" --set "vessel.thrusters[1].x=0"
+for options in vessel.positioning.active=true vessel.positioning.control=heading; do
+    expect 0 "$FRAM" check held.yaml --set vessel.positioning.active=true --set "$options"
+    grep 'warning: vessel.positioning: ' err && fail "thrusters that do it are told: $options"
+done
+expect 0 "$FRAM" check ship.yaml --set vessel.positioning.active=true "${tunnels[@]}"
+grep 'warning: vessel.positioning: ' err && fail "thrusters are told that assist lines"
+sed 's/{x: 90, y: 0}/&, &/' drive.yaml >again.yaml
+told again.yaml "vessel.propulsion.waypoints[1]: it is 0 m from the point before"
 told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400
@@ -76,6 +103,17 @@ told drive.yaml "the vessel and the ice move 0.11 of its thickness past each oth
 sed 's/free/prescribed/; s/^  propulsion.*/  path: [{time: 0}, {time: 60, x: 60}]/' drive.yaml >path.yaml
 told path.yaml "the vessel and the ice move 0.14 of its thickness past each other in a step at 1 m/s" \
     --set run.time_step=0.1
+told path.yaml "vessel.path[1]: (150, 0) m, at t = 60 s, lies outside of the domain" --set "vessel.path[1].x=150"
+for options in domain.boundary=walls ice.source=none "vessel.path[1].time=61"; do
+    expect 0 "$FRAM" check path.yaml --set "vessel.path[1].x=150" --set "$options"
+    grep 'outside of the domain' err && fail "no ice to leave, and told: $options"
+done
+# A ship keeps its heading, whatever way it has at the start; a file of the current stands in place of its speed.
+sed 's/, waypoints: .*}]}/}/' drive.yaml >ahead.yaml
+told ahead.yaml "the vessel can leave the domain before the end, at (180, 0) m" --set vessel.course_deg=90
+printf 'time[s],x[m/s],y[m/s]\n0,-0.4,0\n' >calm.csv
+expect 0 "$FRAM" check ship.yaml --set environment.current_file=calm.csv --set environment.current_speed=3
+grep 'past each other' err && fail "a speed is told that the file of the current replaces"
 told ship.yaml "run.time_step: 1e-06 s makes 6e+08 steps" --set run.time_step=1e-6
 told ship.yaml "frame_interval: 0.01 s is shorter than run.time_step" --set output.frame_interval=0.01
 told ship.yaml "checkpoint_interval: 0.001 s is shorter than run.time_step" --set output.checkpoint_interval=0.001

@@ -68,6 +68,8 @@ all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diamet
     "ice.populations[0].crushing_deviation=9e6" domain.y_max=-20 domain.y_min=-100 vessel.y=-60 -- \
     "diameter: floes of 90 m do not fit" "thickness_deviation: 20 m is more than the mean" \
     "flexural_deviation: 8e+05 Pa" "crushing_deviation: 9e+06 Pa"
+all_told packed.yaml "ice.populations[0].diameter=150" -- \
+    "populations[0].diameter: the mean, 150 m, is outside of the sizes that are drawn|10 to 100 m"
 
 # Control, thrusters, station.
 all_told held.yaml vessel.positioning.interval=1000 vessel.positioning.sample_interval=0.001 \
@@ -102,7 +104,8 @@ all_told towed.yaml vessel.hull.draught=0.5 vessel.speed=0.001 vessel.course_deg
     vessel.current_coefficients.frontal_area=0.01 -- "hull.draught: 0.5 m is 0.0357 of the beam" \
     "ice.thickness: 0.7 m is more than the draught" "vessel.speed: the vessel moves 0.06 m in the run" \
     "course_deg: the vessel is moved at 120 degrees to its bow" "(500, 0) m lies outside of the domain, 400 m" \
-    "the vessel leaves the domain" "current_coefficients.frontal_area: 0.01 m2"
+    "the vessel leaves the domain" "current_coefficients.frontal_area: 0.01 m2" \
+    "current_coefficients.frontal_area: without effect"
 all_told path.yaml "vessel.path[1].time=1" -- "vessel.path[1]: (60, 0) m is reached with 60 m/s" \
     "the vessel and the ice move 0.86 of its thickness past each other in a step at 60 m/s"
 all_told path.yaml "vessel.path[1].time=3600" -- "vessel.path: it goes on to 3600 s, and the run ends at 60 s"
@@ -152,7 +155,8 @@ printf 'time [s],x [m/s],y [m/s]\n100000,-0.4,0\n100600,-0.4,0.2\n' >date.csv
 all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv environment.current_file=date.csv -- \
     "domain.drift_file: the last row of minutes.csv is of 10 s|not minutes" \
     "environment.wind_file: knots.csv goes up to 80 m/s|not knots" \
-    "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run"
+    "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run" \
+    "environment.wind_speed: without effect" "environment.current_speed: without effect"
 # box NAME X0 X1 Y0 Y1 Z0 Z1: a closed mesh
 box() {
     {

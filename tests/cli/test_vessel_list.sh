@@ -6,6 +6,11 @@ run=$scratch/run
 "$FRAM" run "$scene" -o "$run" --quiet --set run.duration=2 --set run.transient=0 --set output.frame_interval=0.5 \
     --set vessels.tug.y=-20.7 --set vessels.tug.speed=0.5 --set vessels.icebreaker.approach.limit=30 \
     --set vessels.icebreaker.approach.look_ahead=100 || fail "the run failed"
+"$FRAM" run "$scene" -o "$scratch/start" --set run.duration=0.1 --set run.transient=0 2>"$scratch/log" ||
+    fail "the short run failed"
+for name in icebreaker ship tug; do
+    grep -q "vessel $name displaces [0-9]" "$scratch/log" || fail "nothing tells what vessel $name displaces"
+done
 pictures=()
 ! built_with cairo || pictures=(loads-icebreaker.png loads-ship.png loads-tug.png)
 for name in "${pictures[@]}" station-ship.json station-tug.json; do
