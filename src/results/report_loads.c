@@ -59,7 +59,10 @@ static fram_status distribution(report *r, load_unit unit, fram_error *error)
 {
     int32_t first = run_first_row(&r->d);
     load_distribution d;
-    if (first >= r->load.count)
+    double most = 0;
+    for (int32_t i = first; i < r->load.count; i++)
+        most = fmax(most, r->load.data[i]);
+    if (!(most > 0)) /* of no load there is no distribution */
         return FRAM_OK;
     if (!load_distribution_of(r->ctx, r->load.data + first, r->load.count - first, step_of(r), &d)) {
         load_distribution_free(r->ctx, &d);
@@ -186,7 +189,8 @@ fram_status report_loads(report *r, fram_error *error)
     html_grid_begin(&r->page);
     if (status == FRAM_OK)
         status = report_series(r, "Position", "position [m]", 1, place, 2, false, error);
-    if (status == FRAM_OK)
+    /* Of a vessel whose motion is given they are zero but for rounding. */
+    if (status == FRAM_OK && scenario_vessel_entry(&r->d.s, r->vessel).keys->mode == VESSEL_FREE)
         status = report_series(r, "Roll and pitch", "angle [deg]", 1, tilt, 2, false, error);
     html_grid_end(&r->page);
     return status;

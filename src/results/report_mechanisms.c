@@ -8,14 +8,15 @@
 #include <string.h>
 
 /* The chart has so many means over time at most. */
-enum { BINS_MOST = 600 };
+enum { BINS_MOST = 600, SIDES = 2 };
 
 /* Means of the parts of each mechanism along the horizontal load: the load of the same stretch of time. */
 typedef struct stacked {
     int32_t bins;
-    double width;                                         /* of a bin [s] */
-    double *time, *part[MECHANISM_COUNT];                 /* parts [N] */
-    double *low[MECHANISM_COUNT], *high[MECHANISM_COUNT]; /* of the bands, in the chart's unit */
+    double width;                         /* of a bin [s] */
+    double *time, *part[MECHANISM_COUNT]; /* parts [N] */
+    /* Of the bands above zero and below it, in the chart's unit. */
+    double *low[SIDES][MECHANISM_COUNT], *high[SIDES][MECHANISM_COUNT];
 } stacked;
 
 static double *kept_column(report *r, int32_t rows)
@@ -33,9 +34,12 @@ static bool make_room(report *r, stacked *s)
     bool good = s->time != NULL;
     for (int m = 0; m < MECHANISM_COUNT && good; m++) {
         s->part[m] = kept_column(r, s->bins);
-        s->low[m] = kept_column(r, s->bins);
-        s->high[m] = kept_column(r, s->bins);
-        good = s->part[m] && s->low[m] && s->high[m];
+        good = s->part[m] != NULL;
+        for (int side = 0; side < SIDES && good; side++) {
+            s->low[side][m] = kept_column(r, s->bins);
+            s->high[side][m] = kept_column(r, s->bins);
+            good = s->low[side][m] && s->high[side][m];
+        }
     }
     return good;
 }
@@ -66,35 +70,39 @@ static bool find_parts(const report *r, int32_t every, stacked *s)
     return true;
 }
 
-/* What pushes with the load goes up from zero, what pushes against it down. */
+/* What pushes with the load goes up from zero, what pushes against it down: two bands a mechanism, of which one has no
+   width at a time, so that a part that changes its side leaves no gap. */
 static void stack(const stacked *s, double factor)
 {
     for (int32_t b = 0; b < s->bins; b++) {
         double up = 0, down = 0;
         for (int m = 0; m < MECHANISM_COUNT; m++) {
-            double part = s->part[m][b] * factor, *from = part > 0 ? &up : &down;
-            s->low[m][b] = fmin(*from, *from + part);
-            s->high[m][b] = fmax(*from, *from + part);
-            *from += part;
+            double part = s->part[m][b] * factor;
+            s->low[0][m][b] = up;
+            s->high[0][m][b] = up += fmax(0, part);
+            s->high[1][m][b] = down;
+            s->low[1][m][b] = down += fmin(0, part);
         }
     }
 }
 
 static fram_status draw_stack(report *r, const stacked *s, load_unit unit, fram_error *error)
 {
-    chart_line bands[MECHANISM_COUNT];
+    chart_line bands[SIDES * MECHANISM_COUNT];
     char label[48], subtitle[96];
     stack(s, unit.factor);
-    for (int m = 0; m < MECHANISM_COUNT; m++) {
-        bands[m] = chart_line_make(mechanism_name((ice_mechanism)m), s->time, s->low[m], s->bins, false);
-        bands[m].style = CHART_BAND;
-        bands[m].y2 = s->high[m];
-        bands[m].colour = m + 1;
-        bands[m].solid = true;
+    for (int k = 0; k < SIDES * MECHANISM_COUNT; k++) {
+        int side = k / MECHANISM_COUNT, m = k % MECHANISM_COUNT;
+        const char *name = side == 0 ? mechanism_name((ice_mechanism)m) : "";
+        bands[k] = chart_line_make(name, s->time, s->low[side][m], s->bins, false);
+        bands[k].style = CHART_BAND;
+        bands[k].y2 = s->high[side][m];
+        bands[k].colour = m + 1;
+        bands[k].solid = true;
     }
     snprintf(label, sizeof label, "along the load [%s]", unit.name);
     snprintf(subtitle, sizeof subtitle, "means over %.3g s; what pushes against the load is under zero", s->width);
-    chart c = chart_make("Ice load by mechanism", subtitle, "time [s]", label, bands, MECHANISM_COUNT);
+    chart c = chart_make("Ice load by mechanism", subtitle, "time [s]", label, bands, SIDES * MECHANISM_COUNT);
     return html_chart(&r->page, &c, true, error);
 }
 

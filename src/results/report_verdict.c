@@ -11,7 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FINDINGS_MOST = 48, TEXT_SIZE = 320 };
+/* A text holds the longest message of a failed run (run_note), and what goes before it. */
+enum { FINDINGS_MOST = 48, TEXT_SIZE = 640 };
 
 typedef struct finding {
     verdict_grade grade;

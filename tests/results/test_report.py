@@ -4,8 +4,10 @@
 The books are those of series.csv and of the frames, which know nothing of each other: what the first frame holds, plus
 what came in, minus what went out, crushed, was lost or became brash, is what the last frame holds.
 """
+import base64
 import csv
 import html.parser
+import json
 import os
 import pathlib
 import re
@@ -33,6 +35,12 @@ ice:
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
+# Under tow, and no ice to meet.
+WATER = f"""
+run: {{duration: 2, time_step: 0.02}}
+vessel: {{mode: towed, speed: 1, {VESSEL}}}
+ice: {{source: none}}
+"""
 SECTIONS = ("Scenario", "Ice load", "What makes the load", "Motion of the vessel", "Ice field",
             "Fracture", "Mass and energy", "Quality of the solution", "Origin", "Complete scenario")
 CHARTS = ("Ice load over time", "Ice load by mechanism", "Histogram of the load",
@@ -106,6 +114,9 @@ def check(name, run, pictures):
     assert abs(first + moved - final) < 2e-3 * first, (name, first, moved, final)
     assert abs(number(rows["of the mass at the start"][0])) < 0.1, (name, rows["of the mass at the start"])
     assert float(last["fractures[1]"] if "fractures[1]" in last else last["bendings[1]"]) > 0, "nothing broke"
+    if pictures:
+        check_stack(page)
+        assert ('alt="Roll and pitch"' in page) == (name == "feeding")
     if name == "feeding":
         assert book["ice_mass_entered"] > 0 and book["ice_mass_left"] > 0, book
         assert "Station keeping" in tables.heads and "unbounded field" in rows["domain"][0], rows["domain"]
@@ -139,6 +150,18 @@ def check(name, run, pictures):
     return number(rows["of the mass at the start"][0])
 
 
+def check_stack(page):
+    """No band of the mechanisms goes from one side of zero to the other: it would leave a gap where it does."""
+    data = re.search(r'alt="Ice load by mechanism" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
+    bands = re.findall(r'fill:rgb[^"]*" d="M ([^MZ]*) Z', base64.b64decode(data).decode())
+    heights = [[float(point.split()[1]) for point in band.split(" L ")] for band in bands]
+    heights = [h for h in heights if len(h) > 4]
+    zero = heights[0][0]
+    assert len(heights) >= len(MECHANISMS), len(heights)
+    for h in heights:
+        assert max(h) < zero + 0.01 or min(h) > zero - 0.01, f"a band from {min(h)} to {max(h)} about {zero}"
+
+
 def check_times(folder):
     """Frames that end before the series: the balance is of the last frame's time, or nothing is said of it."""
     file = folder / "feeding.yaml"
@@ -163,6 +186,24 @@ def check_times(folder):
             assert late > 0.002 * start, "too little came in after the last frame for this test to tell"
 
 
+def check_water(folder, pictures):
+    """Of no load there is no distribution, of a given motion no roll and pitch; a failure's message is told whole."""
+    file, run = folder / "water.yaml", folder / "water"
+    file.write_text(WATER)
+    subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+    note = json.loads((run / "run.json").read_text())
+    message = "what went wrong takes many words, " * 14 + "and the last ones say what to do"
+    assert 480 < len(message) < 512
+    (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message}, indent=2))
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    page = (run / "report.html").read_text()
+    assert message in page, page[page.index("The run failed"):][:600]
+    if pictures:
+        assert 'alt="Position"' in page
+        for chart in ("Histogram of the load", "Exceedance of the load", "Roll and pitch"):
+            assert f'alt="{chart}"' not in page, chart
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -174,6 +215,7 @@ def main():
             subprocess.run([FRAM, "report", run, "-q"], check=True)
             said.append(f"{name}: {check(name, run, pictures):g} %")
         check_times(pathlib.Path(folder))
+        check_water(pathlib.Path(folder), pictures)
     print("mass not accounted for, " + ", ".join(said))
 
 

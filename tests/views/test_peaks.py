@@ -181,11 +181,33 @@ def check_two(browser, folder, pressure):
         click_peak(browser, 1)
         assert browser.run("fram.peaks.peak.detail.floes.length > 0 && fram.peakShown"), name
     assert not browser.run("document.getElementById('vessels').hidden")
+    told = browser.run("document.getElementById('load').textContent")
+    assert told.startswith("averaged ice force on first: X "), told
+    check_legend(browser)
+
+
+def check_legend(browser):
+    """All kinds of forces at once, and the longest row of a station, stand within the legend."""
+    rows = browser.run("""(() => {
+        const { legend } = fram, station = [[['#000', 'mooring line'], ['#000', 'propeller, thruster']]];
+        const content = legend.content;
+        legend.set({ ...content, forces: ['ice'], station: [] });
+        const before = legend.height;
+        legend.set({ ...content, forces: ['ice', 'line', 'thruster', 'hull'], station });
+        const ends = [...legend.rows.forces, ...legend.rows.station].map((row) => 12 + row.reduce((x, [, name]) =>
+            x + 14 + legend.measure.measureText(name).width + 12, -12));
+        const out = [ends, legend.width, legend.height - before];
+        legend.set(content);
+        return out; })()""")
+    ends, width, taller = rows
+    assert len(ends) == 4 and max(ends) <= width - 12, (ends, width)
+    assert taller == 3 * 18, taller
 
 
 def check_few_rows(browser, folder):
-    """A series that leaves out steps: the curve still has every peak, whole and on the canvas."""
-    run, rows = make_run(folder, "rows", TOWED.replace("interval: 0.5}", "interval: 0.5, csv_interval: 0.3}"))
+    """A series that leaves out steps and goes on after the last frame: the curve still has every peak, whole and on
+    the canvas, and a part that changes its side leaves no gap."""
+    run, rows = make_run(folder, "rows", TOWED.replace("interval: 0.5}", "interval: 3, csv_interval: 0.3}"))
     browser.open(run / "playback.html")
     told = browser.run("fram.record.loads.vessels[0]")
     most = max(p["detail"]["load"] for p in told["peaks"])
@@ -197,6 +219,13 @@ def check_few_rows(browser, folder):
     for k, load in enumerate(told["load"]):
         assert abs(sum(p[k] for p in told["parts"]) - load) < 2e-4 * most, told["time"][k]
     assert told["time"] == sorted(told["time"])
+    assert browser.run("fram.end") == 6
+    at, width = browser.run("[fram.timeline.x(fram.timeline.vessel.time.at(-1)), fram.timeline.canvas.clientWidth]")
+    assert at <= width, f"the curve ends at {at} of {width} pixels"
+    changed = sum(min(p) < 0 < max(p) for p in told["parts"])
+    assert changed > 0, "no part changes its side: too little for this test to tell"
+    assert browser.run("fram.timeline.bands.every(({ low, high }) => { const all = [...low, ...high];"
+                       "return all.every((v) => v >= 0) || all.every((v) => v <= 0); })"), "a band changes its side"
     assert browser.run("fram.timeline.vessel.peaks.every((p) => { const y = fram.timeline.y(p.load, 132, 40);"
                        "return y >= 39.9 && y <= 132; })")
 

@@ -32,7 +32,7 @@ output: {frame_interval: 0.5}
 """
 # Driven ice that breaks on a hull with lines and thrusters: arrows of every kind, and marks.
 MOORED = """
-title: "Moored <b>ship</b>"
+title: "Moored <b>ship</b> # 2, \\"so\\" called"
 run: {duration: 8, time_step: 0.02, seed: 3}
 vessel:
   mode: free
@@ -45,6 +45,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 environment: {current_speed: 2.5, current_direction_deg: 180}
 output: {frame_interval: 0.25}
 """
+TITLE = 'Moored <b>ship</b> # 2, "so" called'
 LOOK = """(() => {
     fram.scene.render();
     const gl = fram.scene.renderer.getContext(), out = new Uint8Array(4);
@@ -167,12 +168,38 @@ def check_seek(browser):
     left, top, width, height = browser.box("timeline")
     for part in (0.75, 0.25):
         browser.click(left + part * width, top + height / 2)
-        time, end = browser.run("[fram.time, fram.end]")
+        time, end = browser.run("[fram.time, fram.timeline.span]")
         assert abs(time - part * end) < 0.01 * end, f"a click at {part} of the timeline leads to {time} s of {end} s"
     before = browser.run("fram.time")
     browser.call("Input.dispatchKeyEvent", type="keyDown", code="ArrowRight", key="ArrowRight")
     step = browser.run("fram.time") - before
     assert 0 < step <= 0.5, f"an arrow key goes on by {step} s"
+
+
+def check_keyboard(browser):
+    """A control that has the focus keeps its keys; elsewhere the space bar plays."""
+    press = {"code": "Space", "key": " ", "windowsVirtualKeyCode": 32}
+    for focused, expected in (("forces", [False, False]), ("forces", [True, False]), (None, [True, True])):
+        browser.run(f"document.getElementById('{focused}').focus()" if focused else "document.activeElement.blur()")
+        browser.call("Input.dispatchKeyEvent", type="keyDown", text=" ", **press)
+        browser.call("Input.dispatchKeyEvent", type="keyUp", **press)
+        seen = browser.run("[document.getElementById('forces').checked, fram.playing]")
+        assert seen == expected, f"space with the focus on {focused}: {seen}"
+    browser.run("fram.toggle()")
+
+
+def check_long_title(browser):
+    """It takes two lines beside the legend, and neither that nor the history lies on it."""
+    heads = browser.run("""(() => { const title = document.getElementById('title'), before = title.textContent;
+        title.textContent = 'word '.repeat(100);
+        const history = document.getElementById('history');
+        history.hidden = false;
+        const box = (q) => document.querySelector(q).getBoundingClientRect();
+        const out = [box('header').right <= box('#legend').left, box('header').bottom <= box('#history').top];
+        history.hidden = true;
+        title.textContent = before;
+        return out; })()""")
+    assert heads == [True, True], heads
 
 
 def check_pick(browser):
@@ -352,9 +379,9 @@ def main():
         browser.open(moored / "playback.html")
         browser.choose("camera", "orbit")
         browser.choose("colour", "plain")
-        assert browser.run("document.getElementById('title').textContent") == "Moored <b>ship</b>"
-        for check in (check_blank, check_play, check_seek, check_pick, check_colours, check_arrows_and_marks,
-                      check_cameras, check_still, check_video):
+        assert browser.run("document.getElementById('title').textContent") == TITLE
+        for check in (check_blank, check_play, check_seek, check_keyboard, check_long_title, check_pick,
+                      check_colours, check_arrows_and_marks, check_cameras, check_still, check_video):
             check(browser)
         calls = browser.run("(fram.draw(), fram.scene.renderer.info.render.calls)")
         assert calls <= 20, calls

@@ -3,6 +3,7 @@
 
 const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sans-serif';
 const WIDTH = 204, EDGE = 12, LINE = 18;
+const SWATCH = 14, GAP = 12; // from a swatch to its name, and from a name to the next swatch [px]
 export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5', hull: '#8c5c1a' };
 const MARK = '#d9730d';
 /** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
@@ -16,19 +17,28 @@ export function forceText(kilonewton) {
 }
 
 export class Legend {
+    constructor() {
+        this.measure = document.createElement('canvas').getContext('2d');
+        this.measure.font = `12px ${FONT}`;
+    }
+
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
      *  forces: kinds that are shown; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
      *  pressure on it or null; peak: whether one is shown; marked: seconds that a mark stays, or 0}. */
     set(content) {
+        const { keys, forces, station } = content, rows = (list) => rowsOf(this.measure, list);
+        const kinds = forces.map((kind) => [FORCE_COLOURS[kind], kind]);
         this.content = content;
+        this.rows = { keys: rows(keys), forces: rows(kinds), station: station.flatMap(rows) };
         this.drawn = '';
     }
 
     get width() { return WIDTH; }
     get height() {
-        const { unit, forces, station, marked, hull, peak } = this.content;
-        return 2 * EDGE + (unit ? 44 : LINE) + (hull ? 44 : 0) + (peak ? LINE : 0) + (forces.length ? 2 * LINE : 0) +
-            station.length * LINE + (marked ? LINE : 0) + 48;
+        const { unit, marked, hull, peak } = this.content, { keys, forces, station } = this.rows;
+        const lines = (unit ? 0 : keys.length) + (peak ? 1 : 0) + (forces.length ? 1 + forces.length : 0) +
+            station.length + (marked ? 1 : 0);
+        return 2 * EDGE + (unit ? 44 : 0) + (hull ? 44 : 0) + lines * LINE + 48;
     }
 
     /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y
@@ -49,17 +59,22 @@ export class Legend {
     }
 
     draw(g, view) {
-        const { unit, ends, ramp, keys, forces, station, marked, hull, peak } = this.content;
+        const { unit, ends, ramp, marked, hull, peak } = this.content, { keys, forces, station } = this.rows;
         paper(g, this.width, this.height);
         g.font = `12px ${FONT}`;
         let y = EDGE + 11;
+        const each = (rows) => {
+            for (const row of rows) {
+                swatches(g, y, row);
+                y += LINE;
+            }
+        };
         if (unit) {
             g.fillText(unit, EDGE, y);
             this.bar(g, y + 6, ramp, ends);
             y += 44;
         } else {
-            swatches(g, y, keys);
-            y += LINE;
+            each(keys);
         }
         if (hull) {
             g.fillText(hull.unit, EDGE, y);
@@ -72,13 +87,10 @@ export class Legend {
         }
         if (forces.length) {
             g.fillText('forces on the vessel', EDGE, y);
-            swatches(g, y + LINE, forces.map((kind) => [FORCE_COLOURS[kind], kind]));
-            y += 2 * LINE;
-        }
-        for (const row of station) {
-            swatches(g, y, row);
             y += LINE;
+            each(forces);
         }
+        each(station);
         if (marked) {
             swatches(g, y, [[MARK, `broke in the last ${marked} s`]]);
             y += LINE;
@@ -130,6 +142,19 @@ function paper(g, width, height) {
     g.fillStyle = INK;
 }
 
+/** Swatches with their names in as many rows as the width asks for. */
+function rowsOf(g, list) {
+    const rows = [];
+    let x = 0;
+    for (const key of list) {
+        const wide = SWATCH + g.measureText(key[1]).width;
+        if (!rows.length || x + wide > WIDTH - 2 * EDGE) { rows.push([]); x = 0; }
+        rows.at(-1).push(key);
+        x += wide + GAP;
+    }
+    return rows;
+}
+
 function swatches(g, y, list) {
     let x = EDGE;
     for (const [colour, name] of list) {
@@ -139,8 +164,8 @@ function swatches(g, y, list) {
         g.lineWidth = 0.7;
         g.strokeRect(x, y - 9, 10, 10);
         g.fillStyle = INK;
-        g.fillText(name, x + 14, y);
-        x += 26 + g.measureText(name).width;
+        g.fillText(name, x + SWATCH, y);
+        x += SWATCH + g.measureText(name).width + GAP;
     }
 }
 

@@ -7,7 +7,8 @@ import { Poses } from './poses.js';
 import { Loads } from './loads.js';
 import { PeakPanel } from './peaks.js';
 import { follow } from './live.js';
-import { bytesOf, Chunks, FrameStore, readRecord, titleOf } from './record.js';
+import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
+import { readScenario, vesselsOf } from './scenario.js';
 import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
@@ -35,7 +36,9 @@ class Player {
         this.playing = false;
         this.picked = null;
         this.dirty = true;
-        $('title').textContent = titleOf(record) || 'Fram';
+        const told = readScenario(record.scenario), vessels = vesselsOf(told);
+        $('title').textContent = told.title || 'Fram';
+        this.ofVessel = vessels.length > 1 ? ` on ${vessels[0].name}` : ''; // frames tell the force on the first
         this.begin();
     }
 
@@ -174,6 +177,9 @@ class Player {
     }
 
     key(e) {
+        // A control that has the focus keeps the keys it works by: without a mouse there is no other way.
+        const { target } = e, own = e.code === 'Space' ? 'button, input, select' : 'select';
+        if (e.ctrlKey || e.altKey || e.metaKey || target.matches?.(own)) return;
         const frames = this.record.frames, now = Math.round(this.frameAt(this.time));
         if (e.code === 'Space') this.toggle();
         else if (e.code === 'ArrowRight') this.seek(frames[Math.min(now + 1, frames.length - 1)].time);
@@ -474,7 +480,7 @@ class Player {
         const { floes } = this.poses;
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
         const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
-        $('load').textContent = this.hull ? `averaged ice force: X ${x} kN, Y ${y} kN` : '';
+        $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x} kN, Y ${y} kN` : '';
     }
 }
 

@@ -339,9 +339,3 @@ export function bytesOf(base64) {
     for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
     return bytes.buffer;
 }
-
-/** The scenario's title, from its YAML text. */
-export function titleOf(record) {
-    const line = record.scenario.match(/^title:\s*(.*)$/m);
-    return line ? line[1].replace(/\s+#.*$/, '').replace(/^(["'])(.*)\1$/, '$2').trim() : '';
-}

@@ -22,6 +22,11 @@ export function readScenario(text) {
     return root;
 }
 
+/** Those that take part in the run, in the order of their hulls in the record. */
+export function vesselsOf(scenario) {
+    return (scenario.vessels ?? [scenario.vessel]).filter((v) => v && v.present !== false);
+}
+
 function valueOf(text) {
     if (text.startsWith('"')) return JSON.parse(text);
     if (text === '[]') return [];

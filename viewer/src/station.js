@@ -7,7 +7,7 @@ import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { FORCE_COLOURS, GONE } from './legend.js';
-import { readScenario } from './scenario.js';
+import { readScenario, vesselsOf } from './scenario.js';
 
 const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one along the bottom
 const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller without a diameter, as the scenario's keys say [Pa]
@@ -17,8 +17,8 @@ const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be see
 export class Station {
     /** water: its mesh, at whose edge lines are cut. */
     constructor(scene, record, water) {
-        const told = readScenario(record.scenario), hulls = record.bodies.filter((b) => b.material === 'hull');
-        const vessels = (told.vessels ?? [told.vessel]).filter((v) => v && v.present !== false);
+        const hulls = record.bodies.filter((b) => b.material === 'hull');
+        const vessels = vesselsOf(readScenario(record.scenario));
         const each = (make) => vessels.flatMap((v, i) => (v.mode === 'free' && hulls[i] ? make(v, hulls[i]) : []));
         this.lines = each(linesOf);
         this.thrusters = each((v, hull) => [...thrustersOf(v, hull), ...propellersOf(v, hull)]);

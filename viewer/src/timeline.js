@@ -37,7 +37,8 @@ export class Timeline {
     /** What follows from all frames that there are now. */
     grow() {
         this.begin = this.frames[0].time;
-        this.span = this.frames.at(-1).time - this.begin || 1;
+        // The loads may go on after the last frame.
+        this.span = Math.max(this.frames.at(-1).time, this.vessel?.time.at(-1) ?? 0) - this.begin || 1;
         this.load = this.frames.map((f) => Math.hypot(f.force[0], f.force[1]) / 1000);
         this.most = this.load.reduce((a, b) => Math.max(a, b), 1e-9);
         this.events = this.record.fractures.map((f) => f.time);
@@ -50,24 +51,21 @@ export class Timeline {
         this.vessel = vessel;
         this.kinds = loads.shown(vessel);
         this.stack();
-        this.back = null;
+        this.grow();
     }
 
-    /** What pushes with the load goes up from zero, what pushes against it down. */
+    /** What pushes with the load goes up from zero, what pushes against it down: two bands a mechanism, of which one
+     *  has no width at a time, so that a part that changes its side leaves no gap. */
     stack() {
         const { vessel } = this, n = vessel.time.length;
         this.up = new Float64Array(n);
         this.down = new Float64Array(n);
-        this.bands = this.loads.names.map((_, m) => {
-            const low = new Float64Array(n), high = new Float64Array(n);
-            for (let k = 0; k < n; k++) {
-                const part = vessel.parts[m][k], from = part > 0 ? this.up : this.down;
-                low[k] = from[k];
-                from[k] += part;
-                high[k] = from[k];
-            }
-            return { low, high };
-        });
+        this.bands = this.loads.names.flatMap((_, m) => [[this.up, Math.max], [this.down, Math.min]]
+            .map(([from, side]) => {
+                const low = from.slice();
+                for (let k = 0; k < n; k++) from[k] += side(0, vessel.parts[m][k]);
+                return { colour: MECHANISM_COLOURS[m], low, high: from.slice() };
+            }));
         const most = (list) => list.reduce((a, b) => Math.max(a, b), 1e-6);
         this.top = Math.max(most(vessel.load), most(this.up), most(vessel.peaks.map((p) => p.load)));
         this.bottom = this.down.reduce((a, b) => Math.min(a, b), 0);
@@ -160,8 +158,8 @@ export class Timeline {
 
     drawBands(g, h, head) {
         const { time, load } = this.vessel, n = time.length;
-        this.bands.forEach(({ low, high }, m) => {
-            g.fillStyle = MECHANISM_COLOURS[m];
+        this.bands.forEach(({ colour, low, high }) => {
+            g.fillStyle = colour;
             g.beginPath();
             for (let k = 0; k < n; k++) g.lineTo(this.x(time[k]), this.y(high[k], h, head));
             for (let k = n - 1; k >= 0; k--) g.lineTo(this.x(time[k]), this.y(low[k], h, head));
