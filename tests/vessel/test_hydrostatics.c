@@ -248,7 +248,7 @@ START_TEST(block_coefficients)
     }
     p = box_particulars;
     p.block_coefficient = 0.9;
-    assert_fails(hull_make(&ctx, &p, &m, &pieces, &error), error, FRAM_ERROR_INPUT, "1.0000 to 1.0000");
+    assert_fails(hull_make(&ctx, &p, &m, &pieces, &error), error, FRAM_ERROR_INPUT, "expected 1, that of a box");
     p.block_coefficient = 1;
     assert_ok(hull_make(&ctx, &p, &m, &pieces, &error), error);
     free_hull(&ctx, &m, &pieces);
