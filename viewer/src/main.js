@@ -479,7 +479,7 @@ class Player {
     tell(state) {
         const { floes } = this.poses;
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
-        const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
+        const [x, y] = state.force.map((newton) => Math.round(newton / 1000)); // never "-0"
         $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x} kN, Y ${y} kN` : '';
     }
 }
