@@ -90,7 +90,7 @@ static const struct {
     {"solver_residual", "largest residual of a contact's normal condition after the last iteration"},
     {"overlap_mean", "of the contacts that overlap"},
     {"overlap_max", "of the contacts that overlap"},
-    {"kinetic_energy", "of all bodies"},
+    {"kinetic_energy", "of all bodies that move freely"},
     {"step_wall_time", "wall-clock time that the step took"},
 };
 

@@ -128,6 +128,12 @@ peak_breaks peak_breaks_before(const run_data *d, double time, double before)
     return b;
 }
 
+void peak_tell_breaks(context *ctx, const peak_breaks *b, text_buffer *out)
+{
+    text_format(ctx, out, "%d break%s in bending and %d split%s", (int)b->bendings, b->bendings == 1 ? "" : "s",
+                (int)b->splits, b->splits == 1 ? "" : "s");
+}
+
 static void tell_floe(context *ctx, const peak_detail *d, text_buffer *out)
 {
     const peak_floe *f = &d->floe[0];
@@ -166,8 +172,10 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
                 (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
     tell_floe(ctx, d, out);
     peak_breaks b = peak_breaks_before(run, d->time, 5);
-    if (b.splits + b.bendings > 0)
-        text_format(ctx, out, "; in all of the ice %d breaks in bending and %d splits in the 5 s before",
-                    (int)b.bendings, (int)b.splits);
+    if (b.splits + b.bendings > 0) {
+        text_add(ctx, out, "; in all of the ice ");
+        peak_tell_breaks(ctx, &b, out);
+        text_add(ctx, out, " in the 5 s before");
+    }
     text_add(ctx, out, ".");
 }

@@ -23,6 +23,8 @@ typedef struct peak_breaks {
     double last; /* time of the latest; NaN without [s] */
 } peak_breaks;
 peak_breaks peak_breaks_before(const run_data *d, double time, double before);
+/* In words: "2 breaks in bending and 1 split". */
+void peak_tell_breaks(context *ctx, const peak_breaks *b, text_buffer *out);
 
 /* One sentence about a peak, ended by a full stop. */
 void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out);

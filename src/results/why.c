@@ -155,8 +155,8 @@ static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text
 static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
 {
     peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
-    text_format(y->ctx, out, "\nIn the %g s before, in all of the ice: %d breaks in bending, %d splits", BEFORE,
-                (int)b.bendings, (int)b.splits);
+    text_format(y->ctx, out, "\nIn the %g s before, in all of the ice: ", BEFORE);
+    peak_tell_breaks(y->ctx, &b, out);
     if (isfinite(b.last))
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
     const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");

@@ -70,7 +70,7 @@ class Units:
         self.assertEqual(kinds["ice_force_x"], "output")
         self.assertNotIn("step_wall_time", kinds)
         self.assertEqual(unit.unit_of("ice_force_x"), "N")
-        self.assertEqual(unit.variables["kinetic_energy"].get("description"), "of all bodies")
+        self.assertEqual(unit.variables["kinetic_energy"].get("description"), "of all bodies that move freely")
         units = {u.get("name") for u in unit.description.iter("Unit")}
         for variable in unit.variables:
             self.assertIn(unit.unit_of(variable), units | {None})
