@@ -25,6 +25,9 @@ typedef struct usual {
     const char *why, *remedy;
 } usual;
 
+/* The most that lines are set to, at full size [N]: a spring without a breaking load that pulls more is told. */
+#define MOST_PULL 3e7
+
 /* Sea ice: Timco and Weeks (2010), Cold Regions Science and Technology 60: flexural strength 0.1 to 1.8 MPa, fresh ice
    up to 3, modulus 1 to 10 GPa; Timco and Frederking (1996): density 720 to 940 kg/m3; Dempsey, Adamson and Mulmule
    (1999): toughness 0.05 to 0.3 MPa m^0.5; friction: Sukhorukov and Loset (2013), 0.02 to 1. */
@@ -76,7 +79,7 @@ static const usual usual_values[] = {
     {"environment.hull_drag.air_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
     {"vessel.hull.length", 4, 500, 1, "what ships and structures measure", "give metres"},
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
-    {"vessel.mooring.lines[].pretension", 2e3, 3e7, 3, "what lines are set to", "give newtons, not kN or tonnes"},
+    {"vessel.mooring.lines[].pretension", 2e3, MOST_PULL, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
     {"vessel.hull.freeboard", 0.2, 60, 1, "what ships have", "give metres"},
     {"vessel.hydrodynamics.heave_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
@@ -395,9 +398,6 @@ static void tell_rest(const teller *t)
 /* Strain from which on a line without a breaking load is told: chain breaks at about 1 %, by its stiffness and its
    least breaking load. */
 #define TAUT 0.02
-
-/* What lines are set to at full size [N], and as what a larger pull of a spring is told that nothing lets part. */
-#define MOST_PULL 3e7
 
 /* A spring whose length is given, under the tension of the start. */
 static void tell_spring(const teller *t, const vessel_entry *e, int32_t line, double straight)

@@ -45,6 +45,14 @@ def towed(**more):
     return fram.Scenario.from_text(TOWED, **more)
 
 
+def in_threads(count, work):
+    threads = [threading.Thread(target=work) for _ in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
 class Worlds(unittest.TestCase):
     def test_a_callback_may_close_step_and_load(self):
         world = towed().world()
@@ -73,11 +81,7 @@ class Worlds(unittest.TestCase):
                 except fram.UsageError as error:
                     others.append(error.message)
 
-        threads = [threading.Thread(target=work) for _ in range(3)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        in_threads(3, work)
         self.assertEqual((world.steps, len(done) + len(others)), (len(done), 120))
         self.assertTrue(all("another call on it has not returned" in message for message in others))
         world._calls.append(None)  # as while another thread steps it
@@ -97,11 +101,7 @@ class Worlds(unittest.TestCase):
             world.step(30)
             hashes.append(world.hash)
 
-        threads = [threading.Thread(target=work) for _ in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        in_threads(4, work)
         self.assertEqual(hashes, [alone.hash] * 4)
 
     def test_what_threads_make_and_leave_is_destroyed_once(self):
@@ -116,11 +116,7 @@ class Worlds(unittest.TestCase):
         interval = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, interval)
         sys.setswitchinterval(1e-6)
-        threads = [threading.Thread(target=work) for _ in range(6)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        in_threads(6, work)
         gc.collect()
         self.assertEqual((_library._users[address], len(_library._made)), ([], before))
 
