@@ -276,10 +276,35 @@ static void tell_area(const teller *t, const char *key, double area, double own)
                    t->e->path, key, area, area / own, own);
 }
 
+/* A current across the hull that matters to its station, at full size [m/s]. */
+#define ACROSS_LEAST 0.2
+/* Form drag under which a hull is rather one that goes ahead; bluff sides in cross flow have 0.6 to 1.2 (Hoerner 1965,
+   Fluid-Dynamic Drag). */
+#define SIDE_LEAST 0.4
+
+/* A vessel kept on station in a beam current with the drag of a hull that goes ahead. */
+static void tell_current_across(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_environment *n = &t->s->environment;
+    bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active);
+    bool faces = v->current_coefficients.table.count == 0 && v->current_coefficients.table_file[0] == '\0';
+    double across = n->current_speed * fabs(real_sin((n->current_direction_deg - v->heading_deg) * (PI / 180)));
+    if (!kept || !faces || !n->water || v->hull.form == HULL_CONE || n->current_file[0] != '\0' ||
+        n->hull_drag.water_form >= SIDE_LEAST || across < ACROSS_LEAST * sanity_at_scale(t->s, 0.5))
+        return;
+    sanity_say(
+        t->tell, t->to,
+        "%s: a current of %.3g m/s comes across the hull, and environment.hull_drag.water_form is %.3g, of a hull "
+        "that goes ahead: a ship's side has about 1; give that, or %s.current_coefficients",
+        t->e->path, across, n->hull_drag.water_form, t->e->path);
+}
+
 static void tell_flows(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_hull *h = &v->hull;
+    tell_current_across(t);
     if (!sanity_own_hull(v))
         return;
     tell_area(t, "current_coefficients.frontal_area", v->current_coefficients.frontal_area, h->beam * h->draught);

@@ -47,6 +47,15 @@ told ship.yaml "lines[0].length: 900 m|pulls with 3.982e+05 N from the start, mo
     --set "vessel.mooring.lines[0].breaking_load=7e5"
 told ship.yaml "lines[0].length: 8 m|from the start: it is the length without tension" --set "$no_end" \
     --set "$spring" --set "vessel.mooring.lines[0].length=8" --set "vessel.mooring.lines[0].stiffness=5e4"
+# A beam current on the drag of a hull that goes ahead: not where the sides have theirs, nor for one from ahead.
+across=environment.current_direction_deg
+told ship.yaml "vessel: a current of 0.346 m/s comes across the hull|vessel.current_coefficients" --set $across=120
+for way in "$across=160" "$across=120 --set environment.hull_drag.water_form=1" \
+    "$across=120 --set environment.current_speed=0.2" "$across=120 --set vessel.heading_deg=-60"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" check ship.yaml --set $way
+    grep 'comes across' err && fail "told of $way"
+done
 refused ship.yaml "hull.block_coefficient: expected 1, that of a box, or none" --set vessel.hull.form=box \
     --set vessel.hull.block_coefficient=0.6
 refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
