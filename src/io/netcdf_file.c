@@ -7,7 +7,58 @@
 #include <unistd.h>
 
 #ifdef FRAM_HAVE_NETCDF
+#include <dlfcn.h>
 #include <netcdf.h>
+
+/* NetCDF brings sixty libraries, which take longer to load than most commands run: it is opened when the first file
+   is written, and stays open. */
+#define CALLS(X)        \
+    X(create)           \
+    X(close)            \
+    X(def_dim)          \
+    X(def_var)          \
+    X(def_var_chunking) \
+    X(def_var_deflate)  \
+    X(inq_dimlen)       \
+    X(put_att_text)     \
+    X(put_var_double)   \
+    X(put_var_int)      \
+    X(put_var_string)   \
+    X(put_vara_float)   \
+    X(strerror)
+#define POINTER(name) __typeof__(nc_##name) *name;
+struct netcdf_calls {
+    CALLS(POINTER)
+};
+
+/* call: a pointer to the function, of whatever type. */
+static bool find(void *library, const char *name, void *call)
+{
+    void *found = dlsym(library, name);
+    memcpy(call, &found, sizeof found); /* the size of all pointers in POSIX */
+    return found != NULL;
+}
+
+static bool find_all(netcdf_calls *nc)
+{
+    void *library = dlopen(FRAM_NETCDF_LIBRARY, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+#define AND_FOUND(name) &&find(library, "nc_" #name, &nc->name)
+    return library != NULL CALLS(AND_FOUND);
+}
+
+static fram_status open_library(context *ctx, const char *path, netcdf_calls **out, fram_error *error)
+{
+    *out = memory_array(ctx, 1, sizeof **out);
+    if (!*out)
+        return error_memory(error);
+    if (find_all(*out))
+        return FRAM_OK;
+    memory_free(ctx, *out);
+    *out = NULL;
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL,
+                     "a .nc file is written by the NetCDF library (Debian: libnetcdf-dev), which does not open: %s",
+                     dlerror());
+}
 
 /* Shuffled and deflated at level 1: columns of slow change shrink to a third, and writing stays bound by the disk. */
 enum { SHUFFLE = 1, DEFLATE = 1, LEVEL = 1 };
@@ -22,6 +73,7 @@ static void keep(netcdf_file *f, int code)
 
 static void forget(netcdf_file *f)
 {
+    memory_free(f->ctx, f->nc);
     memory_free(f->ctx, f->path);
     memory_free(f->ctx, f->temporary);
     memset(f, 0, sizeof *f);
@@ -31,6 +83,9 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
 {
     int descriptor = -1;
     memset(f, 0, sizeof *f);
+    fram_status there = open_library(ctx, path, &f->nc, error);
+    if (there != FRAM_OK)
+        return there;
     f->ctx = ctx;
     f->path = memory_string(ctx, path);
     fram_status made = f->path ? temporary_file(ctx, path, &f->temporary, &descriptor, error) : error_memory(error);
@@ -39,12 +94,12 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
         return made;
     }
     close(descriptor); /* NetCDF takes a name */
-    int code = nc_create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
+    int code = f->nc->create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
     if (code != NC_NOERR) {
         /* Codes of the operating system are positive, and NetCDF's own ones are negative. */
         fram_status status =
             code > 0 ? file_error(error, path, "open for writing", code)
-                     : error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", nc_strerror(code));
+                     : error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", f->nc->strerror(code));
         unlink(f->temporary);
         forget(f);
         return status;
@@ -57,14 +112,14 @@ int netcdf_dimension(netcdf_file *f, const char *name, size_t length)
 {
     int dimension = 0;
     if (!f->failed)
-        keep(f, nc_def_dim(f->id, name, length, &dimension));
+        keep(f, f->nc->def_dim(f->id, name, length, &dimension));
     return dimension;
 }
 
 static void put_text(netcdf_file *f, int variable, const char *name, const char *text)
 {
     if (!f->failed && *text)
-        keep(f, nc_put_att_text(f->id, variable, name, strlen(text), text));
+        keep(f, f->nc->put_att_text(f->id, variable, name, strlen(text), text));
 }
 
 int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,
@@ -75,17 +130,17 @@ int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const in
     int variable = 0;
     if (f->failed)
         return variable;
-    keep(f, nc_def_var(f->id, name, types[type], count, dimensions, &variable));
+    keep(f, f->nc->def_var(f->id, name, types[type], count, dimensions, &variable));
     size_t length = 0, rows = 0;
     if (!f->failed && count > 0 && type != NETCDF_TEXT) {
-        keep(f, nc_inq_dimlen(f->id, dimensions[count - 1], &length));
-        keep(f, nc_def_var_deflate(f->id, variable, SHUFFLE, DEFLATE, LEVEL));
+        keep(f, f->nc->inq_dimlen(f->id, dimensions[count - 1], &length));
+        keep(f, f->nc->def_var_deflate(f->id, variable, SHUFFLE, DEFLATE, LEVEL));
     }
     if (!f->failed && count == 2) {
-        keep(f, nc_inq_dimlen(f->id, dimensions[0], &rows));
+        keep(f, f->nc->inq_dimlen(f->id, dimensions[0], &rows));
         size_t wanted = length > 0 ? (CHUNK_VALUES + length - 1) / length : 1;
         const size_t chunk[2] = {wanted < rows ? wanted : rows > 0 ? rows : 1, length > 0 ? length : 1};
-        keep(f, nc_def_var_chunking(f->id, variable, NC_CHUNKED, chunk));
+        keep(f, f->nc->def_var_chunking(f->id, variable, NC_CHUNKED, chunk));
     }
     put_text(f, variable, "units", units);
     put_text(f, variable, "long_name", meaning);
@@ -97,37 +152,37 @@ void netcdf_attribute(netcdf_file *f, const char *name, const char *text) { put_
 void netcdf_put_f64(netcdf_file *f, int variable, const double *values)
 {
     if (!f->failed)
-        keep(f, nc_put_var_double(f->id, variable, values));
+        keep(f, f->nc->put_var_double(f->id, variable, values));
 }
 
 void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values)
 {
     if (!f->failed)
-        keep(f, nc_put_var_int(f->id, variable, values));
+        keep(f, f->nc->put_var_int(f->id, variable, values));
 }
 
 void netcdf_put_text(netcdf_file *f, int variable, const char **values)
 {
     if (!f->failed)
-        keep(f, nc_put_var_string(f->id, variable, values));
+        keep(f, f->nc->put_var_string(f->id, variable, values));
 }
 
 void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
 {
     const size_t start[2] = {row, 0}, edge[2] = {1, count};
     if (!f->failed && count > 0)
-        keep(f, nc_put_vara_float(f->id, variable, start, edge, values));
+        keep(f, f->nc->put_vara_float(f->id, variable, start, edge, values));
 }
 
 fram_status netcdf_end(netcdf_file *f, fram_error *error)
 {
-    keep(f, nc_close(f->id));
+    keep(f, f->nc->close(f->id));
     f->open = false;
     fram_status status = FRAM_OK;
     if (f->failed == NC_NOERR)
         status = atomic_file_adopt(f->ctx, f->temporary, f->path, error);
     else
-        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s", nc_strerror(f->failed));
+        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s", f->nc->strerror(f->failed));
     if (f->failed != NC_NOERR)
         unlink(f->temporary);
     forget(f);
@@ -138,7 +193,7 @@ void netcdf_abandon(netcdf_file *f)
 {
     if (!f->open)
         return;
-    nc_close(f->id);
+    f->nc->close(f->id);
     unlink(f->temporary);
     forget(f);
 }

@@ -1,13 +1,17 @@
 /* NetCDF-4 files (which are HDF5 files): dimensions, variables with units, arrays.  Whole files or none.  Without
-   NetCDF in the build netcdf_begin returns FRAM_ERROR_UNSUPPORTED.  Knows nothing of what the arrays mean. */
+   NetCDF in the build, or without its library where it runs, netcdf_begin returns FRAM_ERROR_UNSUPPORTED.  Knows nothing
+   of what the arrays mean. */
 #ifndef IO_NETCDF_FILE_H
 #define IO_NETCDF_FILE_H
 
 #include "base/context.h"
 
+typedef struct netcdf_calls netcdf_calls; /* the functions of the library */
+
 /* The first failure is kept and later calls do nothing, so that it is enough to look at netcdf_end. */
 typedef struct netcdf_file {
     context *ctx;
+    netcdf_calls *nc;
     char *path, *temporary;
     int id;
     int failed; /* NetCDF's code of the first failure, 0 */

@@ -162,6 +162,18 @@ if "$FRAM" --version | grep -q netcdf; then
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
     same "$(value 'j["error"]["status"], j["error"]["file"]')" "io full.nc" "an export that finds no room"
     [ -z "$(ls full.nc* 2>/dev/null)" ] || fail "an export that found no room left $(ls full.nc*)"
+    # The library is opened for a .nc file alone, and may be gone by then; one that has a place of its own is not looked
+    # for by its name.
+    library=$(sed -n 's/^FRAM_NETCDF_LIBRARY:.*=//p' "$FRAM_BUILD/CMakeCache.txt")
+    if [[ $library != */* ]]; then
+        mkdir broken
+        echo "no library" >"broken/$library"
+        LD_LIBRARY_PATH=broken expect 1 "$FRAM" export run --netcdf -o gone.nc --json
+        same "$(value 'j["error"]["status"], j["error"]["file"]')" "unsupported gone.nc" "an export without its library"
+        says "NetCDF library" err
+        [ ! -e gone.nc ] || fail "an export without its library left a file"
+        LD_LIBRARY_PATH=broken expect 0 "$FRAM" export run --geojson --time 1 -q -o early.geojson
+    fi
 else
     expect 1 "$FRAM" export run --netcdf -q
 fi
