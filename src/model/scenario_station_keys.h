@@ -75,7 +75,8 @@
     X(control, CHOICE(positioning_control, CONTROL_PLACE_AND_HEADING, "all heading"), "",                             \
       "all: position and heading; heading: the heading alone, as thrusters assist a mooring that holds the position") \
     X(interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between calls of the controller; at least a time step")           \
-    X(sample_interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between measurements")                                     \
+    X(sample_interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s",                                                             \
+      "between measurements, which are taken at calls: a multiple of interval, if need be the next larger")           \
     X(noise_position, SCALED(0.05, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                \
     X(noise_heading_deg, REAL(0.05, 0, 90), "deg", "standard deviation of the measured heading")                      \
     X(observer, CHOICE(observer_kind, OBSERVER_PASSIVE, "passive kalman"), "",                                        \
@@ -108,11 +109,13 @@
     X(damping_yaw, AUTOMATIC(0, 1e18), "kg m2/s", "of the controller's model; auto: inertia over 20 s at full scale") \
     X(waypoints, LIST(waypoint, 1000), "", "where the vessel shall be, by time; before the first: where it starts")
 
-#define SCENARIO_STATION_KEYS(X)                                                                            \
-    X(offset_limit, AUTOMATIC(0, 1e7), "m", "position is lost beyond this offset; auto: no limit")          \
-    X(heading_limit_deg, AUTOMATIC(0, 180), "deg", "heading is lost beyond this deviation; auto: no limit") \
-    X(watch_x, AUTOMATIC(-1e4, 1e4), "m",                                                                   \
-      "the point whose offset counts, in ship coordinates; auto: the mooring's centre")                     \
+#define SCENARIO_STATION_KEYS(X)                                                                          \
+    X(offset_limit, AUTOMATIC(0, 1e7), "m",                                                               \
+      "position is lost beyond this offset from x, y or the way points; auto: no limit")                  \
+    X(heading_limit_deg, AUTOMATIC(0, 180), "deg",                                                        \
+      "heading is lost beyond this deviation from heading_deg, the way points or vaning; auto: no limit") \
+    X(watch_x, AUTOMATIC(-1e4, 1e4), "m",                                                                 \
+      "the point whose offset counts, in ship coordinates; auto: the mooring's centre")                   \
     X(watch_y, AUTOMATIC(-1e4, 1e4), "m", "auto: the mooring's centre")
 
 /* Inner sections before those that hold them. */

@@ -222,9 +222,12 @@ static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2
     if (lines > 0)
         n = (size_t)snprintf(out, room, ", %lld mooring line%s%s in %.4g m of water", (long long)lines,
                              lines > 1 ? "s" : "", v->mooring.turret ? " on a turret" : "", v->mooring.depth);
+    bool pushes = v->positioning.active;
+    for (int32_t i = 0; i < v->thrusters.count; i++)
+        pushes = pushes || v->thrusters.data[i].setting != 0;
     if (v->thrusters.count > 0)
-        n += (size_t)snprintf(out + n, room - n, ", %d thruster%s", (int)v->thrusters.count,
-                              v->thrusters.count > 1 ? "s" : "");
+        n += (size_t)snprintf(out + n, room - n, ", %d thruster%s%s", (int)v->thrusters.count,
+                              v->thrusters.count > 1 ? "s" : "", pushes ? "" : " at setting 0");
     if (v->positioning.active)
         n += (size_t)snprintf(out + n, room - n, ", dynamic positioning%s",
                               v->positioning.control == CONTROL_HEADING ? " of the heading alone" : "");

@@ -129,6 +129,32 @@ static void tell_populations(const teller *t)
     }
 }
 
+/* ---- its drift ---- */
+
+static bool goes_against(double a_deg, double b_deg)
+{
+    double apart = fmod(fabs(a_deg - b_deg), 360);
+    return fmin(apart, 360 - apart) > 90;
+}
+
+/* Ice that is told to drift against the water under it, and no wind that would drive it. */
+static void tell_drift(const teller *t)
+{
+    const scenario_environment *e = &t->s->environment;
+    const scenario_domain *d = &t->s->domain;
+    double drift = automatic_or(d->drift_speed, 0), to = d->drift_direction_deg;
+    bool blows = e->wind_file[0] || (e->wind_speed > 0 && !goes_against(to, e->wind_direction_deg));
+    if (d->boundary != DOMAIN_FEEDING || !e->water || e->current_file[0] || !(drift > 0) || !(e->current_speed > 0))
+        return;
+    if (!blows && goes_against(to, e->current_direction_deg))
+        sanity_say(
+            t->tell, t->to,
+            "domain.drift_direction_deg: the ice goes towards %g degrees at %.4g m/s and the current under it "
+            "towards %g at %.4g m/s, against it: directions are where they go to; without domain.drift_speed the "
+            "ice goes with the current",
+            to, drift, e->current_direction_deg, e->current_speed);
+}
+
 /* ---- level ice ---- */
 
 static void tell_level(const teller *t)
@@ -208,6 +234,7 @@ void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to)
     tell_thresholds(&t);
     tell_field(&t);
     tell_populations(&t);
+    tell_drift(&t);
     tell_level(&t);
     tell_strength(&t);
     tell_floes(&t);

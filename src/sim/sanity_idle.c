@@ -4,12 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a rule asks of: the scenario, the vessel whose key it is, and its line or thruster (NULL for keys of none). */
+/* What a rule asks of: the scenario, the vessel whose key it is, and the item of a list (NULL for keys of none). */
 typedef struct question {
     const scenario *s;
     const scenario_vessel *v;
     const scenario_mooring_line *line;
     const scenario_thruster *thruster;
+    const scenario_population *population;
+    const scenario_floe *floe;
 } question;
 
 /* A key, or all keys of a section where it ends with a dot (without indices, vessels in a list as the one), what leaves
@@ -31,6 +33,12 @@ static bool draws_nothing(const question *q)
     return is_no_field(q) || (q->s->ice.source == ICE_FILE && q->s->ice.populations.count == 0);
 }
 static bool is_unbreakable(const question *q) { return !q->s->ice.breakable; }
+/* Rafting asks whether floes bend out of the way, a sheet how large its tiles are. */
+static bool never_bends(const question *q) { return is_unbreakable(q) && q->s->ice.rafting_edge_angle_deg == 0; }
+static bool is_rigid(const question *q) { return never_bends(q) && is_no_sheet(q); }
+static bool splits_not_by_length(const question *q) { return q->s->ice.fracture.splitting != SPLITTING_LENGTH; }
+static bool splits_not_by_load(const question *q) { return q->s->ice.fracture.splitting != SPLITTING_TOUGHNESS; }
+static bool splits_not(const question *q) { return q->s->ice.fracture.splitting == SPLITTING_NONE; }
 static bool is_even(const question *q)
 {
     return q->s->ice.strength.flexural_variation == 0 && q->s->ice.strength.crushing_variation == 0;
@@ -40,9 +48,44 @@ static bool never_yields(const question *q) { return !q->s->ice.cap_ice_ice; }
 
 static bool is_unfed(const question *q) { return q->s->domain.boundary != DOMAIN_FEEDING; }
 static bool is_no_endless_field(const question *q) { return is_unfed(q) || !is_no_sheet(q); }
-static bool has_own_drift(const question *q) { return is_automatic(q->s->domain.drift_speed); }
+static bool has_no_drift(const question *q) { return is_automatic(q->s->domain.drift_speed); }
+static bool has_own_drift(const question *q) { return !has_no_drift(q) || q->s->domain.drift_file[0]; }
 static bool has_no_walls(const question *q) { return q->s->domain.boundary != DOMAIN_WALLS; }
 
+static bool is_alone(const question *q) { return scenario_vessel_count(q->s) < 2; }
+static bool is_ice_alone(const question *q) { return scenario_vessel_count(q->s) == 0; }
+static bool clears_nothing(const question *q) { return is_ice_alone(q) || !is_no_list(q); }
+static bool meets_nothing(const question *q) { return is_alone(q) && has_no_walls(q); }
+
+static bool has_no_diameter(const question *q)
+{
+    return q->population->size != SIZE_CONSTANT && q->population->size != SIZE_LOGNORMAL;
+}
+static bool has_no_range(const question *q)
+{
+    return q->population->size == SIZE_CONSTANT || q->population->size == SIZE_HISTOGRAM;
+}
+static bool is_no_lognormal(const question *q) { return q->population->size != SIZE_LOGNORMAL; }
+static bool is_no_power(const question *q) { return q->population->size != SIZE_POWER; }
+static bool has_templates(const question *q) { return q->population->shape == POPULATION_TEMPLATES; }
+static bool is_voronoi(const question *q) { return !is_no_voronoi(q); }
+static bool is_rectangle(const question *q) { return q->floe->shape == FLOE_RECTANGLE; }
+static bool is_regular(const question *q) { return !is_rectangle(q); }
+
+static bool is_dry(const question *q) { return !q->s->environment.water; }
+/* The current is the drift of an endless field that has none of its own. */
+static bool is_dry_and_still(const question *q) { return is_dry(q) && (is_unfed(q) || has_own_drift(q)); }
+static bool has_no_current(const question *q) { return q->s->environment.current_speed == 0; }
+static bool has_no_wind(const question *q) { return q->s->environment.wind_speed == 0; }
+static bool wets_no_hull(const question *q)
+{
+    bool wet = false;
+    for (int32_t i = 0; i < scenario_vessel_count(q->s); i++)
+        wet = wet || scenario_vessel_entry(q->s, i).keys->mode != VESSEL_PRESCRIBED;
+    return !wet;
+}
+
+static bool is_sequential(const question *q) { return q->s->run.solver.kind == SOLVER_SEQUENTIAL; }
 static bool is_not_accurate(const question *q) { return q->s->run.solver.kind != SOLVER_ACCURATE; }
 
 static bool is_own_hull(const question *q) { return sanity_own_hull(q->v); }
@@ -53,6 +96,8 @@ static bool is_cone(const question *q) { return q->v->hull.form == HULL_CONE; }
 static bool has_path(const question *q) { return q->v->path.count > 0; }
 static bool is_free(const question *q) { return q->v->mode == VESSEL_FREE; }
 static bool is_moved(const question *q) { return !is_free(q); }
+static bool is_prescribed(const question *q) { return q->v->mode == VESSEL_PRESCRIBED; }
+static bool has_no_way(const question *q) { return q->v->speed == 0; }
 static bool has_no_lines(const question *q) { return q->v->mooring.lines.count == 0; }
 static bool is_hung(const question *q) { return q->line->kind == LINE_CATENARY; }
 static bool is_not_hung(const question *q) { return !is_hung(q); }
@@ -73,6 +118,7 @@ static bool keeps_heading(const question *q) { return q->v->positioning.heading 
 static bool drives_not(const question *q) { return is_automatic(q->v->propulsion.bollard_pull); }
 static bool has_no_pattern(const question *q) { return q->v->propulsion.pattern.kind == PATTERN_NONE; }
 static bool goes_ahead(const question *q) { return q->v->propulsion.pattern.kind == PATTERN_AHEAD; }
+static bool has_period(const question *q) { return !is_automatic(q->v->propulsion.pattern.period); }
 static bool watches_not(const question *q) { return is_automatic(q->v->approach.limit); }
 static bool has_no_wash(const question *q) { return !q->v->wash.active; }
 static bool has_no_table(const scenario_flow *c) { return c->table.count == 0 && !c->table_file[0]; }
@@ -85,11 +131,16 @@ static bool is_not_given(const question *q) { return q->v->hydrodynamics.source 
 
 static const char OWN_FORM[] = "hull.form is not file", MESH[] = "with hull.form file the mesh has its own";
 static const char UNBREAKABLE[] = "ice.breakable is false";
+static const char CELLS[] = "with ice.source voronoi the cells are the shapes";
+static const char NO_WALLS[] = "domain.boundary is not walls";
+static const char ALONE[] = "there is no other vessel", NO_WASH[] = "wash.active is false";
+static const char DRY[] = "environment.water is false", PRESCRIBED[] = "mode is prescribed";
 static const char BOX[] = "hull.form is box", CONE[] = "hull.form is cone";
 static const char TUNNEL[] = "kind is tunnel", NO_AZIMUTH[] = "kind is not azimuth";
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";
 
 static const idle_rule rules[] = {
+    {"run.solver.tolerance", is_sequential, "run.solver.kind is sequential"},
     {"run.solver.most_iterations", is_not_accurate, "run.solver.kind is not accurate"},
     {"ice.level.", is_no_sheet, "ice.source is not level"},
     {"ice.file_coordinates", is_no_file, "ice.source is not file"},
@@ -106,6 +157,38 @@ static const idle_rule rules[] = {
     {"ice.open_water", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.populations", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.floes", is_no_list, "ice.source is not floes"},
+    {"ice.populations[].diameter", has_no_diameter, "size is neither constant nor lognormal"},
+    {"ice.populations[].diameter_deviation", is_no_lognormal, "size is not lognormal"},
+    {"ice.populations[].diameter_min", has_no_range, "size is neither uniform nor lognormal nor power"},
+    {"ice.populations[].diameter_max", has_no_range, "size is neither uniform nor lognormal nor power"},
+    {"ice.populations[].exponent", is_no_power, "size is not power"},
+    {"ice.populations[].vertices_min", is_voronoi, CELLS},
+    {"ice.populations[].vertices_max", is_voronoi, CELLS},
+    {"ice.populations[].elongation", is_voronoi, CELLS},
+    {"ice.populations[].vertices_min", has_templates, "shape is templates"},
+    {"ice.populations[].vertices_max", has_templates, "shape is templates"},
+    {"ice.populations[].elongation", has_templates, "shape is templates"},
+    {"ice.populations[].breakable", is_unbreakable, UNBREAKABLE},
+    {"ice.populations[].flexural_strength", never_bends, UNBREAKABLE},
+    {"ice.populations[].flexural_deviation", never_bends, UNBREAKABLE},
+    {"ice.floes[].sides", is_rectangle, "shape is rectangle"},
+    {"ice.floes[].radius", is_rectangle, "shape is rectangle"},
+    {"ice.floes[].length", is_regular, "shape is regular"},
+    {"ice.floes[].width", is_regular, "shape is regular"},
+    {"ice.keep_out_margin", clears_nothing, "no field is laid round a vessel"},
+    {"ice.flexural_strength", never_bends, UNBREAKABLE},
+    {"ice.elastic_modulus", is_rigid, UNBREAKABLE},
+    {"ice.poisson_ratio", is_rigid, UNBREAKABLE},
+    {"ice.strength.flexural_variation", never_bends, UNBREAKABLE},
+    {"ice.cap_ice_wall", has_no_walls, NO_WALLS},
+    {"ice.friction.ice_wall_static", has_no_walls, NO_WALLS},
+    {"ice.friction.ice_wall_kinetic", has_no_walls, NO_WALLS},
+    {"ice.friction.hull_wall_static", has_no_walls, NO_WALLS},
+    {"ice.friction.hull_wall_kinetic", has_no_walls, NO_WALLS},
+    {"ice.friction.hull_hull_static", is_alone, ALONE},
+    {"ice.friction.hull_hull_kinetic", is_alone, ALONE},
+    {"ice.friction.ice_hull_static", is_ice_alone, "there is no vessel"},
+    {"ice.friction.ice_hull_kinetic", is_ice_alone, "there is no vessel"},
     {"ice.strength.correlation_length", is_even, "neither strength varies (ice.strength)"},
     {"ice.strength.common", is_even, "neither strength varies (ice.strength)"},
     {"ice.ridging_resistance", never_yields, "ice.cap_ice_ice is false"},
@@ -129,12 +212,16 @@ static const idle_rule rules[] = {
     {"ice.fracture.joint_loads", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.under_pieces", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.wedge_room", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.brash", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.splitting_factor", splits_not_by_length, "ice.fracture.splitting is not length"},
+    {"ice.fracture.toughness", splits_not_by_load, "ice.fracture.splitting is not toughness"},
+    {"ice.fracture.narrowness", splits_not, "ice.fracture.splitting is none"},
     {"domain.band", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_x", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_y", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
-    {"domain.drift_direction_deg", has_own_drift, "there is no domain.drift_speed"},
-    {"domain.wall_height", has_no_walls, "domain.boundary is not walls"},
-    {"domain.wall_thickness", has_no_walls, "domain.boundary is not walls"},
+    {"domain.drift_direction_deg", has_no_drift, "there is no domain.drift_speed"},
+    {"domain.wall_height", has_no_walls, NO_WALLS},
+    {"domain.wall_thickness", has_no_walls, NO_WALLS},
     {"vessel.x", has_path, PATH},
     {"vessel.y", has_path, PATH},
     {"vessel.heading_deg", has_path, PATH},
@@ -142,6 +229,18 @@ static const idle_rule rules[] = {
     {"vessel.course_deg", has_path, PATH},
     {"vessel.ramp", has_path, PATH},
     {"vessel.ramp", is_free, "mode is free"},
+    {"vessel.course_deg", has_no_way, "speed is 0"},
+    {"vessel.mass", is_prescribed, PRESCRIBED},
+    {"vessel.gyration_roll", is_moved, "mode is not free"},
+    {"vessel.gyration_pitch", is_moved, "mode is not free"},
+    {"vessel.gyration_yaw", is_moved, "mode is not free"},
+    {"vessel.fender_stiffness", meets_nothing, "there is neither another vessel nor a wall"},
+    {"vessel.hydrodynamics.", is_prescribed, PRESCRIBED},
+    {"vessel.hydrodynamics.", is_dry, DRY},
+    {"vessel.current_coefficients.", is_prescribed, PRESCRIBED},
+    {"vessel.current_coefficients.", is_dry, DRY},
+    {"vessel.wind_coefficients.", is_prescribed, PRESCRIBED},
+    {"vessel.wind_coefficients.", is_dry, DRY},
     {"vessel.hull.file_scale", is_own_hull, OWN_FORM},
     {"vessel.hull.seal_width", is_own_hull, OWN_FORM},
     {"vessel.hull.repair", is_own_hull, OWN_FORM},
@@ -184,6 +283,7 @@ static const idle_rule rules[] = {
     {"vessel.thrusters[].forbidden_width_deg", is_no_azimuth, NO_AZIMUTH},
     {"vessel.thrusters[].cost", is_not_positioned, "positioning.active is false"},
     {"vessel.thrusters[].setting", is_positioned, "positioning.active is true"},
+    {"vessel.thrusters[].diameter", has_no_wash, NO_WASH},
     {"vessel.thrusters[].direction_deg", is_tunnel, TUNNEL},
     {"vessel.station.", is_moved, "mode is not free"},
     {"vessel.positioning.", is_not_positioned, "positioning.active is false"},
@@ -196,21 +296,41 @@ static const idle_rule rules[] = {
     {"vessel.positioning.vaning_time", keeps_heading, NO_VANING},
     {"vessel.positioning.vaning_load", keeps_heading, NO_VANING},
     {"vessel.propulsion.", drives_not, "there is no propulsion.bollard_pull"},
+    {"vessel.propulsion.speed", has_period, "propulsion.pattern.period gives the speed"},
+    {"vessel.propulsion.propeller_spacing", has_no_wash, NO_WASH},
+    {"vessel.propulsion.propeller_z", has_no_wash, NO_WASH},
     {"vessel.propulsion.pattern.", has_no_pattern, "propulsion.pattern.kind is none"},
     {"vessel.propulsion.pattern.distance", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},
     {"vessel.propulsion.pattern.width", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},
+    {"vessel.approach.", is_alone, ALONE},
     {"vessel.approach.look_ahead", watches_not, "there is no approach.limit"},
-    {"vessel.wash.", has_no_wash, "wash.active is false"},
+    {"vessel.wash.", has_no_wash, NO_WASH},
     {"vessel.hydrodynamics.heave_damping", is_no_estimate, "hydrodynamics.source is not estimate"},
     {"vessel.hydrodynamics.roll_damping", is_no_estimate, "hydrodynamics.source is not estimate"},
     {"vessel.hydrodynamics.pitch_damping", is_no_estimate, "hydrodynamics.source is not estimate"},
     {"vessel.hydrodynamics.axes", is_not_given, "hydrodynamics.source is not given"},
+    {"vessel.hydrodynamics.x", is_not_given, "hydrodynamics.source is not given"},
+    {"vessel.hydrodynamics.y", is_not_given, "hydrodynamics.source is not given"},
+    {"vessel.hydrodynamics.z", is_not_given, "hydrodynamics.source is not given"},
     {"vessel.hydrodynamics.added_mass", is_not_given, "hydrodynamics.source is not given"},
     {"vessel.hydrodynamics.damping", is_not_given, "hydrodynamics.source is not given"},
     {"vessel.current_coefficients.", has_no_current_table, "current_coefficients has no table"},
     {"vessel.wind_coefficients.", has_no_wind_table, "wind_coefficients has no table"},
+    {"environment.current_speed", is_dry_and_still, DRY},
+    {"environment.current_file", is_dry_and_still, DRY},
+    {"environment.current_profile_file", is_dry_and_still, DRY},
+    {"environment.wind_speed", is_dry, DRY},
+    {"environment.wind_file", is_dry, DRY},
+    {"environment.air_density", is_dry, DRY},
+    {"environment.floe_added_mass", is_dry, DRY},
+    {"environment.floe_damping", is_dry, DRY},
+    {"environment.ice_drag.", is_dry, DRY},
+    {"environment.hull_drag.", is_dry, DRY},
+    {"environment.hull_drag.", wets_no_hull, "there is no vessel of mode towed or free"},
     {"environment.current_speed", has_current_file, "environment.current_file tells the current"},
+    {"environment.current_direction_deg", has_no_current, "there is no environment.current_speed"},
     {"environment.wind_speed", has_wind_file, "environment.wind_file tells the wind"},
+    {"environment.wind_direction_deg", has_no_wind, "there is no environment.wind_speed"},
 };
 
 static bool fits(const char *rule, const char *key)
@@ -275,12 +395,14 @@ static const scenario_vessel *vessel_of(const scenario *s, const char *path)
     return &s->vessel;
 }
 
-/* The line or thruster of a key of a vessel; false: a key of another item.  What an item of any other list says is idle
-   with its list, as is what an item of an item says. */
+/* The item of a key of a vessel or of the ice; false: a key of another item.  What an item of any other list says is
+   idle with its list, as is what an item of an item says. */
 static bool find_item(const char *key, question *q)
 {
     const scenario_mooring_line_list *lines = &q->v->mooring.lines;
     const scenario_thruster_list *thrusters = &q->v->thrusters;
+    const scenario_population_list *populations = &q->s->ice.populations;
+    const scenario_floe_list *floes = &q->s->ice.floes;
     const char *item = strchr(key, '[');
     int i = -1;
     if (!item || strchr(item + 1, '['))
@@ -289,7 +411,11 @@ static bool find_item(const char *key, question *q)
         q->line = &lines->data[i];
     else if (sscanf(key, "thrusters[%d]", &i) == 1 && i >= 0 && i < thrusters->count)
         q->thruster = &thrusters->data[i];
-    return q->line || q->thruster;
+    else if (sscanf(key, "ice.populations[%d]", &i) == 1 && i >= 0 && i < populations->count)
+        q->population = &populations->data[i];
+    else if (sscanf(key, "ice.floes[%d]", &i) == 1 && i >= 0 && i < floes->count)
+        q->floe = &floes->data[i];
+    return q->line || q->thruster || q->population || q->floe;
 }
 
 static fram_status look_at_key(void *user, const scenario_key *key, const void *member, const char *path,

@@ -36,6 +36,11 @@ told() { says "$1" err; }
 expect 0 "$FRAM" check ship.yaml
 told "vessel: free, bow towards 90 deg ↑, 0 m/s at the start, 5 mooring lines on a turret in 120 m of water, \
 1 thruster, dynamic positioning of the heading alone"
+expect 0 "$FRAM" check ship.yaml --set vessel.positioning.active=false
+told "of water, 1 thruster at setting 0"
+expect 0 "$FRAM" check ship.yaml --set vessel.positioning.active=false --set "vessel.thrusters[0].setting=0.5"
+holds "of water, 1 thruster\$" err
+expect 0 "$FRAM" check ship.yaml
 told "ice: population 1 of 2: 75 % of the ice area, diameter 20 m; 0.7 m thick, flexural strength 500 kPa, breaks"
 told "ice: population 2 of 2: 25 % of the ice area, diameters 5 to 12 m, N(>D) as D^-1.7; 0.4 m thick, flexural \
 strength 300 kPa, does not break"

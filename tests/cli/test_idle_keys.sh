@@ -54,15 +54,92 @@ idle field.yaml vessel.mooring.turret=true "there are no mooring.lines"
 idle field.yaml vessel.positioning.observer=kalman "positioning.active is false"
 idle field.yaml vessel.propulsion.astern=0.3 "there is no propulsion.bollard_pull"
 idle field.yaml vessel.propulsion.pattern.forecast=true "there is no propulsion.bollard_pull"
-idle field.yaml vessel.approach.look_ahead=20 "there is no approach.limit"
+idle field.yaml vessel.approach.limit=20 "there is no other vessel"
+idle field.yaml vessel.fender_stiffness=1e7 "there is neither another vessel nor a wall"
 idle field.yaml vessel.wash.reach=20 "wash.active is false"
 idle field.yaml vessel.hydrodynamics.roll_damping=0.9 "hydrodynamics.source is not estimate"
 idle field.yaml vessel.hydrodynamics.axes=down "hydrodynamics.source is not given"
+idle field.yaml vessel.hydrodynamics.z=-2 "hydrodynamics.source is not given"
+idle field.yaml ice.cap_ice_wall=true "domain.boundary is not walls"
+idle field.yaml ice.friction.ice_wall_static=0.9 "domain.boundary is not walls"
+idle field.yaml ice.friction.hull_wall_static=0.9 "domain.boundary is not walls"
+idle field.yaml ice.friction.hull_hull_static=0.9 "there is no other vessel"
+idle field.yaml ice.fracture.brash=true "ice.breakable is false"
+idle field.yaml environment.wind_direction_deg=30 "there is no environment.wind_speed"
+idle field.yaml environment.current_direction_deg=30 "there is no environment.current_speed"
+# These are part of the state.
+for key in flexural_strength=6e5 elastic_modulus=4e9 poisson_ratio=0.33 strength.flexural_variation=0.2; do
+    told field.yaml "ice.${key%=*}: without effect, since ice.breakable is false" --set ice.$key
+done
+told field.yaml "vessel.gyration_yaw: without effect, since mode is not free" --set vessel.gyration_yaw=16
+told field.yaml "vessel.course_deg: without effect, since speed is 0" --set vessel.course_deg=20 --set vessel.speed=0
+told field.yaml "run.solver.tolerance: without effect, since run.solver.kind is sequential" \
+    --set run.solver.tolerance=1e-5 --set run.solver.kind=sequential
+
+sed 's/mode: towed/mode: prescribed/' field.yaml >driven.yaml
+before=$(hash_of driven.yaml)
+idle driven.yaml environment.hull_drag.water_form=0.5 "there is no vessel of mode towed or free"
+idle driven.yaml vessel.wind_coefficients.frontal_area=60 "mode is prescribed"
+for key in mass=3e6 gyration_roll=5 hydrodynamics.source=estimate; do
+    told driven.yaml "vessel.${key%=*}: without effect, since mode is" --set vessel.$key
+done
+
+# Without water nothing flows, but for a current that is the drift of an endless field.
+sed 's/^domain/environment: {water: false}\n&/' field.yaml >dry.yaml
+before=$(hash_of dry.yaml)
+for key in current_speed=0.5 current_file=drift.csv wind_speed=20 wind_file=drift.csv air_density=1.3 \
+    floe_added_mass=true floe_damping=0.5 ice_drag.water_skin=0.05 hull_drag.water_form=0.5; do
+    printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv
+    idle dry.yaml environment.$key "environment.water is false"
+done
+silent dry.yaml --set domain.boundary=feeding --set environment.current_speed=0.5
+told dry.yaml "environment.current_speed: without effect" --set domain.boundary=feeding --set domain.drift_speed=0.2 \
+    --set environment.current_speed=0.5
 
 before=$(hash_of level.yaml)
 idle level.yaml ice.concentration=0.3 "no floes are drawn"
 idle level.yaml ice.mean_floe_area=30 "floes are not cells of ice.source voronoi"
 idle level.yaml ice.roundness=0.5 "ice.source is not voronoi"
+told level.yaml "ice.fracture.splitting_factor: without effect, since ice.fracture.splitting is not length" \
+    --set ice.fracture.splitting=toughness --set ice.fracture.splitting_factor=4
+told level.yaml "ice.fracture.toughness: without effect, since ice.fracture.splitting is not toughness" \
+    --set ice.fracture.toughness=1e5
+told level.yaml "ice.fracture.narrowness: without effect, since ice.fracture.splitting is none" \
+    --set ice.fracture.splitting=none --set ice.fracture.narrowness=5
+
+# Of populations and listed floes each by itself.
+cat >packed.yaml <<'YAML'
+run: {duration: 0.2, time_step: 0.02}
+vessel: {present: false}
+ice: {source: packed, concentration: 0.3, populations: [{diameter_min: 5, diameter_max: 15}, {size: constant}]}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: open}
+YAML
+sed 's/^ice.*/ice: {source: floes, floes: [{}, {x: 20, shape: regular}]}/' packed.yaml >floes.yaml
+silent packed.yaml
+silent packed.yaml --set "ice.populations[0].exponent=2" --set "ice.populations[1].diameter=12"
+told packed.yaml "ice.populations[0].diameter: without effect, since size is neither constant nor lognormal" \
+    --set "ice.populations[0].diameter=12"
+told packed.yaml "ice.populations[1].diameter_max: without effect, since size is neither uniform" \
+    --set "ice.populations[1].diameter_max=30"
+told packed.yaml "ice.populations[1].exponent: without effect, since size is not power" \
+    --set "ice.populations[1].exponent=2"
+told packed.yaml "ice.populations[1].diameter_deviation: without effect, since size is not lognormal" \
+    --set "ice.populations[1].diameter_deviation=2"
+told packed.yaml "ice.populations[0].flexural_strength: without effect, since ice.breakable is false" \
+    --set "ice.populations[0].flexural_strength=4e5"
+told packed.yaml "ice.populations[0].breakable: without effect, since ice.breakable is false" \
+    --set "ice.populations[0].breakable=false"
+told packed.yaml "ice.keep_out_margin: without effect, since no field is laid round a vessel" \
+    --set ice.keep_out_margin=3
+told packed.yaml "ice.friction.ice_hull_static: without effect, since there is no vessel" \
+    --set ice.friction.ice_hull_static=0.2
+silent floes.yaml
+silent floes.yaml --set "ice.floes[0].length=12" --set "ice.floes[1].sides=8"
+told floes.yaml "ice.floes[0].radius: without effect, since shape is rectangle" --set "ice.floes[0].radius=6"
+told floes.yaml "ice.floes[1].width: without effect, since shape is regular" --set "ice.floes[1].width=6"
+sed 's/source: packed/source: voronoi/; s/, {size: constant}//' packed.yaml >cells.yaml
+told cells.yaml "ice.populations[0].elongation: without effect, since with ice.source voronoi" \
+    --set "ice.populations[0].elongation=2"
 
 sed 's/form: icebreaker/form: box/; s/^domain/environment: {current_file: drift.csv}\n&/' field.yaml >box.yaml
 printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv
@@ -71,6 +148,7 @@ for key in stem_angle_deg=40 entrance_angle_deg=40 flare_angle_deg=20 stern_angl
     idle box.yaml vessel.hull.$key "hull.form is box"
 done
 idle box.yaml environment.current_speed=3 "environment.current_file tells the current"
+idle box.yaml environment.current_direction_deg=30 "there is no environment.current_speed"
 idle box.yaml vessel.station.offset_limit=0.1 "mode is not free"
 idle box.yaml vessel.mooring.equilibrium=false "there are no mooring.lines"
 idle box.yaml vessel.wind_coefficients.frontal_area=90 "wind_coefficients has no table"
@@ -96,6 +174,7 @@ item "thrusters[1].forbidden_width_deg" "kind is not azimuth" --set "vessel.thru
 item "thrusters[1].turn_rate_deg" "kind is tunnel" --set "vessel.thrusters[1].kind=tunnel"
 item "thrusters[1].direction_deg" "kind is tunnel" --set "vessel.thrusters[1].kind=tunnel"
 item "thrusters[1].cost" "positioning.active is false"
+item "thrusters[1].diameter" "wash.active is false"
 told ship.yaml "vessel.thrusters[1].setting: without effect, since positioning.active is true" \
     --set "vessel.thrusters[1].setting=0.5" --set vessel.positioning.active=true
 told fleet.yaml "vessels[1].propulsion.pattern.distance: without effect, since the way ahead has none" \
@@ -108,7 +187,12 @@ told field.yaml "vessel.positioning.frequency and 1 more: without effect" \
     --set vessel.positioning.frequency=0.2 --set vessel.positioning.damping=0.7
 told fleet.yaml "vessels[0].positioning.frequency: without effect"
 told fleet.yaml "vessels[1].positioning.frequency and 1 more: without effect"
-told fleet.yaml "vessels[1].approach.look_ahead: without effect"
+told fleet.yaml "vessels[1].approach.look_ahead: without effect, since there is no approach.limit"
+told fleet.yaml "vessels[1].propulsion.propeller_z: without effect, since wash.active is false" \
+    --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.propeller_z=-2
+told fleet.yaml "vessels[1].propulsion.speed: without effect, since propulsion.pattern.period gives the speed" \
+    --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.pattern.kind=circle \
+    --set vessels.two.propulsion.pattern.period=600 --set vessels.two.propulsion.speed=3
 
 # What has an effect, and what says no more than its default.
 silent field.yaml --set ice.fracture.under_ice_contacts=true
@@ -121,9 +205,15 @@ silent ship.yaml --set vessel.positioning.active=true --set "vessel.thrusters[0]
     --set "vessel.thrusters[0].cost=2" --set vessel.station.offset_limit=5
 silent box.yaml --set vessel.hull.form=cone --set vessel.hull.length=14 --set vessel.hull.flare_angle_deg=45
 silent field.yaml --set ice.sleep_speed=0.1 --set ice.sleep_time=1
-silent field.yaml --set ice.strength.flexural_variation=0.2 --set ice.strength.correlation_length=3
+silent field.yaml --set ice.strength.crushing_variation=0.2 --set ice.strength.correlation_length=3
+silent field.yaml --set ice.breakable=true --set ice.strength.flexural_variation=0.2 --set ice.elastic_modulus=4e9
+silent field.yaml --set ice.rafting_edge_angle_deg=45 --set ice.flexural_strength=4e5
+silent field.yaml --set environment.current_speed=0.2 --set environment.current_direction_deg=20
+silent field.yaml --set domain.boundary=walls --set ice.cap_ice_wall=true --set vessel.fender_stiffness=1e7
 silent field.yaml --set domain.boundary=feeding --set domain.band=20
-silent field.yaml --set vessel.approach.limit=50 --set vessel.approach.look_ahead=20
+sed 's/, positioning: {frequency: 0.2}//; s/, approach.*/}/; /^ *positioning/d' fleet.yaml >pair.yaml
+silent pair.yaml --set vessels.two.approach.limit=50 --set vessels.two.approach.look_ahead=20 \
+    --set ice.friction.hull_hull_static=0.3
 silent field.yaml --set vessel.mode=prescribed --set vessel.ramp=1
 silent field.yaml --set ice.sleep_time=5 --set vessel.wash.reach=50 --set run.solver.most_iterations=10000
 silent field.yaml --set vessel.present=false --set vessel.wash.reach=20

@@ -61,6 +61,12 @@ told ship.yaml "the wind blows towards 0 degrees and the current goes towards 18
     --set environment.wind_direction_deg=0
 told ship.yaml "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180" \
     --set environment.wind_direction_deg=0 --set domain.drift_speed=0.3 --set domain.drift_direction_deg=180
+told ship.yaml "goes towards 0 degrees at 0.3 m/s and the current under it towards 180 at 0.4 m/s, against it" \
+    --set domain.drift_speed=0.3
+told ship.yaml "domain.drift_direction_deg: the ice goes towards 270|against it" \
+    --set domain.drift_speed=0.3 --set domain.drift_direction_deg=270 --set environment.current_direction_deg=30
+expect 0 "$FRAM" check ship.yaml --set domain.drift_speed=0.3 --set environment.wind_direction_deg=10
+grep '^warning: domain.drift_direction_deg' err && fail "ice that a wind drives against the current is told"
 told ship.yaml "ice.mean_floe_area: floes of 1.5 m2" --set ice.mean_floe_area=1.5
 told ship.yaml "run.transient: statistics leave out 590 s" --set run.transient=590
 told ship.yaml "output.frame_interval: 900 s" --set output.frame_interval=900
@@ -98,7 +104,8 @@ expect 0 "$FRAM" check adrift.yaml --set vessel.positioning.active=true --set ve
 says "positioning.control: heading alone leaves the position to a mooring" err
 
 # At another scale the bounds go along: a tank of 1:30 with ice of 23 mm, and the same numbers at full size.
-expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --set ice.flexural_strength=2e4
+expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --set ice.flexural_strength=2e4 \
+    --set ice.breakable=true
 grep '^warning: ice' err && fail "ice of a tank is told"
 told ship.yaml "ice.flexural_strength: 20000 Pa" --set ice.flexural_strength=2e4
 finish "each slip of the pen is told or refused, with its key and the remedy"

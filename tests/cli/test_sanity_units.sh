@@ -47,7 +47,8 @@ all_told ship.yaml ice.smallest_floe_area=100 ice.smallest_piece_area=50 ice.edg
     "domain.tile_y: the field repeats itself after 200 m" "keep_out_margin: 200 m round the vessel"
 all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction.ice_hull_static=6 \
     ice.friction.ice_hull_kinetic=6 ice.crushing_strength=4e5 ice.strength.correlation_length=0.01 \
-    ice.strength.flexural_variation=1.5 ice.ridging_resistance=400 -- "poisson_ratio: 0.03 is outside|about 0.3" \
+    ice.strength.flexural_variation=1.5 ice.ridging_resistance=400 ice.breakable=true -- \
+    "poisson_ratio: 0.03 is outside|about 0.3" \
     "crushing_exponent: 0.5|falls with the area" "ice_hull_static: 6 is|not an angle" "ice_hull_kinetic: 6 is" \
     "crushing_strength: 4e+05 Pa is less than the flexural strength|swapped" "correlation_length: 0.01 m" \
     "flexural_variation: 1.5|not per cent" "ridging_resistance: 400 MN/m|R is 2 to 10"
@@ -65,7 +66,8 @@ all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
     "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
 all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diameter_max=2000" \
     "ice.populations[0].thickness_deviation=20" "ice.populations[0].flexural_deviation=8e5" \
-    "ice.populations[0].crushing_deviation=9e6" domain.y_max=-20 domain.y_min=-100 vessel.y=-60 -- \
+    "ice.populations[0].crushing_deviation=9e6" domain.y_max=-20 domain.y_min=-100 vessel.y=-60 \
+    ice.breakable=true -- \
     "diameter: floes of 90 m do not fit" "thickness_deviation: 20 m is more than the mean" \
     "flexural_deviation: 8e+05 Pa" "crushing_deviation: 9e+06 Pa"
 all_told packed.yaml "ice.populations[0].diameter=150" -- \
@@ -114,7 +116,8 @@ all_told path.yaml "vessel.path[1].heading_deg=3600" -- \
 all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.steering_rate_deg=0.04 \
     vessel.propulsion.steering_x=27 vessel.propulsion.lookahead=0.1 vessel.propulsion.ram_distance=5000 \
     vessel.propulsion.beset_speed=5 vessel.propulsion.propeller_diameter=0.03 vessel.propulsion.propeller_z=-50 \
-    vessel.propulsion.propeller_spacing=100 -- "steering_angle_deg: 0.61 deg|not radians" "steering_rate_deg: 0.04" \
+    vessel.propulsion.propeller_spacing=100 vessel.wash.active=true -- \
+    "steering_angle_deg: 0.61 deg|not radians" "steering_rate_deg: 0.04" \
     "steering_x: 27 m is ahead of the centre of mass" "lookahead: 0.1 m is 0.00167 lengths" \
     "ram_distance: 5000 m is 83.3 lengths" "beset_speed: the ship never makes more than 1 m/s" \
     "propeller_diameter: 0.03 m leaves|metres" "propeller_z: -50 m is far below the hull" \
