@@ -54,7 +54,7 @@ FRAM_API void fram_extremes_default(fram_extremes_definition *definition, size_t
 #define fram_extremes_default(definition) fram_extremes_default((definition), sizeof *(definition))
 
 typedef struct fram_level {
-    double level, low, high; /* low and high: its interval; high may be infinite */
+    double level, low, high; /* low and high: its interval; high may be infinite.  NaN: not told, see the note */
 } fram_level;
 
 typedef struct fram_threshold_fit {

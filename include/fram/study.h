@@ -70,7 +70,7 @@ FRAM_API void fram_study_default(fram_study_definition *definition, size_t size)
 typedef struct fram_study_result {
     int64_t conditions, runs, failed, made; /* made: runs of this call, the others were there */
     int64_t failed_condition, failed_seed;  /* of the first run that failed, conditions from 1; 0: none */
-    char reason[256];                       /* of that failure */
+    char reason[512];                       /* of that failure */
 } fram_study_result;
 /* Leaves summary.csv (a row a run) and conditions.csv (a row a condition) in the folder.  A run that fails is a row
    with its reason and stops nothing.  FRAM_INTERRUPTED when stopped. */

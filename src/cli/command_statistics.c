@@ -73,7 +73,7 @@ typedef struct series_words {
     bool minima;
 } series_words;
 
-enum { SERIES_ROWS = 4, STATISTICS_FILES = 256 };
+enum { SERIES_ROWS = 4, STATISTICS_FILES = 4096 };
 static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
 {
     rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
@@ -141,14 +141,17 @@ static void json_facts(json *j, const fram_series_facts *f)
 
 static void print_level(const char *name, const fram_level *l, const char *unit)
 {
-    printf("  %-16s %11.5g  (%.5g to %.5g) %s\n", name, l->level, l->low, l->high, unit);
+    if (isnan(l->level))
+        printf("  %-16s %11s\n", name, "not told");
+    else
+        printf("  %-16s %11.5g  (%.5g to %.5g) %s\n", name, l->level, l->low, l->high, unit);
 }
 
 static void print_law(const fram_extreme *e)
 {
     if (e->tail_c > 0)
-        printf(", order %d, exceedance rate per value %.3g exp(-%.3g (x - %.4g)^%.3g)", e->order, e->tail_q, e->tail_a,
-               e->tail_b, e->tail_c);
+        printf(", order %d, exceedance rate per value %.3g exp(-%.3g (x %c %.4g)^%.3g)", e->order, e->tail_q, e->tail_a,
+               e->tail_b < 0 ? '+' : '-', fabs(e->tail_b), e->tail_c);
     else
         printf(", location %.5g, scale %.5g, shape %.3g", e->location, e->scale, e->shape);
 }

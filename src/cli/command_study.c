@@ -268,6 +268,30 @@ static int run_study(const common_options *common, const fram_study *study, fram
     return status == FRAM_OK ? answer_result(common, d->folder, &result) : answer_error(common, &error);
 }
 
+/* What `check` and `list` have no use for would say something else than it does. */
+static int refuse_idle(const common_options *common, const fram_study_definition *d, bool check)
+{
+    const struct {
+        const char *name;
+        bool given;
+    } idle[] = {{"--output", d->folder},
+                {"--jobs", !check && d->jobs > 0},
+                {"--on", d->on},
+                {"--partition", d->slurm_partition},
+                {"--time", d->slurm_time},
+                {"--runs-per-task", d->slurm_runs_per_task > 0},
+                {"--sbatch", d->slurm_option_count > 0},
+                {"--poll", d->slurm_poll > 0},
+                {"--dry-run", d->dry_run},
+                {"--retry", d->retry}};
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
+        if (idle[i].given)
+            return answer_usage(common, idle[i].name,
+                                check ? "is for the study itself, and check writes nothing: leave it out"
+                                      : "is for a study that runs, and list only looks: leave it out");
+    return -1;
+}
+
 int command_study(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -303,6 +327,10 @@ int command_study(const command_row *self, int argc, char **argv)
     if (words[1] && !check && !list)
         return answer_usage(&common, words[0],
                             "expected one study file, or: fram study check STUDY, or: fram study list DIR");
+    if (check || list)
+        code = refuse_idle(&common, &d, check);
+    if (code >= 0)
+        return code;
     if (!check && !list && !d.folder)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
     if (d.jobs < 0 || d.jobs > 4096)

@@ -1,7 +1,6 @@
 /* What station.json and station.png tell, from the columns of series.csv. */
 #include "results/station_parts.h"
 
-#include "io/path.h"
 #include "model/scenario_vessel.h"
 
 #include <math.h>
@@ -43,7 +42,7 @@ static void find_equipment(station_data *d)
             d->thruster[d->thrusters++] = i;
 }
 
-fram_status station_data_read(context *ctx, station_data *d, const char *folder, fram_error *error)
+static fram_status read_series(context *ctx, station_data *d, const char *folder, fram_error *error)
 {
     char path[PATH_ROOM];
     vessel_channel name[MOST_CHANNELS];
@@ -69,6 +68,17 @@ fram_status station_data_read(context *ctx, station_data *d, const char *folder,
         if (!array_push(ctx, &d->offset, sqrt(x * x + y * y)) || !array_push(ctx, &d->load, sqrt(fx * fx + fy * fy)))
             status = error_memory(error);
     }
+    return status;
+}
+
+fram_status station_data_read(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                              const char *folder, const char *ending, station_data *d, char path[PATH_ROOM],
+                              fram_error *error)
+{
+    *d = (station_data){.s = s, .vessel = vessel, .outcome = o};
+    fram_status status = read_series(ctx, d, folder, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, vessel_file_name(s, vessel, "station", ending).text, path, error);
     return status;
 }
 

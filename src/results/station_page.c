@@ -4,7 +4,6 @@
 #include "base/transcendental.h"
 #include "geometry/polygon.h"
 #include "io/page.h"
-#include "io/path.h"
 #include "io/text_buffer.h"
 #include "model/scenario_vessel.h"
 
@@ -160,12 +159,10 @@ static fram_status draw(context *ctx, const station_data *d, const char *text, c
 fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
                                const char *folder, fram_error *error)
 {
-    station_data d = {.s = s, .vessel = vessel, .outcome = o};
+    station_data d;
     text_buffer b = {0};
     char path[PATH_ROOM];
-    fram_status status = station_data_read(ctx, &d, folder, error);
-    if (status == FRAM_OK)
-        status = path_join(folder, vessel_file_name(s, vessel, "station", ".png").text, path, error);
+    fram_status status = station_data_read(ctx, s, vessel, o, folder, ".png", &d, path, error);
     if (status == FRAM_OK) {
         describe(ctx, &d, &b);
         scale(&d.column[LOAD_X], 1e-3);

@@ -3,6 +3,7 @@
 #ifndef RESULTS_STATION_PARTS_H
 #define RESULTS_STATION_PARTS_H
 
+#include "io/path.h"
 #include "results/station_results.h"
 
 /* Columns of the series, then a tension of each line and a thrust of each thruster. */
@@ -20,7 +21,11 @@ typedef struct station_data {
     int32_t lines, thrusters, rows;
 } station_data;
 
-fram_status station_data_read(context *ctx, station_data *d, const char *folder, fram_error *error);
+/* What the series of the folder tells of a vessel; path: of the vessel's file with this ending there.  d is to be freed
+   in any case. */
+fram_status station_data_read(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                              const char *folder, const char *ending, station_data *d, char path[PATH_ROOM],
+                              fram_error *error);
 void station_data_free(context *ctx, station_data *d);
 
 const scenario_station *station_limits(const station_data *d);

@@ -3,7 +3,6 @@
 #include "base/number_text.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
-#include "io/path.h"
 #include "io/text_buffer.h"
 #include "model/scenario_vessel.h"
 
@@ -188,12 +187,10 @@ static void compose(context *ctx, const station_data *d, text_buffer *b)
 fram_status station_results_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
                                   const char *folder, fram_error *error)
 {
-    station_data d = {.s = s, .vessel = vessel, .outcome = o};
+    station_data d;
     text_buffer b = {0};
     char path[PATH_ROOM];
-    fram_status status = station_data_read(ctx, &d, folder, error);
-    if (status == FRAM_OK)
-        status = path_join(folder, vessel_file_name(s, vessel, "station", ".json").text, path, error);
+    fram_status status = station_data_read(ctx, s, vessel, o, folder, ".json", &d, path, error);
     if (status == FRAM_OK) {
         compose(ctx, &d, &b);
         status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);

@@ -20,6 +20,8 @@ enum { LEVELS_LEAST = 5 };
 /* The law's origin lies below the first level by the exponential of this, in widths of the levels. */
 #define PLACE_LEAST (-5.0)
 #define PLACE_MOST 2.5
+/* Logarithms of rates that fall by less from the first level to the last are equal, but for rounding. */
+#define FALL_LEAST 1e-9
 
 /* ---- counting ---- */
 
@@ -73,6 +75,7 @@ static void count_part(acer_rates *r, const series_part *part, int32_t k, int32_
         /* A level at the very greatest of those before is not below it. */
         for (int32_t l = from; l < to && i >= k - 1; l++)
             count[l]++;
+        r->values.data[*next + i / batch] += i >= k - 1;
         if (k > 1)
             window_add(w, part->value, i);
     }
@@ -95,11 +98,13 @@ bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32
         out->level[l] = tail + (greatest - tail) * l / ACER_LEVELS;
     window w = {memory_array(ctx, (size_t)k, sizeof *w.index), k, 0, 0};
     out->batches = (int32_t)batches;
-    bool good =
-        w.index && batches < INT32_MAX / ACER_LEVELS && array_resize(ctx, &out->count, (int32_t)batches * ACER_LEVELS);
-    if (good && out->count.count > 0)
+    bool good = w.index && batches < INT32_MAX / ACER_LEVELS &&
+                array_resize(ctx, &out->count, (int32_t)batches * ACER_LEVELS) &&
+                array_resize(ctx, &out->values, (int32_t)batches);
+    if (good && batches > 0) {
         memset(out->count.data, 0, (size_t)out->count.count * sizeof *out->count.data);
-    out->per_batch = batch;
+        memset(out->values.data, 0, (size_t)out->values.count * sizeof *out->values.data);
+    }
     int32_t next = 0;
     for (int32_t p = 0; good && p < s->count; p++)
         count_part(out, &s->parts[p], k, batch, &w, &next);
@@ -109,13 +114,25 @@ bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32
     return good;
 }
 
-void acer_free(context *ctx, acer_rates *r) { array_free(ctx, &r->count); }
+void acer_free(context *ctx, acer_rates *r)
+{
+    array_free(ctx, &r->count);
+    array_free(ctx, &r->values);
+}
 
 int64_t acer_exceedances(const acer_rates *r, int32_t level)
 {
     int64_t sum = 0;
     for (int32_t b = 0; b < r->batches; b++)
         sum += r->count.data[(int64_t)b * ACER_LEVELS + level];
+    return sum;
+}
+
+int64_t acer_values(const acer_rates *r)
+{
+    int64_t sum = 0;
+    for (int32_t b = 0; b < r->batches; b++)
+        sum += r->values.data[b];
     return sum;
 }
 
@@ -156,7 +173,7 @@ static double line_of(const tail_points *t, double b, double c, acer_tail *out)
         xy += t->weight[i] * (u[i] - x) * (t->log_rate[i] - y);
     }
     double a = -xy / xx, log_q = y + a * x, cost = 0;
-    if (!(a > 0) || !isfinite(a))
+    if (!(a * (u[t->count - 1] - u[0]) > FALL_LEAST) || !isfinite(a))
         return (double)INFINITY;
     for (int32_t i = 0; i < t->count; i++) {
         double miss = t->log_rate[i] - (log_q - a * u[i]);
@@ -196,7 +213,7 @@ static tail_points points_of(const acer_rates *r)
 {
     tail_points t = {.count = 0};
     for (int32_t l = 0; l < r->levels; l++)
-        add_point(&t, r->level[l], acer_exceedances(r, l), (double)r->batches * r->per_batch);
+        add_point(&t, r->level[l], acer_exceedances(r, l), (double)acer_values(r));
     return t;
 }
 
@@ -243,15 +260,16 @@ typedef struct tail_draw {
 static bool draw_tail(const acer_rates *r, const acer_tail *whole, uint32_t replicate, tail_draw *out)
 {
     random_stream random = random_begin(1, STREAM_BATCHES, replicate);
-    int64_t sum[ACER_LEVELS] = {0};
+    int64_t sum[ACER_LEVELS] = {0}, values = 0;
     for (int32_t i = 0; i < r->batches; i++) {
         int32_t b = (int32_t)(random_unit(&random) * r->batches);
+        values += r->values.data[b];
         for (int32_t l = 0; l < r->levels; l++)
             sum[l] += r->count.data[(int64_t)b * ACER_LEVELS + l];
     }
     tail_points t = {.count = 0};
     for (int32_t l = 0; l < r->levels; l++)
-        add_point(&t, r->level[l], sum[l], (double)r->batches * r->per_batch);
+        add_point(&t, r->level[l], sum[l], (double)values);
     if (t.count < LEVELS_LEAST)
         return false;
     double width = t.level[t.count - 1] - t.level[0];

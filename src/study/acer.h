@@ -14,9 +14,9 @@ typedef struct acer_rates {
     double level[ACER_LEVELS];
     int32_t levels; /* 0: there are too few exceedances */
     int32_t batches;
-    ARRAY(int32_t) count; /* batches x ACER_LEVELS: conditional exceedances */
-    int32_t per_batch;    /* values of a batch */
-    double step;          /* between values [s] */
+    ARRAY(int32_t) count;  /* batches x ACER_LEVELS: conditional exceedances */
+    ARRAY(int32_t) values; /* of each batch: those that have k - 1 values of their part before them */
+    double step;           /* between values [s] */
 } acer_rates;
 
 /* rate(x) = q exp(-a (x - b)^c) a value, from the first level on */
@@ -28,8 +28,9 @@ typedef struct acer_tail {
    acer_free. */
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out);
 void acer_free(context *ctx, acer_rates *r);
-/* How often a level is exceeded, over all batches. */
+/* How often a level is exceeded, over all batches, and by how many values it could be. */
 int64_t acer_exceedances(const acer_rates *r, int32_t level);
+int64_t acer_values(const acer_rates *r);
 
 /* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:
    there are fewer than five such levels, or no law fits. */

@@ -9,9 +9,8 @@
 
 /* A shape this near to 0 is the limit (Gumbel, exponential). */
 #define SHAPE_ZERO 1e-9
-/* Shapes that a fit may take: beyond, the likelihood has no maximum (< -1) or the mean is none (> 1). */
+/* Shapes that a fit may take: below, the likelihood has no maximum (< -1). */
 #define SHAPE_LEAST (-0.999)
-#define SHAPE_MOST 1.5
 /* Of the negative log likelihood. */
 #define COST_TOLERANCE 1e-11
 
@@ -219,7 +218,7 @@ typedef struct law_sample {
     double location, unit; /* of GPD; of the scale's logarithm */
 } law_sample;
 
-static bool is_shape(double shape) { return shape > SHAPE_LEAST && shape < SHAPE_MOST; }
+static bool is_shape(double shape) { return shape > SHAPE_LEAST && shape < FIT_SHAPE_MOST; }
 
 static double gev_cost(const void *of, const double *x)
 {
@@ -280,12 +279,23 @@ static bool fit_weibull(const double *sorted, int32_t n, extreme_law *law)
     return law->shape > lo && law->shape < hi;
 }
 
+/* A generalized law that shrinks to k equal values has scale^(-k + (n - k)/shape) as its likelihood, which has no
+   greatest value where k is 1/(1 + shape) of n or more. */
+int32_t extreme_law_tied(const double *sorted, int32_t count, double shape)
+{
+    int32_t tied = 1;
+    while (tied < count && !(sorted[tied] > sorted[0]))
+        tied++;
+    return tied > 1 && tied * (1 + shape) >= count ? tied : 0;
+}
+
 bool extreme_law_fit(law_kind kind, law_fit how, const double *sorted, int32_t count, double location, extreme_law *out)
 {
     *out = (extreme_law){.kind = kind, .location = location};
     if (count < LAW_VALUES_LEAST || !(sorted[count - 1] > sorted[0]))
         return false;
-    if ((kind == LAW_PARETO || kind == LAW_WEIBULL) && !(sorted[0] > location))
+    bool peaks = kind == LAW_PARETO || kind == LAW_WEIBULL;
+    if (peaks ? !(sorted[0] > location) : extreme_law_tied(sorted, count, FIT_SHAPE_MOST) > 0)
         return false;
     if (how == FIT_MOMENTS)
         return fit_moments(kind, sorted, count, location, out);

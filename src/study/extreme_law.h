@@ -22,9 +22,16 @@ typedef enum law_fit { FIT_LIKELIHOOD, FIT_MOMENTS } law_fit;
 /* Least number of values of a fit: with fewer there is no answer. */
 enum { LAW_VALUES_LEAST = 10 };
 
+/* Greatest shapes that are looked for: by a fit, beyond which the mean is none (> 1), and by a profile. */
+#define FIT_SHAPE_MOST 1.5
+#define PROFILE_SHAPE_MOST 5.0
+/* Maxima (ascending) so many of which are equal and the least, as of runs that met no ice, that the likelihood of laws
+   up to a shape has no maximum: how many; 0: there are none, or not so many. */
+int32_t extreme_law_tied(const double *sorted, int32_t count, double shape);
+
 /* Fits to values in ascending order.  LAW_PARETO and LAW_WEIBULL: values over `location`, which is not fitted.  Maximum
    likelihood; or L-moments (Hosking 1990), which LAW_WEIBULL does not have here.  false: too few values, all of them
-   equal, or no fit. */
+   equal, maxima that are tied, or no fit. */
 bool extreme_law_fit(law_kind kind, law_fit how, const double *sorted, int32_t count, double location,
                      extreme_law *out);
 

@@ -108,7 +108,8 @@ static void add_penultimate(const extreme_sample *s, const extreme_law *law, dou
     double other = shift;
     if (s->values.scale > 0)
         other = penultimate_level(&s->values, s->survival, real_log(fmax(times / exponent, 1))) - i->level;
-    i->low += fmin(fmin(shift, other), 0);
+    /* Of heavy tails the shift may be more than the way: what is under the location the fit knows nothing of. */
+    i->low = fmax(i->low + fmin(fmin(shift, other), 0), fmin(i->low, law->location));
     i->high += fmax(fmax(shift, other), 0);
 }
 
@@ -212,20 +213,26 @@ static bool fit_values(context *ctx, extreme_sample *s)
 static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_request *ask, extreme_result *out,
                                  fram_error *error)
 {
+    bool peaks = s->kind == LAW_PARETO || s->kind == LAW_WEIBULL;
     out->sample = s->value.count;
     if (s->value.count < LAW_VALUES_LEAST)
         return extremes_refuse_few(out);
-    if (!extreme_law_fit(s->kind, ask->fit, s->value.data, s->value.count, s->location, &out->law))
-        return extremes_refuse(out, "no law fits: the values are equal, or their likelihood has no maximum");
-    bool peaks = s->kind == LAW_PARETO || s->kind == LAW_WEIBULL;
-    if (peaks && !(s->exposure * s->value.count > 1 / real_exp(1)))
+    /* Where the profile of the generalized law breaks its interval, and that of the averaged one, would be none. */
+    bool tied = !peaks && extreme_law_tied(s->value.data, s->value.count, PROFILE_SHAPE_MOST) > 0;
+    if ((s->kind == LAW_GEV && tied) ||
+        !extreme_law_fit(s->kind, ask->fit, s->value.data, s->value.count, s->location, &out->law))
+        return extremes_refuse_sample(out, s->value.data, s->value.count,
+                                      peaks                ? 0
+                                      : s->kind == LAW_GEV ? PROFILE_SHAPE_MOST
+                                                           : FIT_SHAPE_MOST);
+    if (peaks && !(s->exposure * s->value.count > 1))
         return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
     if (s->series && (s->kind == LAW_PARETO || s->kind == LAW_GEV))
         s->survival = survival_of(s->series, out->law.location);
     if (s->series && s->kind == LAW_PARETO && !fit_values(ctx, s))
         return error_memory(error);
     /* How long blocks of a series must be for Gumbel's law nobody knows: what their maxima say beyond it counts too. */
-    if (s->series && s->kind == LAW_GUMBEL &&
+    if (s->series && s->kind == LAW_GUMBEL && !tied &&
         extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, s->value.data, s->value.count, 0, &s->any))
         s->weight = averaged_weight(&out->law, &s->any, s->value.data, s->value.count);
     else
@@ -237,6 +244,8 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
     if (s->kind == LAW_WEIBULL)
         extremes_doubt_largest(out, s->value.data, s->value.count);
     out->answered = good;
+    if (good && peaks)
+        extremes_cut_low(out, ask->levels, s->location);
     return good ? FRAM_OK : error_memory(error);
 }
 
@@ -289,7 +298,9 @@ static fram_status answer_blocks(const series_work *w)
     s.exposure = w->ask->duration / out->block;
     fram_status status = block_maxima(w->ctx, w->s, length, &s.value) ? FRAM_OK : error_memory(w->error);
     values_sort(&s.value);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && s.value.count == 0)
+        status = extremes_refuse_short(out);
+    else if (status == FRAM_OK)
         status = answer_sample(w->ctx, &s, w->ask, out, w->error);
     array_free(w->ctx, &s.value);
     return status;
@@ -389,8 +400,13 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     if (out->sample < LAW_VALUES_LEAST)
         return extremes_refuse_few(out);
     if (!acer_fit(rates, &out->tail))
-        return extremes_refuse(out, "no law of the tail fits: fewer than five levels are exceeded often enough");
-    double counted = (double)rates->batches * rates->per_batch * w->s->step;
+        return extremes_refuse(
+            out, "no law of the tail fits: fewer than five levels are exceeded often enough, or their rates "
+                 "do not fall");
+    if (!(acer_level(&out->tail, w->s->step, w->ask->duration, 1) > rates->level[0]))
+        return extremes_refuse(out, "fewer than one exceedance of the first level is expected in the duration: ask for "
+                                    "a longer one, or take a lower threshold");
+    double counted = (double)acer_values(rates) * w->s->step;
     for (int32_t i = 0; i < rates->levels && out->points < EXTREME_POINTS_MOST; i++) {
         int64_t n = acer_exceedances(rates, i);
         if (n > 0)
@@ -410,6 +426,8 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     }
     out->interval = "bootstrap over batches, percentiles";
     out->answered = good;
+    if (good)
+        extremes_cut_low(out, w->ask->levels, rates->level[0]);
     return good ? FRAM_OK : error_memory(w->error);
 }
 
@@ -440,7 +458,7 @@ fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method
     out->step = s->step;
     out->separation = ask->separation > 0 ? ask->separation : SCALES_APART * w.nature.time_scale;
     if (w.nature.values < LAW_VALUES_LEAST || !(w.nature.greatest > w.nature.least))
-        return extremes_refuse(out, "the series is empty or constant");
+        return extremes_refuse(out, "the series is constant, or has fewer than ten values");
     fram_status status = FRAM_OK;
     if (method == EXTREME_ACER || method == EXTREME_UPCROSSING)
         status = answer_rates(&w);

@@ -16,9 +16,10 @@
  */
 #define RATIO 3.841458820694124
 
+static const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
+
 void extremes_begin(extreme_result *out, extreme_method method, const extreme_request *ask)
 {
-    const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
     memset(out, 0, sizeof *out);
     out->method = method;
     out->interval = "";
@@ -58,9 +59,41 @@ fram_status extremes_refuse_few(extreme_result *out)
     return FRAM_OK;
 }
 
+fram_status extremes_refuse_short(extreme_result *out)
+{
+    char why[120];
+    snprintf(why, sizeof why, "no series is as long as a block, %.4g s: run longer, or give shorter blocks",
+             out->block);
+    return extremes_refuse(out, why);
+}
+
+fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, int32_t count, double shape)
+{
+    int32_t tied = shape > 0 ? extreme_law_tied(sorted, count, shape) : 0;
+    char why[160];
+    if (tied == 0 || tied == count)
+        return extremes_refuse(out, "no law fits: the values are equal, or their likelihood has no maximum");
+    snprintf(why, sizeof why,
+             "no law fits: %d of %d maxima are equal, %.4g, the least: they take longer blocks, or runs", (int)tied,
+             (int)count, sorted[0]);
+    return extremes_refuse(out, why);
+}
+
+void extremes_cut_low(extreme_result *out, int levels, double least)
+{
+    bool cut = false;
+    for (int i = 0; i < levels; i++) {
+        if (out->level[i].level > least)
+            continue;
+        out->level[i] = none;
+        cut = true;
+    }
+    if (cut)
+        say(out, "Levels that are not over %.4g are not told: the law is one of what is over it.", least);
+}
+
 void extremes_cut(extreme_result *out, int levels, double least, const char *why)
 {
-    const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
     if (out->most_probable.level >= least)
         out->most_probable = none;
     for (int i = 0; i < levels; i++)
@@ -95,13 +128,25 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
         say(out, "The sample is small (%d): its interval is a guess of the right size.", (int)out->sample);
 }
 
+/* any: the generalized law of the sample. */
+static bool against_gumbel(const double *sorted, int32_t count, extreme_law *any)
+{
+    extreme_law gumbel;
+    return extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, sorted, count, 0, &gumbel) &&
+           extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, sorted, count, 0, any) &&
+           2 * (extreme_law_cost(&gumbel, sorted, count) - extreme_law_cost(any, sorted, count)) > RATIO;
+}
+
+bool extremes_against_gumbel(const double *sorted, int32_t count)
+{
+    extreme_law any;
+    return against_gumbel(sorted, count, &any);
+}
+
 void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t count)
 {
-    extreme_law gumbel, any;
-    if (!extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, sorted, count, 0, &gumbel) ||
-        !extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, sorted, count, 0, &any))
-        return;
-    if (2 * (extreme_law_cost(&gumbel, sorted, count) - extreme_law_cost(&any, sorted, count)) > RATIO)
+    extreme_law any;
+    if (against_gumbel(sorted, count, &any))
         say(out,
             "The maxima speak against Gumbel's law (shape %.2g by gev, likelihood ratio at 5 %%): its levels are %s.",
             any.shape, any.shape < 0 ? "too high" : "too low");

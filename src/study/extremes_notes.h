@@ -9,11 +9,18 @@ void extremes_begin(extreme_result *out, extreme_method method, const extreme_re
 /* No answer, and why; returns FRAM_OK: that the data do not carry an answer is one. */
 fram_status extremes_refuse(extreme_result *out, const char *why);
 fram_status extremes_refuse_few(extreme_result *out);
+/* No series holds a block. */
+fram_status extremes_refuse_short(extreme_result *out);
+/* No law fits the sample (ascending); of maxima, laws up to a shape (0: of peaks). */
+fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, int32_t count, double shape);
+/* The law is one of values over `least`: levels that are not are not told. */
+void extremes_cut_low(extreme_result *out, int levels, double least);
 /* Values are known up to `least` only, in some runs: levels from there on are not told, and `why` is (a sentence). */
 void extremes_cut(extreme_result *out, int levels, double least, const char *why);
 /* What speaks against an answer that was found, of data that are `time` long [s]. */
 void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
 /* Where the sample (ascending) speaks for another tail than Gumbel's: the ratio of likelihoods (Coles 2001, 3.3). */
+bool extremes_against_gumbel(const double *sorted, int32_t count);
 void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t count);
 /* Where the largest of the sample (ascending) is one that the law of peaks hardly ever has, or passes far more often.
  */

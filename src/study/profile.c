@@ -57,7 +57,7 @@ static double profile_cost(const void *of, const double *x)
     if (law->kind == LAW_WEIBULL)
         return weibull_cost(at, law->shape * real_exp(x[0]));
     double scale = law->scale * real_exp(x[0]), shape = free_count(law->kind) > 1 ? x[1] : 0;
-    if (!(fabs(shape) < 5))
+    if (!(fabs(shape) < PROFILE_SHAPE_MOST))
         return (double)INFINITY;
     return law->kind == LAW_PARETO ? pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
 }

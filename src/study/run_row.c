@@ -104,6 +104,7 @@ static double tension_of_parting(const run_data *d, int32_t vessel)
 static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics offset, heading, tension, power, parted;
+    const scenario_vessel *v = scenario_vessel_entry(&d->s, vessel).keys;
     fram_status status = statistics(ctx, d, vessel, "offset_x", "offset_y", &offset, error);
     if (status == FRAM_OK)
         status = statistics(ctx, d, vessel, "heading_deviation", NULL, &heading, error);
@@ -113,7 +114,7 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
         status = statistics(ctx, d, vessel, "thruster_power", NULL, &power, error);
     if (status == FRAM_OK)
         status = statistics(ctx, d, vessel, "lines_parted", NULL, &parted, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && v->mooring.lines.count > 0)
         status =
             fatigue(ctx, d, vessel, "line_tension_max", NULL, &out->figure[ROW_line_tension_range_equivalent], error);
     if (status != FRAM_OK)
@@ -121,10 +122,14 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
     out->figure[ROW_offset_mean] = offset.mean;
     out->figure[ROW_offset_largest] = offset.greatest;
     out->figure[ROW_heading_deviation_largest] = heading.greatest;
-    out->figure[ROW_line_tension_significant] = tension.significant;
-    out->figure[ROW_line_tension_largest] = fmax(tension.greatest, tension_of_parting(d, vessel));
-    out->figure[ROW_lines_parted] = parted.greatest;
-    out->figure[ROW_thruster_power_mean] = power.mean;
+    /* The series have a 0 of what the vessel does not have. */
+    if (v->mooring.lines.count > 0) {
+        out->figure[ROW_line_tension_significant] = tension.significant;
+        out->figure[ROW_line_tension_largest] = fmax(tension.greatest, tension_of_parting(d, vessel));
+        out->figure[ROW_lines_parted] = parted.greatest;
+    }
+    if (v->thrusters.count > 0)
+        out->figure[ROW_thruster_power_mean] = power.mean;
     return FRAM_OK;
 }
 
@@ -268,7 +273,7 @@ static void fill_failure(context *ctx, const char *folder, int exit_code, run_ro
         return;
     }
     if (d.note.message[0])
-        snprintf(out->reason, sizeof out->reason, "%.255s", d.note.message);
+        snprintf(out->reason, sizeof out->reason, "%s", d.note.message);
     out->figure[ROW_time] = d.note.time;
     run_data_free(ctx, &d);
     replace_controls(out->reason);
@@ -292,7 +297,7 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 4";
+static const char mark[] = "fram study row 5";
 
 static void number(context *ctx, text_buffer *out, double value)
 {

@@ -48,7 +48,7 @@ run_figure run_figure_find(const char *name);
 const char *run_figure_name(run_figure figure);
 const char *run_figure_unit(run_figure figure);
 
-enum { ROW_REASON = 256 };
+enum { ROW_REASON = 512 };
 typedef struct run_row {
     char vessel[VESSEL_NAME_MOST + 1]; /* that the figures are of; "" where vessels have no names, and of a failure */
     bool failed;

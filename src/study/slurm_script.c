@@ -1,5 +1,7 @@
 #include "study/slurm_script.h"
 
+#include <string.h>
+
 /* A text as one word of the shell. */
 static void quoted(context *ctx, text_buffer *out, const char *text)
 {
@@ -7,6 +9,17 @@ static void quoted(context *ctx, text_buffer *out, const char *text)
     for (const char *c = text; *c; c++)
         text_format(ctx, out, *c == '\'' ? "'\\''" : "%c", *c);
     text_add(ctx, out, "'");
+}
+
+/* sbatch divides a directive at blanks and ends it at #: a value that has some, and no quotation marks yet, is put into
+   such. */
+static void add_option(context *ctx, text_buffer *out, const char *option)
+{
+    const char *value = strchr(option, '=');
+    if (value && strpbrk(value, " \t#") && !strpbrk(value, "\"'\\"))
+        text_format(ctx, out, "#SBATCH %.*s\"%s\"\n", (int)(value + 1 - option), option, value + 1);
+    else
+        text_format(ctx, out, "#SBATCH %s\n", option);
 }
 
 static void directives(context *ctx, const slurm_script_facts *f, text_buffer *out)
@@ -20,7 +33,7 @@ static void directives(context *ctx, const slurm_script_facts *f, text_buffer *o
     if (f->options->time)
         text_format(ctx, out, "#SBATCH --time=%s\n", f->options->time);
     for (int i = 0; i < f->options->option_count; i++)
-        text_format(ctx, out, "#SBATCH %s\n", f->options->options[i]);
+        add_option(ctx, out, f->options->options[i]);
 }
 
 void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out)

@@ -1,4 +1,5 @@
 /* Levels of a year over all conditions, as far as their runs carry them. */
+#include "study/extremes_notes.h"
 #include "study/study_answers.h"
 #include "study/study_extremes.h"
 
@@ -68,6 +69,21 @@ static bool any_seen(const study_extremes *x, const condition_maxima *of, int32_
     return false;
 }
 
+/* Levels of a year know no more than the fits of their conditions. */
+static void doubt_gumbel(const study_extremes *x, const condition_maxima *of, int32_t count, annual_answer *out)
+{
+    int32_t against = 0, occur = 0;
+    for (int32_t c = 0; c < count; c++) {
+        bool occurs = x->hours.data[c] > 0;
+        occur += occurs;
+        against += occurs && extremes_against_gumbel(of[c].value.data, of[c].value.count);
+    }
+    if (against > 0)
+        snprintf(out->why, sizeof out->why,
+                 "The largest values of %d of %d conditions speak against Gumbel's law (extremes.csv tells which).",
+                 (int)against, (int)occur);
+}
+
 fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
                          const double *block, annual_answer out[STUDY_LEVELS_MOST], fram_error *error)
 {
@@ -90,6 +106,8 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
         } else if (!any_seen(x, of, count)) {
             out[i].level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
             snprintf(out[i].why, sizeof out[i].why, "No answer: all runs saw none; longer runs, or more seeds.");
+        } else if (!x->gev) {
+            doubt_gumbel(x, of, count, &out[i]);
         }
         status = check_parting(f, conditions, figure, &out[i], error);
     }

@@ -95,7 +95,7 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
     double_array value = {0};
     *out = (extreme_result){.answered = false};
     fram_status status = study_values(f, conditions, condition, figure, &value, error);
-    if (status == FRAM_OK && value.count > 0)
+    if (status == FRAM_OK)
         status = ask_extreme(f, &value, block, out, error);
     if (status == FRAM_OK && value.count > 0 && figure != ROW_load_largest)
         status = cut_at_parting(f, conditions, condition, figure, out, error);

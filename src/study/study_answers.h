@@ -14,14 +14,15 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
 /* What the largest values of the runs of conditions say of rare loads. */
 enum { STUDY_RARE = 3 };
 extern const run_figure study_rare[STUDY_RARE]; /* figures that have extremes */
-/* Of one condition; `block` from study_blocks.  No values at all: not answered, and the note is "". */
+/* Of one condition; `block` from study_blocks. */
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error);
 
 /* Values of a figure of the runs of a condition, without those that have none. */
 fram_status study_values(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                          double_array *out, fram_error *error);
-/* A level that is exceeded with a probability in a year: NaN where `why` says why there is none. */
+/* A level that is exceeded with a probability in a year: NaN where `why` says why there is none; else `why` says what
+   speaks against it, if anything does. */
 typedef struct annual_answer {
     level_interval level;
     char why[240];

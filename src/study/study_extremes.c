@@ -24,7 +24,7 @@ static fram_status read_method(const study_source *r, const yaml_node *k)
     if (m != EXTREME_GUMBEL && m != EXTREME_GEV)
         return study_refuse(r, k,
                             m < EXTREME_METHODS ? "expected gumbel or gev, of the largest values of runs; %s takes the "
-                                                  "series: keep: series, and `fram extremes DIR/runs/ID/*`"
+                                                  "series: keep: series, and `fram extremes DIR/runs/ID/*/`"
                                                 : "expected gumbel or gev, found %s",
                             *text ? text : "none");
     r->out->extremes.gev = m == EXTREME_GEV;
@@ -214,7 +214,8 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
         /* Runs without any load: nothing to exceed. */
         if (s->value[0] == 0 && s->value[n - 1] == 0)
             w->part[c].blocks = 0;
-        else if (!extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0, &w->part[c].law))
+        else if ((w->ask->gev && extreme_law_tied(s->value, n, PROFILE_SHAPE_MOST) > 0) ||
+                 !extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0, &w->part[c].law))
             return c;
         s->occurs = w->part[c].blocks > 0;
         w->occur += s->occurs;

@@ -385,8 +385,16 @@ static fram_status take_first(context *ctx, const study *s, int32_t condition, c
 static bool has_worst(const study *s, const scenario *one)
 {
     int32_t vessel = s->vessel ? scenario_find_vessel(one, s->vessel) : 0;
-    bool of_station = s->worst.figure >= ROW_offset_mean && s->worst.figure <= ROW_thruster_power_mean;
-    return !(of_station || s->worst.figure == ROW_line_tension_range_equivalent) || station_has_results(one, vessel);
+    const int figure = s->worst.figure;
+    bool of_station = figure >= ROW_offset_mean && figure <= ROW_thruster_power_mean;
+    bool of_lines = (figure >= ROW_line_tension_significant && figure <= ROW_lines_parted) ||
+                    figure == ROW_line_tension_range_equivalent;
+    if (!of_station && !of_lines)
+        return true;
+    if (!station_has_results(one, vessel))
+        return false;
+    const scenario_vessel *v = scenario_vessel_entry(one, vessel).keys;
+    return of_lines ? v->mooring.lines.count > 0 : figure != ROW_thruster_power_mean || v->thrusters.count > 0;
 }
 
 static fram_status check_conditions(context *ctx, study *s, fram_error *error)
@@ -409,10 +417,11 @@ static fram_status check_conditions(context *ctx, study *s, fram_error *error)
         status = error_memory(error);
     memory_free(ctx, first.name);
     if (status == FRAM_OK && !worst)
-        status = error_set(error, FRAM_ERROR_INPUT, s->file, s->worst.line, "by",
-                           "no run of this study has %s: its vessel keeps no station, without mooring and positioning; "
-                           "take load_largest",
-                           run_figure_name((run_figure)s->worst.figure));
+        status =
+            error_set(error, FRAM_ERROR_INPUT, s->file, s->worst.line, "by",
+                      "no run of this study has %s: its vessel keeps no station, or has no mooring or thrusters for "
+                      "that; take load_largest",
+                      run_figure_name((run_figure)s->worst.figure));
     return status;
 }
 

@@ -241,6 +241,9 @@ static fram_status lock_folder(const char *path, int *lock, fram_error *error)
         nanosleep(&pause, NULL);
         status = run_folder_lock(path, lock, error);
     }
+    if (status == FRAM_ERROR_USAGE)
+        return error_set(error, status, path, 0, NULL,
+                         "another study is writing into this folder; wait for its end, or name another folder");
     return status;
 }
 

@@ -74,16 +74,18 @@ static fram_status open_look(context *ctx, const char *folder, study_look *l, fr
     return status;
 }
 
-/* The rows of a condition, up to the first that is not there; a failure counts as in the tables, with NaN. */
+/* The rows of a condition that are there; a failure counts as in the tables, with NaN.  How many seeds are wanted is
+   decided by those up to the first that is not there, as by the study. */
 static fram_status read_rows(study_look *l, int32_t condition, condition_standing *out, fram_error *error)
 {
     context *ctx = l->folder.ctx;
     array_clear(&l->mean);
     array_clear(&l->largest);
-    for (out->wanted = l->s.seeds.least; out->runs < out->wanted; out->runs++) {
+    out->wanted = l->s.seeds.least;
+    for (int32_t i = 0; i < out->wanted; i++) {
         run_rows rows = {0};
         bool found = false;
-        char *path = study_run_path(&l->folder, condition, l->s.seeds.first + out->runs, ".row");
+        char *path = study_run_path(&l->folder, condition, l->s.seeds.first + i, ".row");
         fram_status status = path ? run_rows_read(ctx, path, &rows, &found, error) : error_memory(error);
         memory_free(ctx, path);
         const run_row *row = found ? run_rows_find(&rows, l->s.vessel) : NULL;
@@ -93,8 +95,9 @@ static fram_status read_rows(study_look *l, int32_t condition, condition_standin
         array_free(ctx, &rows);
         if (status != FRAM_OK || !good)
             return status != FRAM_OK ? status : error_memory(error);
-        if (!row)
-            return FRAM_OK;
+        out->runs += row != NULL;
+        if (out->runs < i + 1)
+            continue;
         const seeds_extreme rare = seeds_extreme_of(ctx, &l->s, l->block ? l->block[condition] : 1);
         out->wanted = seeds_wanted(&l->s.seeds, l->mean.data, l->largest.data, &rare, l->mean.count);
     }

@@ -97,14 +97,9 @@ void page_key_text(const char *value, char out[PAGE_KEY_SIZE])
 
 static bool has_figure(study_page *p, const page_figure *figure)
 {
-    for (int32_t c = 0; c < p->f->s->conditions; c++) {
-        double mean = page_interval(p, c, figure).mean;
-        /* Vessels without thrusters have no power, those without lines no tension. */
-        bool gear = figure->figure == ROW_thruster_power_mean || figure->figure == ROW_line_tension_largest ||
-                    figure->figure == ROW_line_tension_range_equivalent;
-        if (isfinite(mean) && (!gear || mean > 0))
+    for (int32_t c = 0; c < p->f->s->conditions; c++)
+        if (isfinite(page_interval(p, c, figure).mean))
             return true;
-    }
     return false;
 }
 

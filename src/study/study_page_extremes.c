@@ -29,7 +29,8 @@ static void level_cell(study_page *p, const level_interval *i, double factor)
     html_number_text(page_three_digits(i->low * factor), low);
     html_number_text(page_three_digits(i->high * factor), high);
     if (isfinite(i->level))
-        snprintf(text, sizeof text, "%s (%s to %s)", level, low, isinf(i->high) ? "no end" : high);
+        snprintf(text, sizeof text, "%s (%s to %s)", level, isinf(i->low) ? "no end" : low,
+                 isinf(i->high) ? "no end" : high);
     html_cell(&p->page, text);
 }
 

@@ -53,9 +53,11 @@ class Arrays(unittest.TestCase):
     def test_the_script_is_printed_and_nothing_submitted(self):
         environment = dict(os.environ, PATH="/nowhere")
         text = self.fram("it's", "--on", "slurm", "--dry-run", "--partition", "short", "--time", "1:00:00",
-                         "--runs-per-task", "5", "--sbatch", "--account=ice", environment=environment)
+                         "--runs-per-task", "5", "--sbatch", "--account=ice", "--sbatch", "--comment=two words #1",
+                         "--sbatch", "--exclude='n1, n2'", environment=environment)
         script = text[:text.rindex("{")]
-        for line in ("#SBATCH --partition=short", "#SBATCH --time=1:00:00", "#SBATCH --account=ice", "each=5"):
+        for line in ("#SBATCH --partition=short", "#SBATCH --time=1:00:00", "#SBATCH --account=ice", "each=5",
+                     '#SBATCH --comment="two words #1"\n', "#SBATCH --exclude='n1, n2'\n"):
             self.assertIn(line, script)
         runs = 3 * int(os.environ.get("FRAM_SLURM_SEEDS", "8"))
         self.assertIn(f"#SBATCH --array=0-{(runs + 4) // 5 - 1}\n", script)

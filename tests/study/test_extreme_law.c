@@ -159,6 +159,29 @@ START_TEST(what_cannot_be_fitted_is_refused)
 }
 END_TEST
 
-TEST_MAIN("extreme_law", quantiles_and_gamma_are_scipys, likelihood_fits_are_scipys, profile_intervals_are_scipys,
-          the_textbook_s_sea_levels, moments_give_the_law_back, levels_invert_exponents,
-          what_cannot_be_fitted_is_refused)
+/* A law shrinks to the least of the maxima where they are 1/(1 + 1.5) of all: of 50 that are 20. */
+START_TEST(maxima_most_of_which_are_equal_are_of_no_law)
+{
+    enum { ALL = 50 };
+    double value[ALL];
+    extreme_law law;
+    for (int zeros = 19; zeros <= 21; zeros++) {
+        for (int i = 0; i < ALL; i++)
+            value[i] = i < zeros ? 0 : -real_log(1 - (i - zeros + 0.5) / (ALL - zeros));
+        int32_t tied = zeros > 19 ? zeros : 0;
+        ck_assert_int_eq(extreme_law_tied(value, ALL, FIT_SHAPE_MOST), tied);
+        ck_assert_int_eq(extreme_law_tied(value, ALL, 1.7), zeros);
+        ck_assert(extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, value, ALL, 0, &law) == (tied == 0));
+        ck_assert(extreme_law_fit(LAW_GEV, FIT_MOMENTS, value, ALL, 0, &law) == (tied == 0));
+        ck_assert(extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, value, ALL, 0, &law) == (tied == 0));
+        ck_assert(tied > 0 || law.scale > 1e-3);
+    }
+    ck_assert_int_eq(extreme_law_tied(sample, SAMPLE, PROFILE_SHAPE_MOST), 0);
+    /* Peaks over a threshold are of a law that may begin with many. */
+    ck_assert(extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, value, ALL, -1, &law));
+}
+END_TEST
+
+TEST_MAIN("extreme_law", maxima_most_of_which_are_equal_are_of_no_law, quantiles_and_gamma_are_scipys,
+          likelihood_fits_are_scipys, profile_intervals_are_scipys, the_textbook_s_sea_levels,
+          moments_give_the_law_back, levels_invert_exponents, what_cannot_be_fitted_is_refused)

@@ -263,6 +263,142 @@ START_TEST(intervals_of_peaks_go_as_far_as_the_tail_of_the_values)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
+static void ask_series(double *value, int count, extreme_method method, double duration, extreme_result *out)
+{
+    const series_part part = {value, count};
+    const series_set set = {&part, 1, 1};
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = duration;
+    ask.stability = false;
+    ask.probability[0] = 0.001;
+    context ctx;
+    context_init(&ctx);
+    ck_assert(extremes_of_series(&ctx, &set, method, &ask, out, NULL) == FRAM_OK);
+}
+
+/* Rates of a sine are the same at all levels: no tail falls from there, but by rounding. */
+START_TEST(rates_that_do_not_fall_have_no_tail)
+{
+    static double value[VALUES];
+    static extreme_result r;
+    for (int i = 0; i < VALUES; i++)
+        value[i] = sin(0.05 * i);
+    for (int m = 0; m < 2; m++) {
+        ask_series(value, VALUES, m ? EXTREME_UPCROSSING : EXTREME_ACER, 3.0 * VALUES, &r);
+        ck_assert_msg(!r.answered && strstr(r.note, "do not fall"), "%g: %s", r.most_probable.level, r.note);
+    }
+}
+END_TEST
+
+/* The same series in one part and in a hundred short ones: rates are of the values that can exceed, those that have k -
+   1 of their part before them. */
+START_TEST(rates_of_short_parts_are_those_of_a_long_one)
+{
+    enum { ORDER = 39, PARTS = 100, LENGTH = VALUES / PARTS };
+    static double value[VALUES];
+    static series_part parts[PARTS];
+    random_stream random = random_begin(14, 7, 1);
+    double x = 0;
+    for (int i = 0; i < VALUES; i++) {
+        x = 0.9 * x + random_normal(&random);
+        value[i] = x;
+        parts[i / LENGTH] = (series_part){value + i / LENGTH * LENGTH, LENGTH};
+    }
+    const series_part whole = {value, VALUES};
+    const series_set sets[] = {{&whole, 1, 1}, {parts, PARTS, 1}};
+    double rate[2];
+    context ctx;
+    context_init(&ctx);
+    for (int k = 0; k < 2; k++) {
+        acer_rates r;
+        ck_assert(acer_count(&ctx, &sets[k], ORDER, 3, LENGTH, &r));
+        ck_assert_int_eq(acer_values(&r), k ? PARTS * (LENGTH - ORDER + 1) : VALUES - ORDER + 1);
+        rate[k] = (double)acer_exceedances(&r, 0) / (double)acer_values(&r);
+        acer_free(&ctx, &r);
+    }
+    /* Some 170 exceedances, of which four in five are the same. */
+    ck_assert_msg(fabs(rate[1] / rate[0] - 1) < 0.08, "%g", rate[1] / rate[0]);
+}
+END_TEST
+
+/* Blocks that met no ice: with many such there is no generalized law, with more no law of maxima at all. */
+START_TEST(many_maxima_that_are_equal_carry_no_answer)
+{
+    enum { ALL = 50 };
+    static const struct {
+        int zeros;
+        bool gev, gumbel;
+    } cases[] = {{8, true, true}, {9, false, true}, {19, false, true}, {20, false, false}};
+    extreme_request ask;
+    extreme_request_default(&ask);
+    static extreme_result r;
+    context ctx;
+    context_init(&ctx);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double value[ALL];
+        for (int i = 0; i < ALL; i++)
+            value[i] = fmax(0, i + 1 - cases[k].zeros);
+        for (int m = 0; m < 2; m++) {
+            char why[64];
+            snprintf(why, sizeof why, "%d of 50 maxima are equal, 0, the least", cases[k].zeros);
+            ck_assert(extremes_of_maxima(&ctx, value, ALL, 45, m ? EXTREME_GEV : EXTREME_GUMBEL, &ask, &r, NULL) ==
+                      FRAM_OK);
+            ck_assert_msg(r.answered == (m ? cases[k].gev : cases[k].gumbel), "%d, %d: %s", cases[k].zeros, m, r.note);
+            ck_assert_msg(r.answered || strstr(r.note, why), "%s", r.note);
+        }
+    }
+}
+END_TEST
+
+/* Rates and peaks are told over a level or threshold, and know nothing of what is under it. */
+START_TEST(levels_under_the_law_s_own_are_not_told)
+{
+    static const extreme_method over[] = {EXTREME_ACER, EXTREME_UPCROSSING, EXTREME_POT, EXTREME_WEIBULL};
+    static double value[VALUES];
+    static extreme_result r;
+    random_stream random = random_begin(12, 7, 1);
+    for (int i = 0; i < VALUES; i++)
+        value[i] = random_normal(&random);
+    for (int m = 0; m < 4; m++) {
+        bool rates = m < 2;
+        ask_series(value, VALUES, over[m], VALUES, &r);
+        ck_assert_msg(r.answered, "%s", r.note);
+        double least = r.threshold, once = rates ? r.tail.b : 0;
+        /* Of so many peaks or exceedances one in the time, and a tenth less or more. */
+        once =
+            rates ? 1 / (r.tail.q * real_exp(-r.tail.a * real_pow(least - once, r.tail.c))) : VALUES / (double)r.sample;
+        ask_series(value, VALUES, over[m], 0.9 * once, &r);
+        ck_assert_msg(!r.answered && strstr(r.note, "fewer than one"), "%s", r.note);
+        ck_assert(isnan(r.most_probable.level) && isnan(r.level[2].level));
+        ask_series(value, VALUES, over[m], 1.5 * once, &r);
+        ck_assert_msg(r.answered && strstr(r.note, "are not told"), "%s", r.note);
+        ck_assert(r.most_probable.level > least && isnan(r.level[0].level) && isnan(r.level[0].high));
+        ck_assert(r.level[2].level > r.most_probable.level);
+    }
+}
+END_TEST
+
+/* What the limit of a heavy tail leaves out is more than the way from the threshold to the level. */
+START_TEST(no_end_of_an_interval_lies_under_the_law_s_location)
+{
+    static const extreme_method methods[] = {EXTREME_POT, EXTREME_GEV};
+    static double value[VALUES];
+    static extreme_result r;
+    random_stream random = random_begin(13, 7, 1);
+    for (int i = 0; i < VALUES; i++)
+        value[i] = real_pow(1 - random_unit(&random), -0.5) - 1;
+    for (int m = 0; m < 2; m++) {
+        ask_series(value, VALUES, methods[m], VALUES, &r);
+        ck_assert(r.answered && r.law.shape > 0.3);
+        ck_assert_msg(r.level[2].low >= r.law.location && r.level[1].low >= r.law.location, "%g, %g: %g",
+                      r.level[1].low, r.level[2].low, r.law.location);
+    }
+}
+END_TEST
+
+TEST_MAIN("extremes_doubts", many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
+          rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
+          no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
           a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
           the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)

@@ -156,6 +156,16 @@ class StationTest(StudyTest):
         self.fram(self.write("seeds: 2\n"), "-o", self.at / "bare")
         self.assertIn("Largest offset", self.page("bare"))
         self.assertNotIn("tension", self.page("bare"))
+        # Nor have the tables a 0 of them, or of thrusters where there are none.
+        lines = ("line_tension_significant[N]", "line_tension_largest[N]", "line_tension_range_equivalent[N]",
+                 "lines_parted[1]")
+        for folder, empty, there in (("bare", lines, ["thruster_power_mean[W]"]),
+                                     ("plain", ["thruster_power_mean[W]"], lines)):
+            for row in self.rows(folder):
+                self.assertEqual({row[k] for k in empty}, {""}, folder)
+                self.assertNotIn("", [row[k] for k in there])
+        self.refused("keep: {record_of_worst: 1, by: line_tension_largest}\n", "study.yaml:2: by", "mooring")
+        self.fram("check", self.write("keep: {record_of_worst: 1, by: thruster_power_mean}\n"))
 
     def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +

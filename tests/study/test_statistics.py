@@ -213,6 +213,37 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", self.at / "none.csv", "--channel", "x"), "none.csv")
         self.refused(("extremes", self.at, "--channel", "x"), str(self.at))
 
+    def test_the_runs_of_a_large_study_are_taken_at_once(self):
+        files = [self.write("x\n1\n2\n", "two.csv")] * 300
+        self.assertEqual(self.fram("extremes", *files, "--channel", "x", "--step", 1)["series"]["values"], 600)
+        few = self.fram("extremes", *files[:1], "--channel", "x", "--step", 1)["methods"][0]["note"]
+        self.assertIn("fewer than ten values", few)
+
+    def test_series_that_hold_no_block_are_told(self):
+        files = [self.write("x\n" + "".join(f"{math.sin(0.01 * i)}\n" for i in range(600)))] * 4
+        (told,) = self.fram("extremes", *files, "--channel", "x", "--step", 1, "--method", "gev")["methods"]
+        self.assertIn(f"no series is as long as a block, {told['block_s']:.4g} s: run longer", told["note"])
+
+    def test_levels_under_the_threshold_are_not_told(self):
+        numbers = random.Random(7)
+        file = self.write("x\n" + "".join(f"{numbers.gauss(0, 1)}\n" for _ in range(4000)))
+        words = ("extremes", file, "--channel", "x", "--step", 1, "--method", "pot", "--threshold", 2)
+        every = 4000 / self.fram(*words)["methods"][0]["sample"]
+        words += ("--duration", 2 * every, "--level", "0.01,0.9")
+        (pot,) = self.fram(*words)["methods"]
+        self.assertEqual([pot["levels"][0][k] for k in ("level", "low", "high")], [None] * 3)
+        self.assertTrue(2 < pot["most_probable"]["level"] < pot["levels"][1]["level"])
+        self.assertIn("Levels that are not over 2 are not told", pot["note"])
+        said = subprocess.run([FRAM, *map(str, words)], capture_output=True, text=True, check=True).stdout
+        self.assertRegex(said, r"0\.01 quantile +not told\n")
+
+    def test_a_law_of_rates_from_below_zero_is_written_with_a_plus(self):
+        numbers = random.Random(7)
+        file = self.write("x\n" + "".join(f"{numbers.gauss(-50, 1)}\n" for _ in range(4000)))
+        said = subprocess.run([FRAM, "extremes", file, "--channel", "x", "--step", "1", "--method", "acer"],
+                              capture_output=True, text=True, check=True).stdout
+        self.assertRegex(said, r"\(x \+ [0-9.]+\)\^")
+
 
 if __name__ == "__main__":
     unittest.main()

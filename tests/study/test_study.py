@@ -220,7 +220,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         first.write_text("half of it")
         lock = os.open(folder, os.O_RDONLY)
         fcntl.flock(lock, fcntl.LOCK_EX)
-        self.assertIn("another run is writing", self.fram(path, "-o", folder, code=2)["error"]["message"])
+        self.assertIn("another study is writing", self.fram(path, "-o", folder, code=2)["error"]["message"])
         self.assertEqual(first.read_text(), "half of it")
         os.close(lock)
         self.assertEqual(self.fram(path, "-o", folder)["runs"], 1)
@@ -254,8 +254,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         for one, row, mean in zip(told["list"], rows, self.rows("out", "conditions.csv")):
             self.assertEqual((one["id"], one["runs"]), (row["id"], 2))
             self.assertEqual(one["load_mean_N"], float(mean["load_mean[N]"]))
+        # A seed that takes longer than those behind it hides none of them.
         (self.at / "out" / "runs" / rows[1]["id"] / "3.row").unlink()
-        self.assertEqual(self.fram("list", self.at / "out")["runs"], 4)
+        told = self.fram("list", self.at / "out")
+        self.assertEqual([told[k] for k in ("runs", "wanted")], [5, 6])
+        self.assertEqual(told["list"][1]["load_mean_N"], float(self.rows("out")[3]["load_mean[N]"]))
         self.assertIn("no study", self.fram("list", self.at, code=2)["error"]["message"])
 
     def test_many_runs_that_are_there_cost_reading_alone(self):
@@ -287,9 +290,15 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
 
     def test_a_failure_is_a_row_and_stops_nothing(self):
         # A hull lighter than the water it displaces rises to its waterline, faster than the lower limit allows.
-        study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [2.1, 100], vessel.mass: [1.0e6]}}\n")
+        study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [2.1, 100], vessel.mass: [1.0e6]}}\n"
+                           "extremes: {duration: 1h}\n")
         result = self.fram(study, "-o", self.at / "out")
         self.assertEqual((result["runs"], result["failed"]), (4, 2))
+        # Nothing is told of what no run has: no 0, and no method that was not asked.
+        for row, runs in zip(self.rows("out", "extremes.csv"), (0, 2)):
+            self.assertEqual([row[k] for k in ("method", "runs", "most_probable", "low", "below_0.9_high")],
+                             ["gumbel", str(runs), "", "", ""])
+            self.assertIn(f"No answer: {runs} block maxima are too few", row["note"])
         rows = self.rows("out")
         self.assertEqual([r["status"] for r in rows], ["failed", "failed", "finished", "finished"])
         self.assertIn("run.speed_limit", rows[0]["reason"])
@@ -297,12 +306,21 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual(self.rows("out", "conditions.csv")[0]["failed"], "2")
         page = (self.at / "out" / "study.html").read_text()
         self.assertTrue("<td>2, 2 failed</td>" in page)
+        self.assertNotIn("<td>0 (0 to 0)</td>", page)
         for seed in (1, 2):
             self.assertTrue(f"<td>1</td><td>{seed}</td><td>the simulation went wrong" in page)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
         done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True)
         self.assertIn("condition 1, seed 1: the simulation went wrong", done.stderr)
         self.assertEqual(self.fram(study, "-o", self.at / "out", "--retry")["made"], 2)
+
+    def test_the_reason_of_a_failure_is_told_whole(self):
+        study = self.write("seeds: 2\nset: {run.speed_limit: 2.0001, run.duration: 9}\n")
+        self.fram(study, "-o", self.at / "out", code=1)
+        said = {r["seed"]: r["reason"] for r in self.rows("out")}
+        self.assertGreater(max(map(len, said.values())), 255)
+        for note in (self.at / "out" / "runs").glob("*/*/run.json"):
+            self.assertEqual(json.loads(note.read_text())["message"], said[note.parent.name])
 
     def test_what_fails_throughout_is_no_success_and_asks_for_no_more_seeds(self):
         study = self.write("seeds: {least: 2, most: 9, mean_within: 0.1}\n"
@@ -358,6 +376,18 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                                   text=True)
             told = "1 of 1 conditions: all runs came out the same, since run.seed draws nothing" in done.stderr
             self.assertEqual(told, tells, done.stderr)
+
+    def test_check_and_list_refuse_what_they_have_no_use_for(self):
+        study = self.write("seeds: 1\nset: {run.duration: 0.2, run.transient: 0.1}\n")
+        self.fram(study, "-o", self.at / "out")
+        for words in (("-o", self.at / "other"), ("--retry",), ("--on", "slurm"), ("--dry-run",), ("--poll", 5)):
+            for call in (("check", study), ("list", self.at / "out")):
+                error = self.fram(*call, *words, code=2)["error"]
+                self.assertIn("leave it out", error["message"], words)
+                self.assertIn(error["key"], ("--output", *words))
+        self.assertFalse((self.at / "other").exists())
+        self.assertEqual(self.fram("check", study, "-j", 1)["jobs"], 1)
+        self.assertEqual(self.fram("list", self.at / "out", "-j", 1, code=2)["error"]["key"], "--jobs")
 
     def test_what_a_study_takes_is_told_for_what_can_be_done_at_once(self):
         def told(text, jobs):
@@ -497,6 +527,33 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         year, = self.rows("out", "annual.csv")
         self.assertEqual((year["level"], year["low"], year["high"]), ("", "", ""))
         self.assertIn("No answer: all runs saw none", year["note"])
+
+    def test_a_year_knows_no_more_than_the_fits_of_its_conditions(self):
+        study = self.write("seeds: 12\nset: {run.duration: 0.2, run.transient: 0.1, ice.source: none}\n"
+                           "extremes: {duration: 1min, hours: [100], annual: [1e-2]}\n")
+        self.fram(study, "-o", self.at / "out")
+
+        def told(values):
+            for seed, value in enumerate(values, 1):
+                (row,) = (self.at / "out" / "runs").glob(f"*/{seed}.row")
+                row.write_text(re.sub("load_largest .*", f"load_largest {value}", row.read_text()))
+            self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
+            load = next(r for r in self.rows("out", "extremes.csv") if r["figure"] == "load_largest")
+            (year,) = self.rows("out", "annual.csv")
+            return load, year
+
+        # No load in most runs, and one in one: no law of maxima has that.
+        load, year = told([0] * 11 + [5000])
+        self.assertEqual((load["most_probable"], year["level"]), ("", ""))
+        self.assertIn("11 of 12 maxima are equal, 0, the least", load["note"])
+        self.assertIn("condition 1 occurs and has no fit", year["note"])
+        load, year = told([2 ** k for k in range(12)])
+        self.assertIn("speak against Gumbel's law", load["note"])
+        self.assertGreater(float(year["level"]), float(load["most_probable"]))
+        self.assertIn("of 1 of 1 conditions speak against Gumbel's law", year["note"])
+        load, year = told([-math.log(-math.log((k + 0.5) / 12)) for k in range(12)])
+        self.assertNotIn("speak against", load["note"])
+        self.assertEqual(year["note"], "")
 
     def test_extremes_of_conditions_and_of_a_year(self):
         study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
