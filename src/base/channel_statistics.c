@@ -10,38 +10,88 @@ static int falling(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Mean of the highest third of the peaks; peaks are few enough for a fixed room: the smallest are dropped beyond it. */
-enum { MOST_PEAKS = 8192 };
+/* One side of a channel's mean: values upwards (side 1) or downwards (-1) of it, those downwards with the other sign.
+ */
+typedef struct channel_side {
+    const double *value;
+    int32_t first, count;
+    double mean, side;
+} channel_side;
 
-static void add_peak(double *peaks, int32_t *count, double peak)
+/* The outermost value of the next time beyond the mean, from *at on; false: there is none. */
+static bool next_peak(const channel_side *c, int32_t *at, double *peak)
 {
-    if (*count < MOST_PEAKS)
-        peaks[(*count)++] = peak;
-}
-
-/* Upwards (side 1) or downwards (-1) of the mean; *found: how many. */
-static double significant_peak(const double *value, int32_t first, int32_t count, double mean, double side,
-                               int32_t *found)
-{
-    double peaks[MOST_PEAKS], peak = 0, sum = 0;
     bool beyond = false;
-    *found = 0;
-    for (int32_t i = first; i < count; i++) {
-        if (side * value[i] > side * mean) {
-            peak = beyond ? fmax(peak, side * value[i]) : side * value[i];
+    for (; *at < c->count; (*at)++) {
+        double value = c->side * c->value[*at];
+        if (value > c->side * c->mean) {
+            *peak = beyond ? fmax(*peak, value) : value;
             beyond = true;
         } else if (beyond) {
-            add_peak(peaks, found, peak);
-            beyond = false;
+            return true;
         }
     }
-    if (beyond)
-        add_peak(peaks, found, peak);
-    qsort(peaks, (size_t)*found, sizeof *peaks, falling);
-    int32_t third = (*found + 2) / 3;
-    for (int32_t i = 0; i < third; i++)
-        sum += peaks[i] / third;
-    return *found > 0 ? side * sum : 0;
+    return beyond;
+}
+
+/* Peaks that are sorted at once: those of hours.  Of more, as of days, only those about the least of the highest third
+   are, which takes a few looks at the channel more and no memory. */
+enum { MOST_PEAKS = 8192 };
+
+typedef struct peak_range {
+    int32_t count;
+    double least, greatest, sum;
+} peak_range;
+
+/* Those over lo and up to hi; the first MOST_PEAKS of them into peaks. */
+static peak_range peaks_between(const channel_side *c, double lo, double hi, double *peaks)
+{
+    peak_range r = {.least = HUGE_VAL, .greatest = -HUGE_VAL};
+    double peak = 0;
+    for (int32_t at = c->first; next_peak(c, &at, &peak);) {
+        if (!(peak > lo && peak <= hi))
+            continue;
+        if (r.count < MOST_PEAKS)
+            peaks[r.count] = peak;
+        r.count++;
+        r.least = fmin(r.least, peak);
+        r.greatest = fmax(r.greatest, peak);
+        r.sum += peak;
+    }
+    return r;
+}
+
+/* Mean of the highest third of the peaks on a side; *found: how many peaks. */
+static double significant_peak(const channel_side *c, int32_t *found)
+{
+    double peaks[MOST_PEAKS], lo = -HUGE_VAL, hi = HUGE_VAL, over = 0; /* over: the sum of those over hi */
+    peak_range r = peaks_between(c, lo, hi, peaks);
+    int32_t third = (r.count + 2) / 3, left = third;
+    *found = r.count;
+    if (third == 0)
+        return 0;
+    while (r.count > MOST_PEAKS && r.least < r.greatest) { /* the last of the highest third lies over lo, up to hi */
+        double middle = 0.5 * r.least + 0.5 * r.greatest;
+        if (!(middle < r.greatest))
+            middle = r.least;
+        peak_range upper = peaks_between(c, middle, hi, peaks);
+        if (upper.count >= left) {
+            lo = middle;
+            r = upper;
+        } else {
+            left -= upper.count;
+            over += upper.sum;
+            hi = middle;
+            r = peaks_between(c, lo, hi, peaks);
+        }
+    }
+    if (r.count > MOST_PEAKS) /* all of one size */
+        return c->side * (over + left * r.greatest) / third;
+    qsort(peaks, (size_t)r.count, sizeof *peaks, falling);
+    double mean = over / third;
+    for (int32_t i = 0; i < left; i++)
+        mean += peaks[i] / third;
+    return c->side * mean;
 }
 
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient)
@@ -62,10 +112,11 @@ channel_statistics channel_statistics_of(const double *time, const double *value
     for (int32_t i = first; i < count; i++)
         square += (value[i] - s.mean) * (value[i] - s.mean) / (count - first);
     s.deviation = sqrt(square);
-    s.significant_above = significant_peak(value, first, count, s.mean, 1, &above);
-    bool down = -s.least > s.greatest;
-    s.peak = down ? s.least : s.greatest;
+    const channel_side up = {value, first, count, s.mean, 1}, down = {value, first, count, s.mean, -1};
+    s.significant_above = significant_peak(&up, &above);
+    bool downwards = -s.least > s.greatest;
+    s.peak = downwards ? s.least : s.greatest;
     s.peaks = above;
-    s.significant = down ? significant_peak(value, first, count, s.mean, -1, &s.peaks) : s.significant_above;
+    s.significant = downwards ? significant_peak(&down, &s.peaks) : s.significant_above;
     return s;
 }

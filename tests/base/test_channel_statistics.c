@@ -55,4 +55,25 @@ START_TEST(peaks_have_a_side)
 }
 END_TEST
 
-TEST_MAIN("channel_statistics", statistics_of_a_channel, nothing_is_measured, peaks_have_a_side)
+/* Peaks of a day are all counted, and the highest of them are taken whenever they come. */
+START_TEST(peaks_may_be_many)
+{
+    enum { PEAKS = 30000, N = 2 * PEAKS };
+    static double time[N], value[N];
+    for (int i = 0; i < N; i++) {
+        time[i] = i;
+        value[i] = i % 2 ? 0 : -1e6 - i / 2 - 1; /* from -1000001 to -1030000 */
+    }
+    channel_statistics s = channel_statistics_of(time, value, N, 0);
+    ck_assert_int_eq(s.peaks, PEAKS);
+    assert_relative(s.significant, -1025000.5, 1e-12); /* of the last 10000 */
+    assert_absolute(s.significant_above, 0, 1e-12);    /* between them: the outermost is 0 each time */
+    for (int i = 0; i < N; i += 2)
+        value[i] = i % 4 ? 3 : 7; /* half of them each: the third is of one value */
+    s = channel_statistics_of(time, value, N, 0);
+    ck_assert_int_eq(s.peaks, PEAKS);
+    assert_relative(s.significant, 7, 1e-12);
+}
+END_TEST
+
+TEST_MAIN("channel_statistics", statistics_of_a_channel, nothing_is_measured, peaks_have_a_side, peaks_may_be_many)
