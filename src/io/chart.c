@@ -185,10 +185,9 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
     image_set_colour(page, ink);
     image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
     cairo_save(page);
-    cairo_move_to(page, 18, (f->top + f->bottom) / 2);
+    cairo_translate(page, 18, (f->top + f->bottom) / 2);
     cairo_rotate(page, -PI / 2);
-    cairo_rel_move_to(page, -image_text_width(page, 13, false, c->y_label) / 2, 0);
-    cairo_show_text(page, c->y_label);
+    image_text(page, 0, 0, 13, ALIGN_CENTRE, false, c->y_label);
     cairo_restore(page);
 }
 

@@ -39,6 +39,7 @@ void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
 
 #include "io/atomic_file.h"
 #include "io/png.h"
+#include "io/utf8.h"
 
 #include <cairo-svg.h>
 #include <strings.h>
@@ -195,19 +196,51 @@ static void select_font(cairo_t *page, double size, bool bold)
     cairo_set_font_size(page, size);
 }
 
-double image_text_width(cairo_t *page, double size, bool bold, const char *text)
+/* Longer than any line of a picture. */
+enum { SHOWN_MOST = 1024 };
+
+/* What cairo shows: a page with text that is no UTF-8, as names of files may be, is lost to it.  A question mark for
+   each byte that is none, and what a buffer cut in its middle. */
+static void make_shown(const char *text, char out[SHOWN_MOST])
+{
+    const char *end = text + strlen(text);
+    size_t length = 0;
+    while (text < end && length + 4 < SHOWN_MOST) {
+        const char *begin = text;
+        if (utf8_next(&text, end) < 0) {
+            out[length++] = '?';
+            text++;
+        } else {
+            memcpy(out + length, begin, (size_t)(text - begin));
+            length += (size_t)(text - begin);
+        }
+    }
+    out[length] = '\0';
+}
+
+static double width_of(cairo_t *page, const char *shown)
 {
     cairo_text_extents_t extents;
-    select_font(page, size, bold);
-    cairo_text_extents(page, text, &extents);
+    cairo_text_extents(page, shown, &extents);
     return extents.x_advance;
+}
+
+double image_text_width(cairo_t *page, double size, bool bold, const char *text)
+{
+    char shown[SHOWN_MOST];
+    make_shown(text, shown);
+    select_font(page, size, bold);
+    return width_of(page, shown);
 }
 
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text)
 {
-    double width = image_text_width(page, size, bold, text);
+    char shown[SHOWN_MOST];
+    make_shown(text, shown);
+    select_font(page, size, bold);
+    double width = width_of(page, shown);
     cairo_move_to(page, align == ALIGN_LEFT ? x : align == ALIGN_CENTRE ? x - width / 2 : x - width, y);
-    cairo_show_text(page, text);
+    cairo_show_text(page, shown);
 }
 
 #else

@@ -46,7 +46,7 @@ void image_set_colour(cairo_t *page, image_colour c);
    most. Nothing where it is shorter than two pixels. */
 void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head);
 typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
-/* Text with its baseline at (x, y). */
+/* Text with its baseline at (x, y), UTF-8; a byte that is none is shown as a question mark. */
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
 #endif

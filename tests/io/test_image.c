@@ -1,0 +1,64 @@
+/* Texts of pictures: what is no UTF-8 is shown as far as it is. */
+#include "io/chart.h"
+#include "io/image.h"
+
+#include "testing.h"
+
+static void draw(context *ctx, const char *title, const char *label, text_buffer *out)
+{
+    fram_error e;
+    const double x[] = {0, 1}, y[] = {0, 2};
+    const chart_line line = chart_line_make("a line", x, y, 2, false);
+    chart c = chart_make(title, title, "time [s]", label, &line, 1);
+    assert_ok(chart_svg(ctx, &c, 400, 300, out, &e), e);
+}
+
+/* Cairo numbers the pages that it draws. */
+static void forget_number(char *svg)
+{
+    static const char before[] = "<g id=\"surface";
+    char *number = strstr(svg, before);
+    if (number) {
+        number += strlen(before);
+        const char *after = number + strspn(number, "0123456789");
+        memmove(number, after, strlen(after) + 1);
+    }
+}
+
+/* Names of files may be of any bytes, and a buffer may end in the middle of a character. */
+START_TEST(bytes_that_are_no_text)
+{
+    static const char *const texts[][2] = {
+        {"f\xfc\xdf.stl", "f??.stl"}, {"cut \xc3", "cut ?"}, {"\xff", "?"}, {"\xc3\xbc", "\xc3\xbc"}, {"", ""}};
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts && image_available(); i++) {
+        text_buffer found = {0}, expected = {0};
+        draw(&ctx, texts[i][0], texts[i][0], &found);
+        draw(&ctx, texts[i][1], texts[i][1], &expected);
+        ck_assert_int_gt(found.count, 1000);
+        forget_number(found.data);
+        forget_number(expected.data);
+        ck_assert_str_eq(found.data, expected.data);
+        text_free(&ctx, &found);
+        text_free(&ctx, &expected);
+    }
+}
+END_TEST
+
+/* A text longer than any line is cut at a character's end. */
+START_TEST(long_texts_are_cut)
+{
+    char text[3000] = "x";
+    context ctx;
+    text_buffer svg = {0};
+    context_init(&ctx);
+    for (size_t i = 1; i + 2 < sizeof text; i += 2)
+        memcpy(text + i, "\xc3\xa4", 3);
+    if (image_available())
+        draw(&ctx, text, "y", &svg);
+    text_free(&ctx, &svg);
+}
+END_TEST
+
+TEST_MAIN("image", bytes_that_are_no_text, long_texts_are_cut)
