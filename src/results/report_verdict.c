@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* A text holds the longest message of a failed run (run_note), and what goes before it. */
-enum { FINDINGS_MOST = 48, TEXT_SIZE = 640 };
+enum { TEXT_SIZE = 640 };
 
 typedef struct finding {
     verdict_grade grade;
@@ -21,8 +21,8 @@ typedef struct finding {
 
 typedef struct verdict {
     report *r;
-    finding *findings; /* FINDINGS_MOST */
-    int32_t count;
+    ARRAY(finding) findings;
+    bool failed;     /* no memory for one */
     bool kept, lost; /* a limit of station is set: every vessel stayed within, or one did not */
     int32_t lines, parted;
     char load[128]; /* of a single vessel */
@@ -32,17 +32,15 @@ static void find(verdict *v, verdict_grade grade, const char *remedy, const char
     __attribute__((format(printf, 4, 5)));
 static void find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
 {
-    if (v->count >= FINDINGS_MOST)
-        return;
-    finding *f = &v->findings[v->count++];
+    finding f = {.grade = grade};
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(f->text, sizeof f->text, format, arguments);
+    vsnprintf(f.text, sizeof f.text, format, arguments);
     va_end(arguments);
-    if (f->text[0] >= 'a' && f->text[0] <= 'z')
-        f->text[0] = (char)(f->text[0] - 'a' + 'A');
-    snprintf(f->remedy, sizeof f->remedy, "%s", remedy);
-    f->grade = grade;
+    if (f.text[0] >= 'a' && f.text[0] <= 'z')
+        f.text[0] = (char)(f.text[0] - 'a' + 'A');
+    snprintf(f.remedy, sizeof f.remedy, "%s", remedy);
+    v->failed = !array_push(v->r->ctx, &v->findings, f) || v->failed;
 }
 
 /* "vessel tanker: " before what is said of one of several. */
@@ -400,17 +398,15 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
                                  : "",
              lines, v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;
-    for (int32_t i = 0; i < v->count; i++)
-        worst = v->findings[i].grade > worst ? v->findings[i].grade : worst;
+    for (int32_t i = 0; i < v->findings.count; i++)
+        worst = v->findings.data[i].grade > worst ? v->findings.data[i].grade : worst;
     return worst;
 }
 
 fram_status report_verdict(report *r, fram_error *error)
 {
     char title[TEXT_SIZE];
-    verdict v = {.r = r, .findings = memory_array(r->ctx, FINDINGS_MOST, sizeof(finding))};
-    if (!v.findings)
-        return error_memory(error);
+    verdict v = {.r = r};
     fram_status status = FRAM_OK;
     judge_end(&v);
     judge_walls(&v);
@@ -426,11 +422,15 @@ fram_status report_verdict(report *r, fram_error *error)
             judge_edge(&v);
     }
     judge_solver(&v);
+    if (status == FRAM_OK && v.failed)
+        status = error_memory(error);
     verdict_grade grade = headline(&v, title);
     html_verdict_begin(&r->page, grade, title);
-    for (int32_t i = 0; i < v.count; i++)
-        html_verdict_line(&r->page, v.findings[i].grade, v.findings[i].text, v.findings[i].remedy);
+    for (int32_t i = 0; i < v.findings.count; i++) {
+        const finding *f = &v.findings.data[i];
+        html_verdict_line(&r->page, f->grade, f->text, f->remedy);
+    }
     html_verdict_end(&r->page);
-    memory_free(r->ctx, v.findings);
+    array_free(r->ctx, &v.findings);
     return status;
 }

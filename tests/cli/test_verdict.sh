@@ -75,6 +75,27 @@ assert gone[0]["utilisation"] >= 1 and gone[0]["tension_then"] >= 9e4 and 4 < go
 assert all(l["parted_at_s"] is None and 0 < l["utilisation"] < 1 for l in lines if not l["parted"])
 PY
 
+# Of a fleet each vessel is judged, the last as the first, and what is said of the run comes behind them all.
+{
+    echo "run: {duration: 1, time_step: 0.05}"
+    echo "environment: {wind_speed: 20}"
+    echo "ice: {source: none}"
+    echo "domain: {x_min: -300, x_max: 300, y_min: -300, y_max: 300, boundary: open}"
+    echo "vessels:"
+    for i in $(seq 30); do
+        echo "  - {name: v$i, mode: free, x: $((i % 6 * 60)), y: $((i / 6 * 60)), hull: {form: box, length: 20, beam: 8,"
+        echo "     draught: 3, freeboard: 2}, mooring: {lines: [{kind: spring, stiffness: 1.0e4, count: 4,"
+        echo "     spacing_deg: 90}]}, station: {offset_limit: $([ "$i" = 30 ] && echo 1.0e-6 || echo 5)}}"
+    done
+} >fleet.yaml
+expect 0 "$FRAM" run fleet.yaml -o fleet --quiet
+verdict fleet
+says "A vessel did not hold its station. No line of 120 parted." verdict.txt
+says "Vessel v30: the offset passed its limit" verdict.txt
+says "contact solver" verdict.txt
+[ "$(head -1 verdict.txt)" = bad ] || fail "the last of 30 vessels is not judged"
+[ "$(grep -c 'within its limit of 5 m' verdict.txt)" = 29 ] || fail "a vessel of 30 is not judged"
+
 # A run that was stopped is no finished one.
 expect 0 "$FRAM" run ship.yaml -o half --quiet --until 8
 verdict half
