@@ -23,19 +23,18 @@ static void forget(video_file *v)
     *v = (video_file){.socket = -1};
 }
 
-/* A socket, not a pipe: writing to an ffmpeg that went away is an error (MSG_NOSIGNAL), not a signal to the caller. */
+/* A socket, not a pipe: writing to an ffmpeg that went away is an error (MSG_NOSIGNAL), not a signal to the caller.  No
+   other program gets it, be it the ffmpeg of a second video: this one would wait for its end too. */
 static fram_status start(video_file *v, char *const *arguments, fram_error *error)
 {
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return file_error(error, v->path, "make a pipe", errno);
     posix_spawn_file_actions_t actions;
     pid_t process = 0;
     int code = posix_spawn_file_actions_init(&actions);
     if (code == 0) {
         code = posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-        if (code == 0)
-            code = posix_spawn_file_actions_addclose(&actions, ends[0]);
         if (code == 0)
             code = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
         posix_spawn_file_actions_destroy(&actions);
@@ -133,6 +132,8 @@ void video_abandon(video_file *v)
     if (!v->path)
         return;
     kill((pid_t)v->process, SIGTERM);
+    close(v->socket); /* first: where ffmpeg waits for a frame it does not heed the signal */
+    v->socket = -1;
     (void)wait_for(v);
     unlink(v->temporary);
     forget(v);

@@ -8,16 +8,16 @@
 #include "io/scenario_file.h"
 #include "io/video_file.h"
 #include "model/scenario_vessel.h"
+#include "results/thinned.h"
 
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, FRAMES_MOST = 100000, LONGEST = 30, MARKED = 3 };
+enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, FRAMES_MOST = 100000, LONGEST = 30, MARKED = 3 };
 
 typedef struct video {
     context *ctx;
@@ -36,12 +36,6 @@ typedef struct video {
     char path[PATH_ROOM];
 } video;
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void find_extent(video *v)
 {
     const scenario_domain *d = &v->s.domain;
@@ -56,22 +50,13 @@ static void find_extent(video *v)
     v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
 }
 
-/* Sorts the values; 0 where there are none. */
-static double percentile(double_array *values, int percent)
-{
-    if (values->count == 0)
-        return 0;
-    qsort(values->data, (size_t)values->count, sizeof *values->data, ascending);
-    return values->data[(int64_t)(values->count - 1) * percent / 100];
-}
-
 /* Of an arrow of the strongest forces but a few, over the width of what is seen. */
 #define ARROW_LENGTH 0.12
 
 /* Times, loads, the range of what is shown (its 98th percentile) and the scale of the arrows, from a first reading. */
 static fram_status look_ahead(video *v, const char *folder, fram_error *error)
 {
-    double_array values = {0}, forces = {0};
+    thinned values = {0}, forces = {0};
     bool found = true;
     fram_status status = replay_open(v->ctx, folder, &v->r, error);
     if (status != FRAM_OK)
@@ -86,25 +71,25 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
         double load = sqrt(f->ice_force.x * f->ice_force.x + f->ice_force.y * f->ice_force.y);
         bool good = array_push(v->ctx, &v->time, f->time) && array_push(v->ctx, &v->load, load);
         v->most = fmax(v->most, load);
-        for (int32_t i = 0; i < f->forces.count && forces.count < VALUES_MOST && good; i++)
-            good = array_push(v->ctx, &forces, vec3_length(f->forces.data[i].force));
-        for (int32_t i = 0; i < f->poses.count && values.count < VALUES_MOST && good; i++) {
+        for (int32_t i = 0; i < f->forces.count && good; i++)
+            good = thinned_add(v->ctx, &forces, vec3_length(f->forces.data[i].force));
+        for (int32_t i = 0; i < f->poses.count && good; i++) {
             const replay_pose *p = &f->poses.data[i];
             double value = plan_colour_value(v->options->colour, &v->r.bodies.data[p->body], p, f->time);
-            good = !(value > 0) || array_push(v->ctx, &values, value);
+            good = !(value > 0) || thinned_add(v->ctx, &values, value);
         }
         if (!good)
             status = error_memory(error);
     }
-    v->hi = percentile(&values, 98);
+    v->hi = thinned_percentile(&values, 98);
     if (!(v->hi > 0))
         v->hi = 1;
     double across = v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
     /* As on the playback page, a few arrows may be longer: one hard blow must not make all others vanish. */
-    double strong = percentile(&forces, 99);
+    double strong = thinned_percentile(&forces, 99);
     v->arrow = strong > 0 ? ARROW_LENGTH * across / strong : 0;
-    array_free(v->ctx, &values);
-    array_free(v->ctx, &forces);
+    array_free(v->ctx, &values.value);
+    array_free(v->ctx, &forces.value);
     replay_close(&v->r);
     return status;
 }

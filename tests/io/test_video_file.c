@@ -1,0 +1,42 @@
+/* Videos through ffmpeg; where it is missing there is nothing to test. */
+#include "io/video_file.h"
+
+#include "scratch.h"
+
+enum { WIDTH = 64, HEIGHT = 48, FRAMES = 3 };
+
+static void put_frames(video_file *v)
+{
+    static unsigned char pixels[4 * WIDTH * HEIGHT];
+    fram_error e;
+    for (int i = 0; i < FRAMES; i++)
+        assert_ok(video_frame(v, pixels, sizeof pixels, &e), e);
+}
+
+/* The first ends while the second still goes on: their programs do not hold each other's frames.  And the second is
+   given up while its program waits for the next. */
+START_TEST(two_at_once)
+{
+    context ctx;
+    fram_error e = {0};
+    video_file first, second;
+    scratch s = scratch_make();
+    context_init(&ctx);
+    fram_status status = video_begin(&ctx, scratch_path(&s, "first.mp4"), WIDTH, HEIGHT, 10, &first, &e);
+    if (status == FRAM_ERROR_UNSUPPORTED) {
+        ck_assert_int_eq(rmdir(s.folder), 0);
+        return;
+    }
+    assert_ok(status, e);
+    assert_ok(video_begin(&ctx, scratch_path(&s, "second.mp4"), WIDTH, HEIGHT, 10, &second, &e), e);
+    put_frames(&first);
+    put_frames(&second);
+    assert_ok(video_end(&first, &e), e);
+    ck_assert_int_eq(access(scratch_path(&s, "first.mp4"), R_OK), 0);
+    ck_assert_int_eq(access(scratch_path(&s, "second.mp4"), F_OK), -1);
+    video_abandon(&second);
+    scratch_remove(&s, "first.mp4");
+}
+END_TEST
+
+TEST_MAIN("video_file", two_at_once)

@@ -1,0 +1,56 @@
+/* Values of a whole run in bounded memory: the end counts as the beginning does. */
+#include "results/thinned.h"
+#include "testing.h"
+
+START_TEST(few_are_all_there)
+{
+    context ctx;
+    thinned t = {0};
+    context_init(&ctx);
+    assert_bits(thinned_percentile(&t, 50), 0);
+    for (int i = 100; i >= 0; i--)
+        ck_assert(thinned_add(&ctx, &t, i));
+    assert_bits(thinned_percentile(&t, 0), 0);
+    assert_bits(thinned_percentile(&t, 98), 98);
+    assert_bits(thinned_percentile(&t, 100), 100);
+    array_free(&ctx, &t.value);
+}
+END_TEST
+
+/* Loads that rise through a run: a bound on the first values would tell of its beginning only. */
+START_TEST(many_are_thinned_evenly)
+{
+    enum { MANY = 5 * THINNED_MOST / 2 + 7, STEP = 4 };
+    context ctx;
+    thinned t = {0};
+    context_init(&ctx);
+    for (int i = 0; i < MANY; i++)
+        ck_assert(thinned_add(&ctx, &t, i));
+    ck_assert_int_eq(t.value.count, (MANY + STEP - 1) / STEP);
+    for (int i = 0; i < t.value.count; i++)
+        assert_bits(t.value.data[i], STEP * i);
+    for (int percent = 0; percent <= 100; percent += 10)
+        assert_absolute(thinned_percentile(&t, percent), MANY * (percent / 100.0), 2 * STEP);
+    array_free(&ctx, &t.value);
+}
+END_TEST
+
+START_TEST(without_memory_it_says_so)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        thinned t = {0};
+        bool good = true;
+        for (int i = 0; i < 1000 && good; i++)
+            good = thinned_add(&ctx, &t, i);
+        array_free(&ctx, &t.value);
+        ck_assert_int_eq(memory.live, 0);
+        ck_assert(good == !memory.failed);
+        if (good)
+            break;
+    }
+}
+END_TEST
+
+TEST_MAIN("thinned", few_are_all_there, many_are_thinned_evenly, without_memory_it_says_so)
