@@ -259,10 +259,12 @@ typedef struct column_reader {
     double_array *columns;
 } column_reader;
 
+static bool is_row(int line, const char *text) { return line > 1 && text[strspn(text, BLANKS)] != '\0'; }
+
 static fram_status read_columns(void *user, const char *path, int line, const char *text, fram_error *error)
 {
     column_reader *r = user;
-    if (line > 1 && text[strspn(text, BLANKS)] == '\0')
+    if (line > 1 && !is_row(line, text))
         return FRAM_OK;
     return line == 1 ? find_columns(path, text, r->names, r->count, r->at, error)
                      : read_row(r->ctx, path, line, text, r->at, r->count, r->columns, error);
@@ -279,6 +281,27 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
     fram_status status = read_lines(ctx, path, &reader, error);
     memory_free(ctx, at);
     return status;
+}
+
+typedef struct row_finder {
+    int32_t left; /* rows before it */
+    int line;
+} row_finder;
+
+static fram_status find_row(void *user, const char *path, int line, const char *text, fram_error *error)
+{
+    row_finder *f = user;
+    (void)path, (void)error;
+    if (is_row(line, text) && f->left-- == 0)
+        f->line = line;
+    return FRAM_OK;
+}
+
+int csv_line_of(context *ctx, const char *path, int32_t row)
+{
+    row_finder f = {.left = row};
+    const line_reader reader = {find_row, &f, true};
+    return read_lines(ctx, path, &reader, NULL) == FRAM_OK ? f.line : 0;
 }
 
 /* ---- all columns ---- */

@@ -16,6 +16,9 @@ enum { CSV_LINE_MOST = 1 << 20 };
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 
+/* The line on which row `row`, from 0, of csv_read stands: lines with nothing on them are no rows.  0: there is none. */
+int csv_line_of(context *ctx, const char *path, int32_t row);
+
 /* That a file's header has a name that is asked for twice: in columns first and second, from 0. */
 fram_status csv_refuse_twice(const char *path, const char *name, int32_t first, int32_t second, fram_error *error);
 

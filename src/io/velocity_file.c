@@ -11,20 +11,21 @@ void velocity_rows_free(context *ctx, velocity_rows *rows)
         array_free(ctx, &rows->column[i]);
 }
 
-/* Row i of one column; line 1 is the header. */
-static fram_status check_number(const velocity_rows *rows, int column, int32_t i, const char *path, const char *name,
-                                fram_error *error)
+/* Row i of one column. */
+static fram_status check_number(context *ctx, const velocity_rows *rows, int column, int32_t i, const char *path,
+                                const char *name, fram_error *error)
 {
     double found = rows->column[column].data[i];
     if (!isfinite(found))
-        return error_set(error, FRAM_ERROR_INPUT, path, i + 2, name, "expected a finite number");
+        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), name, "expected a finite number");
     if (column != VELOCITY_AT && fabs(found) > SPEED_MOST)
-        return error_set(error, FRAM_ERROR_INPUT, path, i + 2, name, "expected at most %d m/s, found %g",
-                         (int)SPEED_MOST, found);
+        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), name,
+                         "expected at most %d m/s, found %g", (int)SPEED_MOST, found);
     return FRAM_OK;
 }
 
-static fram_status check_rows(const velocity_rows *rows, const char *path, const char *const *names, fram_error *error)
+static fram_status check_rows(context *ctx, const velocity_rows *rows, const char *path, const char *const *names,
+                              fram_error *error)
 {
     const double *at = rows->column[VELOCITY_AT].data;
     int32_t count = rows->column[VELOCITY_AT].count;
@@ -33,12 +34,12 @@ static fram_status check_rows(const velocity_rows *rows, const char *path, const
                          "expected at least one row of numbers, found none");
     for (int32_t i = 0; i < count; i++) {
         for (int c = 0; c < VELOCITY_COLUMNS; c++) {
-            fram_status status = check_number(rows, c, i, path, names[c], error);
+            fram_status status = check_number(ctx, rows, c, i, path, names[c], error);
             if (status != FRAM_OK)
                 return status;
         }
         if (i > 0 && !(at[i] > at[i - 1]))
-            return error_set(error, FRAM_ERROR_INPUT, path, i + 2, names[VELOCITY_AT],
+            return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), names[VELOCITY_AT],
                              "expected more than %g, that of the row before, found %g", at[i - 1], at[i]);
     }
     return FRAM_OK;
@@ -52,7 +53,7 @@ fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file
     if (!scenario_resolve_path(s, file, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
     fram_status status = csv_read(ctx, path, names, VELOCITY_COLUMNS, rows->column, error);
-    return status == FRAM_OK ? check_rows(rows, path, names, error) : status;
+    return status == FRAM_OK ? check_rows(ctx, rows, path, names, error) : status;
 }
 
 fram_status velocity_file_read(context *ctx, const scenario *s, const char *file, velocity_series *out,

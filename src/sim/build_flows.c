@@ -43,16 +43,17 @@ static fram_status read_rows(context *ctx, const scenario *s, const scenario_flo
 
 /* ---- rules ---- */
 
-/* Names the row: of the scenario, or of its file, whose line 1 is the header. */
-static fram_status fault(const scenario *s, const scenario_flow *from, const char *key, int32_t row, const char *rule,
-                         double found, fram_error *error)
+/* Names the row: of the scenario, or of its file. */
+static fram_status fault(context *ctx, const scenario *s, const scenario_flow *from, const char *key, int32_t row,
+                         const char *rule, double found, fram_error *error)
 {
     char name[80];
     char path[2 * SCENARIO_TEXT_SIZE];
     bool in_file = from->table_file[0] && scenario_resolve_path(s, from->table_file, path, sizeof path);
     snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
     if (in_file && row >= 0)
-        return error_set(error, FRAM_ERROR_INPUT, path, row + 2, name, "expected %s, found %g", rule, found);
+        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, row), name, "expected %s, found %g",
+                         rule, found);
     error_value(error, name, rule, found);
     scenario_locate(s, error);
     return FRAM_ERROR_INPUT;
@@ -60,44 +61,44 @@ static fram_status fault(const scenario *s, const scenario_flow *from, const cha
 
 static bool differs(double a, double b) { return !(fabs(a - b) <= 1e-9); }
 
-static fram_status check_ends(const scenario *s, const scenario_flow *from, const char *key, const flow_rows *rows,
-                              int32_t count, fram_error *error)
+static fram_status check_ends(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
+                              const flow_rows *rows, int32_t count, fram_error *error)
 {
     const double *angle = rows->column[0].data;
     int32_t last = count - 1;
     if (differs(angle[0], 0))
-        return fault(s, from, key, 0, "the angle 0 first", angle[0], error);
+        return fault(ctx, s, from, key, 0, "the angle 0 first", angle[0], error);
     bool whole = !differs(angle[last], 360);
     if (!whole && differs(angle[last], 180))
-        return fault(s, from, key, last, "180 (for equal sides) or 360 degrees last", angle[last], error);
+        return fault(ctx, s, from, key, last, "180 (for equal sides) or 360 degrees last", angle[last], error);
     for (int k = 1; k < 4 && whole; k++)
         if (differs(rows->column[k].data[last], rows->column[k].data[0]))
-            return fault(s, from, key, last, "at 360 degrees what stands at 0", rows->column[k].data[last], error);
+            return fault(ctx, s, from, key, last, "at 360 degrees what stands at 0", rows->column[k].data[last], error);
     for (int k = 2; k < 4 && !whole; k++)
         for (int32_t i = 0; i < count; i += last)
             if (differs(rows->column[k].data[i], 0))
-                return fault(s, from, key, i, "no CY and CN at 0 and 180 degrees, since the sides are alike",
+                return fault(ctx, s, from, key, i, "no CY and CN at 0 and 180 degrees, since the sides are alike",
                              rows->column[k].data[i], error);
     return FRAM_OK;
 }
 
-static fram_status check_rows(const scenario *s, const scenario_flow *from, const char *key, const flow_rows *rows,
-                              fram_error *error)
+static fram_status check_rows(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
+                              const flow_rows *rows, fram_error *error)
 {
     int32_t count = rows->column[0].count;
     if (count < 2 || count > FLOW_ANGLES)
-        return fault(s, from, key, -1, "2 to 73 rows", count, error);
+        return fault(ctx, s, from, key, -1, "2 to 73 rows", count, error);
     for (int32_t i = 0; i < count; i++) {
         for (int k = 0; k < 4; k++)
             if (!isfinite(rows->column[k].data[i]))
-                return fault(s, from, key, i, "finite numbers", rows->column[k].data[i], error);
+                return fault(ctx, s, from, key, i, "finite numbers", rows->column[k].data[i], error);
         for (int k = 1; k < 4; k++)
             if (!(fabs(rows->column[k].data[i]) <= COEFFICIENT_MOST))
-                return fault(s, from, key, i, "coefficients from -100 to 100", rows->column[k].data[i], error);
+                return fault(ctx, s, from, key, i, "coefficients from -100 to 100", rows->column[k].data[i], error);
         if (i > 0 && !(rows->column[0].data[i] > rows->column[0].data[i - 1]))
-            return fault(s, from, key, i, "a larger angle than in the row before", rows->column[0].data[i], error);
+            return fault(ctx, s, from, key, i, "a larger angle than in the row before", rows->column[0].data[i], error);
     }
-    return check_ends(s, from, key, rows, count, error);
+    return check_ends(ctx, s, from, key, rows, count, error);
 }
 
 /* ---- a table ---- */
@@ -110,11 +111,12 @@ static fram_status build_one(context *ctx, const scenario *s, const scenario_flo
     *out = (flow_table){0};
     if (from->table.count == 0 && !from->table_file[0])
         return FRAM_OK;
-    fram_status status = from->table.count > 0 && from->table_file[0]
-                             ? fault(s, from, key, -1, "a table or a table_file, not both", from->table.count, error)
-                             : read_rows(ctx, s, from, &rows, error);
+    fram_status status =
+        from->table.count > 0 && from->table_file[0]
+            ? fault(ctx, s, from, key, -1, "a table or a table_file, not both", from->table.count, error)
+            : read_rows(ctx, s, from, &rows, error);
     if (status == FRAM_OK)
-        status = check_rows(s, from, key, &rows, error);
+        status = check_rows(ctx, s, from, key, &rows, error);
     const hull_particulars *p = &hull->particulars;
     out->frontal = automatic_or(from->frontal_area, p->beam * height);
     out->lateral = automatic_or(from->lateral_area, p->length * height);

@@ -60,7 +60,7 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
     int32_t bins = column[HISTOGRAM_LO].count, bin;
     for (int32_t i = 0; i < bins && status == FRAM_OK; i++) {
         if (i > 0 && lo[i] != hi[i - 1])
-            status = error_set(error, FRAM_ERROR_INPUT, path, i + 2, "diameter_min",
+            status = error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), "diameter_min",
                                "each bin must begin where the one before ends, at %g m, found %g m", hi[i - 1], lo[i]);
         else if ((i == 0 && !array_push(ctx, &f->edge[number], lo[0])) || !array_push(ctx, &f->edge[number], hi[i]) ||
                  !array_push(ctx, &f->weight[number], column[HISTOGRAM_FLOES].data[i]))
@@ -69,7 +69,7 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
     const char *fault =
         status == FRAM_OK ? size_bins_fault(f->edge[number].data, f->weight[number].data, bins, &bin) : NULL;
     if (fault)
-        status = error_set(error, FRAM_ERROR_INPUT, path, bin < 0 ? 0 : bin + 2, NULL, "%s", fault);
+        status = error_set(error, FRAM_ERROR_INPUT, path, bin < 0 ? 0 : csv_line_of(ctx, path, bin), NULL, "%s", fault);
     for (int i = 0; i < HISTOGRAM_COLUMNS; i++)
         array_free(ctx, &column[i]);
     return status;

@@ -25,8 +25,8 @@ static fram_status name_item(const scenario *s, const vessel_entry *entry, fram_
 /* ---- mooring ---- */
 
 /* As name_item; a point of a table that came from a file is a line of that file. */
-static fram_status name_line(const scenario *s, const vessel_entry *entry, fram_status status, int32_t item,
-                             fram_error *error)
+static fram_status name_line(context *ctx, const scenario *s, const vessel_entry *entry, fram_status status,
+                             int32_t item, fram_error *error)
 {
     const char *file = entry->keys->mooring.lines.data[item].table_file;
     char path[2 * SCENARIO_TEXT_SIZE];
@@ -38,7 +38,8 @@ static fram_status name_line(const scenario *s, const vessel_entry *entry, fram_
     memcpy(why, error->message, sizeof why);
     const char *column = strstr(error->key, "].tension") ? "tension" : "offset";
     bool row = sscanf(error->key, "table[%d]", &point) == 1;
-    return error_set(error, FRAM_ERROR_INPUT, path, row ? point + 2 : 0, row ? column : NULL, "%s", why);
+    return error_set(error, FRAM_ERROR_INPUT, path, row ? csv_line_of(ctx, path, point) : 0, row ? column : NULL, "%s",
+                     why);
 }
 
 /* Rules of the points stand in vessel/mooring.c; here only where they come from. */
@@ -51,8 +52,8 @@ static fram_status read_curve(context *ctx, const scenario *s, const char *file,
         return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
     fram_status status = csv_read(ctx, path, names, 2, column, error);
     if (status == FRAM_OK && column[0].count > LINE_POINTS)
-        status = error_set(error, FRAM_ERROR_INPUT, path, LINE_POINTS + 2, NULL, "expected at most %d rows, found %d",
-                           (int)LINE_POINTS, (int)column[0].count);
+        status = error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, LINE_POINTS), NULL,
+                           "expected at most %d rows, found %d", (int)LINE_POINTS, (int)column[0].count);
     for (int32_t i = 0; i < column[0].count && status == FRAM_OK; i++) {
         d->curve.offset[i] = column[0].data[i];
         d->curve.tension[i] = column[1].data[i];
@@ -110,7 +111,7 @@ static fram_status add_lines(context *ctx, const scenario *s, const vessel_entry
                 return status;
             status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
             if (status != FRAM_OK)
-                return name_line(s, entry, status, i, error);
+                return name_line(ctx, s, entry, status, i, error);
         }
     }
     return FRAM_OK;

@@ -44,7 +44,7 @@ static const char *next_cell(const char *c, char *text, size_t room)
     return *c == ',' ? c + 1 : NULL;
 }
 
-enum { CELL_ROOM = 128, HEADS_MOST = 512 };
+enum { CELL_ROOM = 128 };
 
 /* Name and unit of "name[unit]" or "name [unit]". */
 static void split_head(char *head, char unit[UNIT_SIZE])
@@ -52,7 +52,7 @@ static void split_head(char *head, char unit[UNIT_SIZE])
     char *open = strchr(head, '['), *close = open ? strchr(open, ']') : NULL;
     unit[0] = '\0';
     if (open && close) {
-        snprintf(unit, 16, "%.*s", (int)(close - open - 1), open + 1);
+        snprintf(unit, UNIT_SIZE, "%.*s", (int)(close - open - 1), open + 1);
         *open = '\0';
     }
     for (size_t n = strlen(head); n > 0 && head[n - 1] == ' '; n--)
@@ -68,7 +68,7 @@ static int find_head(const char *path, const char *line, const char *name, bool 
     char head[CELL_ROOM], near[CELL_ROOM] = "", own[UNIT_SIZE];
     int least = WORD_ROOM, at = 0, found = NO_HEAD;
     unit[0] = '\0';
-    for (const char *c = line + utf8_mark(line, strlen(line)); c && at < HEADS_MOST; at++) {
+    for (const char *c = line + utf8_mark(line, strlen(line)); c; at++) {
         c = next_cell(c, head, sizeof head);
         split_head(head, own);
         if (strcmp(head, name) == 0 && found >= 0) {
@@ -134,7 +134,18 @@ static fram_status read_line(const csv_want *want, const char *line, int number,
 /* Rows between two words about how far the reading is. */
 enum { ROWS_TOLD = 256 };
 
-static fram_status read_lines(context *ctx, const csv_want *want, const char *text, double_array *time,
+/* What is read of a file. */
+typedef struct series_rows {
+    double_array time;
+    int32_array line; /* of each row; none of a run's, whose rows follow each other */
+} series_rows;
+
+static int line_of(const series_rows *rows, int32_t row)
+{
+    return row < rows->line.count ? rows->line.data[row] : row + 2;
+}
+
+static fram_status read_lines(context *ctx, const csv_want *want, const char *text, series_rows *rows,
                               double_array *value, fram_error *error)
 {
     const double size = (double)strlen(text);
@@ -149,7 +160,8 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
         fram_status status = read_line(want, line + 1, number, &t, &x, &found, error);
         if (status != FRAM_OK)
             return status;
-        if (found && (!array_push(ctx, value, x) || (want->time >= 0 && !array_push(ctx, time, t))))
+        if (found && (!array_push(ctx, value, x) || !array_push(ctx, &rows->line, number) ||
+                      (want->time >= 0 && !array_push(ctx, &rows->time, t))))
             return error_memory(error);
     }
     return FRAM_OK;
@@ -161,7 +173,7 @@ static fram_status refuse_step(const char *path, fram_error *error)
                      "there is a column `time`, which tells the step: leave the step out");
 }
 
-static fram_status read_csv(context *ctx, const char *path, const series_source *source, double_array *time,
+static fram_status read_csv(context *ctx, const char *path, const series_source *source, series_rows *rows,
                             double_array *value, char unit[UNIT_SIZE], fram_error *error)
 {
     char *text = NULL, time_unit[UNIT_SIZE];
@@ -194,7 +206,7 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
                                "the file has no column `time`: give the step between rows");
     }
     if (status == FRAM_OK)
-        status = read_lines(ctx, &want, text, time, value, error);
+        status = read_lines(ctx, &want, text, rows, value, error);
     memory_free(ctx, text);
     return status;
 }
@@ -239,7 +251,7 @@ static fram_status take_channel(context *ctx, const run_data *d, const char *nam
     bool load = x && y;
     if (!c && !load)
         return no_channel(d, name, error);
-    snprintf(unit, 16, "%s", load ? "N" : c->unit);
+    snprintf(unit, UNIT_SIZE, "%s", load ? "N" : c->unit);
     if (!array_resize(ctx, value, d->series.rows))
         return error_memory(error);
     for (int32_t i = 0; i < value->count; i++)
@@ -316,28 +328,29 @@ static double usual_step(context *ctx, const double_array *time)
 }
 
 /* The first step that is another than the usual one; else what has gone wrong by row i. */
-static fram_status refuse_times(context *ctx, const char *path, const double_array *time, int32_t i, double own,
+static fram_status refuse_times(context *ctx, const char *path, const series_rows *rows, int32_t i, double own,
                                 fram_error *error)
 {
+    const double_array *time = &rows->time;
     double usual = usual_step(ctx, time);
     for (int32_t k = 1; k < time->count && usual > 0; k++) {
         double step = time->data[k] - time->data[k - 1];
         if (fabs(step - usual) > STEP_TOLERANCE * usual)
-            return error_set(error, FRAM_ERROR_INPUT, path, k + 2, "time",
+            return error_set(error, FRAM_ERROR_INPUT, path, line_of(rows, k), "time",
                              "expected times at equal distances, %.6g s as most are, found one of %.6g s, to %.9g: "
                              "interpolate the series first",
                              usual, step, time->data[k]);
     }
-    return error_set(error, FRAM_ERROR_INPUT, path, i + 2, "time",
+    return error_set(error, FRAM_ERROR_INPUT, path, line_of(rows, i), "time",
                      "expected times at equal distances, %.6g s on the average; found %.9g where %.9g was due: "
                      "interpolate the series first",
                      own, time->data[i], time->data[0] + i * own);
 }
 
 /* The step between rows, the same within a file and in all of them. */
-static fram_status check_times(context *ctx, const char *path, const double_array *time, double *step,
-                               fram_error *error)
+static fram_status check_times(context *ctx, const char *path, const series_rows *rows, double *step, fram_error *error)
 {
+    const double_array *time = &rows->time;
     int32_t n = time->count;
     if (n < 2)
         return FRAM_OK;
@@ -347,7 +360,7 @@ static fram_status check_times(context *ctx, const char *path, const double_arra
     for (int32_t i = 0; i < n; i++) {
         if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + 1e-9 * fabs(time->data[i]))
             continue;
-        return refuse_times(ctx, path, time, i, own, error);
+        return refuse_times(ctx, path, rows, i, own, error);
     }
     if (*step > 0 && fabs(own - *step) > 1e-3 * own)
         return error_set(error, FRAM_ERROR_INPUT, path, 2, "time",
@@ -376,28 +389,30 @@ static void trim(double_array *value, const double_array *time, double step, dou
 static fram_status read_file(context *ctx, const series_source *source, int32_t i, series_data *out, fram_error *error)
 {
     const char *path = source->files[i];
-    double_array time = {0}, *value = &out->values[i];
+    series_rows rows = {0};
+    double_array *value = &out->values[i];
     double from = 0;
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)
-        status = read_run(ctx, path, source, &time, value, out, unit, &from, error);
+        status = read_run(ctx, path, source, &rows.time, value, out, unit, &from, error);
     else
-        status = read_csv(ctx, path, source, &time, value, unit, error);
+        status = read_csv(ctx, path, source, &rows, value, unit, error);
     if (status == FRAM_OK && i > 0 && strcmp(unit, out->unit) != 0)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, source->channel,
                            "expected the unit of the other files, [%s], found [%s]", out->unit, unit);
     if (status == FRAM_OK && !source->maxima)
-        status = check_times(ctx, path, &time, &out->set.step, error);
+        status = check_times(ctx, path, &rows, &out->set.step, error);
     if (status == FRAM_OK) {
         memcpy(out->unit, unit, sizeof out->unit);
         if (!source->maxima)
-            trim(value, &time, out->set.step, isnan(source->from) ? from : source->from, source->minima);
+            trim(value, &rows.time, out->set.step, isnan(source->from) ? from : source->from, source->minima);
         else
-            trim(value, &time, 1, -1, source->minima);
+            trim(value, &rows.time, 1, -1, source->minima);
         out->parts[i] = (series_part){value->data, value->count};
     }
-    array_free(ctx, &time);
+    array_free(ctx, &rows.time);
+    array_free(ctx, &rows.line);
     return status;
 }
 

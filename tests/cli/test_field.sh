@@ -238,9 +238,9 @@ ice:
 END
 expect 2 "$FRAM" field packed.yaml
 says "sizes.csv:3: the weights of a histogram must not be negative" err
-printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n7,12,5\n' >sizes.csv
+printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n\n7,12,5\n' >sizes.csv
 expect 2 "$FRAM" field packed.yaml
-says "sizes.csv:3: diameter_min: each bin must begin where the one before ends" err
+says "sizes.csv:4: diameter_min: each bin must begin where the one before ends" err
 
 # Degrees: a floe of a hundredth of a degree each way at 75 N, and one across the date line, both of 1116.93 m (a
 # degree of the meridian there is 111,661 m) by 289.66 m (28,902 m a degree of longitude, Bowring's series): told apart

@@ -209,8 +209,8 @@ expect 2 "$FRAM" run tables/scene.yaml -o refused
 says 'tables/hull.csv:4: vessel.wind_coefficients.table_file: expected a larger angle' err
 
 # So is the table of a line.
-printf 'offset[m],tension[N]\n-20,1e5\n0,3e5\n-1,6e5\n' >line.csv
+printf 'offset[m],tension[N]\n\n-20,1e5\n0,3e5\n-1,6e5\n' >line.csv
 expect 2 "$FRAM" run "$scratch/scene.yaml" -o refused
-says 'line.csv:4: offset: expected more metres than in the point before, found -1' err
+says 'line.csv:5: offset: expected more metres than in the point before, found -1' err
 
 finish "events on station are named"

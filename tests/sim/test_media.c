@@ -160,6 +160,8 @@ START_TEST(wrong_files)
         {"wind_file: series.csv", "time,x,y\n0,nan,0\n", "finite", 2, "x[m/s]"},
         {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2, ""},
         {"current_file: series.csv", "time,x,y\n0,1,0\n5,0,-201\n", "at most 200 m/s, found -201", 3, "y[m/s]"},
+        {"current_file: series.csv", "time,x,y\n\n0,1,0\n \t\n5,0,-201\n", "at most 200 m/s, found -201", 5, "y[m/s]"},
+        {"current_file: series.csv", "time,x,y\n0,1,0\n\n\n0,2,0\n", "row before", 5, ""},
         {"wind_file: missing.csv", "", "expected a file that can be read", 5, ""},
         {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "depths", 0, ""},
     };

@@ -163,6 +163,14 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "x", "--draw", self.at / "a.pdf", "--force"), "--draw", ".svg")
         self.assertFalse((self.at / "a.pdf").exists())
 
+    def test_the_last_of_many_columns_is_found(self):
+        """As the series of several vessels with their lines and thrusters has them."""
+        others, zeros = ",".join(f"c{i}" for i in range(700)), "0," * 700
+        wide = self.write(f"time,{others},x\n" + "".join(f"{t},{zeros}{t % 3}\n" for t in range(40)), "wide.csv")
+        alone = self.write("time,x\n" + "".join(f"{t},{t % 3}\n" for t in range(40)), "alone.csv")
+        self.assertEqual(self.fram("fatigue", wide, "--channel", "x")["equivalent"],
+                         self.fram("fatigue", alone, "--channel", "x")["equivalent"])
+
     def test_a_run_is_not_written_over(self):
         run, scene = self.at / "run", self.write(SCENE, "scene.yaml")
         self.fram("run", scene, "-o", run, "--quiet")
@@ -197,6 +205,8 @@ class Statistics(unittest.TestCase):
         self.refused(("fatigue", file, "--channel", "tension", "--slope", "0"), "slope")
         uneven = self.write("time,x\n0,1\n1,2\n5,3\n6,1\n", "uneven.csv")
         self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:4:", "equal distances", "found one of 4 s")
+        blanks = self.write("time,x\n\n0,1\n# a comment\n1,2\n5,3\n6,1\n", "blanks.csv")
+        self.refused(("fatigue", blanks, "--channel", "x"), "blanks.csv:6:", "found one of 4 s")
         rows = "".join(f"{0.5 * i + (400 if i > 700 else 0)},{i % 7}\n" for i in range(1000))
         gap = self.write("time,x\n" + rows, "gap.csv")
         self.refused(("extremes", gap, "--channel", "x"), "gap.csv:703:", "0.5 s as most are", "found one of 400.5 s")
