@@ -153,8 +153,9 @@ static fram_status find_guid(packer *p, const char *list, fram_error *error)
         status = run_inputs_list(p->ctx, p->s, &inputs, error);
     if (status == FRAM_OK) {
         text_format(p->ctx, &all, "%s %s\n%s", FRAM_VERSION, hash, list);
-        for (const char *line = inputs.data; *line; line = strchr(line, '\n') + 1)
-            text_add_bytes(p->ctx, &all, line, 64);
+        run_input file;
+        for (const char *at = inputs.data, *end = at + inputs.count; run_inputs_next(&at, end, &file);)
+            text_add(p->ctx, &all, file.digest);
         status = all.failed ? error_memory(error) : FRAM_OK;
     }
     if (status == FRAM_OK) {

@@ -79,7 +79,7 @@ static fram_status find_end(pressure_map *p, fram_error *error)
 
 static fram_status step_once(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
 {
-    if (p->ctx->stop && *p->ctx->stop)
+    if (stop_is_asked(p->ctx->stop))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
                          w->clock.time[0]);
     fram_status status = world_step(p->ctx, m, w, error);

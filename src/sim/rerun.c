@@ -33,7 +33,7 @@ typedef struct rerun {
 
 static fram_status step_once(const rerun *r, const model *m, world *w, fram_error *error)
 {
-    if (r->ctx->stop && *r->ctx->stop)
+    if (stop_is_asked(r->ctx->stop))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s", w->clock.time[0]);
     double since = r->out->start, whole = fmax(r->time - since, 0);
     /* The largest load is looked for until half an averaging window after the moment. */

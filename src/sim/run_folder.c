@@ -10,6 +10,7 @@
 #include "io/temporary.h"
 #include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
+#include "sim/run_inputs.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -213,9 +214,9 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
                                  fram_error *error)
 {
-    char path[PATH_ROOM], digest[SHA256_TEXT_SIZE];
-    char *text = NULL;
+    char path[PATH_ROOM], *text = NULL;
     size_t size = 0;
+    run_input file;
     fram_status status = path_join(folder, "run.json", path, error);
     if (status == FRAM_OK)
         status = file_read(ctx, path, SUMMARY_LIMIT, &text, &size, error);
@@ -223,12 +224,11 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "scenario.yaml",
                            "was changed since the run was made, or is read by another version of Fram: restore it or "
                            "make the run again");
-    for (const char *line = inputs; status == FRAM_OK && *line; line = strchr(line, '\n') + 1) {
-        snprintf(digest, sizeof digest, "%.64s", line);
-        if (!strstr(text, digest))
+    for (const char *end = inputs + strlen(inputs); status == FRAM_OK && run_inputs_next(&inputs, end, &file);) {
+        if (!strstr(text, file.digest))
             status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "inputs",
                                "%.*s was changed since the run was made; restore it or make the run again",
-                               (int)(strchr(line, '\n') - line) - 66, line + 66);
+                               file.path_length, file.path);
     }
     memory_free(ctx, text);
     return status;
@@ -247,16 +247,13 @@ static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
 {
     text_add(ctx, b, "  \"inputs\": [");
     const char *comma = "";
-    for (const char *line = inputs; *line;) {
-        const char *end = strchr(line, '\n');
+    run_input file;
+    for (const char *end = inputs + strlen(inputs); run_inputs_next(&inputs, end, &file); comma = ", ") {
         char path[PATH_ROOM];
-        int length = (int)(end - line) - 66;
-        snprintf(path, sizeof path, "%.*s", length, line + 66);
-        text_format(ctx, b, "%s{\"sha256\": \"%.64s\", \"file\": ", comma, line);
+        snprintf(path, sizeof path, "%.*s", file.path_length, file.path);
+        text_format(ctx, b, "%s{\"sha256\": \"%s\", \"file\": ", comma, file.digest);
         text_quoted(ctx, b, path);
         text_add(ctx, b, "}");
-        comma = ", ";
-        line = end + 1;
     }
     text_add(ctx, b, "],\n");
 }

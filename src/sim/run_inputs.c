@@ -55,15 +55,22 @@ static bool begins_with_digest(const char *text, size_t size)
     return true;
 }
 
-/* Length of the line "sha256  path" that the text begins with, 0: it begins with none. */
-static size_t input_line(const char *text, size_t size)
+bool run_inputs_next(const char **at, const char *end, run_input *out)
 {
-    if (!begins_with_digest(text, size) || size <= DIGEST_LENGTH + GAP_LENGTH ||
-        memcmp(text + DIGEST_LENGTH, "  ", GAP_LENGTH) != 0)
-        return 0;
-    const char *path = text + DIGEST_LENGTH + GAP_LENGTH;
-    const char *end = memchr(path, '\n', size - DIGEST_LENGTH - GAP_LENGTH);
-    return end && end > path ? (size_t)(end - text) + 1 : 0;
+    const char *line = *at;
+    size_t size = (size_t)(end - line);
+    if (!begins_with_digest(line, size) || size <= DIGEST_LENGTH + GAP_LENGTH ||
+        memcmp(line + DIGEST_LENGTH, "  ", GAP_LENGTH) != 0)
+        return false;
+    const char *path = line + DIGEST_LENGTH + GAP_LENGTH, *stop = memchr(path, '\n', (size_t)(end - path));
+    if (!stop || stop == path || stop - path > SCENARIO_TEXT_SIZE)
+        return false;
+    memcpy(out->digest, line, DIGEST_LENGTH);
+    out->digest[DIGEST_LENGTH] = '\0';
+    out->path = path;
+    out->path_length = (int)(stop - path);
+    *at = stop + 1;
+    return true;
 }
 
 fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],
@@ -76,19 +83,16 @@ fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char 
     }
     text_buffer digests = {0};
     text_add(ctx, &digests, "");
-    size_t at = 0;
-    while (at < size) {
-        size_t length = input_line(text + at, size - at);
-        if (length == 0)
-            break;
-        text_add_bytes(ctx, &digests, text + at, DIGEST_LENGTH);
-        at += length;
-    }
+    const char *at = size > 0 ? text : "", *end = at + size;
+    run_input file;
+    while (run_inputs_next(&at, end, &file))
+        text_add_bytes(ctx, &digests, file.digest, DIGEST_LENGTH);
     fram_status status = FRAM_OK;
-    if (at < size)
-        status = error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, NULL,
-            "expected a list of files, lines of SHA-256 and path; found something else at byte %zu of it", at);
+    if (at < end)
+        status =
+            error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                      "expected a list of files, lines of SHA-256 and path; found something else at byte %zu of it",
+                      (size_t)(at - text));
     else if (digests.failed)
         status = error_memory(error);
     else

@@ -9,6 +9,14 @@
 
 /* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
 fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
+/* A line of such a list. */
+typedef struct run_input {
+    char digest[SHA256_TEXT_SIZE];
+    const char *path; /* in the list */
+    int path_length;
+} run_input;
+/* The next line of a list, from *at on, which moves behind it; false at the end, and at what is no such line. */
+bool run_inputs_next(const char **at, const char *end, run_input *out);
 /* What such a list says of the files' contents, wherever they lie: SHA-256 of its digests, one after the other.  A text
    that is one digest already is taken as it is; FRAM_ERROR_INPUT, with no place, for any other. */
 fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],

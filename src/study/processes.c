@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 int processes_cores(void)
@@ -81,6 +82,12 @@ bool processes_ended(process_pool *all, int32_t *task, int *exit_code)
         return true;
     }
     return false;
+}
+
+void processes_pause(void)
+{
+    const struct timespec pause = {0, 5000000};
+    nanosleep(&pause, NULL);
 }
 
 void processes_stop(process_pool *all)

@@ -26,6 +26,12 @@ fram_status processes_start(context *ctx, process_pool *all, const char *const *
                             fram_error *error);
 /* Whether one has ended; then its task and exit code, 128 + signal for one that a signal ended. */
 bool processes_ended(process_pool *all, int32_t *task, int *exit_code);
+/* Exit code of a run that was interrupted, which is none of its own. */
+enum { PROCESS_INTERRUPTED = 130 };
+/* Waits until the next look at them: far less than a run, far more than a look.  While none ends, progress is told
+   after so many seconds. */
+void processes_pause(void);
+#define PROCESSES_TELL 1.0
 /* Ask all to stop, and wait until they have. */
 void processes_stop(process_pool *all);
 void processes_free(context *ctx, process_pool *all);

@@ -391,8 +391,6 @@ static bool read_lines(context *ctx, char *text, run_rows *rows, bool *no_memory
     return false;
 }
 
-enum { ROW_FILE_LIMIT = 1 << 16 };
-
 fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error)
 {
     char *text = NULL;

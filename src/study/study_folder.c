@@ -77,9 +77,11 @@ static fram_status name_condition(study_folder *f, int32_t condition, const scen
     if (status == FRAM_OK)
         status = run_inputs_list(f->ctx, one, &inputs, error);
     text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? of : "");
-    /* Of each line "sha256  path" the hash: the same files elsewhere are the same input. */
-    for (const char *line = inputs.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)
-        text_format(f->ctx, &b, " %.64s", line);
+    /* Of each file the hash: the same files elsewhere are the same input. */
+    run_input file;
+    const char *at = status == FRAM_OK ? inputs.data : "", *end = status == FRAM_OK ? at + inputs.count : at;
+    while (run_inputs_next(&at, end, &file))
+        text_format(f->ctx, &b, " %s", file.digest);
     if (status == FRAM_OK && b.failed)
         status = error_memory(error);
     if (status == FRAM_OK) {

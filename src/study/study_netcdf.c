@@ -8,14 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static const struct {
-    const char *name, *unit;
-} figures[ROW_FIGURES] = {
-#define FIGURE_HEAD(name, unit) [ROW_##name] = {#name, unit},
-    RUN_ROW_FIGURES(FIGURE_HEAD)
-#undef FIGURE_HEAD
-};
-
 /* Values of a key, 1 and 0 for true and false; false where it has other words. */
 static bool key_values(const study_folder *f, int32_t key, double *out)
 {
@@ -52,13 +44,13 @@ static void put_keys(const study_folder *f, netcdf_file *nc, int over, double *v
 
 /* A figure of every run, condition after condition. */
 static void put_figure(const study_folder *f, netcdf_file *nc, const int over[2], const condition_rows *conditions,
-                       int32_t seeds, int figure, double *value)
+                       int32_t seeds, run_figure figure, double *value)
 {
     for (int32_t c = 0; c < f->s->conditions; c++)
         for (int32_t i = 0; i < seeds; i++)
             value[(int64_t)c * seeds + i] =
                 i < conditions[c].rows.count ? conditions[c].rows.data[i].figure[figure] : (double)NAN;
-    int variable = netcdf_variable(nc, figures[figure].name, NETCDF_F64, over, 2, figures[figure].unit, "");
+    int variable = netcdf_variable(nc, run_figure_name(figure), NETCDF_F64, over, 2, run_figure_unit(figure), "");
     netcdf_put_f64(nc, variable, value);
 }
 
@@ -92,7 +84,7 @@ static void put_all(const study_folder *f, netcdf_file *nc, const condition_rows
     put_keys(f, nc, over[0], value, word);
     put_status(f, nc, over, conditions, seeds, state);
     for (int figure = 0; figure < ROW_FIGURES; figure++)
-        put_figure(f, nc, over, conditions, seeds, figure, value);
+        put_figure(f, nc, over, conditions, seeds, (run_figure)figure, value);
 }
 
 fram_status study_netcdf_write(const study_folder *f, const condition_rows *conditions, fram_error *error)

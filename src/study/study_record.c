@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "fram/version.h"
 #include "io/file.h"
+#include "sim/run_inputs.h"
 #include "study/study_file.h"
 
 #include <stdlib.h>
@@ -19,8 +20,10 @@ void study_index_heads(study_folder *f) { text_add(f->ctx, &f->index, "condition
 void study_index_row(study_folder *f, int32_t condition, const char *scenario_hash, const char *inputs)
 {
     text_format(f->ctx, &f->index, "%d,%s,%s,", (int)condition + 1, f->id[condition], scenario_hash);
-    for (const char *line = inputs; line && *line; line = strchr(line, '\n') + 1)
-        text_format(f->ctx, &f->index, "%s%.64s", line == inputs ? "" : " ", line);
+    const char *blank = "";
+    run_input file;
+    for (const char *end = inputs + strlen(inputs); run_inputs_next(&inputs, end, &file); blank = " ")
+        text_format(f->ctx, &f->index, "%s%s", blank, file.digest);
     text_add(f->ctx, &f->index, "\n");
 }
 

@@ -11,13 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
-
-/* Between looks at the processes: far less than a run, far more than a look. */
-enum { LOOK_NANOSECONDS = 5000000 };
-/* Exit code of a run that was interrupted, which is none of its own. */
-enum { INTERRUPTED = 130 };
 
 /* What is known of one seed of a condition. */
 typedef enum run_state {
@@ -224,7 +218,7 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     int64_t seed = w->s->seeds.first + index;
     study_seed *of = &w->conditions[condition].seeds.data[index];
     of->state = RUN_MISSING;
-    if (exit_code == INTERRUPTED && !w->options->slurm)
+    if (exit_code == PROCESS_INTERRUPTED && !w->options->slurm)
         return FRAM_OK;
     char *folder = study_run_path(&w->folder, condition, seed, "");
     char *row = study_run_path(&w->folder, condition, seed, ".row");
@@ -265,14 +259,10 @@ static void show_progress(const study_work *w, const char *waits)
         w->options->progress(w->options->progress_user, &p);
 }
 
-/* Progress is told so often while no run ends [s]. */
-#define TELL_SECONDS 1.0
-
 static bool asked_to_stop(const study_work *w) { return stop_is_asked(w->options->stop); }
 
 static fram_status work_loop(study_work *w, fram_error *error)
 {
-    const struct timespec pause = {0, LOOK_NANOSECONDS};
     fram_status status = fill_pool(w, error);
     show_progress(w, NULL);
     double told = clock_wall();
@@ -280,8 +270,8 @@ static fram_status work_loop(study_work *w, fram_error *error)
         int32_t task = 0;
         int exit_code = 0;
         if (!processes_ended(&w->pool, &task, &exit_code)) {
-            nanosleep(&pause, NULL);
-            if (clock_wall() - told >= TELL_SECONDS) {
+            processes_pause();
+            if (clock_wall() - told >= PROCESSES_TELL) {
                 told = clock_wall();
                 show_progress(w, NULL);
             }

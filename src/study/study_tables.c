@@ -85,8 +85,10 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
     ARRAY(double) value = {0};
     for (int32_t c = 0; c < f->s->conditions; c++) {
         int32_t failed = 0, n = conditions[c].rows.count;
-        if (!array_resize(f->ctx, &value, n))
+        if (!array_resize(f->ctx, &value, n)) {
+            array_free(f->ctx, &value);
             return error_memory(error);
+        }
         for (int32_t i = 0; i < n; i++)
             failed += conditions[c].rows.data[i].failed;
         add_condition(f, c, b);

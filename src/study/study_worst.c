@@ -13,18 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* Between frames of a run whose scenario asks for none [s]. */
 #define FRAMES_USUAL 1.0
-/* Between looks at the processes, and between calls of progress [s]. */
-enum { LOOK_NANOSECONDS = 5000000 };
-#define TELL_SECONDS 1.0
-/* Exit code of a run that was interrupted, which is none of its own. */
-enum { INTERRUPTED = 130 };
-/* Of a file of rows. */
-enum { ROW_FILE_MOST = 1 << 16 };
 
 /* ---- which ---- */
 
@@ -131,7 +123,7 @@ static void tell(const worst_work *w, const char *waits)
 static fram_status read_row(const study_folder *f, const worst_run *run, char **text, size_t *size, fram_error *error)
 {
     char *path = study_run_path(f, run->condition, f->s->seeds.first + run->index, ".row");
-    fram_status status = path ? file_read(f->ctx, path, ROW_FILE_MOST, text, size, error) : error_memory(error);
+    fram_status status = path ? file_read(f->ctx, path, ROW_FILE_LIMIT, text, size, error) : error_memory(error);
     memory_free(f->ctx, path);
     return status;
 }
@@ -145,7 +137,7 @@ static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error 
     fram_status status = path && log ? read_row(f, &e->run, &first, &size, error) : error_memory(error);
     e->stage = WORST_RUN;
     if (status == FRAM_OK && access(path, F_OK) == 0 &&
-        file_read(f->ctx, path, ROW_FILE_MOST, &again, &other, NULL) == FRAM_OK && size == other &&
+        file_read(f->ctx, path, ROW_FILE_LIMIT, &again, &other, NULL) == FRAM_OK && size == other &&
         memcmp(first, again, size) == 0)
         e->stage = study_worst_has_playback(f, &e->run) ? WORST_DONE : WORST_VIEW;
     /* Of another time: a task of Slurm would take the run as made. */
@@ -264,7 +256,7 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
     char *folder = study_worst_path(w->f, &e->run, ""), *log = study_worst_path(w->f, &e->run, ".log");
     fram_status status = folder && log ? FRAM_OK : error_memory(error);
     e->going = false;
-    if (status == FRAM_OK && exit_code == INTERRUPTED && !w->options->slurm) {
+    if (status == FRAM_OK && exit_code == PROCESS_INTERRUPTED && !w->options->slurm) {
         /* It is made when the study goes on. */
     } else if (status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(ctx, folder, log)) {
         /* And this one when the other program has ended. */
@@ -343,7 +335,6 @@ static fram_status fill(worst_work *w, int jobs, bool *left, fram_error *error)
 
 static fram_status record_here(worst_work *w, fram_error *error)
 {
-    const struct timespec pause = {0, LOOK_NANOSECONDS};
     int jobs = study_folder_jobs(w->f, w->options->jobs);
     bool left = false;
     fram_status status = fill(w, jobs, &left, error);
@@ -355,9 +346,9 @@ static fram_status record_here(worst_work *w, fram_error *error)
             status = take(w, &w->entry[at], exit_code, error);
             tell(w, NULL);
         } else {
-            nanosleep(&pause, NULL);
+            processes_pause();
         }
-        if (clock_wall() - told >= TELL_SECONDS) {
+        if (clock_wall() - told >= PROCESSES_TELL) {
             told = clock_wall();
             tell(w, NULL);
         }
