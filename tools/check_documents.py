@@ -5,7 +5,8 @@ Rules:
   - a link of a Markdown file leads to a file of the repository, and its #part to a heading there;
   - a path in a Markdown file that begins with a folder of the repository (`src/ice/floe.h`, tests/cli/common.sh) is
     there; * stands for any letters, <words> and upper-case names for what the reader fills in;
-  - a comment or text of any other file, tests apart, that names a page docs/*.md or a scene names one that is there.
+  - a comment or text of any other file, tests apart, that names a page docs/*.md, a scene or a source in a room
+    (src/ROOM/*.[ch]) names one that is there.
 
 What a build makes (build/, out/, node_modules/) is not looked for.  Prints file:line: message for each breach; exit
 code 1 when there is one."""
@@ -16,11 +17,12 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TEXT_SUFFIXES = {".c", ".h", ".py", ".sh", ".cmake", ".txt", ".yaml", ".mjs", ".ipynb", ".html"}
+TEXT_SUFFIXES = {".c", ".h", ".py", ".sh", ".cmake", ".txt", ".yaml", ".js", ".mjs", ".ipynb", ".html"}
 FOLDERS = r"(?:src|tests|docs|scenes|tools|bench|fuzz|examples|bindings|include|viewer|validation|cmake|packaging)"
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 PATH = re.compile(rf"(?<![\w./$-]){FOLDERS}/[\w.*<>{{}}|,/-]*[\w*>}}]")
 PAGE = re.compile(r"(?<![\w./-])(?:docs|scenes)/[\w./-]+\.(?:md|yaml|png|svg)\b")
+SOURCE = re.compile(r"(?<![\w./-])(src/\w+)/\w+\.[ch]\b")
 HEADING = re.compile(r"^#{1,6} +(.*?)#*$", re.M)
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 # Patterns and places that a reader fills in are no files.
@@ -88,6 +90,12 @@ def breaches(page):
         for name in (PATH if markdown else PAGE).findall(line):
             if not OPEN.search(name) and not is_there(name.rstrip(".")):
                 yield number, f"{name} is not in the repository"
+
+
+        for source in SOURCE.finditer(line) if not markdown else ():
+            # Libraries have folders of that name too, but not our rooms.
+            if (ROOT / source[1]).is_dir() and not is_there(source[0]):
+                yield number, f"{source[0]} is not in the repository"
 
 
 def main():

@@ -8,19 +8,19 @@
      6 fractures i32 count, i32 0; per floe that broke since the block before: f64 time, i32 kind (1 split, 2 bending),
                  i32 number of the floe, i32 pieces, i32 0; f32 x y z of the crack's start, load [N], crack length [m],
                  area of the floe [m2]; before the first frame at or after the event
-     7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 level ice, f32
-   thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none), i32 vertices; f32 x y per
-                 outline vertex (body frame); a body that does not move adds its pose
-     9 forces    i32 count, i32 0; per force on a vessel in the last step: i32 kind (1 ice, all contacts with one
-   floe; 2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), i32 slot of the body or number of the
-   vessel's line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global frame; before the
-   frame it belongs to
+     7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 level ice,
+                 f32 thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none),
+                 i32 vertices; f32 x y per outline vertex (body frame); a body that does not move adds its pose
+     9 forces    i32 count, i32 0; per force on a vessel in the last step: i32 kind (1 ice, all contacts with one floe;
+                 2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), i32 slot of the body or number
+                 of the vessel's line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global
+                 frame; before the frame it belongs to
     11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the first vessel [N], i32 count, i32 0; per moving
                  body, by ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the
                  magnitudes at its contacts, a half float of kN (16 or 18 bytes)
     12 peak      only in peaks.fram: what carried a large ice load on a vessel, io/peak_block.h
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
-   frame's first 48 bytes; the frame itself and its forces stand there
+                 frame's first 48 bytes; the frame itself and its forces stand there
     13 loads     only in playback pages: JSON, the load of each vessel by mechanism, its peaks explained
                  (results/playback_explained.c)
     14 pressure  only in pressure.fram and playback pages: ice pressure on a hull: hash of the scenario (64 characters),

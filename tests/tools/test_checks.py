@@ -145,13 +145,15 @@ class House(unittest.TestCase):
 
     def test_documents_that_cite_what_is_not_there(self):
         self.plant("src/ice/floe.c", "\n/* docs/absent.md */\n")
+        self.plant("viewer/src/scene.js", "// src/ice/floe.c, src/ice/gone.h, src/library/any.c\n")
         self.plant("docs/theory.md", "# Ice\n\n[a\nlink](absent.md)\n")
         self.plant("README.md", "[t](docs/theory.md#water)\n[t](../README.md)\n`src/ice/wave.h`\n`src/*.none`\n")
         said = self.documents()
         for line in ("src/ice/floe.c:2: docs/absent.md is", "docs/theory.md:3: the link absent.md",
                      "README.md:1: the link", "README.md:2: the link ../README.md", "README.md:3: src/ice/wave.h",
-                     "README.md:4: src/*.none"):
+                     "README.md:4: src/*.none", "viewer/src/scene.js:1: src/ice/gone.h is"):
             self.assertIn(line, said)
+        self.assertEqual(said.count("scene.js"), 1)
 
     def test_libm_in_the_source(self):
         self.plant("src/ice/wave.c", "double f(double x)\n{\n    return sin (x) + powf(2, 3);\n}\n")

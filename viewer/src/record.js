@@ -1,6 +1,6 @@
-// Reads a record of a run (record.fram).  The layout stands in src/io/record.h (head and blocks), src/sim/recorder.h
-// (payloads); this file follows them and knows
-// nothing of drawing.  Frames are found at once and decoded when they are shown.
+// Reads a record of a run (record.fram).  The layout stands in src/io/record.h (head and blocks) and
+// src/io/record_layout.h (payloads); this file follows them and knows nothing of drawing.  Frames are found at once and
+// decoded when they are shown.
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
 const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10, FRAME = 11;
@@ -16,7 +16,7 @@ const HALF = Float32Array.from({ length: 65536 }, (_, h) => {
     return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
 });
 
-/** A pose as src/sim/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js).
+/** A pose as src/io/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js).
  *  @returns whether it is marked: in a frame, a contact force follows. */
 function unpackPose(view, at, out, to) {
     out[to] = view.getFloat32(at, true);

@@ -235,7 +235,7 @@ function carried(point, hull, poses) { return global(local(point, hull, poses), 
 /** An elastic catenary from its upper end, which it pulls on with `horizontal` and `vertical` [N], to an anchor `way`
  *  off and `height` below on a flat bottom (Jonkman 2007, as src/vessel/catenary.c): [distance, depth] from the upper
  *  end, FREE + 2 times [m]. */
-export function hanging(horizontal, vertical, { weight, stiffness }, way, height) {
+function hanging(horizontal, vertical, { weight, stiffness }, way, height) {
     if (!(vertical > 0)) return [[0, 0], [way, height]];
     const h = Math.max(horizontal, 1e-6 * vertical), free = vertical / weight;
     const at = (u) => { // after u metres of unstretched line
