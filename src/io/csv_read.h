@@ -16,7 +16,7 @@ enum { CSV_LINE_MOST = 1 << 20 };
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 
-/* The line on which row `row`, from 0, of csv_read stands: lines with nothing on them are no rows.  0: there is none. */
+/* The line on which row `row` of csv_read, from 0, stands: empty lines are no rows.  0: there is none. */
 int csv_line_of(context *ctx, const char *path, int32_t row);
 
 /* That a file's header has a name that is asked for twice: in columns first and second, from 0. */

@@ -83,8 +83,9 @@ PY
     echo "domain: {x_min: -300, x_max: 300, y_min: -300, y_max: 300, boundary: open}"
     echo "vessels:"
     for i in $(seq 30); do
-        echo "  - {name: v$i, mode: free, x: $((i % 6 * 60)), y: $((i / 6 * 60)), hull: {form: box, length: 20, beam: 8,"
-        echo "     draught: 3, freeboard: 2}, mooring: {lines: [{kind: spring, stiffness: 1.0e4, count: 4,"
+        row=$((i / 6))
+        echo "  - {name: v$i, mode: free, x: $((i % 6 * 60)), y: $((row * 60)), hull: {form: box, length: 20,"
+        echo "     beam: 8, draught: 3, freeboard: 2}, mooring: {lines: [{kind: spring, stiffness: 1.0e4, count: 4,"
         echo "     spacing_deg: 90}]}, station: {offset_limit: $([ "$i" = 30 ] && echo 1.0e-6 || echo 5)}}"
     done
 } >fleet.yaml
