@@ -9,6 +9,7 @@ set(fram_long_tests
     "cli/hull_files:       thirty-five hull files of exporters and kinds, and the remedy of each that is refused"
     "cli/manage:           known ice past known places in several runs, and each refusal a command"
     "cli/packed_field:     ten thousand steps at rest, as the promise says"
+    "cli/results:          every export, report, plot and video of a run, and what is refused, a command each"
     "cli/why:              a chain of floes explained, and computed again by three methods, six times"
     "dynamics/packed:      packed fields must come to rest under each solver"
     "dynamics/solver:      oracles of friction and stacking under each solver"

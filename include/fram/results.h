@@ -79,6 +79,7 @@ typedef struct fram_video_definition {
     int frames_per_second; /* 25 */
     int width, height;     /* 1280 x 720, even [pixels] */
     bool pictures;         /* numbered PNG files instead of a video: needs no ffmpeg */
+    bool force;            /* pictures: into a folder that is not empty, in place of those that are there */
 } fram_video_definition;
 FRAM_API void fram_video_default(fram_video_definition *definition, size_t size);
 #define fram_video_default(definition) fram_video_default((definition), sizeof *(definition))

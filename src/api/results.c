@@ -225,7 +225,8 @@ fram_status(fram_video)(fram_context *c, const char *run, const fram_video_defin
                              .frames_per_second = d->frames_per_second,
                              .width = d->width,
                              .height = d->height,
-                             .pictures = d->pictures};
+                             .pictures = d->pictures,
+                             .force = d->force};
     export_report report = {.frames = 0};
     status = find_colour(d->colour, &options.colour, error);
     if (status == FRAM_OK)

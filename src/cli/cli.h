@@ -105,8 +105,9 @@ bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE])
 
 /* --- outputs.c --- */
 
-/* The kinds of pictures.  A name with another ending is refused. */
+/* The kinds of pictures and videos.  A name with another ending is refused. */
 #define PICTURE_ENDINGS "png svg"
+#define VIDEO_ENDINGS "mp4"
 
 /* A file that a command writes: the option that names it, and the endings of the names of its kind, "stl obj" (NULL:
    any).  NULL as path: none is asked for. */

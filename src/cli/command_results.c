@@ -247,13 +247,14 @@ int command_video(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    const command_files files = {.runs = {run}, .outputs = {{"--output", d.output, "mp4"}}};
+    d.force = common.force;
+    const command_files files = {.runs = {run}, .outputs = {{"--output", d.output, d.pictures ? NULL : VIDEO_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};

@@ -119,6 +119,8 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     return EXIT_GOOD;
 }
 
+static const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
+
 /* ---- fram study list ---- */
 
 typedef struct list_view {
@@ -183,8 +185,8 @@ static int answer_list(const common_options *common, fram_context *context, cons
     if (status != FRAM_OK)
         return answer_error(common, &error);
     if (!view.json)
-        printf("%lld of %lld runs of %lld conditions, %lld failed\n", (long long)view.runs, (long long)view.wanted,
-               (long long)view.conditions, (long long)view.failed);
+        printf("%lld of %lld runs of %lld condition%s, %lld failed\n", (long long)view.runs, (long long)view.wanted,
+               (long long)view.conditions, plural(view.conditions), (long long)view.failed);
     return EXIT_GOOD;
 }
 
@@ -226,13 +228,23 @@ static void show(void *user, const fram_study_progress *p)
     fflush(stderr);
 }
 
-static int answer_result(const common_options *common, const char *folder, const fram_study_result *r)
+static void print_result(const char *folder, const fram_study_result *r, bool dry)
+{
+    fprintf(stderr, "%lld run%s of %lld condition%s, %lld failed; ", (long long)r->runs, plural(r->runs),
+            (long long)r->conditions, plural(r->conditions), (long long)r->failed);
+    if (dry)
+        fputs("nothing was submitted\n", stderr);
+    else
+        fprintf(stderr, "%lld carried out now\n", (long long)r->made);
+    if (r->runs > 0)
+        fprintf(stderr, "results: %s/study.html is the page, summary.csv and conditions.csv beside it the tables\n",
+                folder);
+}
+
+static int answer_result(const common_options *common, const char *folder, const fram_study_result *r, bool dry)
 {
     if (!common->quiet)
-        fprintf(stderr,
-                "%lld runs of %lld conditions, %lld failed; %lld carried out now\n"
-                "results: %s/study.html is the page, summary.csv and conditions.csv beside it the tables\n",
-                (long long)r->runs, (long long)r->conditions, (long long)r->failed, (long long)r->made, folder);
+        print_result(folder, r, dry);
     if (r->failed > 0)
         fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s\n", (long long)r->failed_condition,
                 (long long)r->failed_seed, r->reason);
@@ -265,7 +277,7 @@ static int run_study(const common_options *common, const fram_study *study, fram
     fram_status status = fram_study_run(study, d, &result, &error);
     if (view.terminal && view.told >= 0)
         fputc('\n', stderr);
-    return status == FRAM_OK ? answer_result(common, d->folder, &result) : answer_error(common, &error);
+    return status == FRAM_OK ? answer_result(common, d->folder, &result, d->dry_run) : answer_error(common, &error);
 }
 
 /* What `check` and `list` have no use for would say something else than it does. */

@@ -25,7 +25,7 @@ static bool is_of_run(const char *run, const char *path)
     return false;
 }
 
-/* Whether a name ends in one of the endings, PICTURE_ENDINGS. */
+/* Whether a name ends in one of the endings, "png svg". */
 static bool has_ending(const char *path, const char *endings)
 {
     const char *dot = strrchr(path, '.');
@@ -37,12 +37,18 @@ static bool has_ending(const char *path, const char *endings)
     return false;
 }
 
-/* Pictures are of the kind that their name tells; what goes into a device has no kind. */
-static bool is_no_picture(const output_file *o)
+/* Pictures and videos are of the kind that their name tells; what goes into a device has no kind.  What the name was
+   expected to be, NULL where it is. */
+static const char *expected_name(const output_file *o)
 {
+    static const char *const kinds[][2] = {{PICTURE_ENDINGS, "expected a picture's name that ends in .png or .svg"},
+                                           {VIDEO_ENDINGS, "expected a video's name that ends in .mp4"}};
     struct stat about;
     bool device = stat(o->path, &about) == 0 && !S_ISREG(about.st_mode);
-    return !device && o->endings && strcmp(o->endings, PICTURE_ENDINGS) == 0 && !has_ending(o->path, o->endings);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && o->endings && !device; i++)
+        if (strcmp(o->endings, kinds[i][0]) == 0 && !has_ending(o->path, o->endings))
+            return kinds[i][1];
+    return NULL;
 }
 
 /* A file with something in it that a name does not tell to be of the kind that is to be written. */
@@ -75,8 +81,8 @@ int refuse_outputs(const common_options *common, const command_files *files)
             if (files->outputs[k].path && is_one_file(files->outputs[k].path, o->path))
                 return answer_usage(common, o->option, "names another output too; give it a file of its own");
         }
-        if (is_no_picture(o))
-            return answer_usage(common, o->option, "expected a picture's name that ends in .png or .svg");
+        if (expected_name(o))
+            return answer_usage(common, o->option, expected_name(o));
         if (!common->force && is_of_another_kind(o))
             return answer_usage(common, o->option,
                                 "names a file that is there and, by its name, of another kind; give it another name, "

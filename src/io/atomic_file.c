@@ -98,12 +98,18 @@ void atomic_file_abandon(atomic_file *a)
     a->path = NULL;
 }
 
-fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
+fram_status atomic_file_check(const char *path, fram_error *error)
 {
-    int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
     fram_status status = refuse_no_file(path, error);
     if (status == FRAM_OK && is_special(path))
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found a device or a link");
+    return status;
+}
+
+fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
+{
+    int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
+    fram_status status = atomic_file_check(path, error);
     if (status != FRAM_OK) {
         /* said already */
     } else if (descriptor < 0 || fsync(descriptor) != 0)

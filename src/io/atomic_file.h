@@ -21,6 +21,8 @@ void atomic_file_abandon(atomic_file *a);
 /* For a temporary file that something else has filled and closed: sync, rename, sync the folder; on an error
    the temporary file is removed.  FRAM_ERROR_INPUT when the path is no regular file. */
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error);
+/* Whether it will: asked before long work on the temporary file. */
+fram_status atomic_file_check(const char *path, fram_error *error);
 
 /* Begin, write and commit. */
 fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error);

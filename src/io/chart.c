@@ -224,6 +224,19 @@ static void draw_line(cairo_t *page, const frame *f, const chart_line *line)
     cairo_stroke(page);
 }
 
+/* Rows that stand alone between such as have no value: a line of one point is not seen. */
+static void draw_lone(cairo_t *page, const frame *f, const chart_line *line)
+{
+    for (int32_t i = 0; i < line->count; i++) {
+        bool before = i > 0 && can_show(f, line->x[i - 1], line->y[i - 1]);
+        bool after = i + 1 < line->count && can_show(f, line->x[i + 1], line->y[i + 1]);
+        if (before || after || !can_show(f, line->x[i], line->y[i]))
+            continue;
+        cairo_arc(page, to_px(f, line->x[i]), to_py(f, line->y[i]), line->thick ? 3 : 2, 0, 2 * PI);
+        cairo_fill(page);
+    }
+}
+
 /* A track turns back: it is drawn point by point. */
 static void draw_track(cairo_t *page, const frame *f, const chart_line *line)
 {
@@ -244,13 +257,28 @@ static double bound_py(const frame *f, double y)
 
 #define BAND_OPACITY 0.18
 
+/* Rows without a value (NaN) part it; one that stands alone is as wide [pixels]. */
+#define LONE_BAND 6.0
+
 static void draw_band(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
 {
-    for (int32_t i = 0; i < line->count; i++)
-        cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y[i]));
-    for (int32_t i = line->count - 1; i >= 0; i--)
-        cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y2[i]));
-    cairo_close_path(page);
+    for (int32_t first = 0, end; first < line->count; first = end + 1) {
+        for (end = first; end < line->count && !isnan(line->y[end]) && !isnan(line->y2[end]);)
+            end++;
+        if (end == first)
+            continue;
+        double side = end == first + 1 ? LONE_BAND / 2 : 0;
+        cairo_new_sub_path(page);
+        for (int32_t i = first; i < end; i++)
+            cairo_line_to(page, to_px(f, line->x[i]) - side, bound_py(f, line->y[i]));
+        for (int32_t i = end - 1; i >= first; i--)
+            cairo_line_to(page, to_px(f, line->x[i]) - side, bound_py(f, line->y2[i]));
+        for (int32_t i = first; i < end && side > 0; i++) {
+            cairo_line_to(page, to_px(f, line->x[i]) + side, bound_py(f, line->y2[i]));
+            cairo_line_to(page, to_px(f, line->x[i]) + side, bound_py(f, line->y[i]));
+        }
+        cairo_close_path(page);
+    }
     cairo_set_source_rgba(page, colour.r, colour.g, colour.b, line->solid ? 1 : BAND_OPACITY);
     cairo_fill(page);
 }
@@ -289,6 +317,7 @@ static void draw_one(cairo_t *page, const frame *f, const chart_line *line, imag
     switch (line->style) {
     case CHART_LINE:
         (track ? draw_track : draw_line)(page, f, line);
+        draw_lone(page, f, line);
         break;
     case CHART_BAND:
         draw_band(page, f, line, colour);
@@ -347,8 +376,8 @@ void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal
     if (equal)
         equalise(&f);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
-    image_text(page, f.left, 28, 17, ALIGN_LEFT, true, c->title);
-    image_text(page, f.left, 48, 12, ALIGN_LEFT, false, c->subtitle);
+    image_text_fitted(page, f.left, 28, 17, true, f.right - f.left, c->title);
+    image_text_fitted(page, f.left, 48, 12, false, f.right - f.left, c->subtitle);
     draw_axes(page, c, &f);
     cairo_save(page);
     cairo_rectangle(page, f.left, f.top, f.right - f.left, f.bottom - f.top);

@@ -20,7 +20,9 @@ enum {
     TABLE_WIDTH = 330,
     STATIONS = 20,
     WATERLINES = 8,
-    BUTTOCKS = 4
+    BUTTOCKS = 4,
+    NAME_OVER = -5,
+    NAME_UNDER = 14 /* a point [pixels] */
 };
 /* Sections begin and end this part of the length inside the ends, where there is something to cut. */
 #define END_MARGIN 0.004
@@ -83,7 +85,8 @@ static void trace_silhouette(const drawing *d, const frame *f, int axis)
     }
 }
 
-/* Fill the silhouette, wet where it is under the line through (u, level of u). */
+/* Fill the silhouette, wet on the side of the line through (u, level of u) where the water is: over it in the hull's
+   frame where she floats keel up. */
 static void draw_silhouette(const drawing *d, const frame *f, int axis, box2 window)
 {
     cairo_t *page = d->page;
@@ -99,8 +102,9 @@ static void draw_silhouette(const drawing *d, const frame *f, int axis, box2 win
         double v0 = (level - along * window.lo.x) / d->up.z, v1 = (level - along * window.hi.x) / d->up.z;
         cairo_move_to(page, at_u(f, window.lo.x), at_v(f, v0));
         cairo_line_to(page, at_u(f, window.hi.x), at_v(f, v1));
-        cairo_line_to(page, at_u(f, window.hi.x), at_v(f, window.lo.y - 1));
-        cairo_line_to(page, at_u(f, window.lo.x), at_v(f, window.lo.y - 1));
+        double far = d->up.z > 0 ? window.lo.y - 1 : window.hi.y + 1;
+        cairo_line_to(page, at_u(f, window.hi.x), at_v(f, far));
+        cairo_line_to(page, at_u(f, window.lo.x), at_v(f, far));
         cairo_close_path(page);
         image_set_colour(page, wet_fill);
         cairo_fill(page);
@@ -156,13 +160,14 @@ static void label(const drawing *d, double x, double y, const char *text)
     image_text(d->page, x, y, 13, ALIGN_LEFT, true, text);
 }
 
-static void dot(const drawing *d, const frame *f, vec2 p, const char *name)
+/* With its name `below` it [pixels]: two names near each other stand over and under. */
+static void dot(const drawing *d, const frame *f, vec2 p, double below, const char *name)
 {
     double x = at_u(f, p.x), y = at_v(f, p.y);
     cairo_arc(d->page, x, y, 3.2, 0, 2 * PI);
     image_set_colour(d->page, mark);
     cairo_fill(d->page);
-    image_text(d->page, x + 6, y - 5, 12, ALIGN_LEFT, true, name);
+    image_text(d->page, x + 6, y + below, 12, ALIGN_LEFT, true, name);
     cairo_new_path(d->page);
 }
 
@@ -190,8 +195,9 @@ static fram_status draw_profile(const drawing *d, const frame *f)
     hull_slicer_free(d->ctx, &buttocks.slicer);
     double past = 0.02 * (d->box.hi.x - d->box.lo.x);
     draw_water(d, f, 1, d->box.lo.x - past, d->box.hi.x + past);
-    dot(d, f, vec2_make(s->centre_of_buoyancy.x, s->centre_of_buoyancy.z), "B");
-    dot(d, f, vec2_make(s->centre.x, s->centre.z), "G");
+    bool over = s->centre_of_buoyancy.z > s->centre.z;
+    dot(d, f, vec2_make(s->centre_of_buoyancy.x, s->centre_of_buoyancy.z), over ? NAME_OVER : NAME_UNDER, "B");
+    dot(d, f, vec2_make(s->centre.x, s->centre.z), over ? NAME_UNDER : NAME_OVER, "G");
     label(d, MARGIN, at_v(f, d->box.hi.z) - 12, "Profile");
     image_text(d->page, MARGIN + 56, at_v(f, d->box.hi.z) - 12, 12, ALIGN_LEFT, false,
                "bow to the right; centre line bold, buttocks at each eighth of the breadth");
@@ -203,7 +209,7 @@ static fram_status draw_waterlines(const drawing *d, const frame *f)
     box2 window = {{d->box.lo.x, d->box.lo.y}, {d->box.hi.x, d->box.hi.y}};
     draw_silhouette(d, f, 2, window);
     family lines = {0};
-    double level = d->view->attitude.level, keel = d->box.lo.z;
+    double keel = d->box.lo.z, level = fmin(fmax(d->view->attitude.level / d->up.z, keel), d->box.hi.z);
     bool upright = d->up.z == 1;
     fram_status status = hull_slicer_make(d->ctx, d->view->surface, 2, &lines.slicer, d->error);
     for (int i = 1; i < WATERLINES && status == FRAM_OK; i++)
@@ -213,12 +219,14 @@ static fram_status draw_waterlines(const drawing *d, const frame *f)
     if (status == FRAM_OK && upright)
         status = draw_section(d, &lines, f, level, water_line, 1.8);
     hull_slicer_free(d->ctx, &lines.slicer);
-    dot(d, f, vec2_make(d->view->stability->centre_of_flotation.x, d->view->stability->centre_of_flotation.y), "F");
+    dot(d, f, vec2_make(d->view->stability->centre_of_flotation.x, d->view->stability->centre_of_flotation.y),
+        NAME_OVER, "F");
     label(d, MARGIN, at_v(f, d->box.hi.y) - 12, "Waterlines");
     image_text(d->page, MARGIN + 84, at_v(f, d->box.hi.y) - 12, 12, ALIGN_LEFT, false,
                upright ? "port up; blue where it floats, grey at each eighth of the draught, black at half freeboard "
                          "and deck"
-                       : "port up; grey under the water amidships, black above it");
+               : d->up.z > 0 ? "port up; grey under the water amidships, black above it"
+                             : "port up; she floats keel up: black under the water amidships, grey above it");
     return status;
 }
 
@@ -422,13 +430,14 @@ static fram_status draw_page(drawing *d, double scale, double profile, double pl
 {
     double length = d->box.hi.x - d->box.lo.x, left = (PAGE_WIDTH - length * scale) / 2 - d->box.lo.x * scale;
     image_set_colour(d->page, ink);
-    image_text(d->page, MARGIN, 34, 19, ALIGN_LEFT, true, d->view->title);
-    image_text(d->page, MARGIN, 56, 13, ALIGN_LEFT, false, d->view->caption);
+    double bar = PAGE_WIDTH - MARGIN - 70 - image_round_step(length, 12) * scale;
+    image_text_fitted(d->page, MARGIN, 34, 19, true, bar - 20 - MARGIN, d->view->title);
+    image_text_fitted(d->page, MARGIN, 56, 13, false, PAGE_WIDTH - 2 * MARGIN, d->view->caption);
     frame side = {left, HEAD + 20 + d->box.hi.z * scale, scale};
     double below = HEAD + 20 + profile + GAP;
     frame above = {left, below + d->box.hi.y * scale, scale};
     double low = below + plan + GAP;
-    draw_scale(d, PAGE_WIDTH - MARGIN - 70 - image_round_step(length, 12) * scale, 38, scale, length);
+    draw_scale(d, bar, 38, scale, length);
     fram_status status = draw_profile(d, &side);
     if (status == FRAM_OK)
         status = draw_waterlines(d, &above);

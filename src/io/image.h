@@ -49,6 +49,8 @@ typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
 /* Text with its baseline at (x, y), UTF-8; a byte that is none is shown as a question mark. */
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
+/* Text that begins at (x, y) and goes on for `room` pixels at most: what is cut off ends in dots. */
+void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold, double room, const char *text);
 #endif
 
 /* "636 kN", or meganewtons from 1000 kN on. */

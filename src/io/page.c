@@ -7,7 +7,7 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { LINE_HEIGHT = 19 };
+enum { LINE_HEIGHT = 19, EDGE = 40 };
 
 static void draw_text(cairo_t *paper, const page *p)
 {
@@ -29,7 +29,7 @@ fram_status page_write(context *ctx, const page *p, const char *path, fram_error
     if (status != FRAM_OK)
         return status;
     image_set_colour(paper, (image_colour){0.1, 0.1, 0.1});
-    image_text(paper, 40, 38, 20, ALIGN_LEFT, true, p->title);
+    image_text_fitted(paper, EDGE, 38, 20, true, p->width - 2 * EDGE, p->title);
     draw_text(paper, p);
     for (int32_t i = 0; i < p->panel_count; i++) {
         const page_panel *panel = &p->panels[i];

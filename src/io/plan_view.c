@@ -228,8 +228,9 @@ static void draw_lines(cairo_t *page, const map *m, const plan_view *view)
     }
 }
 
-/* From the right to the left, on the line of the caption: an arrow of fixed length, and what it is of. */
-static void draw_flows(cairo_t *page, const plan_view *view, double right, double y)
+/* From the right to the left, on the line of the caption: an arrow of fixed length, and what it is of.  Returns where
+   the last one begins. */
+static double draw_flows(cairo_t *page, const plan_view *view, double right, double y)
 {
     const double half = 13;
     for (int32_t i = view->flow_count - 1; i >= 0; i--) {
@@ -246,6 +247,7 @@ static void draw_flows(cairo_t *page, const plan_view *view, double right, doubl
         image_text(page, right - 2 * half - 6, y, 12, ALIGN_RIGHT, false, text);
         right -= 2 * half + 24 + image_text_width(page, 12, false, text);
     }
+    return right;
 }
 
 static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
@@ -282,6 +284,8 @@ static void draw_labels(cairo_t *page, const map *m, const plan_view *view)
     for (int32_t i = view->label_count - 1; i >= 0; i--) {
         const plan_label *l = &view->labels[i];
         double rgb[3];
+        if (l->bare)
+            continue;
         image_ramp((double)l->value, rgb);
         cairo_new_path(page);
         cairo_arc(page, map_x(m, l->at), map_y(m, l->at), LABEL_RADIUS, 0, 2 * PI);
@@ -304,29 +308,36 @@ static void draw_labels(cairo_t *page, const map *m, const plan_view *view)
     cairo_new_path(page);
 }
 
-void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double right, double y)
+void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double left, double right, double y)
 {
-    enum { BAR = 150, STEPS = 50 };
-    char text[32];
-    snprintf(text, sizeof text, "%.3g", hi);
+    enum { BAR = 150, LEAST_BAR = 50, STEPS = 50, GAP_BAR = 8, NEXT_LINE = 14 };
+    char low[32], high[32];
+    snprintf(low, sizeof low, "%.3g", lo);
+    snprintf(high, sizeof high, "%.3g", hi);
     image_set_colour(page, ink);
-    right -= image_text_width(page, 12, false, text);
-    image_text(page, right, y, 12, ALIGN_LEFT, false, text);
-    right -= BAR + 8;
+    double title = image_text_width(page, 12, false, name) + GAP_BAR, end = right;
+    double room =
+        right - left - image_text_width(page, 12, false, low) - image_text_width(page, 12, false, high) - 2 * GAP_BAR;
+    bool beside = room - title >= LEAST_BAR;
+    double bar = fmin(fmax(beside ? room - title : room, LEAST_BAR), BAR);
+    right -= image_text_width(page, 12, false, high);
+    image_text(page, right, y, 12, ALIGN_LEFT, false, high);
+    right -= bar + GAP_BAR;
     for (int i = 0; i < STEPS; i++) {
         double rgb[3];
         image_ramp((i + 0.5) / STEPS, rgb);
         cairo_set_source_rgb(page, rgb[0], rgb[1], rgb[2]);
-        cairo_rectangle(page, right + (double)i * BAR / STEPS, y - 11, (double)BAR / STEPS + 0.5, 12);
+        cairo_rectangle(page, right + i * bar / STEPS, y - 11, bar / STEPS + 0.5, 12);
         cairo_fill(page);
     }
     image_set_colour(page, ink);
-    snprintf(text, sizeof text, "%.3g", lo);
-    image_text(page, right - 8, y, 12, ALIGN_RIGHT, false, text);
-    image_text(page, right - 16 - image_text_width(page, 12, false, text), y, 12, ALIGN_RIGHT, false, name);
+    image_text(page, right - GAP_BAR, y, 12, ALIGN_RIGHT, false, low);
+    double before = right - 2 * GAP_BAR - image_text_width(page, 12, false, low);
+    image_text(page, beside ? before : end, beside ? y : y + NEXT_LINE, 12, ALIGN_RIGHT, false, name);
 }
 
-static void draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, double y)
+/* Returns where it ends on its line. */
+static double draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, double y)
 {
     double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
     char text[48], force[IMAGE_FORCE_TEXT];
@@ -339,11 +350,13 @@ static void draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, 
     cairo_fill(page);
     image_set_colour(page, ink);
     image_text(page, x + px + 8, y, 12, ALIGN_LEFT, false, text);
+    double end = x + px + 8 + image_text_width(page, 12, false, text);
     if (!(arrow > 0))
-        return;
+        return end;
     image_force_text(length / arrow, force);
     snprintf(text, sizeof text, "as an arrow %s", force);
     image_text(page, x, y + 14, 12, ALIGN_LEFT, false, text);
+    return end;
 }
 
 /* The axes of the global frame, for there is no north in a scenario. */
@@ -389,7 +402,8 @@ static void draw_legend(cairo_t *page, const plan_view *view, const bool used[PL
     }
 }
 
-enum { MARGIN = 14, ABOVE = 64, BELOW = 44, LEAST_WIDTH = 720 };
+/* AXES: from the right end of a page to their origin. */
+enum { MARGIN = 14, ABOVE = 64, BELOW = 44, LEAST_WIDTH = 720, TEXTS = LEAST_WIDTH - 2 * MARGIN, AXES = 60 };
 
 void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
 {
@@ -411,17 +425,20 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     draw_labels(page, &m, view);
     cairo_restore(page);
 
-    double below = m.top + h * m.scale + 28;
+    /* What is written needs its room beside a narrow plan too. */
+    double beside = fmax(0, fmin(TEXTS, width - 2 * MARGIN) - w * m.scale) / 2;
+    double left = m.left - beside, right = m.left + w * m.scale + beside, below = m.top + h * m.scale + 28;
     image_set_colour(page, ink);
-    image_text(page, m.left, 26, 17, ALIGN_LEFT, true, view->title);
-    image_text(page, m.left, 48, 12.5, ALIGN_LEFT, false, view->caption);
-    draw_scale_bar(page, &m, view->arrow_scale, m.left, below);
-    draw_axes(page, width - 60, 44);
-    draw_flows(page, view, width - 84, 50);
+    if (!view->no_axes)
+        draw_axes(page, width - AXES, 44);
+    double end = draw_flows(page, view, width - AXES - 24, 50);
+    image_text_fitted(page, left, 26, 17, true, width - AXES - 16 - left, view->title);
+    image_text_fitted(page, left, 48, 12.5, false, end - 12 - left, view->caption);
+    end = draw_scale_bar(page, &m, view->arrow_scale, left, below);
     if (view->scale_name)
-        plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, m.left + w * m.scale, below);
+        plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, end + 16, right, below);
     else
-        draw_legend(page, view, used, m.left + w * m.scale, below);
+        draw_legend(page, view, used, right, below);
 }
 
 /* How large a page is whose plan has `longest` pixels along its longer side. */

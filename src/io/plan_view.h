@@ -46,6 +46,7 @@ typedef struct plan_label {
     vec2 at;
     float value; /* 0 to 1, on the colours of image_ramp */
     char text[32];
+    bool bare; /* a name without a disc */
 } plan_label;
 
 /* What moves over the whole of a plan: an arrow beside the title, with its name and speed. */
@@ -72,6 +73,7 @@ typedef struct plan_view {
     int32_t line_count;
     const plan_flow *flows;
     int32_t flow_count;
+    bool no_axes;           /* X and Y of the global frame are not those of the shapes */
     double arrow_scale;     /* of the arrows, told beside the scale bar [m/N]; 0: not told */
     const char *scale_name; /* of the shapes' values, with unit; NULL: none */
     double scale_lo, scale_hi;
@@ -86,8 +88,9 @@ fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text
 
 #ifdef FRAM_HAVE_CAIRO
 #include <cairo.h>
-/* Colours of values from lo to hi with their name, ending at `right`, on a line of text at y. */
-void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double right, double y);
+/* Colours of values from lo to hi with their name, ending at `right`, on a line of text at y; not before
+   `left`, for which the bar gets shorter, and then the name goes to the next line. */
+void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double left, double right, double y);
 /* Into the rectangle of width x height pixels from the origin of a page, title and legend included. */
 void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height);
 #endif

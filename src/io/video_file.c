@@ -23,6 +23,28 @@ static void forget(video_file *v)
     *v = (video_file){.socket = -1};
 }
 
+/* An errno value, 0 when it runs: it reads from ends[1].  A process group of its own, so that Ctrl-C in a terminal
+   reaches the caller alone, who ends it. */
+static int spawn(const int ends[2], char *const *arguments, pid_t *process)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int code = posix_spawnattr_init(&attributes);
+    if (code != 0)
+        return code;
+    code = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    if (code == 0)
+        code = posix_spawn_file_actions_init(&actions);
+    if (code == 0) {
+        code = posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+        if (code == 0)
+            code = posix_spawnp(process, arguments[0], &actions, &attributes, arguments, environ);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    posix_spawnattr_destroy(&attributes);
+    return code;
+}
+
 /* A socket, not a pipe: writing to an ffmpeg that went away is an error (MSG_NOSIGNAL), not a signal to the caller.  No
    other program gets it, be it the ffmpeg of a second video: this one would wait for its end too. */
 static fram_status start(video_file *v, char *const *arguments, fram_error *error)
@@ -30,15 +52,8 @@ static fram_status start(video_file *v, char *const *arguments, fram_error *erro
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return file_error(error, v->path, "make a pipe", errno);
-    posix_spawn_file_actions_t actions;
     pid_t process = 0;
-    int code = posix_spawn_file_actions_init(&actions);
-    if (code == 0) {
-        code = posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-        if (code == 0)
-            code = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
-        posix_spawn_file_actions_destroy(&actions);
-    }
+    int code = spawn(ends, arguments, &process);
     close(ends[1]);
     v->socket = ends[0];
     v->process = (int)process;
@@ -55,7 +70,9 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     static const char protocol[] = "file:";
     int descriptor = -1;
     *v = (video_file){.ctx = ctx, .socket = -1, .path = memory_string(ctx, path)};
-    fram_status status = v->path ? temporary_file(ctx, path, &v->temporary, &descriptor, error) : error_memory(error);
+    fram_status status = v->path ? atomic_file_check(path, error) : error_memory(error);
+    if (status == FRAM_OK)
+        status = temporary_file(ctx, path, &v->temporary, &descriptor, error);
     if (status != FRAM_OK) {
         forget(v);
         return status;

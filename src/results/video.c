@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/csv_read.h"
+#include "io/folder.h"
 #include "io/image.h"
 #include "io/path.h"
 #include "io/plan_flows.h"
@@ -14,6 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #ifdef FRAM_HAVE_CAIRO
 
@@ -101,7 +103,7 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     double left = 14, right = v->options->width - 14, top = v->options->height - CURVE_HEIGHT + CURVE_TOP;
     double bottom = v->options->height - 10, begin = v->time.data[0], end = v->time.data[v->time.count - 1];
     double span = end > begin ? end - begin : 1, most = v->most > 0 ? v->most : 1;
-    char text[128];
+    char text[192];
     cairo_move_to(page, left, bottom);
     for (int32_t i = 0; i < v->time.count; i++)
         cairo_line_to(page, left + (v->time.data[i] - begin) / span * (right - left),
@@ -116,9 +118,9 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     cairo_fill(page);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
     vessel_entry first = scenario_vessel_entry(&v->s, 0);
-    snprintf(text, sizeof text, "horizontal ice load on %s, averaged; largest %.4g kN", vessel_title_of(&first).text,
-             v->most * 1e-3);
-    image_text(page, left, top - 5, 12, ALIGN_LEFT, false, text);
+    snprintf(text, sizeof text, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g kN",
+             vessel_title_of(&first).text, v->most * 1e-3);
+    image_text_fitted(page, left, top - 5, 12, false, right - left, text);
 }
 
 static box2 window_of(const video *v, int width, int height)
@@ -159,7 +161,7 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
     int width = v->options->width, height = v->options->height - CURVE_HEIGHT;
     char caption[128];
     fram_status status = replay_moment_at(&v->r, time, &v->moment, error);
-    snprintf(caption, sizeof caption, "t = %.1f s of %.0f s", time, v->time.data[v->time.count - 1]);
+    snprintf(caption, sizeof caption, "t = %.1f s of %.1f s", time, v->time.data[v->time.count - 1]);
     if (v->options->camera != VIDEO_PLAN)
         return status == FRAM_OK ? draw_space(v, time, caption, page, error) : status;
     if (status == FRAM_OK)
@@ -196,12 +198,18 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
 
 /* ---- all pictures ---- */
 
+static fram_status name_picture(const video *v, int64_t number, char path[PATH_ROOM], fram_error *error)
+{
+    char name[32];
+    snprintf(name, sizeof name, "frame-%06lld.png", (long long)number);
+    return path_join(v->path, name, path, error);
+}
+
 static fram_status keep_picture(video *v, video_file *file, cairo_t *page, int64_t number, fram_error *error)
 {
     if (v->options->pictures) {
-        char name[32], path[PATH_ROOM];
-        snprintf(name, sizeof name, "frame-%06lld.png", (long long)number);
-        fram_status status = path_join(v->path, name, path, error);
+        char path[PATH_ROOM];
+        fram_status status = name_picture(v, number, path, error);
         if (status == FRAM_OK)
             return image_write(v->ctx, page, path, error);
         cairo_destroy(page);
@@ -266,11 +274,35 @@ static fram_status make_video(video *v, const char *folder, int64_t *frames, fra
     return status;
 }
 
+/* A program that makes a film of the folder would take what a longer series left for the end of this one. */
+static fram_status remove_later_pictures(const video *v, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = FRAM_OK;
+    for (int64_t i = v->count; i < FRAMES_MOST && status == FRAM_OK; i++) {
+        status = name_picture(v, i, path, error);
+        if (status == FRAM_OK && unlink(path) != 0)
+            break;
+    }
+    return status;
+}
+
 static fram_status make_pictures(video *v, const char *folder, int64_t *frames, fram_error *error)
 {
-    if (mkdir(v->path, 0777) != 0 && errno != EEXIST)
-        return file_error(error, v->path, "make the folder", errno);
-    return write_pictures(v, folder, NULL, frames, error);
+    bool empty = true;
+    fram_status status = folder_is_empty(v->path, &empty, error);
+    if (status == FRAM_OK && !empty && !v->options->force)
+        status = folder_refuse(v->path, error);
+    if (status == FRAM_OK && mkdir(v->path, 0777) != 0 && errno != EEXIST)
+        status = file_error(error, v->path, "make the folder", errno);
+    if (status == FRAM_OK && !empty)
+        status = remove_later_pictures(v, error);
+    if (status == FRAM_OK)
+        status = write_pictures(v, folder, NULL, frames, error);
+    if (status == FRAM_INTERRUPTED)
+        status = error_set(error, FRAM_INTERRUPTED, v->path, 0, NULL, "interrupted; %lld of %lld pictures are there",
+                           (long long)*frames, (long long)v->count);
+    return status;
 }
 
 fram_status video_write(context *ctx, const char *folder, const video_options *options, int64_t *frames, char *path,

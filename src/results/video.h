@@ -14,9 +14,11 @@ typedef struct video_options {
     int frames_per_second;
     int width, height; /* [pixels], even */
     bool pictures;     /* numbered PNG files in the folder `output` (FOLDER/video) instead of a video */
+    bool force;        /* pictures: though the folder is not empty; those of a longer series go */
 } video_options;
 
-/* frames: how many there are.  path: what was written, at least 1024 bytes. */
+/* frames: how many there are.  path: what was written, at least 1024 bytes.  FRAM_INTERRUPTED when the context's stop
+   flag is set: no video is left then, and of the pictures those that were drawn. */
 fram_status video_write(context *ctx, const char *folder, const video_options *options, int64_t *frames, char *path,
                         fram_error *error);
 

@@ -11,7 +11,10 @@ const char *video_camera_name(video_camera camera) { return names[camera]; }
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { ABOVE = 60, BELOW = 40, EDGE = 14 };
+enum { ABOVE = 60, BELOW = 40, LINE = 16, EDGE = 14 };
+/* What is written under the scene is one line in pictures that are so wide, two lines in those of a middle width, else
+   four. [pixels] */
+enum { WIDE = 1200, MIDDLE = 680, AXES = 60 };
 static const double sky[3] = {0.87, 0.91, 0.94}, water[3] = {0.18, 0.40, 0.56}, rim[3] = {0.36, 0.45, 0.53};
 static const double ice[3] = {0.95, 0.97, 0.98}, hull[3] = {0.71, 0.25, 0.16}, wall[3] = {0.48, 0.45, 0.42};
 static const double water_cover = 0.86;
@@ -194,14 +197,57 @@ static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_cam
     return x + px + 8 + image_text_width(page, 12, false, text) + 24;
 }
 
-static double draw_key(cairo_t *page, image_colour colour, const char *name, double x, double y)
+/* A line of keys that goes on in the next one where the picture ends. */
+typedef struct key_line {
+    cairo_t *page;
+    double x, y, right;
+} key_line;
+
+/* A text, behind its colour where it has one. */
+static void draw_key(key_line *k, const image_colour *colour, const char *name)
 {
-    image_set_colour(page, colour);
-    cairo_rectangle(page, x, y - 10, 11, 11);
-    cairo_fill(page);
-    image_set_colour(page, ink);
-    image_text(page, x + 16, y, 12, ALIGN_LEFT, false, name);
-    return x + 16 + image_text_width(page, 12, false, name) + 14;
+    double sign = colour ? 16 : 0, wide = sign + image_text_width(k->page, 12, false, name);
+    if (k->x + wide > k->right && k->x > EDGE) {
+        k->x = EDGE;
+        k->y += LINE;
+    }
+    if (colour) {
+        image_set_colour(k->page, *colour);
+        cairo_rectangle(k->page, k->x, k->y - 10, 11, 11);
+        cairo_fill(k->page);
+    }
+    image_set_colour(k->page, ink);
+    image_text(k->page, k->x + sign, k->y, 12, ALIGN_LEFT, false, name);
+    k->x += wide + 14;
+}
+
+static int lines_under(int width) { return width >= WIDE ? 1 : width >= MIDDLE ? 2 : 4; }
+
+static bool has_several_vessels(const replay *r, const replay_moment *m)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < m->poses.count; i++)
+        count += r->bodies.data[m->poses.data[i].body].material == MATERIAL_HULL;
+    return count > 1;
+}
+
+/* Scale bar, colours and keys, from the line at y on. */
+static void draw_under(cairo_t *page, const video_scene *s, const solid_view *v, const solid_camera *c, bool vessels,
+                       const bool used[FORCE_KINDS], bool marked, int width, double y)
+{
+    int lines = lines_under(width);
+    double end = draw_scale_bar(page, v, c, s->arrow, EDGE, y);
+    if (plan_colour_title(s->colour))
+        plan_view_colour_scale(page, plan_colour_title(s->colour), s->lo, s->hi, lines > 2 ? EDGE : end, width - EDGE,
+                               lines > 2 ? y + LINE : y);
+    key_line keys = {page, lines == 1 ? end : EDGE, y + (lines / 2) * LINE, width - EDGE};
+    if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER] || used[RECORD_FORCE_HULL])
+        draw_key(&keys, NULL, vessels ? "forces on the vessels:" : "forces on the vessel:");
+    for (int k = 0; k < FORCE_KINDS; k++)
+        if (used[k])
+            draw_key(&keys, &forces[k].colour, forces[k].name);
+    if (marked)
+        draw_key(&keys, &mark, "ice broke");
 }
 
 fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r, const replay_moment *m, cairo_t *page,
@@ -209,7 +255,7 @@ fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r
 {
     solid_camera camera = camera_of(s, r, m);
     solid_view v;
-    int h = height - ABOVE - BELOW;
+    int h = height - ABOVE - BELOW - (lines_under(width) - 1) * LINE;
     fram_status status = solid_view_begin(ctx, &camera, width, h, sky, &v, error);
     if (status != FRAM_OK)
         return status;
@@ -229,20 +275,10 @@ fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r
     bool marked = draw_marks(page, s, r, m, &v);
     cairo_restore(page);
     image_set_colour(page, ink);
-    image_text(page, EDGE, 25, 17, ALIGN_LEFT, true, s->title);
+    image_text_fitted(page, EDGE, 25, 17, true, width - AXES - 40 - EDGE, s->title);
     image_text(page, EDGE, 47, 12.5, ALIGN_LEFT, false, s->caption);
-    draw_axes(page, &v, &camera, width - 60, 34);
-    double below = ABOVE + h + 24, x = draw_scale_bar(page, &v, &camera, s->arrow, EDGE, below);
-    if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER] || used[RECORD_FORCE_HULL]) {
-        image_text(page, x, below, 12, ALIGN_LEFT, false, "forces on the vessel:");
-        x += image_text_width(page, 12, false, "forces on the vessel:") + 10;
-    }
-    for (int k = 0; k < FORCE_KINDS; k++)
-        x = used[k] ? draw_key(page, forces[k].colour, forces[k].name, x, below) : x;
-    if (marked)
-        draw_key(page, mark, "a floe broke", x, below);
-    if (plan_colour_title(s->colour))
-        plan_view_colour_scale(page, plan_colour_title(s->colour), s->lo, s->hi, width - EDGE, below);
+    draw_axes(page, &v, &camera, width - AXES, 34);
+    draw_under(page, s, &v, &camera, has_several_vessels(r, m), used, marked, width, ABOVE + h + 24);
     solid_view_free(&v);
     return status;
 }

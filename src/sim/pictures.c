@@ -108,6 +108,22 @@ static bool collect_lines(context *ctx, const world *w, plan_line_array *out)
     return true;
 }
 
+/* Time and floes, of which the tiles of a sheet are none, as the playback page tells them. */
+static void caption_of(const world *w, char *caption, size_t size)
+{
+    int32_t floes = 0, tiles = 0;
+    for (int32_t i = 0; i < w->floes.count; i++) {
+        bool tile = w->floes.tile[i] != 0;
+        tiles += w->floes.body[i] >= 0 && tile;
+        floes += w->floes.body[i] >= 0 && !tile;
+    }
+    if (tiles > 0 && floes == 0)
+        snprintf(caption, size, "t = %.2f s, level ice", w->clock.time[0]);
+    else
+        snprintf(caption, size, "t = %.2f s, %s%d %s", w->clock.time[0], tiles > 0 ? "level ice and " : "", (int)floes,
+                 floes == 1 ? "floe" : "floes");
+}
+
 fram_status picture_plan(context *ctx, const scenario *s, const world *w, const char *path, fram_error *error)
 {
     plan_store p = {0};
@@ -117,10 +133,7 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
         status = error_memory(error);
     plan_flows flows = plan_flows_at(ctx, s, w->clock.time[0]);
     char caption[256];
-    int32_t floes = 0;
-    for (int32_t i = 0; i < w->floes.count; i++)
-        floes += w->floes.body[i] >= 0;
-    snprintf(caption, sizeof caption, "t = %.2f s, %d floes", w->clock.time[0], (int)floes);
+    caption_of(w, caption, sizeof caption);
     double border = s->domain.boundary == DOMAIN_WALLS ? s->domain.wall_thickness : 0;
     plan_view view = {.window = {{s->domain.x_min - border, s->domain.y_min - border},
                                  {s->domain.x_max + border, s->domain.y_max + border}},

@@ -1,7 +1,9 @@
-/* The unrolled hull as a picture: each side seen from outside, hulls beside each other one above the other. */
+/* The unrolled hull as a picture: each side with x or, of the ends, y to the right; hulls beside each other one above
+   the other. */
 #include "sim/hull_pressure_parts.h"
 
 #include "io/plan_view.h"
+#include "model/scenario_vessel.h"
 
 #include <stdio.h>
 
@@ -83,6 +85,8 @@ static void set_layers(const pressure_map *p, patch_view *view)
 typedef struct sheet {
     vec2 shift[SIDE_COUNT][LAYERS_MOST];
     box2 window;
+    plan_label name[SIDE_COUNT * LAYERS_MOST];
+    int32_t names;
 } sheet;
 
 static box2 side_box(const pressure_map *p, const patch_view *view, int side, int32_t layer)
@@ -97,10 +101,33 @@ static box2 side_box(const pressure_map *p, const patch_view *view, int side, in
     return box;
 }
 
+static void name_view(sheet *s, int side, int32_t layer, vec2 at)
+{
+    plan_label *l = &s->name[s->names++];
+    *l = (plan_label){.at = at, .bare = true};
+    if (layer > 0)
+        snprintf(l->text, sizeof l->text, "%s, %d", hull_side_name((hull_side)side), (int)layer + 1);
+    else
+        snprintf(l->text, sizeof l->text, "%s", hull_side_name((hull_side)side));
+}
+
+/* Between two views, over the longest side: room for a name at any size of the panels. */
+#define GAP 0.03
+
+static double longest_side(const pressure_map *p, const patch_view *view)
+{
+    double longest = 0;
+    for (int32_t i = 0; i < p->panels.patch.count; i++) {
+        if (view[i].used)
+            longest = fmax(longest, fmax(view[i].box.hi.x - view[i].box.lo.x, view[i].box.hi.y - view[i].box.lo.y));
+    }
+    return longest;
+}
+
 static void place(const pressure_map *p, const patch_view *view, sheet *s)
 {
     static const int order[SIDE_COUNT] = {SIDE_PORT, SIDE_STARBOARD, SIDE_BOTTOM, SIDE_DECK, SIDE_BOW, SIDE_STERN};
-    double gap = fmax(p->o->rules.size, 1), down = 0, right = -HUGE_VAL, left = HUGE_VAL;
+    double gap = GAP * longest_side(p, view), down = 0, right = -HUGE_VAL, left = HUGE_VAL;
     s->window = (box2){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (int i = 0; i < SIDE_COUNT; i++) {
         bool end = order[i] == SIDE_BOW || order[i] == SIDE_STERN;
@@ -112,6 +139,7 @@ static void place(const pressure_map *p, const patch_view *view, sheet *s)
                 continue;
             double x = end && right > -HUGE_VAL ? right + 2 * gap - box.lo.x : 0;
             s->shift[order[i]][layer] = vec2_make(x, down - box.hi.y);
+            name_view(s, order[i], layer, vec2_make(box.lo.x + x, down + gap / 2));
             down -= box.hi.y - box.lo.y + gap;
             left = fmin(left, box.lo.x + x);
             s->window = (box2){{fmin(s->window.lo.x, left), fmin(s->window.lo.y, down)},
@@ -150,7 +178,8 @@ static int32_t add_shapes(const pressure_map *p, const patch_view *view, const s
 fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
 {
     const hull_panels *h = &p->panels;
-    char caption[200];
+    char caption[200], title[200];
+    vessel_entry vessel = scenario_vessel_entry(&p->s, p->vessel);
     double most = 0;
     sheet s = {0};
     plan_shape *shapes = memory_array(p->ctx, (size_t)h->facet.count, sizeof *shapes);
@@ -164,14 +193,19 @@ fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
         set_layers(p, view);
         place(p, view, &s);
         int32_t count = add_shapes(p, view, &s, most, shapes, corners);
+        snprintf(title, sizeof title, "Largest ice pressure on %s", vessel_title_of(&vessel).text);
         snprintf(caption, sizeof caption,
-                 "from above: port, starboard, bottom, deck; to the right bow, stern; panels of %g m, %g s",
+                 "the bow is to the right; bottom and deck with port up, bow and stern with port to the right; "
+                 "panels of %g m, %g s",
                  p->o->rules.size, p->time);
         const plan_view picture = {.window = s.window,
-                                   .title = "Largest ice pressure on the hull",
+                                   .title = title,
                                    .caption = caption,
                                    .shapes = shapes,
                                    .shape_count = count,
+                                   .labels = s.name,
+                                   .label_count = s.names,
+                                   .no_axes = true,
                                    .scale_name = "pressure [MPa]",
                                    .scale_hi = most * 1e-6};
         status = plan_view_write(p->ctx, &picture, path, LONGEST, error);

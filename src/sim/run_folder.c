@@ -44,21 +44,6 @@ fram_status run_folder_make(const char *folder, fram_error *error)
     return FRAM_OK;
 }
 
-/* A folder that is not there is empty too. */
-static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
-{
-    *empty = true;
-    DIR *dir = opendir(folder);
-    if (!dir && errno == ENOENT)
-        return FRAM_OK;
-    if (!dir)
-        return file_error(error, folder, "open the folder", errno);
-    int failure;
-    *empty = !folder_next(dir, &failure);
-    closedir(dir);
-    return failure ? file_error(error, folder, "list the folder", failure) : FRAM_OK;
-}
-
 /* The run's scenario is read again, by a resume and by reports, and its path is a text of a scenario. */
 static fram_status check_length(const char *folder, fram_error *error)
 {
@@ -94,13 +79,12 @@ fram_status run_folder_check(const char *folder, bool force, fram_error *error)
     bool empty = true;
     fram_status status = check_length(folder, error);
     if (status == FRAM_OK)
-        status = is_empty(folder, &empty, error);
+        status = folder_is_empty(folder, &empty, error);
     if (status == FRAM_OK && (empty || force))
         status = can_be_written(folder, error);
     if (status != FRAM_OK || empty || force)
         return status;
-    return error_set(error, FRAM_ERROR_USAGE, folder, 0, "folder",
-                     "the folder is not empty; name another one, or allow that the results in it are overwritten");
+    return folder_refuse(folder, error);
 }
 
 /* A file of results that there is for each of several vessels: "loads-NAME.png". */

@@ -187,9 +187,9 @@ static void add_head(study_page *p)
     html_begin(&p->page, "Study", slash ? slash + 1 : p->f->s->scenario);
     html_figures_begin(&p->page);
     snprintf(text, sizeof text, "%d", (int)p->f->s->conditions);
-    html_figure(&p->page, "conditions", text, "");
+    html_figure(&p->page, p->f->s->conditions == 1 ? "condition" : "conditions", text, "");
     snprintf(text, sizeof text, "%lld", (long long)runs);
-    html_figure(&p->page, "runs", text, "");
+    html_figure(&p->page, runs == 1 ? "run" : "runs", text, "");
     snprintf(text, sizeof text, "%lld", (long long)failed);
     html_figure(&p->page, "of them failed", text, "");
     snprintf(text, sizeof text, "%g", 100 * p->f->s->seeds.confidence);
@@ -251,7 +251,9 @@ static void add_table(study_page *p, const bool *has)
     int32_t count = 1;
     html_section(&p->page, "Conditions");
     text_add(p->f->ctx, &p->page.text,
-             "<style>.wide{overflow-x:auto}.wide td,.wide code{overflow-wrap:normal;white-space:nowrap}</style>\n");
+             "<style>.wide{overflow-x:auto}.wide td{overflow-wrap:normal;white-space:nowrap}"
+             ".wide td.command{white-space:normal;min-width:9em}.wide code{overflow-wrap:anywhere}"
+             ".wide code i{font-style:normal;white-space:nowrap}</style>\n");
     for (int i = 0; i < PAGE_FIGURES; i++) {
         snprintf(names[i], sizeof names[i], "%s [%s]", page_figures[i].name, page_figures[i].unit);
         if (has[i])
@@ -324,12 +326,13 @@ static void add_playback(study_page *p, const worst_run *run)
     if (study_worst_has_playback(p->f, run))
         text_format(p->f->ctx, text, "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>", id, seed);
     else if (study_worst_has_record(p->f, run))
-        text_format(p->f->ctx, text, "<td><code>fram view worst/%s-%lld</code> makes it from the record</td>", id,
+        text_format(p->f->ctx, text,
+                    "<td class=\"command\"><code>fram view worst/%s-%lld</code> makes it from the record</td>", id,
                     seed);
     else
         text_format(p->f->ctx, text,
-                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 "
-                    "-o worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
+                    "<td class=\"command\"><code>fram run conditions/%s.yaml <i>--set</i> run.seed=%lld <i>--set</i> "
+                    "output.frame_interval=1 <i>-o</i> worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
                     id, seed, id, seed, id, seed);
 }
 
@@ -344,6 +347,8 @@ static void add_worst(study_page *p)
     int32_t count = study_worst_find(p->f, p->conditions, by.figure, most, worst);
     snprintf(name, sizeof name, "%s [%s]", by.name, by.unit);
     const char *heads[] = {"condition", "seed", name, load ? "Mean load [kN]" : "Largest load [kN]", "playback"};
+    if (count == 0)
+        return;
     html_section(&p->page, "Worst runs");
     if (s->worst.count < count)
         html_paragraph(
@@ -374,10 +379,14 @@ static void add_worst(study_page *p)
 static fram_status make_page(study_page *p, fram_error *error)
 {
     bool has[PAGE_FIGURES];
+    int64_t runs, failed;
     for (int i = 0; i < PAGE_FIGURES; i++)
         has[i] = has_figure(p, &page_figures[i]);
     add_head(p);
     add_table(p, has);
+    page_count_runs(p, &runs, &failed);
+    if (runs == 0)
+        html_paragraph(&p->page, "No run has ended yet: the study command, given again, makes them.");
     page_add_failed(p);
     fram_status status = page_add_differences(p, has, error);
     if (status == FRAM_OK)

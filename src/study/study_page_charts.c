@@ -67,8 +67,8 @@ static bool add_condition(study_charts *w, chart_group *g, int32_t condition, do
     const condition_rows *of = &w->p->conditions[condition];
     seed_interval i = page_interval(w->p, condition, figure);
     double half = isfinite(i.half) ? i.half : 0, none = (double)NAN;
-    /* Of sizes, whose means are none below 0. */
-    double low = fmax(i.mean - half, fmin(i.mean, 0));
+    /* Of sizes, whose means are none below 0; none where all runs failed. */
+    double low = isfinite(i.mean) ? fmax(i.mean - half, fmin(i.mean, 0)) : none;
     const double bar_x[3] = {x, x, x}, bar_y[3] = {low, i.mean + half, none};
     bool good = array_push(ctx, &g->x, x) && array_push(ctx, &g->mean, i.mean) && array_push(ctx, &g->low, low) &&
                 array_push(ctx, &g->high, i.mean + half);
@@ -160,12 +160,18 @@ fram_status page_add_charts(study_page *p, const bool *has, fram_error *error)
     w.groups = w.is_series ? w.series.groups : 1;
     for (int32_t g = 0; g < w.groups; g++)
         name_group(&w, g);
-    html_section(&p->page, "Seeds and means");
-    html_grid_begin(&p->page);
-    for (int i = 0; i < PAGE_FIGURES && status == FRAM_OK; i++)
-        if (has[i])
-            status = add_chart(&w, &page_figures[i], error);
-    html_grid_end(&p->page);
+    int32_t charts = 0;
+    for (int i = 0; i < PAGE_FIGURES && status == FRAM_OK; i++) {
+        if (!has[i])
+            continue;
+        if (charts++ == 0) {
+            html_section(&p->page, "Seeds and means");
+            html_grid_begin(&p->page);
+        }
+        status = add_chart(&w, &page_figures[i], error);
+    }
+    if (charts > 0)
+        html_grid_end(&p->page);
     groups_free(&w);
     return status;
 }

@@ -103,6 +103,15 @@ if "$FRAM" --version | grep -q cairo; then
     cmp -s ship.png before.png || fail "a picture that could not be written took the one of before"
 fi
 
+# A light ship with her centre of gravity high and off the middle floats keel up; the drawing, which is upright, has its
+# water at the deck.
+if built_with cairo; then
+    expect 0 "$FRAM" hull --length 90 --beam 20 --draught 6.5 --block-coefficient 0.5 -o light.stl --quiet
+    expect 0 "$FRAM" hull light.stl --mass 4e6 --kg 9 --tcg 0.5 --draw light.png --json
+    same "$(value 'abs(j["heel_deg"]) > 170')" True "a ship that floats keel up"
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" wet light.png || fail "light.png"
+fi
+
 # A hole is refused with its place, and filled on request.
 grep -v '^f' ship.obj >hole.obj
 grep '^f' ship.obj | head -n -1 >>hole.obj # without a triangle of the deck

@@ -84,6 +84,11 @@ for c in curve:
 PYTHON
 [ -s map/hull.vtp ] || fail "no hull.vtp"
 ! built_with cairo || [ -s map/pressure.png ] || fail "no pressure.png"
+# The sides stand as far apart whatever the size of the panels.
+if built_with cairo; then
+    expect 0 "$FRAM" pressure run -o coarse --panel 9 --from 2.9 --quiet
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" size map/pressure.png coarse/pressure.png || fail "coarse/pressure.png"
+fi
 # From the start as from a checkpoint.
 mkdir moved
 mv run/checkpoint* moved/

@@ -55,8 +55,7 @@ for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "h
     says "of its own" err
 done
 cmp -s b.stl kept.stl || fail "a hull was written over by itself"
-for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "video run -o" \
-    "export run --geojson --time 1 -o"; do
+for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "export run --geojson --time 1 -o"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words b.stl
     says "--force" err
@@ -244,11 +243,48 @@ if [ $pictures = yes ]; then
     [ ! -e endless ] || fail "a refused video left a folder"
     expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
     cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
+    # A folder with something in it is left alone; by force a shorter series leaves nothing of a longer one.
+    expect 2 "$FRAM" video run --pictures --fps 1 --width 480 --height 360 -o frames
+    says "the folder is not empty" err
+    [ "$(find frames -type f | wc -l)" = 7 ] || fail "the folder was written into: $(ls frames)"
+    touch frames/mine
+    expect 0 "$FRAM" video run --pictures --fps 1 --width 480 --height 360 -o frames --force
+    [ "$(find frames -type f | wc -l)" = 5 ] || fail "a shorter series leaves pictures of a longer one: $(ls frames)"
+    # What cannot be the name of a video is told before anything is drawn.
+    mkdir folder.mp4
+    for name in run.avi film folder.mp4; do
+        expect 2 "$FRAM" video run -o $name
+        [ ! -f $name ] || fail "a video is called $name"
+    done
+    says "found a folder" err
+    ! grep -q drawing err || fail "a video that has no place is drawn"
+    # In narrow pictures the texts stand side by side, or one below the other.
+    for camera in orbit plan; do
+        for size in 320x360 700x480; do
+            expect 0 "$FRAM" video run --pictures --fps 1 --speed 3 --colour force --camera $camera \
+                --width "${size%x*}" --height "${size#*x}" -o "$camera-$size"
+        done
+    done
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" scales {orbit,plan}-* || fail "texts cover each other"
     expect 2 "$FRAM" video run -o no/such/run.mp4
     says "cannot open for writing" err
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
     says "needs ffmpeg" err
     [ -z "$(ls none.mp4* 2>/dev/null)" ] || fail "a video without ffmpeg left $(ls none.mp4*)"
+    # Ctrl-C, here by who is given the frames, leaves nothing; it does not reach ffmpeg by itself.
+    mkdir bin
+    cat >bin/ffmpeg <<'END'
+#!/bin/sh
+head -c 1000 >/dev/null
+ps -o pgid= -p $$ -p $PPID | sort -u | wc -l >groups
+kill -INT $PPID
+exec cat >/dev/null
+END
+    chmod +x bin/ffmpeg
+    expect 130 env PATH="$scratch/bin:$PATH" "$FRAM" video run --fps 100 --speed 1 -o stopped.mp4
+    says "interrupted" err
+    [ -z "$(ls stopped.mp4* 2>/dev/null)" ] || fail "an interrupted video left $(ls stopped.mp4*)"
+    [ "$(cat groups)" = 2 ] || fail "ffmpeg is in the process group of the command"
     if command -v ffmpeg >/dev/null; then
         expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --camera plan --span 80 -o run.mp4
         [ "$(head -c 8 run.mp4 | tail -c 4)" = ftyp ] || fail "run.mp4 is no MP4"

@@ -288,7 +288,8 @@ START_TEST(labels_that_cover_each_other)
 {
     enum { LONGEST = 800 };
     double high[3];
-    const plan_label labels[3] = {{{-5, 5}, 1, "floe 600, 21 %"}, {{-5, 4.9}, 0, "|"}, {{5, -5}, 0.5F, "floe 7, 2 %"}};
+    const plan_label labels[3] = {
+        {{-5, 5}, 1, "floe 600, 21 %", false}, {{-5, 4.9}, 0, "|", false}, {{5, -5}, 0.5F, "floe 7, 2 %", false}};
     plan_view view = {.window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .labels = labels};
     image_ramp(1, high);
     int bright[4] = {0}, rgb[3];
@@ -314,9 +315,67 @@ START_TEST(labels_that_cover_each_other)
 }
 END_TEST
 
+/* How many pixels of a row, from one on to the right, are of ink, or of colours. */
+static int run_of(cairo_surface_t *page, int width, int y, int from, bool coloured)
+{
+    const unsigned char *row = cairo_image_surface_get_data(page) + y * cairo_image_surface_get_stride(page);
+    int x = from;
+    for (; x < width; x++) {
+        bool colour = row[4 * x + 2] > row[4 * x] + 15, dark = row[4 * x + 2] < 40 && row[4 * x] < 40;
+        if (!(coloured ? colour : dark))
+            break;
+    }
+    return x - from;
+}
+
+/* Under a plan that is narrow, as of a tall field, bar and colours stand side by side all the same; names without discs
+   have none. */
+START_TEST(texts_beside_a_narrow_plan)
+{
+    enum { WIDE = 720, HIGH = 900 };
+    const vec2 ring[4] = {{-5, -50}, {5, -50}, {5, 50}, {-5, 50}};
+    const plan_shape s = {.outline = {ring, 4}, .style = PLAN_FLOE};
+    const plan_label name = {.at = {-4, 20}, .text = "|", .bare = true};
+    const plan_view view = {.window = {{-5, -50}, {5, 50}},
+                            .title = "",
+                            .caption = "",
+                            .shapes = &s,
+                            .shape_count = 1,
+                            .labels = &name,
+                            .label_count = 1,
+                            .no_axes = true,
+                            .scale_name = "a quantity that is told",
+                            .scale_hi = 1};
+    cairo_surface_t *page = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDE, HIGH);
+    cairo_t *pen = cairo_create(page);
+    cairo_set_source_rgb(pen, 1, 1, 1);
+    cairo_paint(pen);
+    plan_view_draw(pen, &view, WIDE, HIGH);
+    cairo_destroy(pen);
+    cairo_surface_flush(page);
+    /* 7.92 pixels a metre: a bar of 2 m at the left margin, and the colours between the numbers at the right. */
+    const int y = HIGH - 44 + 28 - 6;
+    ck_assert_int_ge(run_of(page, WIDE, y, 15, false), 12);
+    int longest = 0;
+    for (int x = WIDE / 2; x < WIDE; x++)
+        longest = run_of(page, WIDE, y, x, true) > longest ? run_of(page, WIDE, y, x, true) : longest;
+    ck_assert_int_gt(longest, 120);
+    /* The disc would be in the colour of 0, white with an edge of ink. */
+    const unsigned char *row =
+        cairo_image_surface_get_data(page) + (64 + (int)(30 * 7.92)) * cairo_image_surface_get_stride(page);
+    const int at = WIDE / 2 - (int)(4 * 7.92);
+    for (int x = at - 8; x < at + 8; x++)
+        ck_assert_int_gt(row[4 * x], 200);
+    /* No axes. */
+    for (int x = WIDE - 64; x < WIDE - 30; x++)
+        ck_assert_int_eq(run_of(page, WIDE, 44, x, false), 0);
+    cairo_surface_destroy(page);
+}
+END_TEST
+
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history,
           pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
-          labels_that_cover_each_other)
+          labels_that_cover_each_other, texts_beside_a_narrow_plan)
 
 #else
 

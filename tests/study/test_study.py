@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Studies: the same bytes however they were run, stopped, killed and widened; mistakes told at their place."""
+import base64
 import csv
 import fcntl
 import hashlib
@@ -309,6 +310,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertNotIn("<td>0 (0 to 0)</td>", page)
         for seed in (1, 2):
             self.assertTrue(f"<td>1</td><td>{seed}</td><td>the simulation went wrong" in page)
+        # Of the condition without an answer the charts show nothing: a band has no corner at it.
+        for text in re.findall("data:image/svg.xml;base64,([^\"]*)", page):
+            for band in re.findall('fill-opacity:0.18;" d="([^"]*)"', base64.b64decode(text).decode()):
+                corners = {float(x) for x in re.findall("[ML] ([0-9.]+) [0-9.]+", band)}
+                self.assertLess(max(corners) - min(corners), 30, band)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
         done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True)
         self.assertIn("condition 1, seed 1: the simulation went wrong", done.stderr)
@@ -322,11 +328,32 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         for note in (self.at / "out" / "runs").glob("*/*/run.json"):
             self.assertEqual(json.loads(note.read_text())["message"], said[note.parent.name])
 
+    def test_what_would_be_submitted_is_no_result(self):
+        study = self.write("seeds: 2\n")
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--on", "slurm", "--dry-run"], check=True,
+                              capture_output=True, text=True)
+        self.assertIn("#SBATCH", done.stdout)
+        self.assertIn("0 runs of 1 condition, 0 failed; nothing was submitted", done.stderr)
+        self.assertNotIn("study.html", done.stderr)
+        page = (self.at / "out" / "study.html").read_text()
+        self.assertIn("No run has ended yet", page)
+        for empty in ("Seeds and means", "Worst runs"):
+            self.assertNotIn(empty, page)
+        self.fram(study, "-o", self.at / "out")
+        page = (self.at / "out" / "study.html").read_text()
+        self.assertNotIn("No run has ended yet", page)
+        # Commands are broken into lines where the page ends.
+        self.assertRegex(page, '<td class="command"><code>fram run')
+        self.assertRegex(page, r"td\.command{white-space:normal")
+
     def test_what_fails_throughout_is_no_success_and_asks_for_no_more_seeds(self):
         study = self.write("seeds: {least: 2, most: 9, mean_within: 0.1}\n"
                            "set: {run.speed_limit: 2.1, vessel.mass: 1.0e6}\n")
         result = self.fram(study, "-o", self.at / "out", code=1)
         self.assertEqual((result["runs"], result["failed"]), (2, 2))
+        page = (self.at / "out" / "study.html").read_text()
+        for empty in ("Seeds and means", "Worst runs"):
+            self.assertNotIn(empty, page)
 
     def test_vessels_that_cannot_be_built_are_told_before_anything_runs(self):
         study = self.write("seeds: 2\nvary:\n  grid: {vessel.mass: [1.0e6, 1.0e8, 1.2e6]}\n")
@@ -459,7 +486,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                            "vary: {grid: {ice.thickness: [0.5, 1], vessel.speed: [2, 2.5]}}\n")
         self.fram(study, "-o", self.at / "out")
         rows = self.rows("out")
-        page = (self.at / "out" / "study.html").read_text()
+        # Options of commands are not broken into lines.
+        page = re.sub("</?i>", "", (self.at / "out" / "study.html").read_text())
         worst = max(rows, key=lambda r: float(r["load_largest[N]"]))
         # Shares of mechanisms in the order of their heads, of the last condition.
         names = re.findall("<th[^>]*>([a-z]+)</th>", page[page.index("Mechanisms of the load"):])[:8]

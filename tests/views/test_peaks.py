@@ -134,6 +134,12 @@ def check_odd_clicks(browser):
     browser.click(left + width - 1, top + height - 1)
     browser.click(left + 1, top + 1)
     browser.click_on("letgo")
+    # Without a mouse: Enter on the timeline opens the peak that is nearest.
+    browser.run("(fram.seek(fram.peaks.vessel.peaks[1].time + 0.01), document.getElementById('timeline').focus())")
+    for kind in ("keyDown", "keyUp"):
+        browser.call("Input.dispatchKeyEvent", type=kind, code="Enter", key="Enter", windowsVirtualKeyCode=13)
+    assert browser.run("fram.peaks.peak?.rank") == 2, "Enter opens no peak"
+    browser.click_on("letgo")
     browser.run("fram.draw()")
     assert browser.run("document.getElementById('peak').hidden && fram.peaks.peak === null && !fram.peakShown")
 

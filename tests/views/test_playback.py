@@ -135,6 +135,9 @@ def check_opening(browser, page):
         const [head, legend] = all;
         return [all.every((b) => b.left >= 0 && b.right <= 420 && b.bottom <= 720), head.bottom <= legend.top]; })()""")
     assert inside, "something lies outside a window of 420 pixels"
+    under = browser.run("document.getElementById('view').getBoundingClientRect().bottom - "
+                        "document.querySelector('footer').getBoundingClientRect().top")
+    assert abs(under) <= 1, f"the view goes on for {under} pixels under the buttons"
     assert apart, "the legend covers the title in a window of 420 pixels"
     browser.call("Emulation.clearDeviceMetricsOverride")
 
@@ -186,6 +189,54 @@ def check_keyboard(browser):
         seen = browser.run("[document.getElementById('forces').checked, fram.playing]")
         assert seen == expected, f"space with the focus on {focused}: {seen}"
     browser.run("fram.toggle()")
+
+
+def check_names(browser):
+    """What is drawn has a name to be read aloud, the time is a slider with a value, and messages are told at once."""
+    go(browser, 2)
+    nodes = [n for n in browser.call("Accessibility.getFullAXTree")["nodes"] if not n["ignored"]]
+    named = {(n["role"]["value"], n["name"]["value"]) for n in nodes if "name" in n}
+    for role in ("image", "slider", "button", "combobox", "checkbox"):
+        assert all(name for r, name in named if r == role), (role, named)
+    images = " ".join(name for role, name in named if role == "image")
+    assert "the run in space" in images and "legend: floe" not in images and "legend: ice, vessel" in images, images
+    assert ("slider", "time") in named and ("button", "play") in named, named
+    slider = browser.run("['ariaValueNow', 'ariaValueText', 'ariaDescription'].map((k) => "
+                         "document.getElementById('timeline')[k])")
+    assert slider[:2] == ["2.0", "2.0 s"] and slider[2].startswith("ice load on the vessel"), slider
+    assert browser.run("document.getElementById('note').role") == "alert"
+    browser.run("fram.toggle()")
+    assert browser.run("document.getElementById('play').ariaLabel") == "pause"
+    browser.run("fram.toggle()")
+
+
+def check_few(browser, folder):
+    """No ice at all: water up to the walls.  A sheet that nothing has met is no floe; ends are told as they are."""
+    for name, ice, clock in (("open", "{source: none}", "0 floes"),
+                             ("sheet", "{source: level, level: {x_min: 60, tile_size: 20}}", "level ice")):
+        scene = TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", ice).replace("duration: 6", "duration: 0.8")
+        run, _ = make_run(folder, name, scene)
+        browser.open(run / "playback.html")
+        browser.choose("camera", "top")
+        browser.choose("colour", "plain")
+        go(browser, 0)
+        told = browser.run("document.getElementById('clock').textContent")
+        assert told == f"t = 0.00 s of 0.5 s, {clock}", told
+        corners = [browser.run(LOOK.replace("pixel(130, 0)", f"pixel({x}, {y})"))["waterPixel"]
+                   for x, y in ((-60, -36), (-60, 36), (50, -36), (50, 36))]
+        assert all(is_blue(p) for p in corners), (name, corners)
+
+
+def check_waiting(browser, folder):
+    """A page that follows a run says that it waits, and in the end that there was nothing to wait for."""
+    page = folder / "follows.html"
+    page.write_text(PAGE.read_text().replace("<!--BESIDE-->", "").replace("<!--RECORD-->", ""))
+    browser.call("Page.navigate", url=page.as_uri())
+    state = "['waiting', 'note'].map((k) => document.getElementById(k)).map((e) => !e.hidden && e.textContent)"
+    browser.until("window.framEnd", "the page follows nothing")
+    assert browser.run(state) == ["waiting for the first frame ...", ""], browser.run(state)
+    browser.run("framEnd()")
+    assert browser.run(state) == [False, "The run left no frames."], browser.run(state)
 
 
 def check_long_title(browser):
@@ -380,13 +431,15 @@ def main():
         browser.choose("camera", "orbit")
         browser.choose("colour", "plain")
         assert browser.run("document.getElementById('title').textContent") == TITLE
-        for check in (check_blank, check_play, check_seek, check_keyboard, check_long_title, check_pick,
+        for check in (check_blank, check_names, check_play, check_seek, check_keyboard, check_long_title, check_pick,
                       check_colours, check_arrows_and_marks, check_cameras, check_still, check_video):
             check(browser)
         calls = browser.run("(fram.draw(), fram.scene.renderer.info.render.calls)")
         assert calls <= 20, calls
         check_files_beside(browser, moored)
         check_opening(browser, towed / "playback.html")
+        check_few(browser, pathlib.Path(folder))
+        check_waiting(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
     print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")
 

@@ -22,9 +22,11 @@ export class History {
         const crack = fractures.find((f) => f.floe === body.number);
         const fate = crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${(crack.load / 1000).toFixed(0)} kN)`
             : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
-        this.panel.innerHTML = `<b>Floe ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
+        const name = body.level ? 'Level ice, tile' : 'Floe';
+        const canvas = '<canvas role="img" aria-label="speed and contact force over time"></canvas>';
+        this.panel.innerHTML = `<b>${name} ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
             body.thickness.toFixed(2)} m thick, ${(body.area * body.thickness * body.density / 1000).toFixed(1)} t<br>${
-            fate}${body.moves ? '' : '<br>fixed'}<canvas></canvas><button id="whole" hidden></button>`;
+            fate}${body.moves ? '' : '<br>fixed'}${canvas}<button id="whole" hidden></button>`;
         this.rows = new Map(); // by frame
         this.loading = null;
         this.panel.querySelector('button').onclick = () => this.load();

@@ -16,6 +16,9 @@ export function forceText(kilonewton) {
     return kilonewton >= 1000 ? `${(kilonewton / 1000).toPrecision(3)} MN` : `${kilonewton.toPrecision(3)} kN`;
 }
 
+/** As many digits as it needs, two after the point at most. */
+export function secondsText(seconds) { return `${Number(seconds.toFixed(2))}`; }
+
 export class Legend {
     constructor() {
         this.measure = document.createElement('canvas').getContext('2d');
@@ -24,7 +27,8 @@ export class Legend {
 
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
      *  forces: kinds that are shown; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
-     *  pressure on it or null; peak: whether one is shown; marked: seconds that a mark stays, or 0}. */
+     *  pressure on it or null; peak: whether one is shown; vessels: how many; marked: seconds that a mark stays,
+     *  or 0}. */
     set(content) {
         const { keys, forces, station } = content, rows = (list) => rowsOf(this.measure, list);
         const kinds = forces.map((kind) => [FORCE_COLOURS[kind], kind]);
@@ -56,6 +60,23 @@ export class Legend {
         g.setTransform(ratio, 0, 0, ratio, 0, 0);
         g.clearRect(0, 0, this.width, this.height);
         this.draw(g, view);
+        canvas.ariaLabel = this.words(view);
+    }
+
+    get ofForces() { return `forces on the ${this.content.vessels > 1 ? 'vessels' : 'vessel'}`; }
+
+    /** What is drawn, to be read aloud. */
+    words(view) {
+        const { unit, ends, marked, hull, peak, keys, forces, station } = this.content;
+        const range = (name, between) => `${name} from ${between.map((v) => Number(v.toPrecision(2))).join(' to ')}`;
+        const said = [unit ? range(unit, ends) : keys.map(([, name]) => name).join(', ')];
+        if (hull) said.push(range(hull.unit, hull.ends));
+        if (peak) said.push('chains of the peak and floes behind');
+        if (forces.length) said.push(`${this.ofForces}: ${forces.join(', ')}`,
+            `${view.length} m: ${forceText(view.force)}`);
+        said.push(...station.flat().map(([, name]) => name));
+        if (marked) said.push(`orange: broke in the last ${marked} s`);
+        return `legend: ${said.filter(Boolean).join('; ')}`;
     }
 
     draw(g, view) {
@@ -86,7 +107,7 @@ export class Legend {
             y += LINE;
         }
         if (forces.length) {
-            g.fillText('forces on the vessel', EDGE, y);
+            g.fillText(this.ofForces, EDGE, y);
             y += LINE;
             each(forces);
         }

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { History } from './history.js';
-import { drawHeader, Legend } from './legend.js';
+import { drawHeader, Legend, secondsText } from './legend.js';
 import { Poses } from './poses.js';
 import { Loads } from './loads.js';
 import { PeakPanel } from './peaks.js';
@@ -167,6 +167,8 @@ class Player {
         $('film').onclick = () => this.film();
         this.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
+        // Its texts may take another line; the view ends where it begins.
+        new ResizeObserver(() => this.resize()).observe(document.querySelector('footer'));
         window.addEventListener('keydown', (e) => this.key(e));
         const canvas = $('view');
         canvas.addEventListener('pointerdown', (e) => { this.pressed = [e.clientX, e.clientY]; });
@@ -186,6 +188,7 @@ class Player {
         else if (e.code === 'ArrowLeft') this.seek(frames[Math.max(now - 1, 0)].time);
         else if (e.code === 'Home') this.seek(frames[0].time);
         else if (e.code === 'End') this.seek(this.end);
+        else if (e.code === 'Enter' && target === $('timeline')) this.timeline.openNearest(this.time);
         else return;
         e.preventDefault();
     }
@@ -200,6 +203,7 @@ class Player {
         this.playing = !this.playing;
         this.dirty = true;
         $('play').innerHTML = this.playing ? '&#10074;&#10074;' : '&#9654;';
+        $('play').ariaLabel = this.playing ? 'pause' : 'play';
     }
 
     /** Ends of the colours: the 99th percentile of some frames that need no file from beside the page. */
@@ -326,12 +330,13 @@ class Player {
         const { unit } = COLOURS[$('colour').value], mode = $('colour').value, ends = [...this.ranges[mode] ?? [0, 1]];
         if (mode === 'age') ends.reverse();
         const ice = this.record.bodies.some((b) => b.material === 'ice');
-        const keys = [[ice, own({ material: 'ice' }), 'floe'], [this.hull, own({ material: 'hull' }), 'vessel']];
+        const keys = [[ice, own({ material: 'ice' }), 'ice'], [this.hull, own({ material: 'hull' }), 'vessel']];
         this.legend.set({
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
             forces: $('forces').checked ? this.kinds : [], station: this.scene.station.keys(),
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
+            vessels: this.record.bodies.filter((b) => b.material === 'hull').length,
         });
         $('peak').style.top = `${this.legend.height + 24}px`;
         this.dirty = true;
@@ -477,8 +482,10 @@ class Player {
     }
 
     tell(state) {
-        const { floes } = this.poses;
-        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
+        const { floes, tiles } = this.poses, count = `${floes} ${floes === 1 ? 'floe' : 'floes'}`;
+        const ice = tiles === 0 ? count : floes === 0 ? 'level ice' : `level ice and ${count}`;
+        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${secondsText(this.end)} s, ${ice}`;
+        this.timeline.tell(state.time);
         const [x, y] = state.force.map((newton) => Math.round(newton / 1000)); // never "-0"
         $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x} kN, Y ${y} kN` : '';
     }
@@ -488,6 +495,19 @@ class Player {
 function playWhenReady(player) {
     if (!player.ready) setTimeout(() => playWhenReady(player), 20);
     else if (!player.playing && player.record.frames.length > 1) player.toggle();
+}
+
+/** Follows a run that goes on, and says so until its first frame is there. */
+function watch(address) {
+    const waiting = $('waiting');
+    waiting.textContent = 'waiting for the first frame ...';
+    waiting.hidden = false;
+    const begin = (grown) => {
+        waiting.textContent = 'loading ...';
+        window.fram = new Player(grown);
+        return window.fram;
+    };
+    follow(address, begin, (text) => { waiting.hidden = true; tell(text); });
 }
 
 function download(blob, name) {
@@ -517,7 +537,7 @@ try {
         window.fram = new Player(readRecord(bytesOf(record)));
         if (location.hash !== '#still') playWhenReady(window.fram);
     }
-    else follow($('record').dataset.beside, (grown) => { window.fram = new Player(grown); return window.fram; }, tell);
+    else watch($('record').dataset.beside);
 } catch (e) {
     $('note').textContent = `The record cannot be played: ${e.message}`;
     throw e;

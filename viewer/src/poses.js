@@ -20,7 +20,7 @@ export class Poses {
         this.place = new Int32Array(n).fill(-1); // of each body in the order of the later frame
         this.placedOrder = null;
         this.frame = -1;
-        this.floes = 0; // that are there
+        this.floes = this.tiles = 0; // that are there: floes, and tiles of level ice
         for (const b of record.bodies) if (b.pose) this.pose.set(b.pose, 7 * b.index);
     }
 
@@ -42,11 +42,11 @@ export class Poses {
         const part = when - f, a = frames[f], b = frames[g], place = this.placesIn(b.order);
         const span = b.time - a.time || 1;
         if (f !== this.frame) {
-            this.floes = 0;
+            this.floes = this.tiles = 0;
             for (const body of bodies) {
                 const there = body.birth <= f && f < body.death;
                 this.shown[body.index] = there ? 1 : 0;
-                if (there && body.material === 'ice') this.floes++;
+                if (there && body.material === 'ice') this[body.level ? 'tiles' : 'floes']++;
             }
             this.frame = f;
         }

@@ -239,10 +239,14 @@ export class Scene {
         const box = new THREE.Box3(), point = new THREE.Vector3();
         for (let i = 0; i < first.poses.length; i += 7)
             box.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
-        for (const b of this.record.bodies)
-            if (b.pose && b.material !== 'wall') box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
+        // Without ice the walls are what is there, or the water around the vessels.
+        const { bodies } = this.record, bare = !bodies.some((b) => b.material === 'ice');
+        for (const b of bodies)
+            if (b.pose && (bare || b.material !== 'wall'))
+                box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
         if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
-        return box.expandByScalar(20);
+        const hulls = bare ? bodies.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
+        return box.expandByScalar(hulls.reduce((far, x) => Math.max(far, Math.abs(x)), 20));
     }
 }
 

@@ -2,7 +2,7 @@
 // marks where floes broke, and a cursor that can be dragged.
 
 import { MECHANISM_COLOURS } from './loads.js';
-import { forceText } from './legend.js';
+import { forceText, secondsText } from './legend.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
 const NUMBER = 16; // from a peak's point to above its number [px]
@@ -15,6 +15,7 @@ export class Timeline {
         this.record = record;
         this.frames = record.frames;
         this.loads = null;
+        this.open = open;
         this.grow();
         const drag = (e) => { if (e.buttons & 1) seek(this.timeAt(e.offsetX)); };
         canvas.addEventListener('pointerdown', (e) => {
@@ -84,10 +85,28 @@ export class Timeline {
         return best;
     }
 
+    /** Of whoever has no mouse: the peak that is nearest to a time. */
+    openNearest(time) {
+        const far = (p) => Math.abs(p.time - time);
+        const [best] = [...this.vessel?.peaks ?? []].sort((a, b) => far(a) - far(b));
+        if (best) this.open(best);
+    }
+
+    /** The time, to what reads the page aloud. */
+    tell(time) {
+        const { canvas } = this, now = time.toFixed(1);
+        if (canvas.ariaValueNow === now) return;
+        canvas.ariaValueMin = `${this.begin}`;
+        canvas.ariaValueMax = `${this.begin + this.span}`;
+        canvas.ariaValueNow = now;
+        canvas.ariaValueText = `${now} s`;
+    }
+
     /** Text from the top left corner in as many lines as it takes, the end of the time in the corner right of the
      *  first; returns the height of the last line's foot. */
     drawCaption(g, w, text) {
-        const end = `${(this.begin + this.span).toFixed(0)} s`, wide = g.measureText(end).width;
+        const end = `${secondsText(this.begin + this.span)} s`, wide = g.measureText(end).width;
+        this.canvas.ariaDescription = text;
         const lines = wrapped(g, text, (line) => w - 8 - (line === 0 ? wide + 10 : 0));
         g.fillStyle = INK;
         lines.forEach((line, i) => this.write(g, line, 4, 11 + LINE * i));
@@ -130,7 +149,10 @@ export class Timeline {
         g.fill();
     }
 
-    eventText() { return this.events.length ? `; orange: ${this.events.length} floes that broke` : ''; }
+    eventText() {
+        const n = this.events.length;
+        return n ? `; orange: ${n} ${n === 1 ? 'break' : 'breaks'} of ice` : '';
+    }
 
     /** Title and the mechanisms' colours, in as many lines as the width asks for; returns their height. */
     drawHeads(g, w) {
@@ -139,7 +161,7 @@ export class Timeline {
         const what = most > 0 ? `largest ${forceText(most)}` : 'none in this run';
         const foot = this.drawCaption(g, w, `ice load${of}, averaged over ${
             Number(vessel.window.toPrecision(3))} s: ${what}${
-            vessel.peaks.length ? '; numbers: peaks, click one' : ''}${this.eventText()}`);
+            vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`);
         let x = 4, y = foot + LINE;
         for (const m of this.kinds) {
             const wide = 14 + g.measureText(loads.names[m]).width + 12;

@@ -1,0 +1,52 @@
+"""What pictures show where texts are to stand: pixels.py WHAT FILE..., exit code 1 where it is otherwise."""
+import os
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(os.environ["FRAM_SOURCE"]) / "tests" / "views"))
+import chromium  # noqa: E402
+
+
+def read(path):
+    width, height, channels, rows = chromium.pixels(pathlib.Path(path).read_bytes())
+    return width, height, lambda x, y: tuple(rows[y][channels * x:channels * x + 3])
+
+
+def longest(values):
+    best = now = 0
+    for v in values:
+        now = now + 1 if v else 0
+        best = max(best, now)
+    return best
+
+
+def scales(folders):
+    """Frames of a video: the scale bar, and the colours from white to dark purple, unbroken; and its title."""
+    for folder in folders:
+        width, height, at = read(folder + "/frame-000000.png")
+        under = range(height - 230, height - 100)
+        bar = max(longest(max(at(x, y)) < 40 for x in range(width)) for y in under)
+        ramp = max(longest(r > b + 15 and not (r, g, b) == (217, 115, 13) and b < 200 for r, g, b in
+                           (at(x, y) for x in range(width))) for y in under)
+        # A title that is too long ends before the axes.
+        free = range(width - 99, width - 96) if "orbit" in folder else range(width - 73, width - 66)
+        assert all(min(at(x, y)) > 200 for x in free for y in range(30)), (folder, "title and axes")
+        # The half of the ramp that is told from white; of plans bars begin at ten pixels.
+        assert bar >= 12 and ramp >= 30, (folder, bar, ramp)
+
+
+def wet(files):
+    """A hull that floats keel up: water is at the deck of the drawing, which is upright, and not at the keel."""
+    water, dry = (204, 227, 245), (244, 244, 241)
+    _, _, at = read(files[0])
+    assert at(400, 112) == water and at(500, 236) == dry, (at(400, 112), at(500, 236))
+
+
+def size(files):
+    """Two pictures of the same size."""
+    sizes = [read(f)[:2] for f in files]
+    assert len(set(sizes)) == 1, sizes
+
+
+if __name__ == "__main__":
+    {"scales": scales, "wet": wet, "size": size}[sys.argv[1]](sys.argv[2:])

@@ -1,0 +1,120 @@
+/* Texts and charts on a page: what is too long ends in dots where its room does, and bands have gaps where there is
+   nothing. */
+#include "io/chart.h"
+#include "io/image.h"
+
+#include "testing.h"
+
+#include <math.h>
+
+#ifdef FRAM_HAVE_CAIRO
+
+enum { WIDTH = 600, HEIGHT = 40 };
+
+/* The last column with ink, -1 on a white page; its columns are counted. */
+static int last_ink(cairo_t *page, int *count)
+{
+    cairo_surface_t *surface = cairo_get_target(page);
+    int last = -1;
+    cairo_surface_flush(surface);
+    *count = 0;
+    for (int x = 0; x < WIDTH; x++) {
+        bool ink = false;
+        for (int y = 0; y < HEIGHT; y++)
+            ink =
+                ink || cairo_image_surface_get_data(surface)[y * cairo_image_surface_get_stride(surface) + 4 * x] < 128;
+        *count += ink;
+        last = ink ? x : last;
+    }
+    return last;
+}
+
+static int written(const char *text, double room, int *count)
+{
+    cairo_t *page = NULL;
+    fram_error error;
+    ck_assert_int_eq(image_begin(WIDTH, HEIGHT, &page, &error), FRAM_OK);
+    image_set_colour(page, (image_colour){0, 0, 0});
+    image_text_fitted(page, 10, 25, 17, true, room, text);
+    int last = last_ink(page, count);
+    cairo_destroy(page);
+    return last;
+}
+
+START_TEST(texts_end_in_their_room)
+{
+    static const char text[] = "A title of a scenario that tells more than there is room for, \xc3\xa4\xc3\xb6\xc3\xbc";
+    int all, some, none, whole = written(text, 1e4, &all);
+    ck_assert_int_gt(whole, 400);
+    for (double room = 60; room < 420; room += 7) {
+        int last = written(text, room, &some);
+        ck_assert_msg(last <= 10 + room && last > room - 25, "%g pixels: up to %d", room, last);
+        ck_assert_int_lt(some, all);
+    }
+    /* What fits stays as it is; in no room stands nothing. */
+    ck_assert_int_eq(written("short", 100, &some), written("short", 1e4, &all));
+    ck_assert_int_eq(some, all);
+    ck_assert_int_eq(written(text, 5, &none), -1);
+    ck_assert_int_eq(written("", 100, &none), -1);
+}
+END_TEST
+
+/* Whether the page has other than white on an upright line. */
+static bool is_marked(cairo_t *page, int x, int top, int bottom)
+{
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    for (int y = top; y < bottom; y++) {
+        const unsigned char *p =
+            cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface) + 4 * x;
+        /* The grid is grey. */
+        if (p[0] != p[2] && (p[0] < 200 || p[2] < 200))
+            return true;
+    }
+    return false;
+}
+
+START_TEST(bands_have_gaps)
+{
+    enum { WIDE = 600, HIGH = 400, ROWS = 8 };
+    /* At 6 stands a row alone. */
+    const double none = (double)NAN, x[ROWS] = {0, 1, 2, 3, 4, 5, 6, 7};
+    const double low[ROWS] = {1, 1, none, 1, 1, none, 1, none}, high[ROWS] = {4, 4, none, 4, 4, none, 4, none};
+    const double ends[2] = {0, 7}, zero[2] = {0, 0};
+    chart_line lines[3] = {chart_line_make("", x, low, ROWS, false), chart_line_make("", x, low, ROWS, true),
+                           chart_line_make("", ends, zero, 2, false)};
+    lines[0].style = CHART_BAND;
+    lines[0].y2 = high;
+    lines[0].solid = true;
+    lines[0].colour = lines[1].colour = 3;
+    /* The frame alone goes on to 7. */
+    lines[2].colour = 1;
+    for (int what = 0; what < 2; what++) { /* the band, the line */
+        const chart_line shown[2] = {lines[what], lines[2]};
+        const chart c = chart_make("", "", "", "", shown, 2);
+        cairo_t *page = NULL;
+        fram_error error;
+        ck_assert_int_eq(image_begin(WIDE, HIGH, &page, &error), FRAM_OK);
+        chart_draw(page, &c, WIDE, HIGH, false);
+        /* The axis goes from 86 to 578 pixels. */
+        for (int tenth = 1; tenth < 70; tenth++) {
+            bool there = tenth < 10 || (tenth > 30 && tenth < 40) || tenth == 60;
+            int column = (int)(86 + tenth * (578 - 86) / 70.0);
+            if (tenth % 10 != 0 || tenth == 60)
+                ck_assert_msg(is_marked(page, column, 60, 330) == there, "%d at x = %g", what, tenth / 10.0);
+        }
+        cairo_destroy(page);
+    }
+}
+END_TEST
+
+TEST_MAIN("fitted", texts_end_in_their_room, bands_have_gaps)
+
+#else
+
+START_TEST(without_cairo) { ck_assert(!image_available()); }
+END_TEST
+
+TEST_MAIN("fitted", without_cairo)
+
+#endif
