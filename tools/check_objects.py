@@ -3,7 +3,8 @@
 
   - no object calls a function of libm whose bits differ between machines (a macro or a header might have);
   - no object holds a fused multiply-add (-ffp-contract=off must reach every file, the wide kernels above all);
-  - no object holds writable data: there is no global state.
+  - no object holds writable data: there is no global state;
+  - no object but text.c's calls the C library's printf and strtod, which go by the locale of the program that calls.
 
 Files that draw (LIBM_EXEMPT) may call libm.  The command is not looked at: a signal handler needs a flag.  Prints each
 breach; exit code 1 when there is one.
@@ -21,6 +22,7 @@ from libm import TRANSCENDENTAL  # noqa: E402
 from check_rooms import LIBM_EXEMPT  # noqa: E402
 
 FUSED = re.compile(r"\bv?f[n]?m(add|sub|addsub|subadd)[0-9]*[ps][sdh]\b")
+LOCAL = re.compile(r"^(_*(v?sn?|f|v|vf|d|vd|as|vas)?printf(_chk)?|strto(d|f|ld)|atof)$")
 EXEMPT_OBJECTS = {pathlib.Path(name).name + ".o" for name in LIBM_EXEMPT}
 
 
@@ -49,6 +51,8 @@ def breaches(archive):
             continue
         for line in lines:
             symbol = line.split()[-1] if line.split() else ""
+            if LOCAL.match(symbol) and name != "text.c.o":
+                yield f"{name}: calls {symbol} of the program's locale; include base/text.h"
             if re.sub(r"^__(\w+)_finite$", r"\1", symbol) in TRANSCENDENTAL:
                 yield f"{name}: calls libm's {symbol}"
     for name, lines in members(output("objdump", "--disassemble", "--no-show-raw-insn", archive)):

@@ -154,13 +154,23 @@ unit_status unit_state_set(unit *u, const void *state)
 
 typedef struct state_head {
     char mark[8];
+    uint64_t checksum; /* of what follows up to the world, which has its own */
     char token[UNIT_TOKEN_ROOM];
     int64_t count, phase;
     double start, stop;
 } state_head;
-static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '3'};
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '4'};
 
 static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
+
+/* FNV-1a (Fowler, Noll and Vo 1991). */
+static uint64_t checksum_of(const unit *u, const char *head)
+{
+    uint64_t sum = 14695981039346656037U;
+    for (size_t i = offsetof(state_head, token); i < head_size(u); i++)
+        sum = (sum ^ (unsigned char)head[i]) * 1099511628211U;
+    return sum;
+}
 
 static void write_head(const unit *u, const kept_state *s, char *out)
 {
@@ -172,6 +182,8 @@ static void write_head(const unit *u, const kept_state *s, char *out)
         const double values[2] = {s->variables[i].value, s->variables[i].told};
         memcpy(out + sizeof head + (size_t)i * sizeof values, values, sizeof values);
     }
+    head.checksum = checksum_of(u, out);
+    memcpy(out, &head, sizeof head);
 }
 
 /* false: no state of this unit. */
@@ -179,9 +191,9 @@ static bool read_head(const unit *u, const char *in, kept_state *s)
 {
     state_head head;
     memcpy(&head, in, sizeof head);
-    if (memcmp(head.mark, mark, sizeof mark) != 0 || memcmp(head.token, u->token, sizeof head.token) != 0 ||
-        head.count != u->count || head.phase < 0 || head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE ||
-        !isfinite(head.start) || isnan(head.stop))
+    if (memcmp(head.mark, mark, sizeof mark) != 0 || head.checksum != checksum_of(u, in) ||
+        memcmp(head.token, u->token, sizeof head.token) != 0 || head.count != u->count || head.phase < 0 ||
+        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start) || isnan(head.stop))
         return false;
     s->start = head.start;
     s->stop = head.stop;

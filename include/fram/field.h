@@ -141,7 +141,8 @@ FRAM_API fram_status fram_field_population_get(const fram_field *field, int numb
 
 /* --- Drawings, files --- */
 
-/* Seen from above, as PNG; title may be NULL.  FRAM_ERROR_UNSUPPORTED in a build without pictures. */
+/* Seen from above, as SVG when path ends in .svg, else as PNG; title may be NULL.  FRAM_ERROR_UNSUPPORTED in a build
+   without pictures. */
 FRAM_API fram_status fram_field_draw(const fram_field *field, const char *title, const char *path, fram_error *error);
 /* The cover map: concentration in square cells of about `cell` [m], 0: a fortieth of the longer side. */
 FRAM_API fram_status fram_field_draw_cover(const fram_field *field, double cell, const char *title, const char *path,

@@ -10,8 +10,8 @@
        fram_context_create(NULL, &context, &error);
        fram_scenario_load(context, "demo.yaml", NULL, 0, &scenario, &error);
        fram_world_create(scenario, &world, &error);
-       while (fram_world_time(world) < 10)
-           fram_world_step(world, &error);
+       while (fram_world_time(world) < 10 && fram_world_step(world, &error) == FRAM_OK)
+           ;
 
    Every call that can fail returns a fram_status and fills the caller's fram_error (which may be NULL).  On failure the
    out-pointers are left alone (an interrupted run fills its result).  A NULL where a pointer is needed, or a definition
@@ -29,6 +29,9 @@
    with the struct's name as key; functions without a status then fill nothing and return 0 or false.  What is handed by
    value (fram_body_id), stands inside another struct or in a list of the library's (fram_level, fram_cycle), and
    fram_error keep their form; what a callback is handed is the library's own.
+
+   Relative paths start from the working folder of the call that is given them; what a scenario or a recording has read
+   or begun stays there when that folder changes.  Texts and files have decimal points in every locale.
 
    Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to
    port, z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */

@@ -161,8 +161,8 @@ typedef struct fram_hull_pieces {
 FRAM_API fram_status fram_hull_cut(fram_hull *hull, double tolerance, int most, fram_hull_pieces *pieces,
                                    fram_error *error, size_t size);
 #define fram_hull_cut(...) fram_hull_cut(__VA_ARGS__, sizeof(fram_hull_pieces))
-/* A lines plan with the water, the surface and the pieces (if it was cut) as PNG; title may be NULL.
-   FRAM_ERROR_UNSUPPORTED in a build without pictures. */
+/* A lines plan with the water, the surface and the pieces (if it was cut), as SVG when path ends in .svg, else as PNG;
+   title may be NULL.  FRAM_ERROR_UNSUPPORTED in a build without pictures. */
 FRAM_API fram_status fram_hull_draw(const fram_hull *hull, const fram_hull_condition *condition, const char *title,
                                     const char *path, fram_error *error);
 /* Write the surface; the ending says how: .stl (binary), .obj, .gdf.  FRAM_ERROR_USAGE for another one. */

@@ -230,7 +230,7 @@ FRAM_API void fram_record_default(fram_record_definition *definition, size_t siz
 #define fram_record_default(definition) fram_record_default((definition), sizeof *(definition))
 /* From now on each step is recorded: time series, record, pictures and checkpoints come when the scenario's `output`
    says.  A world that is recorded from its start leaves what fram_run leaves, but for wall times.  One recording a
-   world. */
+   world; in a child that fork() made there is none, and the parent's goes on. */
 FRAM_API fram_status fram_world_record(fram_world *world, const fram_record_definition *definition, fram_error *error);
 FRAM_API bool fram_world_is_recorded(const fram_world *world);
 /* A checkpoint of now, from which fram_resume can go on (without what is told to the world later). */

@@ -14,6 +14,7 @@
 #include "sim/step.h"
 
 #include <stdatomic.h>
+#include <sys/types.h>
 
 struct fram_context {
     context inner;
@@ -53,6 +54,7 @@ struct fram_world {
     world inner;
     recording *recording; /* NULL: not recorded */
     live_view *live;      /* of the recording; NULL: none */
+    pid_t process;        /* that began the recording; its children have no part in it */
     double step_wall;     /* time that the last step took [s] */
     bool failed;          /* the last step did; nothing is stepped from such a state */
     double *row;          /* values of all channels ... */

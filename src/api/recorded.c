@@ -4,7 +4,10 @@
 
 #include "base/clock.h"
 #include "fram/live.h"
+#include "io/path.h"
 #include "results/run_results.h"
+
+#include <unistd.h>
 
 static void fram_record_fill(fram_record_definition *definition)
 {
@@ -47,17 +50,22 @@ static fram_status record(fram_world *w, const fram_record_definition *definitio
     if (w->recording)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is recorded already, into %s",
                          w->recording->folder);
+    char folder[PATH_ROOM]; /* the same in each step, whatever the working folder is by then */
+    if (!path_absolute(d.folder, folder, sizeof folder))
+        return error_set(error, FRAM_ERROR_INPUT, d.folder, 0, "folder",
+                         "expected a folder with a path from the root of less than %d bytes", PATH_ROOM);
     context *ctx = &w->scenario->context->inner;
     recording *r = memory_array(ctx, 1, sizeof *r);
     if (!r)
         return error_memory(error);
     w->recording = r;
-    status = recording_init(ctx, &w->scenario->inner, d.folder, r, error);
+    w->process = getpid();
+    status = recording_init(ctx, &w->scenario->inner, folder, r, error);
     r->force = d.force;
     r->with_paths = d.with_paths;
     r->finish = run_results_write;
     if (status == FRAM_OK)
-        status = live_open(ctx, d.folder, d.live_page, d.live, d.live_user, &w->live, error);
+        status = live_open(ctx, folder, d.live_page, d.live, d.live_user, &w->live, error);
     if (status == FRAM_OK)
         status = begin(w, r, error);
     if (status == FRAM_OK)
@@ -77,7 +85,7 @@ fram_status fram_world_record(fram_world *w, const fram_record_definition *defin
     return status;
 }
 
-bool fram_world_is_recorded(const fram_world *w) { return w && w->recording; }
+bool fram_world_is_recorded(const fram_world *w) { return w && w->recording && w->process == getpid(); }
 
 static fram_status enter_recorded(fram_world *w, fram_error *error)
 {

@@ -111,7 +111,7 @@ void fram_world_destroy(fram_world *w)
 {
     if (!world_can_be_read(w))
         return;
-    if (w->recording)
+    if (fram_world_is_recorded(w))
         (void)fram_world_record_end(w, NULL, NULL);
     world_free(&w->scenario->context->inner, &w->inner);
     world_handle_free(w);
@@ -131,6 +131,11 @@ fram_status world_enter(fram_world *w, fram_error *error)
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK && atomic_exchange_explicit(&w->aside->taken, true, memory_order_acquire))
         status = taken(error);
+    /* The parent's: not even freed, since threads that work for it are the parent's too. */
+    if (status == FRAM_OK && w->recording && !fram_world_is_recorded(w)) {
+        w->recording = NULL;
+        w->live = NULL;
+    }
     return status;
 }
 

@@ -4,6 +4,7 @@
 #ifndef BASE_CONTEXT_H
 #define BASE_CONTEXT_H
 
+#include "base/text.h"
 #include "fram/error.h"
 #include <stdarg.h>
 #include <stdbool.h>

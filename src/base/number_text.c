@@ -1,37 +1,16 @@
-/* Conversion by the C library, whose printf and strtod are correctly rounded, with its locale worked around: the
-   decimal point of the locale in force is found by printing 0.5, so that no global locale is read or set.  What a
-   series is made of, twelve digits of a number of everyday size, is converted here, ten times faster, to the same text
-   and the same bits; whatever could come out otherwise goes to the library. */
+/* Conversion by the C library, whose printf and strtod are correctly rounded.  What a series is made of, twelve digits
+   of a number of everyday size, is converted here, ten times faster, to the same text and the same bits; whatever could
+   come out otherwise goes to the library. */
 #include "base/number_text.h"
+#include "base/text.h"
 #include <errno.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Longer than any decimal that a person or %.17g writes; longer text is refused rather than rounded twice. */
 enum { LONGEST_NUMBER = 400 };
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-static bool is_number_character(char c) { return is_digit(c) || c == '+' || c == '-' || c == 'e'; }
-
-/* Whatever stands for the decimal point becomes '.'. */
-static int put_point(char *text)
-{
-    size_t from = 0, to = 0;
-    bool pointed = false;
-    for (; text[from]; from++) {
-        if (is_number_character(text[from]))
-            text[to++] = text[from];
-        else if (!pointed) {
-            text[to++] = '.';
-            pointed = true;
-        }
-    }
-    text[to] = '\0';
-    return (int)to;
-}
 
 static int not_finite(double value, char out[NUMBER_TEXT_SIZE])
 {
@@ -44,12 +23,11 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
         return not_finite(value, out);
     /* 15 digits always survive text -> double -> text, 17 always double -> text -> double. */
     for (int digits = 15; digits < 17; digits++) {
-        snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
+        int length = snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
         if (strtod(out, NULL) == value)
-            return put_point(out);
+            return length;
     }
-    snprintf(out, NUMBER_TEXT_SIZE, "%.17g", value);
-    return put_point(out);
+    return snprintf(out, NUMBER_TEXT_SIZE, "%.17g", value);
 }
 
 /* ---- fast ways ---- */
@@ -188,8 +166,7 @@ int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
     }
     if (!isfinite(value))
         return not_finite(value, out);
-    snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
-    return put_point(out);
+    return snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
 }
 
 double real_read(const char *text, char **end)
@@ -230,43 +207,34 @@ static size_t digits_of(const char *text)
     return n;
 }
 
-/* Place of the decimal point, or of where it would stand; SIZE_MAX when the text is not a decimal number. */
-static size_t decimal_point(const char *text)
+static bool is_decimal(const char *text)
 {
     size_t at = (text[0] == '+' || text[0] == '-') ? 1 : 0;
     size_t whole = digits_of(text + at), part = 0;
-    size_t point = at + whole;
-    at = point;
+    at += whole;
     if (text[at] == '.') {
         part = digits_of(text + at + 1);
         at += 1 + part;
     }
     if (whole + part == 0)
-        return SIZE_MAX;
+        return false;
     if (text[at] == 'e' || text[at] == 'E') {
         at++;
         if (text[at] == '+' || text[at] == '-')
             at++;
         size_t exponent = digits_of(text + at);
         if (exponent == 0)
-            return SIZE_MAX;
+            return false;
         at += exponent;
     }
-    return text[at] == '\0' ? point : SIZE_MAX;
+    return text[at] == '\0';
 }
 
 number_fault real_from_text(const char *text, double *value)
 {
-    size_t point = decimal_point(text), length = strlen(text);
-    if (point == SIZE_MAX || length > LONGEST_NUMBER)
+    if (!is_decimal(text) || strlen(text) > LONGEST_NUMBER)
         return NUMBER_NOT_A_NUMBER;
-    char local[LONGEST_NUMBER + 16], half[16]; /* half: "0.5" with the point of the locale */
-    int at = (int)point, size = snprintf(half, sizeof half, "%.1f", 0.5) - 2;
-    if (text[point] == '.')
-        snprintf(local, sizeof local, "%.*s%.*s%s", at, text, size, half + 1, text + point + 1);
-    else
-        snprintf(local, sizeof local, "%s", text);
-    double read = strtod(local, NULL);
+    double read = strtod(text, NULL);
     if (!isfinite(read))
         return NUMBER_TOO_LARGE;
     *value = read;

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 #include "io/temporary.h"
 
+#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -96,10 +97,10 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
     close(descriptor); /* NetCDF takes a name */
     int code = f->nc->create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
     if (code != NC_NOERR) {
-        /* Codes of the operating system are positive, and NetCDF's own ones are negative. */
+        /* The file could be made; that NetCDF says "permission denied" for whatever HDF5 met then misleads. */
         fram_status status =
-            code > 0 ? file_error(error, path, "open for writing", code)
-                     : error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", f->nc->strerror(code));
+            error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s",
+                      code == EACCES ? "no room for the beginning of the file" : f->nc->strerror(code));
         unlink(f->temporary);
         forget(f);
         return status;

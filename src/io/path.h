@@ -12,5 +12,8 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
 /* The same, or `given` alone where it is not NULL: the output that a caller may have named. */
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],
                           fram_error *error);
+/* The path from the root, as the working folder is now, so that it lasts when that changes; false, and an empty text,
+   where it does not fit or the working folder is gone. */
+bool path_absolute(const char *path, char *out, size_t size);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "io/file.h"
 #include "io/key_words.h"
+#include "io/path.h"
 #include "io/utf8.h"
 #include "io/yaml_tree.h"
 #include "model/scenario_schema.h"
@@ -473,6 +474,8 @@ fram_status scenario_find_files(context *ctx, scenario *s, fram_error *error)
     fram_status status = scenario_walk(s, look_for_file, s, error);
     if (status != FRAM_OK)
         scenario_free(ctx, s);
+    else /* they stay the same ones when the program changes it */
+        (void)path_absolute("", s->folder, sizeof s->folder);
     return status;
 }
 

@@ -1,12 +1,11 @@
 /* A scenario back to text: every key with its value, in the order of the schema. */
 #include "base/hash.h"
 #include "base/number_text.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/utf8.h"
 #include "model/scenario_schema.h"
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* How paths are written: as given; so that they hold in any folder; or without folders, for the hash, which must be the
    same wherever the files lie (their contents are hashed on their own). */
@@ -36,19 +35,6 @@ static void print_quoted(printer *p, const char *text)
     text_add(p->ctx, p->out, "\"");
 }
 
-/* The working folder and a slash, when the path needs them to be absolute; false when it does not fit. */
-static bool working_folder(const char *path, char *out, size_t size)
-{
-    out[0] = '\0';
-    if (path[0] == '/')
-        return true;
-    if (!getcwd(out, size - 1))
-        return false;
-    size_t length = strlen(out);
-    memcpy(out + length, "/", length > 1 ? 2 : 1);
-    return true;
-}
-
 /* One line of printable UTF-8, as the reader of scenarios asks for it. */
 static bool is_printable(const char *text)
 {
@@ -62,16 +48,14 @@ static bool is_printable(const char *text)
 fram_status scenario_absolute_path(const scenario *s, const char *key, const char *path, char out[SCENARIO_TEXT_SIZE],
                                    fram_error *error)
 {
-    char folder[SCENARIO_TEXT_SIZE], inside[2 * SCENARIO_TEXT_SIZE], absolute[3 * SCENARIO_TEXT_SIZE];
-    bool fits = scenario_resolve_path(s, path, inside, sizeof inside) && working_folder(inside, folder, sizeof folder);
-    int length = fits ? snprintf(absolute, sizeof absolute, "%s%s", folder, inside) : -1;
-    if (length < 0 || length >= SCENARIO_TEXT_SIZE)
+    char inside[2 * SCENARIO_TEXT_SIZE], absolute[SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, path, inside, sizeof inside) || !path_absolute(inside, absolute, sizeof absolute))
         return error_set(error, FRAM_ERROR_INPUT, s->file, 0, key,
                          "expected a path of at most %d bytes together with its folder", SCENARIO_TEXT_SIZE - 1);
     if (!is_printable(absolute))
         return error_set(error, FRAM_ERROR_INPUT, s->file, 0, key,
                          "expected the folder of the file to have a name in printable UTF-8, found other bytes");
-    memcpy(out, absolute, (size_t)length + 1);
+    memcpy(out, absolute, strlen(absolute) + 1);
     return FRAM_OK;
 }
 

@@ -1,6 +1,6 @@
 #include "io/yaml_indent.h"
+#include "base/text.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { LEVELS_MOST = 64 };

@@ -3,6 +3,7 @@
 #include "model/scenario_schema.h"
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The longest full name of a key with its list indices. */
 enum { PATH_SIZE = sizeof((scenario_place *)0)->key };
@@ -98,11 +99,22 @@ void scenario_locate(const scenario *s, fram_error *error)
     error->column = place ? place->column : 0;
 }
 
+/* Files keep their short names in messages until the program changes its working folder. */
+static bool program_went_elsewhere(const scenario *s)
+{
+    char now[sizeof s->folder];
+    if (!s->folder[0])
+        return false;
+    size_t length = getcwd(now, sizeof now) ? strlen(now) : 0;
+    return length == 0 || strncmp(now, s->folder, length) != 0 || strlen(s->folder) != length + (length > 1);
+}
+
 bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size)
 {
     const char *slash = strrchr(s->file, '/');
     int folder = path[0] == '/' || !slash ? 0 : (int)(slash - s->file) + 1;
-    int length = snprintf(out, size, "%.*s%s", folder, s->file, path);
+    bool elsewhere = path[0] != '/' && s->file[0] != '/' && program_went_elsewhere(s);
+    int length = snprintf(out, size, "%s%.*s%s", elsewhere ? s->folder : "", folder, s->file, path);
     return length >= 0 && (size_t)length < size;
 }
 

@@ -70,6 +70,7 @@ typedef struct scenario {
     /* Not part of what the scenario says: not printed, not hashed. */
     const size_law *sizes; /* of floes, in place of the file of a histogram; NULL: the file */
     scenario_text file;    /* the file it was read from, or empty */
+    scenario_text folder;  /* the working folder when it was read, with a slash at its end, or empty */
     ARRAY(scenario_place) places;
 } scenario;
 

@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 static fram_error e;
 static fram_context *ctx;
@@ -235,5 +236,30 @@ START_TEST(older_definitions_are_taken)
 }
 END_TEST
 
+/* A relative folder is that of when the recording began; a folder that cannot be told is refused. */
+START_TEST(the_working_folder_changes)
+{
+    char folder[] = "/tmp/fram-live-XXXXXX", before[4096], command[64];
+    open_all();
+    ck_assert(getcwd(before, sizeof before) && mkdtemp(folder) && chdir(folder) == 0);
+    fram_record_definition d;
+    fram_record_default(&d);
+    d.folder = "run";
+    assert_ok(fram_world_record(w, &d, &e), e);
+    ck_assert_int_eq(mkdir("other", 0777), 0);
+    ck_assert_int_eq(chdir("other"), 0);
+    assert_ok(fram_world_step(w, &e), e);
+    assert_ok(fram_world_checkpoint(w, &e), e);
+    assert_ok(fram_world_record_end(w, NULL, &e), e);
+    ck_assert(access("run", F_OK) != 0 && access("../run/checkpoint-000000000001.fram", F_OK) == 0);
+    ck_assert_int_eq(rmdir("../other"), 0);
+    REFUSED(fram_world_record(w, &d, &e));
+    ck_assert_int_eq(chdir(before), 0);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    close_all();
+}
+END_TEST
+
 TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, arrays, recordings, no_memory_is_an_error,
-          older_definitions_are_taken)
+          older_definitions_are_taken, the_working_folder_changes)

@@ -192,6 +192,8 @@ START_TEST(locales_change_nothing)
         ck_assert_int_eq(real_from_text("-1.5e2", &value), NUMBER_GOOD);
         assert_bits(value, -150.0);
         ck_assert_int_eq(real_from_text("1,5", &value), NUMBER_NOT_A_NUMBER);
+        char *end;
+        assert_bits(real_read("1234567890.1234567", &end), 1234567890.1234567); /* more digits than the fast way has */
     }
     setlocale(LC_ALL, "C");
 }

@@ -160,6 +160,10 @@ if "$FRAM" --version | grep -q netcdf; then
     says "cannot open for writing" err
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
     same "$(value 'j["error"]["status"], j["error"]["file"]')" "io full.nc" "an export that finds no room"
+    # No room at all, so that the words go into a pipe.
+    code=0
+    told=$(bash -c 'ulimit -f 0 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc 2>&1) || code=$?
+    same "$code $told" "1 fram: full.nc: cannot write: no room for the beginning of the file" "an export without room"
     [ -z "$(ls full.nc* 2>/dev/null)" ] || fail "an export that found no room left $(ls full.nc*)"
     # The library is opened for a .nc file alone, and may be gone by then; one that has a place of its own is not looked
     # for by its name.

@@ -210,8 +210,8 @@ class Units:
         self.assertFalse(self.unit.instance(where="/no/such/folder").c)
         self.assertFalse(self.unit.instance(name=" ").c)
 
-    def test_states_of_another_unit_are_refused(self):
-        """The same scenario and as many variables, but others."""
+    def test_states_of_another_unit_and_damaged_ones_are_refused(self):
+        """The same scenario and as many variables, but others; and a bit of what stands before the world."""
         units = []
         for number, (told, read) in enumerate((("wind_x", "position_x"), ("wind_y", "velocity_x"))):
             path = self.folder / f"other_{number}.fmu"
@@ -224,6 +224,8 @@ class Units:
         two.from_bytes(data, status=ERROR)
         self.assertIn("none of this unit", two.told[-1][2])
         self.assertEqual(two.get("wind_y", "velocity_x"), before)
+        for at in range(0, data.index(b"FRAMTAB\n"), 3):
+            one.from_bytes(data[:at] + bytes([data[at] ^ 4]) + data[at + 1:], status=ERROR)
         one.back(one.from_bytes(data))
         one.free()
         two.free()

@@ -21,4 +21,21 @@ START_TEST(a_path_is_whole_or_refused)
 }
 END_TEST
 
-TEST_MAIN("path", a_path_is_whole_or_refused)
+START_TEST(a_path_from_the_root_is_whole_or_empty)
+{
+    static char before[PATH_ROOM], out[PATH_ROOM];
+    ck_assert_ptr_nonnull(getcwd(before, sizeof before));
+    ck_assert(path_absolute("/a/b", out, 5) && strcmp(out, "/a/b") == 0);
+    ck_assert(!path_absolute("/a/b", out, 4) && !*out);
+    ck_assert(chdir("/") == 0);
+    ck_assert(path_absolute("a", out, 3) && strcmp(out, "/a") == 0);
+    ck_assert(!path_absolute("a", out, 2) && !*out);
+    ck_assert(chdir("/usr") == 0);
+    ck_assert(path_absolute("a", out, 7) && strcmp(out, "/usr/a") == 0);
+    ck_assert(!path_absolute("a", out, 6) && !*out);
+    ck_assert(!path_absolute("a", out, 4) && !*out); /* not even the folder */
+    ck_assert(chdir(before) == 0);
+}
+END_TEST
+
+TEST_MAIN("path", a_path_is_whole_or_refused, a_path_from_the_root_is_whole_or_empty)

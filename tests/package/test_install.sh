@@ -24,6 +24,10 @@ PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name fram.pc)")
 export PKG_CONFIG_PATH
 lib=$(dirname "$PKG_CONFIG_PATH")
 export LD_LIBRARY_PATH=$lib
+# The folder that docs/packages.md names.
+# shellcheck disable=SC2016  # those of Markdown
+told=$(sed -n 's/.*`PKG_CONFIG_PATH=PREFIX\/\([^`]*\)`.*/\1/p' "$FRAM_SOURCE/docs/packages.md")
+[ "$PKG_CONFIG_PATH" = "$prefix/$told" ] || fail "fram.pc is in $PKG_CONFIG_PATH, not in PREFIX/$told"
 [ "$(pkg-config --modversion fram)" = "$version" ] || fail "fram.pc has another version than $version"
 
 echo "pkg-config, shared"

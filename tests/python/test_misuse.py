@@ -235,6 +235,7 @@ class Runs(unittest.TestCase):
         run = self.broken("run.json", b"{}")
         self.assert_refused(lambda: run.hash, "run.json", 0, "state_hash")
         self.assertIn("None", repr(run))
+        self.assertIn("&lt;b&gt;&amp;", self.broken("run.json", b'{"title": "<b>&"}')._repr_html_())
         run = self.broken("station.json", b"{")
         self.assert_refused(lambda: run.station, "station.json", 1)
         self.assert_refused(lambda: run.events, "station.json", 1)

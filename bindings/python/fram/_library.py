@@ -117,6 +117,12 @@ def bytes_of(path) -> bytes:
     return encoded
 
 
+def absolute_of(path) -> bytes:
+    """A path for C that lasts when the working folder changes."""
+    encoded = bytes_of(path)
+    return os.path.abspath(encoded) if encoded else encoded
+
+
 def check(status: int, error) -> None:
     """Raise what a status says."""
     if status == 0:
@@ -191,6 +197,17 @@ def _leave() -> None:
 
 
 atexit.register(_leave)
+
+
+def _leave_to_parent() -> None:
+    """In a child of os.fork: nothing that the parent made is destroyed there, whose threads are not the child's."""
+    global _turn
+    _turn = threading.RLock()
+    _gone.extend(_made.values())
+    _made.clear()
+
+
+os.register_at_fork(after_in_child=_leave_to_parent)
 
 
 def version() -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import json
 import os
 import pathlib
@@ -12,7 +13,7 @@ from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import FileError, InputError, bytes_of, ffi, lib, new_error, text_of
+from ._library import FileError, InputError, absolute_of, bytes_of, ffi, lib, new_error, text_of
 from .context import Context, default_context
 
 try:
@@ -93,7 +94,8 @@ class Run:
     """The folder of a run, read when asked for; it may still be going on."""
 
     def __init__(self, folder: Union[str, os.PathLike], context: Optional[Context] = None):
-        self.folder = pathlib.Path(folder)
+        # The same run wherever the working folder is by then, here or where it is unpickled.
+        self.folder = pathlib.Path(os.fsdecode(absolute_of(folder)))
         self._context = context or default_context()
         if not (self.folder / "run.json").is_file():
             raise InputError("input", "expected the folder of a run, found no run.json in it", file=str(self.folder))
@@ -222,7 +224,7 @@ class Run:
 
     def _repr_html_(self) -> str:
         info = self.info
-        rows = "".join(f"<tr><td>{key}</td><td>{info.get(key, '')}</td></tr>"
+        rows = "".join(f"<tr><td>{key}</td><td>{html.escape(str(info.get(key, '')))}</td></tr>"
                        for key in ("title", "status", "steps", "time_s", "wall_s", "state_hash"))
         return f"<table>{rows}</table>"
 

@@ -7,7 +7,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import UsageError, bytes_of, ffi, lib, new_error, owned, text_of
+from ._library import UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_of
 from .context import Context, default_context
 
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
@@ -148,7 +148,8 @@ class Scenario:
         from .runs import open_run
         definition = ffi.new("fram_run_definition *")
         lib.fram_run_default(definition, ffi.sizeof("fram_run_definition"))
-        name = ffi.new("char[]", bytes_of(folder))
+        path = absolute_of(folder)
+        name = ffi.new("char[]", path)
         definition.folder, definition.force, definition.stop = name, force, self._context._stop
         if until is not None and not 0 < until < float("inf"):
             raise UsageError("usage", f"expected a finite time after 0 s, found {until}", key="until")
@@ -162,4 +163,4 @@ class Scenario:
         definition.progress = forward
         error = new_error()
         self._context._check(lib.fram_run(self._pointer, definition, ffi.NULL, error, 0), error)
-        return open_run(folder)
+        return open_run(os.fsdecode(path))

@@ -10,7 +10,7 @@ from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, 
 
 import numpy as np
 
-from ._library import InputError, UsageError, bytes_of, ffi, lib, new_error, owned, text_of
+from ._library import InputError, UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_of
 from .scenario import Scenario
 
 KINDS = {"floe": 0, "vessel": 1, "wall": 2, "other": 3}
@@ -597,7 +597,8 @@ class World:
         """
         definition = ffi.new("fram_record_definition *")
         lib.fram_record_default(definition, ffi.sizeof("fram_record_definition"))
-        name = ffi.new("char[]", bytes_of(folder))
+        path = absolute_of(folder)
+        name = ffi.new("char[]", path)
         definition.folder, definition.force, definition.with_paths = name, force, with_paths
         page = ffi.NULL if live_page is None else ffi.new("char[]", bytes_of(live_page))
         told: list[str] = []
@@ -607,7 +608,7 @@ class World:
         self._recordings += 1
         if told and live is not None:
             live(told[0])
-        return Recording(self, os.fsdecode(bytes_of(folder)))
+        return Recording(self, os.fsdecode(path))
 
     def __repr__(self) -> str:
         return "<fram.World closed>" if self._pointer is None else \
