@@ -91,11 +91,12 @@ test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and thos
 MANY_TRIALS = study/(worst|station|kills|annual_coverage|extremes_coverage|extremes_doubts)|ice/field_sized
 # What the command says of scenarios, one key after another: how they are read is walked by fuzzers under sanitizers.
 WORDS = idle_keys|sanity|sanity_gear|sanity_units|verdict|faults|vessel_list
-# Left to the release build: scripts around the program, browsers, and commands of which each has its own test here.
+# Left to the release build: scripts around the program, browsers, and commands of which each has its own test here or,
+# as readers of hulls, its fuzzer.
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
 	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
-		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective))$$'
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|hull_files))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads
