@@ -88,6 +88,7 @@ static const struct {
     {"bendings", "floes that have broken in bending so far"},
     {"crushing_work", "energy dissipated in crushing so far"},
     {"solver_residual", "largest residual of a contact's normal condition after the last iteration"},
+    {"solver_iterations", "sweeps over all contacts that the velocities of the step took"},
     {"overlap_mean", "of the contacts that overlap"},
     {"overlap_max", "of the contacts that overlap"},
     {"kinetic_energy", "of all bodies that move freely"},

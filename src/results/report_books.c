@@ -114,6 +114,7 @@ static fram_status solver_quality(report *r, fram_error *error)
     html_section(&r->page, "Quality of the solution");
     report_statistics_heads(r, "each step");
     report_statistics(r, "solver_residual", "residual of the contact problem [m/s]", 1);
+    report_statistics(r, "solver_iterations", "sweeps of the contact solver", 1);
     report_statistics(r, "overlap_mean", "mean overlap of touching bodies [m]", 1);
     report_statistics(r, "overlap_max", "largest overlap [m]", 1);
     report_statistics(r, "contacts", "contact points", 1);

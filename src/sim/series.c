@@ -229,6 +229,7 @@ static count_channels counts_of(const world *w)
     W("crushing_work", "J", w->clock.work_crushed[0])                 \
     W("kinetic_energy", "J", body_kinetic_energy(ctx, &w->bodies))    \
     W("solver_residual", "m/s", w->scratch.solver.residual)           \
+    W("solver_iterations", "1", w->scratch.solver.iterations)         \
     W("overlap_mean", "m", w->scratch.solver.mean_depth)              \
     W("overlap_max", "m", w->scratch.solver.max_depth)                \
     W("step_wall_time", "s", wall)

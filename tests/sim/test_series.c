@@ -115,7 +115,10 @@ START_TEST(counts_as_recorded)
     k.w.feeding.entered[0] = 11;
     k.w.feeding.held_back[0] = 12;
     k.w.feeding.velocity[0] = vec2_make(13, 14);
+    k.w.scratch.solver = (solver_report){.residual = 0.5, .mean_depth = 0.25, .max_depth = 0.75, .iterations = 17};
     take(&k, &r);
+    ck_assert(channel(&r, "solver_residual") == 0.5 && channel(&r, "solver_iterations") == 17);
+    ck_assert(channel(&r, "overlap_mean") == 0.25 && channel(&r, "overlap_max") == 0.75);
     ck_assert(channel(&r, "line_tension_max") == 700 && channel(&r, "lines_parted") == 1);
     ck_assert(channel(&r, "thrusters_failed") == 1);
     assert_relative(channel(&r, "thruster_power"), 4e5, 1e-12);
