@@ -1,6 +1,6 @@
 /* NetCDF-4 files (which are HDF5 files): dimensions, variables with units, arrays.  Whole files or none.  Without
-   NetCDF in the build, or its library where it runs, netcdf_begin returns FRAM_ERROR_UNSUPPORTED.  Knows nothing of what
-   the arrays mean. */
+   NetCDF in the build, or its library where it runs, netcdf_begin returns FRAM_ERROR_UNSUPPORTED.  Knows nothing of
+   what the arrays mean. */
 #ifndef IO_NETCDF_FILE_H
 #define IO_NETCDF_FILE_H
 

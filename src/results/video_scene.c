@@ -235,12 +235,12 @@ static bool has_several_vessels(const replay *r, const replay_moment *m)
 static void draw_under(cairo_t *page, const video_scene *s, const solid_view *v, const solid_camera *c, bool vessels,
                        const bool used[FORCE_KINDS], bool marked, int width, double y)
 {
-    int lines = lines_under(width);
+    int lines = lines_under(width), above_keys = lines / 2;
     double end = draw_scale_bar(page, v, c, s->arrow, EDGE, y);
     if (plan_colour_title(s->colour))
         plan_view_colour_scale(page, plan_colour_title(s->colour), s->lo, s->hi, lines > 2 ? EDGE : end, width - EDGE,
                                lines > 2 ? y + LINE : y);
-    key_line keys = {page, lines == 1 ? end : EDGE, y + (lines / 2) * LINE, width - EDGE};
+    key_line keys = {page, lines == 1 ? end : EDGE, y + above_keys * LINE, width - EDGE};
     if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER] || used[RECORD_FORCE_HULL])
         draw_key(&keys, NULL, vessels ? "forces on the vessels:" : "forces on the vessel:");
     for (int k = 0; k < FORCE_KINDS; k++)

@@ -159,7 +159,7 @@ static void add_point(tail_points *t, double level, int64_t exceedances, double 
 /* For b and c that are given the best log q and a are those of a straight line (Naess and Gaidai 2009); its cost. */
 static double line_of(const tail_points *t, double b, double c, acer_tail *out)
 {
-    double w = 0, x = 0, y = 0, xx = 0, xy = 0, u[ACER_LEVELS];
+    double w = 0, x = 0, y = 0, xx = 0, xy = 0, u[ACER_LEVELS] = {0};
     for (int32_t i = 0; i < t->count; i++) {
         u[i] = near_exp(c * near_log(t->level[i] - b));
         w += t->weight[i];

@@ -27,9 +27,11 @@ START_TEST(many_are_thinned_evenly)
     for (int i = 0; i < MANY; i++)
         ck_assert(thinned_add(&ctx, &t, i));
     ck_assert_int_eq(t.value.count, (MANY + STEP - 1) / STEP);
+    int others = 0;
     for (int i = 0; i < t.value.count; i++)
-        assert_bits(t.value.data[i], STEP * i);
-    for (int percent = 0; percent <= 100; percent += 10)
+        others += t.value.data[i] != STEP * i;
+    ck_assert_int_eq(others, 0);
+    for (int percent = 0; percent <= 100; percent += 50)
         assert_absolute(thinned_percentile(&t, percent), MANY * (percent / 100.0), 2 * STEP);
     array_free(&ctx, &t.value);
 }
