@@ -29,7 +29,7 @@ def of_studies(rig, draw, folder):
     calls = [STUDY] * draw.randint(2, 4) + ["study list made"] * draw.randint(0, 1)
     for outcome in together(rig, work, calls):
         fault = outcome.fault(json_asked=True)
-        gives_way = outcome.words[1] == "list" or "another run is writing" in outcome.err
+        gives_way = outcome.words[1] == "list" or "is writing into this folder" in outcome.err
         if not fault and outcome.code != 0 and not gives_way:
             fault = "fails oddly"
         done.counts["did its work" if outcome.code == 0 else "gave way"] += 1
