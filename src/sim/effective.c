@@ -136,10 +136,9 @@ static void tell_profile(const teller *t)
 /* Of two steady flows. */
 static void tell_angle_between(const teller *t, const flow *drift, const flow *wind)
 {
-    double apart = fmod(fabs(drift->towards - wind->towards), 360);
     if (!drift->file[0] && !wind->file[0] && drift->speed > 0 && wind->speed > 0)
         sanity_say(t->tell, t->to, "%s %s and wind %s are %.4g deg apart", drift->name, arrow_of(drift->towards),
-                   arrow_of(wind->towards), fmin(apart, 360 - apart));
+                   arrow_of(wind->towards), sanity_degrees_apart(drift->towards, wind->towards));
 }
 
 static void tell_flows(const teller *t)

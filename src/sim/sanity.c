@@ -225,8 +225,7 @@ static void tell_directions(const teller *t)
     bool histories = e->wind_file[0] || e->current_file[0] || d->drift_file[0];
     if (histories || !(speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
         return;
-    double apart = fabs(fmod(fabs(drift - e->wind_direction_deg), 360));
-    if (fmin(apart, 360 - apart) > 90)
+    if (sanity_degrees_apart(drift, e->wind_direction_deg) > 90)
         sanity_say(
             t->tell, t->to,
             "environment.wind_direction_deg: the wind blows towards %g degrees and %s goes towards %g, against it; "

@@ -5,6 +5,8 @@
 
 #include "model/scenario_vessel.h"
 
+#include <math.h>
+
 /* Takes one sentence that names the key, what was found and what is usual. */
 typedef void (*sanity_teller)(const void *to, const char *text);
 /* One sentence, as printf makes it; what goes beyond SANITY_SENTENCE bytes is cut off. */
@@ -20,5 +22,12 @@ void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller
 void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
+
+/* Between two directions [deg], 0 to 180. */
+static inline double sanity_degrees_apart(double a_deg, double b_deg)
+{
+    double apart = fmod(fabs(a_deg - b_deg), 360);
+    return fmin(apart, 360 - apart);
+}
 
 #endif

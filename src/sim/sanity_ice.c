@@ -131,11 +131,7 @@ static void tell_populations(const teller *t)
 
 /* ---- its drift ---- */
 
-static bool goes_against(double a_deg, double b_deg)
-{
-    double apart = fmod(fabs(a_deg - b_deg), 360);
-    return fmin(apart, 360 - apart) > 90;
-}
+static bool goes_against(double a_deg, double b_deg) { return sanity_degrees_apart(a_deg, b_deg) > 90; }
 
 /* Ice that is told to drift against the water under it, and no wind that would drive it. */
 static void tell_drift(const teller *t)

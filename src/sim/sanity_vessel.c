@@ -181,12 +181,6 @@ static void tell_line(const teller *t, int32_t i)
 /* Runs that a path is long. */
 #define MOST_PATH 10
 
-static double degrees_apart(double a, double b)
-{
-    double apart = fmod(fabs(a - b), 360);
-    return fmin(apart, 360 - apart);
-}
-
 /* Whether the leg that ends at a point is too fast. */
 static bool tell_leg(const teller *t, int32_t i)
 {
@@ -231,7 +225,7 @@ static void tell_motion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_run *r = &t->s->run;
-    double drift = degrees_apart(automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
+    double drift = sanity_degrees_apart(automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
     if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->hull.form != HULL_CONE && drift > MOST_DRIFT)
         sanity_say(t->tell, t->to,
                    "%s.course_deg: the vessel is moved at %.4g degrees to its bow, towards %.4g with its heading at "
