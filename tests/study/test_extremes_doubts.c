@@ -263,7 +263,7 @@ START_TEST(intervals_of_peaks_go_as_far_as_the_tail_of_the_values)
 }
 END_TEST
 
-static void ask_series(double *value, int count, extreme_method method, double duration, extreme_result *out)
+static void ask_series(const double *value, int count, extreme_method method, double duration, extreme_result *out)
 {
     const series_part part = {value, count};
     const series_set set = {&part, 1, 1};
