@@ -17,6 +17,9 @@ import unittest
 
 from studies import BASE, FRAM, SHORT, StudyTest
 
+# Many runs for their statistics, whose sums stand in tests in C of this room.
+WHOLE = unittest.skipIf(SHORT, "tests are short")
+
 
 class Studies(StudyTest):
     def test_a_row_for_each_run_and_its_numbers_are_those_of_the_run(self):
@@ -375,6 +378,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
             self.assertEqual("base.yaml" in done.stderr, tells)
 
+    @WHOLE
     def test_seeds_go_on_until_the_interval_is_narrow(self):
         study = self.write("seeds: {least: 2, most: 9, mean_within: 0.08, confidence: 0.9}\n")
         rows = self.fram(study, "-o", self.at / "out")["runs"]
@@ -530,6 +534,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual((float(value), unit, float(thickness), status, metres),
                          (float(rows[5]["load_largest[N]"]), "N", 1.0, "1", "m"))
 
+    @WHOLE
     def test_words_of_keys_stand_in_the_netcdf_file(self):
         words = ["a, b", "\u00fcber", "3"]
         study = self.write("seeds: 1\nset: {run.duration: 0.2, run.transient: 0.1}\n"
@@ -556,6 +561,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual((year["level"], year["low"], year["high"]), ("", "", ""))
         self.assertIn("No answer: all runs saw none", year["note"])
 
+    @WHOLE
     def test_a_year_knows_no_more_than_the_fits_of_its_conditions(self):
         study = self.write("seeds: 12\nset: {run.duration: 0.2, run.transient: 0.1, ice.source: none}\n"
                            "extremes: {duration: 1min, hours: [100], annual: [1e-2]}\n")
@@ -583,6 +589,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertNotIn("speak against", load["note"])
         self.assertEqual(year["note"], "")
 
+    @WHOLE
     def test_extremes_of_conditions_and_of_a_year(self):
         study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
                            "extremes: {duration: 10min, method: gumbel, levels: [0.9], hours: [100, 20], "
