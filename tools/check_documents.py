@@ -5,6 +5,9 @@ Rules:
   - a link of a Markdown file leads to a file of the repository, and its #part to a heading there;
   - a path in a Markdown file that begins with a folder of the repository (`src/ice/floe.h`, tests/cli/common.sh) is
     there; * stands for any letters, <words> and upper-case names for what the reader fills in;
+  - `fram WORD` in a Markdown file names a command of the table in src/cli/main.c;
+  - a test in a Markdown file, `ROOM/TOPIC` of tests/ROOM/test_TOPIC, is there, and so are the cases of it that are
+    named behind it;
   - a comment or text of any other file, tests apart, that names a page docs/*.md, a scene or a source in a room
     (src/ROOM/*.[ch]) names one that is there.
 
@@ -25,6 +28,11 @@ PAGE = re.compile(r"(?<![\w./-])(?:docs|scenes)/[\w./-]+\.(?:md|yaml|png|svg)\b"
 SOURCE = re.compile(r"(?<![\w./-])(src/\w+)/\w+\.[ch]\b")
 HEADING = re.compile(r"^#{1,6} +(.*?)#*$", re.M)
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
+COMMAND = re.compile(r"`fram ([a-z]+)")
+COMMAND_ROW = re.compile(r'^    \{"([a-z]+)",', re.M)
+# Names of cases have two words at least.
+TEST = re.compile(r"`([a-z]+)/([a-z0-9_]+)`((?:,? [a-z0-9]+(?:_[a-z0-9]+)+)*)")
+CASE = re.compile(r"START_TEST\((\w+)\)")
 # Patterns and places that a reader fills in are no files.
 OPEN = re.compile(r"[<>{}|,]|NNNN|\bNAME\b|[A-Z]{4,}\b(?!\.md)")
 
@@ -78,9 +86,30 @@ def without_links(text):
     return LINK.sub(lambda link: "\n" * link[0].count("\n"), text)
 
 
+def commands():
+    """Those of the command, none where there is no command."""
+    table = ROOT / "src/cli/main.c"
+    return set(COMMAND_ROW.findall(table.read_text(encoding="utf-8"))) if table.exists() else set()
+
+
+def test_breaches(line):
+    """What is wrong about the tests that a line of a Markdown file names."""
+    for room, topic, cases in TEST.findall(line):
+        if not (ROOT / "tests" / room).is_dir() or is_there(f"src/{room}/{topic}"):
+            continue
+        files = sorted((ROOT / "tests" / room).glob(f"test_{topic}.*"))
+        if not files:
+            yield f"there is no test {room}/{topic}"
+        found = set(CASE.findall(files[0].read_text(encoding="utf-8"))) if files else set()
+        for case in re.findall(r"\w+", cases):
+            if found and case not in found:
+                yield f"the test {room}/{topic} has no case {case}"
+
+
 def breaches(page):
     """Line and message of each breach."""
     text = (ROOT / page).read_text(encoding="utf-8", errors="replace")
+    known = commands()
     markdown = page.suffix == ".md"
     for link in LINK.finditer(text) if markdown else ():
         said = link_breach(page, link[1])
@@ -90,8 +119,11 @@ def breaches(page):
         for name in (PATH if markdown else PAGE).findall(line):
             if not OPEN.search(name) and not is_there(name.rstrip(".")):
                 yield number, f"{name} is not in the repository"
-
-
+        for word in COMMAND.findall(line) if markdown and known else ():
+            if word not in known:
+                yield number, f"`fram {word}` is no command"
+        for said in test_breaches(line) if markdown else ():
+            yield number, said
         for source in SOURCE.finditer(line) if not markdown else ():
             # Libraries have folders of that name too, but not our rooms.
             if (ROOT / source[1]).is_dir() and not is_there(source[0]):

@@ -155,6 +155,16 @@ class House(unittest.TestCase):
             self.assertIn(line, said)
         self.assertEqual(said.count("scene.js"), 1)
 
+    def test_documents_that_name_commands_and_tests(self):
+        self.plant("src/cli/main.c", 'static const command_row commands[] = {\n    {"run", "SCENARIO",\n')
+        self.plant("tests/ice/test_floe.c", "START_TEST(a_floe_floats)\n")
+        self.plant("docs/theory.md", "`fram run --help`, `ice/floe` a_floe_floats, `ice/absent.h` and `peers/ice`\n")
+        self.assertEqual(self.documents(), "")
+        self.plant("docs/theory.md", "`fram sail`\n`ice/wave`\n`ice/floe` a_floe_floats, a_floe_sinks\n")
+        self.assertEqual(self.documents(), "docs/theory.md:1: `fram sail` is no command\n"
+                         "docs/theory.md:2: there is no test ice/wave\n"
+                         "docs/theory.md:3: the test ice/floe has no case a_floe_sinks\n")
+
     def test_libm_in_the_source(self):
         self.plant("src/ice/wave.c", "double f(double x)\n{\n    return sin (x) + powf(2, 3);\n}\n")
         said = self.rooms()
