@@ -21,35 +21,47 @@ int exit_code_of(fram_status status)
     }
 }
 
-/* The library names what its caller gave by the names of its headers; here they were options. */
+/* The library names what its caller gave by the names of its headers; here they were options: "speed_step" was
+   --speed-step, an angle that is radians there ends in -deg, and these have other names. */
 static const struct {
     const char *key, *option;
-} option_names[] = {
-    {"folder", "--output"},
-    {"until", "--until"},
-    {"isa", "--isa"},
-    {"time", "--time"},
-    {"probability", "--level"},
-    {"directions", "--directions"},
-    {"speed_step", "--speed-step"},
-    {"allowance", "--allowance"},
-    {"measure", "--measure"},
-    {"ice_from", "--ice-from"},
-    {"ice_vessel", "--ice-vessel"},
-    {"unbroken_as", "--unbroken-as"},
-    {"window", "--window"},
-    {"step", "--step"},
-    {"formula", "--formula"},
+} other_names[] = {
+    {"folder", "--output"}, {"probability", "--level"},     {"poisson_ratio", "--nu"},       {"seal_width", "--seal"},
+    {"slopes", "--slope"},  {"frames_per_second", "--fps"}, {"smallest_area", "--smallest"},
 };
 
-static fram_error in_words_of_command(const fram_error *error)
+/* Whether an option, "--stem-angle-deg", has the name of a member, "stem_angle". */
+static bool is_option_of(const char *option, const char *key)
+{
+    const char *o = option + strlen("--");
+    for (; *key && *o; o++, key++) {
+        if (*key != *o && !(*key == '_' && *o == '-'))
+            return false;
+    }
+    return !*key && (!*o || strcmp(o, "-deg") == 0);
+}
+
+/* The option of this command that the key stands for; NULL: none. */
+static const char *option_of(const common_options *common, const char *key)
+{
+    const char *wanted = NULL;
+    for (size_t i = 0; i < sizeof other_names / sizeof *other_names; i++)
+        wanted = strcmp(other_names[i].key, key) == 0 ? other_names[i].option : wanted;
+    for (const char *const *option = common->option; *key && *option; option++) {
+        if (wanted ? strcmp(*option, wanted) == 0 : is_option_of(*option, key))
+            return *option;
+    }
+    return NULL;
+}
+
+static fram_error in_words_of_command(const common_options *common, const fram_error *error)
 {
     fram_error e = *error;
-    for (size_t i = 0; i < sizeof option_names / sizeof *option_names; i++) {
-        /* At a line of a file it is a column or a key of that. */
-        if (error->line <= 0 && strcmp(error->key, option_names[i].key) == 0)
-            snprintf(e.key, sizeof e.key, "%s", option_names[i].option);
-    }
+    /* At a line of a file it is a column or a key of that, and `vessel` of a file is the section of a scenario. */
+    bool of_file = error->line > 0 || (error->file[0] && strcmp(error->key, "vessel") == 0);
+    const char *option = of_file ? NULL : option_of(common, error->key);
+    if (option)
+        snprintf(e.key, sizeof e.key, "%s", option);
     if (strcmp(error->file, "(override)") == 0)
         snprintf(e.file, sizeof e.file, "--set");
     if (error->status == FRAM_ERROR_USAGE && strcmp(error->key, "folder") == 0 && error->file[0])
@@ -75,7 +87,7 @@ static void print_error_for_people(const fram_error *e)
 
 int answer_error(const common_options *common, const fram_error *error)
 {
-    const fram_error told = in_words_of_command(error);
+    const fram_error told = in_words_of_command(common, error);
     error = &told;
     print_error_for_people(error);
     if (common->json) {

@@ -37,10 +37,12 @@ typedef struct option_row {
 } option_row;
 
 /* What every command takes, besides its own options. */
+enum { OPTION_NAMES_ROOM = 48 };
 typedef struct common_options {
     bool json, quiet, verbose, help, force;
     int threads;
     const char *isa;
+    const char *option[OPTION_NAMES_ROOM]; /* names of the options of the command, then NULL: for words of errors */
 } common_options;
 
 /* One command of `fram`. */

@@ -42,7 +42,7 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
         {"--rise-time", NULL, OPTION_REAL, &w->load.rise_time, "T",
          "break: time in which the load has risen evenly, with the inertia of ice and water [s] (0: at rest)"},
         {"--ice-density", NULL, OPTION_REAL, &w->load.ice_density, "RHO",
-         "break: density of the ice, for --rise-time [kg/m3] (900)"},
+         "break: density of the ice, for --rise-time [kg/m3] (920)"},
         {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL,
          "break: thin-plate theory also under small loads (no equivalent radius)"},
         {"--toughness", NULL, OPTION_REAL, &w->floe.toughness, "K",

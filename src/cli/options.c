@@ -12,10 +12,11 @@ enum { COMMON_ROWS = 7 };
 static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
 {
     rows[0] = (option_row){"--json", NULL, OPTION_FLAG, &c->json, NULL, "end with one JSON object on standard output"};
-    rows[1] =
-        (option_row){"--threads", NULL, OPTION_INTEGER, &c->threads, "N", "threads to use; results never depend on it"};
-    rows[2] = (option_row){"--isa", NULL,   OPTION_TEXT,
-                           &c->isa, "NAME", "baseline, avx2 or avx512; results never depend on it"};
+    rows[1] = (option_row){"--threads", NULL, OPTION_INTEGER,
+                           &c->threads, "N",  "threads to use (1); results never depend on it"};
+    rows[2] = (option_row){
+        "--isa", NULL,   OPTION_TEXT,
+        &c->isa, "NAME", "baseline, avx2 or avx512 (the best that the processor has); results never depend on it"};
     rows[3] = (option_row){"--quiet", "-q", OPTION_FLAG, &c->quiet, NULL, "errors only on standard error"};
     rows[4] = (option_row){"--verbose", "-v", OPTION_FLAG, &c->verbose, NULL, "more on standard error"};
     rows[5] =
@@ -53,7 +54,8 @@ static void print_rows(const option_row *rows, int count, const option_row *own,
 static void print_command_help(const command_row *command, const option_row *rows, int row_count,
                                const option_row *common)
 {
-    printf("fram %s %s\n  %s\n\n", command->name, command->arguments, command->summary);
+    printf("fram %s%s%s\n  %s\n\n", command->name, *command->arguments ? " " : "", command->arguments,
+           command->summary);
     printf("Examples:\n%s\nOptions:\n", command->examples);
     print_rows(rows, row_count, NULL, 0);
     print_rows(common, COMMON_ROWS, rows, row_count);
@@ -191,6 +193,16 @@ bool words_ask_for_json(int count, char **words)
     return false;
 }
 
+/* For errors, which may come when the rows are gone. */
+static void note_names(const option_row *rows, int count, common_options *common)
+{
+    int noted = 0;
+    while (common->option[noted])
+        noted++;
+    for (int i = 0; i < count && noted + 1 < OPTION_NAMES_ROOM; i++)
+        common->option[noted++] = rows[i].name;
+}
+
 static int answer_command_help(const command_row *command, const word_list *list)
 {
     print_command_help(command, list->rows, list->row_count, list->shared);
@@ -210,6 +222,8 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
     common->json = words_ask_for_json(argc, argv);
     option_row shared[COMMON_ROWS];
     common_rows(common, shared);
+    note_names(rows, row_count, common);
+    note_names(shared, COMMON_ROWS, common);
     word_list list = {
         rows, shared, row_count, common, argc, 0, *command->arguments ? command->arguments : command->name, argv};
     int found = 0, code = read_words(&list, positional, most, &found);

@@ -204,6 +204,21 @@ void capability_free(context *ctx, capability *c)
     *c = (capability){0};
 }
 
+/* What loads are multiplied and breaking loads divided by. */
+static fram_status check_factors(const capability_options *o, fram_error *error)
+{
+    const struct {
+        const char *key;
+        double value;
+    } factor[] = {
+        {"allowance", o->allowance}, {"line_safety", o->line_safety}, {"line_safety_damaged", o->line_safety_damaged}};
+    for (size_t i = 0; i < sizeof factor / sizeof *factor; i++)
+        if (!(factor[i].value >= 1 && factor[i].value < 100))
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, factor[i].key,
+                             "expected a factor from 1 to 100, found %g", factor[i].value);
+    return FRAM_OK;
+}
+
 static fram_status check(const scenario *s, const capability_options *o, fram_error *error)
 {
     const scenario_vessel *v = &s->vessel;
@@ -224,11 +239,9 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
             error, FRAM_ERROR_USAGE, NULL, 0, "speed_step",
             "expected a positive step that divides the largest speed into 1 to %d speeds, found %g and %g m/s",
             (int)CAPABILITY_SPEEDS, o->speed_step, o->speed_most);
-    if (!(o->allowance >= 1 && o->line_safety >= 1 && o->line_safety_damaged >= 1 && o->allowance < 100 &&
-          o->line_safety < 100 && o->line_safety_damaged < 100))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "allowance",
-                         "expected an allowance and safety factors from 1 to 100, found %g, %g and %g", o->allowance,
-                         o->line_safety, o->line_safety_damaged);
+    fram_status status = check_factors(o, error);
+    if (status != FRAM_OK)
+        return status;
     if (!(o->measure >= s->run.time_step && o->measure <= 1e6))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "measure", "expected a time step to 1e6 seconds, found %g",
                          o->measure);

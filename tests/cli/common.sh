@@ -38,3 +38,6 @@ same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
 # says WORDS FILE, holds PATTERN FILE: the file has the words, or a line of the pattern.
 says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
 holds() { grep -q -- "$1" "$2" || fail "$2 lacks '$1'"; }
+# told_defaults PATTERN NUMBER: options of the help in out whose words have the pattern, each with the number that the
+# second pattern finds in them: "(" finds 30 in "(30; ship 75)", "ship " finds 75.
+told_defaults() { sed -nE "s/^  (-., )?(--[a-z-]+) .* .*($1).*$2([0-9][0-9.e]*).*/\\2 \\4/p" out; }

@@ -73,4 +73,11 @@ says 'nothing was written' err
 expect 2 "$FRAM" capability "$FRAM_SOURCE/scenes/demo.yaml" -o "$scratch/b"
 says 'mode free' err
 
+# A section of the scenario is no option of that name.
+echo "ice: {source: none}" >bare.yaml
+expect 2 "$FRAM" capability bare.yaml -o bare --formula
+says "bare.yaml: vessel: expected a vessel of mode free" err
+expect 2 "$FRAM" capability bare.yaml -o bare --formula --vessel nobody
+says "fram: --vessel: expected" err
+
 finish "fram capability: as it should be"

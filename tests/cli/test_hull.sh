@@ -32,7 +32,7 @@ for ending in stl obj gdf; do
     same "$(value 'abs(j["block_coefficient"] - 0.5) < 1e-6')" True "block coefficient of ship.$ending"
 done
 expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9 --json
-same "$(value 'j["error"]["key"]')" block_coefficient "key"
+same "$(value 'j["error"]["key"]')" --block-coefficient "key"
 says "can be 0.3750 to 0.5661" err
 
 # A tanker: sound when read again, of the block coefficient asked for; what cannot be is refused with its key.
@@ -44,16 +44,14 @@ for block in 0.75 0.9; do
         "True True 1" "the tanker of $block"
 done
 refused_ship() {
-    local key=$1
-    shift
     expect 2 "$FRAM" hull "${tanker[@]}" --json "$@"
-    same "$(value 'j["error"]["key"]')" "$key" "key of $*"
+    same "$(value 'j["error"]["key"]')" "$1" "key of $*"
 }
-refused_ship block_coefficient --block-coefficient 0.98
-refused_ship flare_angle --flare-angle-deg 8
-refused_ship bilge_radius --bilge-radius 30
-refused_ship transom --transom 0.05
-refused_ship parallel_midbody --parallel-midbody 0.95
+refused_ship --block-coefficient 0.98
+refused_ship --flare-angle-deg 8
+refused_ship --bilge-radius 30
+refused_ship --transom 0.05
+refused_ship --parallel-midbody 0.95
 refused_ship --ship --box
 expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --transom 0.5
 says "applies to a ship" err
@@ -125,6 +123,21 @@ same "$(value 'j["holes_filled"]')" 1 "holes"
 example=$("$FRAM" hull --help | grep -o 'hull --length.*')
 # shellcheck disable=SC2086
 expect 0 "$FRAM" $example
+
+# What the help tells as defaults, given by hand, changes nothing.
+for form in "" --ship; do
+    expect 0 "$FRAM" hull --help
+    told=$(told_defaults "density|pieces" '\(' && if [ "$form" ]; then
+        told_defaults "no file:" 'ship ' && told_defaults "ship:" '\('
+    else
+        told_defaults "no file:" '\('
+    fi)
+    expect 0 "$FRAM" hull $form --length 120 --beam 24 --draught 8 --json
+    bare=$(cat out)
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" hull $form --length 120 --beam 24 --draught 8 $told --json
+    same "$(cat out)" "$bare" "$form with the defaults of the help: $told"
+done
 
 # Words that do not go together.
 expect 2 "$FRAM" hull

@@ -38,14 +38,17 @@ rest=$(tail -n 1 out | python3 -c "$both")
 expect 0 "$FRAM" ice break --thin-plate --contact-area 0.155871 --rise-time 0.1 --json
 near 'j["wedge_capacity"]' "${rest% *} / 0.9322" 1e-2 "capacity under a load that rises"
 near 'j["breaking_radius"]' "${rest#* } * 0.5390" 2e-2 "length under a load that rises"
+# An error names the option, not the member of the library's struct.
 expect 2 "$FRAM" ice break --rise-time -1
-says rise_time err
+says "fram: --rise-time: expected" err
+expect 2 "$FRAM" ice sheet --a-over-l 0.1 --nu 0.7
+says "fram: --nu: expected" err
 expect 2 "$FRAM" ice break --included-angle -30
 says "more than 0 and at most 360 degrees" err
 expect 2 "$FRAM" ice break --included-angle 361
 says included-angle err
 expect 2 "$FRAM" ice break --contact-width -1
-says contact_width err
+says --contact-width err
 
 # Beyond tables and theory.
 expect 2 "$FRAM" ice break --contact-area 1e6
@@ -71,10 +74,23 @@ says place err
 expect 2 "$FRAM" ice split --width 0 --json
 says '"status":"input"' out
 
+# What the help tells as defaults, given by hand, changes nothing.
+for what in break split; do
+    expect 0 "$FRAM" ice --help
+    told=$(told_defaults "${what}[a-z, ]*:" '\(')
+    [ "$(wc -l <<<"$told")" -ge 4 ] || fail "the help of $what tells few defaults: $told"
+    rise=() && [ $what = split ] || rise=(--rise-time 0.1)
+    expect 0 "$FRAM" ice $what "${rise[@]}" --json
+    bare=$(cat out)
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" ice $what $told "${rise[@]}" --json
+    same "$(cat out)" "$bare" "$what with the defaults of the help"
+done
+
 expect 2 "$FRAM" ice wedge
 says '--a-over-l' err
 expect 2 "$FRAM" ice wedge --a-over-l 7 --json
-says 'a_over_l' err
+says '--a-over-l' err
 says '"status":"input"' out
 expect 2 "$FRAM" ice bend
 says 'is not a calculation' err

@@ -172,6 +172,11 @@ START_TEST(refusals)
     o = plain;
     o.allowance = 0.5;
     ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "allowance");
+    o = plain;
+    o.line_safety_damaged = 0;
+    ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "line_safety_damaged");
     o = plain;
     o.measure = (double)NAN;
     ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);

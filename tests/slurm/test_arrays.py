@@ -68,7 +68,7 @@ class Arrays(unittest.TestCase):
     def test_mistakes_are_told(self):
         error = json.loads(self.fram("out", "--on", "cloud", code=2))["error"]
         self.assertIn("local or slurm", error["message"])
-        self.assertEqual(json.loads(self.fram("out", "--partition", "all", code=2))["error"]["key"], "on")
+        self.assertEqual(json.loads(self.fram("out", "--partition", "all", code=2))["error"]["key"], "--on")
         error = json.loads(self.fram("out", "--on", "slurm", "--sbatch", "account", code=2))["error"]
         self.assertIn("--account=ice", error["message"])
         none = dict(os.environ, PATH="/nowhere")
