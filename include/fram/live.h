@@ -1,9 +1,12 @@
 /* Fram: a world inside another program.  What `fram run` does to a world, a program that steps it can do: record it in
    a run folder, save, load and copy it to the bit, read it by channels and whole arrays, and steer it.
 
-       int surge = fram_world_find_channel(world, "velocity_x"), thrust = fram_world_find_input(world,
-   "thruster_1_order"); while (fram_world_time(world) < 60) { fram_world_set_input(world, thrust,
-   controller(fram_world_value(world, surge)), &error); fram_world_step(world, &error);
+       int surge = fram_world_find_channel(world, "velocity_x");
+       int thrust = fram_world_find_input(world, "thruster_1_order");
+       fram_world_set_input(world, fram_world_find_input(world, "positioning"), 0, &error);
+       while (fram_world_time(world) < 60) {
+           fram_world_set_input(world, thrust, controller(fram_world_value(world, surge)), &error);
+           fram_world_step(world, &error);
        }
 
    Rules about statuses, errors, units and frames stand in fram.h.

@@ -57,7 +57,7 @@ char *memory_string(context *ctx, const char *text);
 void log_write(context *ctx, log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Whether a caller's flag is set; NULL: no.  Read as one indivisible int, so that another thread may set it meanwhile
-   as fram_stop does. */
+   as fram_stop_set does. */
 static inline bool stop_is_asked(const volatile int *stop)
 {
     return stop && __atomic_load_n(stop, __ATOMIC_RELAXED) != 0;

@@ -151,9 +151,10 @@ fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error
     add(&r,
         "# Input reference\n\n"
         "Every key that a scenario file may hold. This page is written from the table that the reader itself uses.\n\n"
-        "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold\n"
-        "degrees. Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths\n"
-        "are relative to the folder of the scenario. Where a default holds `scale`, that is `run.scale`.\n"
+        "A scenario is YAML, a value a line or in braces (`hull: {length: 90, beam: 20}`); JSON is YAML too. Units\n"
+        "are SI unless the column says otherwise (MB, GB, MN/m); only keys that end in `_deg` hold degrees.\n"
+        "Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths are\n"
+        "relative to the folder of the scenario. Where a default holds `scale`, that is `run.scale`.\n"
         "`--set run.seed=7` or `--set ice.floes[0].x=3` on the command line overrides a value,\n"
         "`--set vessels.NAME.x=3` one of the vessel of that name.\n\n"
         "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed\n"

@@ -99,7 +99,7 @@
     X(heading, CHOICE(heading_rule, HEADING_FIXED, "fixed vaning"), "",                                               \
       "fixed: as at the start or in the way points; vaning: the bow turns against the load")                          \
     X(vaning_rate_deg, SCALED(0.1, 30, -0.5, 1e-9, 1e6), "deg/s", "fastest turn")                                     \
-    X(vaning_time, SCALED(100, 30, 0.5, 1e-9, 1e9), "s", "in which an angle is turned by but a third")                \
+    X(vaning_time, SCALED(100, 30, 0.5, 1e-9, 1e9), "s", "time constant of the turn: then a third (1/e) is left")     \
     X(vaning_load, SCALED(5e4, 30, 3, 0, 1e12), "N", "the heading stays while the load is smaller")                   \
     X(mass_surge, AUTOMATIC(1e-9, 1e13), "kg", "of the controller's model; auto: mass and added mass")                \
     X(mass_sway, AUTOMATIC(1e-9, 1e13), "kg", "of the controller's model; auto: mass and added mass")                 \

@@ -44,6 +44,25 @@ cc -std=c17 -o "$scratch/static" "$consumer/consumer.c" $(pkg-config --cflags fr
     $(pkg-config --static --libs fram | sed 's/-lfram\b//')
 [ "$(env -u LD_LIBRARY_PATH "$scratch/static")" = "$version" ] || fail "the static consumer failed"
 
+echo "examples at the heads of headers"
+for header in fram live hull field ice; do
+    # Lines of the first comment that are indented by seven; what they take as given stands before them.
+    {
+        echo "#include <fram/live.h>"
+        echo "#include <fram/$header.h>"
+        echo "#include <stdio.h>"
+        echo "extern fram_world *world; extern fram_context *context; double controller(double);"
+        echo "void example(void); void example(void) {"
+        [ $header = fram ] || echo "fram_error error;"
+        sed '/\*\//q' "$prefix/include/fram/$header.h" | sed -n 's/^       //p'
+        echo "}"
+    } >"$scratch/example.c"
+    [ "$(wc -l <"$scratch/example.c")" -ge 11 ] || fail "$header.h begins without an example"
+    # shellcheck disable=SC2046
+    cc -std=c17 -Wall -Wextra -Werror -fsyntax-only $(pkg-config --cflags fram) "$scratch/example.c" ||
+        fail "the example of $header.h is no C"
+done
+
 if command -v c++ >/dev/null; then
     echo "C++"
     # shellcheck disable=SC2046
