@@ -5,7 +5,6 @@ FRAM_LIBRARY names libfram where the package does not carry it."""
 
 import inspect
 import pathlib
-import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -14,12 +13,38 @@ PAGE = ROOT / "docs/python.md"
 MARK = "<!-- written by tools/python_reference.py from here on -->\n"
 
 
+class Plain:
+    """A text that is shown as it is."""
+
+    def __init__(self, text):
+        self.text = text
+
+    def __repr__(self):
+        return self.text
+
+
+def annotation(of):
+    """A type as it is written, without the quotation marks that only Python's reading order asks for."""
+    if of is inspect.Parameter.empty:
+        return of
+    text = of if isinstance(of, str) else getattr(of, "__forward_arg__", None) or inspect.formatannotation(of)
+    return Plain(text.replace("'", "").replace('"', ""))
+
+
+def default(of):
+    """Functions and classes by their names, not where they lie in memory."""
+    return Plain(of.__name__) if inspect.isfunction(of) or inspect.isclass(of) and of is not inspect.Parameter.empty \
+        else of
+
+
 def signature(thing):
     try:
-        # Functions as defaults by their names, not where they lie in memory.
-        return re.sub(r"<function (\w+) at 0x[0-9a-f]+>", r"\1", str(inspect.signature(thing)).replace("'", ""))
+        found = inspect.signature(thing)
     except (TypeError, ValueError):
         return ""
+    parameters = [p.replace(annotation=annotation(p.annotation), default=default(p.default))
+                  for p in found.parameters.values()]
+    return str(found.replace(parameters=parameters, return_annotation=annotation(found.return_annotation)))
 
 
 def members(thing):

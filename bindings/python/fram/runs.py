@@ -244,5 +244,5 @@ def plot_outlines(outlines, axes=None, **style):
 
 
 def open_run(folder: Union[str, os.PathLike], context: Optional[Context] = None) -> Run:
-    """The run in a folder; InputError when there is none."""
+    """The run in a folder, also as `fram.open`; InputError when there is none."""
     return Run(folder, context)

@@ -113,7 +113,7 @@ class Scenario:
 
     @property
     def time_step(self) -> float:
-        """[s]"""
+        """Fixed time step of a run [s]."""
         return lib.fram_scenario_time_step(self._pointer)
 
     @property
@@ -142,8 +142,8 @@ class Scenario:
             progress: Optional[Callable[[float, float], None]] = None) -> "Run":
         """Run to the end, or to the simulated time `until`, with all results in `folder`, as `fram run` does.
 
-        progress: called as ``progress(time, end)`` a few times a second; an exception in it, or Ctrl-C at any time,
-        ends the run with a checkpoint and is raised.
+        force: also into a folder that is not empty.  progress: called as ``progress(time, end)`` a few times a
+        second; an exception in it, or Ctrl-C at any time, ends the run with a checkpoint and is raised.
         """
         from .runs import open_run
         definition = ffi.new("fram_run_definition *")

@@ -28,7 +28,11 @@ class Channel(NamedTuple):
 
 @dataclass(frozen=True)
 class Bodies:
-    """Bodies as arrays, a row each: SI units, global frame, orientation as quaternion w, x, y, z."""
+    """Bodies as arrays, a row each: SI units, global frame, orientation as quaternion w, x, y, z.
+
+    kind: 0 floe, 1 vessel, 2 wall, 3 other.  number: that of a floe, never used twice; parent: that of the floe it
+    broke from; -1 for all else.  thickness: of floes and walls [m], otherwise 0.  position: of the centre of mass.
+    """
 
     slot: np.ndarray
     generation: np.ndarray
@@ -373,7 +377,7 @@ class World:
         return self.time
 
     def run_until(self, time: float, callback: Optional[Callable[["World"], object]] = None) -> float:
-        """Steps until the simulated time is not before `time` [s]."""
+        """Steps until the simulated time is not before `time` [s], with a `callback` as `step`; returns the time."""
         if not time < float("inf"):
             raise UsageError("usage", f"expected a finite time, found {time}", key="time")
         while self.time < time - 1e-9 * self.scenario.time_step:
@@ -592,8 +596,9 @@ class World:
                live: Optional[Callable[[str], None]] = None) -> Recording:
         """Record each step from now on in a run folder, as `fram run` does.
 
-        ``live_page`` (the viewer's page, which `make viewer` builds) lets a browser on this machine look on until the
-        recording ends: ``live(address)`` is told where.
+        force: also into a folder that is not empty.  with_paths: the record tells where input files lie, not their
+        names alone.  ``live_page`` (the viewer's page, which `make viewer` builds) lets a browser on this machine look
+        on until the recording ends: ``live(address)`` is told where.
         """
         definition = ffi.new("fram_record_definition *")
         lib.fram_record_default(definition, ffi.sizeof("fram_record_definition"))
