@@ -101,7 +101,7 @@ fram_status study_unknown(const study_source *r, const yaml_node *node, const ch
 
 /* ---- keys and values ---- */
 
-static fram_status add_key(const study_source *r, const yaml_node *node)
+fram_status study_add_key(const study_source *r, const yaml_node *node)
 {
     const char *key = study_key(r, node);
     if (strcmp(key, "run.seed") == 0)
@@ -115,6 +115,23 @@ static fram_status add_value(const study_source *r, const yaml_node *node)
         return study_refuse(r, node, "expected one value of the key, found a %s",
                             node->kind == YAML_MAPPING ? "mapping" : "list");
     return text_list_add(r->ctx, &r->out->values, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
+}
+
+fram_status study_range(const study_source *r, const yaml_node *node, key_range *out)
+{
+    if (node->kind != YAML_SEQUENCE || node->count != 2)
+        return study_refuse(r, node, "expected the ends of a range, as [0.5, 1.5]");
+    const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
+    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
+    return status == FRAM_OK ? study_number(r, hi, out->lo, 1e300, &out->hi) : status;
+}
+
+fram_status study_add_part(const study_source *r, key_range range, double part)
+{
+    char text[32];
+    /* Nine digits are read well, and stay within the stratum of a Latin hypercube. */
+    snprintf(text, sizeof text, "%.9g", range.lo + part * (range.hi - range.lo));
+    return text_list_add(r->ctx, &r->out->values, text) ? FRAM_OK : error_memory(r->error);
 }
 
 static fram_status expect(const study_source *r, const yaml_node *node, yaml_kind kind, const char *what)
@@ -149,7 +166,7 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
         status = expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
         if (status == FRAM_OK)
-            status = add_key(r, k);
+            status = study_add_key(r, k);
         conditions *= k->count;
     }
     if (status == FRAM_OK)
@@ -180,7 +197,7 @@ static fram_status read_list(const study_source *r, const yaml_node *node)
         int32_t at = 0;
         for (const yaml_node *k = study_child(r, c); k && status == FRAM_OK; k = study_next(r, k), at++) {
             if (first)
-                status = add_key(r, k);
+                status = study_add_key(r, k);
             else if (strcmp(r->out->keys.data[at], study_key(r, k)) != 0)
                 status = study_refuse(r, k, "expected the keys of the first condition in their order: %s",
                                       r->out->keys.data[at]);
@@ -236,7 +253,7 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
 /* ---- Latin hypercube (McKay, Beckman and Conover 1979): every key's range in `count` strata, each met once ---- */
 
 typedef struct latin_key {
-    double lo, hi;
+    key_range range;
     int32_array stratum; /* of each condition */
 } latin_key;
 
@@ -255,15 +272,6 @@ static bool shuffle(context *ctx, int32_array *order, int32_t count, random_stre
     return true;
 }
 
-static fram_status read_range(const study_source *r, const yaml_node *k, latin_key *out)
-{
-    if (k->kind != YAML_SEQUENCE || k->count != 2)
-        return study_refuse(r, k, "expected the ends of a range, as [0.5, 1.5]");
-    const yaml_node *lo = study_child(r, k), *hi = study_next(r, lo);
-    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
-    return status == FRAM_OK ? study_number(r, hi, out->lo, 1e300, &out->hi) : status;
-}
-
 enum { LATIN_KEYS_MOST = 64 };
 
 static fram_status draw_latin(const study_source *r, const latin_key *keys, random_stream *places)
@@ -274,11 +282,9 @@ static fram_status draw_latin(const study_source *r, const latin_key *keys, rand
             if (!stratum)
                 return error_memory(r->error);
             double at = (stratum[c] + random_unit(&places[k])) / r->out->conditions;
-            char text[32];
-            /* Nine digits are read well, and stay within the stratum. */
-            snprintf(text, sizeof text, "%.9g", keys[k].lo + at * (keys[k].hi - keys[k].lo));
-            if (!text_list_add(r->ctx, &r->out->values, text))
-                return error_memory(r->error);
+            fram_status status = study_add_part(r, keys[k].range, at);
+            if (status != FRAM_OK)
+                return status;
         }
     }
     return FRAM_OK;
@@ -286,7 +292,7 @@ static fram_status draw_latin(const study_source *r, const latin_key *keys, rand
 
 static fram_status fill_latin(const study_source *r, const yaml_node *node, int64_t seed)
 {
-    latin_key keys[LATIN_KEYS_MOST] = {{0}};
+    latin_key keys[LATIN_KEYS_MOST] = {{.range = {0, 0}}};
     random_stream places[LATIN_KEYS_MOST];
     fram_status status = expect(r, node, YAML_MAPPING, "keys with a range each");
     if (status == FRAM_OK && node->count > LATIN_KEYS_MOST)
@@ -295,9 +301,9 @@ static fram_status fill_latin(const study_source *r, const yaml_node *node, int6
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k), n++) {
         random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)n);
         places[n] = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)n);
-        status = read_range(r, k, &keys[n]);
+        status = study_range(r, k, &keys[n].range);
         if (status == FRAM_OK)
-            status = add_key(r, k);
+            status = study_add_key(r, k);
         if (status == FRAM_OK && !shuffle(r->ctx, &keys[n].stratum, r->out->conditions, &strata))
             status = error_memory(r->error);
     }

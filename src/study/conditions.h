@@ -1,4 +1,4 @@
-/* The conditions of a study, from a grid, a list, a table or a Latin hypercube. */
+/* The conditions of a study, from a grid, a list, a table, a Latin hypercube or a design of sensitivity. */
 #ifndef STUDY_CONDITIONS_H
 #define STUDY_CONDITIONS_H
 
@@ -29,6 +29,18 @@ fram_status study_unknown(const study_source *r, const yaml_node *node, const ch
 /* Children of a mapping or sequence. */
 const yaml_node *study_child(const study_source *r, const yaml_node *node);
 const yaml_node *study_next(const study_source *r, const yaml_node *node);
+
+/* The ends of a range of a key, [0.5, 1.5]. */
+typedef struct key_range {
+    double lo, hi;
+} key_range;
+
+/* A key that conditions vary, at whose values or range the node is; run.seed is refused. */
+fram_status study_add_key(const study_source *r, const yaml_node *node);
+/* Two numbers, the second no less than the first. */
+fram_status study_range(const study_source *r, const yaml_node *node, key_range *out);
+/* The next value of the conditions: that part of the way, 0 to 1, from the lower end of a range to the upper one. */
+fram_status study_add_part(const study_source *r, key_range range, double part);
 
 /* Designs of sensitivity: `vary: {sobol: ...}` and `vary: {morris: ...}`. */
 fram_status study_sobol_read(const study_source *r, const yaml_node *node);

@@ -2,42 +2,24 @@
 #include "study/conditions.h"
 #include "study/sensitivity.h"
 
-#include <stdio.h>
 #include <string.h>
 
-typedef struct design_range {
-    double lo, hi;
-} design_range;
-
-static fram_status read_range(const study_source *r, const yaml_node *k, design_range *out)
+/* A range of its own width, whose key is added. */
+static fram_status read_range(const study_source *r, const yaml_node *k, key_range *out)
 {
-    if (k->kind != YAML_SEQUENCE || k->count != 2)
-        return study_refuse(r, k, "expected the ends of a range, as [0.5, 1.5]");
-    const yaml_node *lo = study_child(r, k), *hi = study_next(r, lo);
-    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
-    if (status == FRAM_OK)
-        status = study_number(r, hi, out->lo, 1e300, &out->hi);
+    fram_status status = study_range(r, k, out);
     if (status == FRAM_OK && !(out->hi > out->lo))
         status = study_refuse(r, k, "expected a range that is wider than nothing");
-    if (status == FRAM_OK && strcmp(study_key(r, k), "run.seed") == 0)
-        status = study_refuse(r, k, "seeds are given by `seeds`, not as a condition");
-    if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->keys, study_key(r, k)))
-        status = error_memory(r->error);
-    return status;
+    return status == FRAM_OK ? study_add_key(r, k) : status;
 }
 
-/* Values of the points: nine digits are read well. */
-static fram_status write_values(const study_source *r, const design_range *range)
+static fram_status write_values(const study_source *r, const key_range *range)
 {
     int32_t k = r->out->keys.count;
-    for (int32_t i = 0; i < r->out->design.point.count; i++) {
-        char text[32];
-        const design_range *of = &range[i % k];
-        snprintf(text, sizeof text, "%.9g", of->lo + r->out->design.point.data[i] * (of->hi - of->lo));
-        if (!text_list_add(r->ctx, &r->out->values, text))
-            return error_memory(r->error);
-    }
-    return FRAM_OK;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < r->out->design.point.count && status == FRAM_OK; i++)
+        status = study_add_part(r, range[i % k], r->out->design.point.data[i]);
+    return status;
 }
 
 static fram_status draw_points(const study_source *r, int64_t seed, int32_t levels)
@@ -54,7 +36,7 @@ static fram_status draw_points(const study_source *r, int64_t seed, int32_t leve
 }
 
 /* The ranges under `keys`, and the number of conditions that follows from them. */
-static fram_status read_ranges(const study_source *r, const yaml_node *node, design_range *range)
+static fram_status read_ranges(const study_source *r, const yaml_node *node, key_range *range)
 {
     study *s = r->out;
     if (node->kind != YAML_MAPPING || node->count == 0)
@@ -100,7 +82,7 @@ static fram_status read_design(const study_source *r, const yaml_node *node, stu
         return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
     if (levels % 2 != 0)
         return study_refuse(r, node, "expected an even number of levels, found %d", (int)levels);
-    design_range range[SENSITIVITY_KEYS_MOST] = {{0, 0}};
+    key_range range[SENSITIVITY_KEYS_MOST] = {{0, 0}};
     r->out->design.kind = kind;
     r->out->design.count = (int32_t)count;
     status = read_ranges(r, keys, range);
