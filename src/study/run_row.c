@@ -8,6 +8,7 @@
 #include "results/rainflow.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
+#include "study/cells.h"
 #include "vessel/event.h"
 
 #include <errno.h>
@@ -421,16 +422,10 @@ void run_row_heads(context *ctx, text_buffer *out)
 void run_row_line(context *ctx, const run_row *row, text_buffer *out)
 {
     text_add(ctx, out, row->failed ? ",failed" : ",finished");
-    for (int i = 0; i < ROW_FIGURES; i++) {
-        text_add(ctx, out, ",");
-        number(ctx, out, row->figure[i]);
-    }
-    text_format(ctx, out, ",%s,", row->state_hash);
-    if (row->reason[0]) {
-        text_add(ctx, out, "\"");
-        for (const char *c = row->reason; *c; c++)
-            text_format(ctx, out, *c == '"' ? "\"\"" : "%c", *c);
-        text_add(ctx, out, "\"");
-    }
-    text_add(ctx, out, "\n");
+    for (int i = 0; i < ROW_FIGURES; i++)
+        cell_number(ctx, out, row->figure[i]);
+    text_format(ctx, out, ",%s", row->state_hash);
+    if (row->reason[0])
+        cell_quoted(ctx, out, row->reason);
+    text_add(ctx, out, row->reason[0] ? "\n" : ",\n");
 }

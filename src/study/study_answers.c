@@ -1,6 +1,7 @@
 #include "study/study_answers.h"
 
 #include "base/number_text.h"
+#include "study/cells.h"
 #include "study/extremes_notes.h"
 #include "study/study_extremes.h"
 #include "study/study_file.h"
@@ -12,18 +13,11 @@
 /* Figures that have extremes. */
 const run_figure study_rare[STUDY_RARE] = {ROW_load_largest, ROW_offset_largest, ROW_line_tension_largest};
 
-static void add_number(const study_folder *f, text_buffer *b, double value)
-{
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(f->ctx, b, ",%s", isnan(value) ? "" : text);
-}
-
 static void add_interval(const study_folder *f, text_buffer *b, const level_interval *i)
 {
-    add_number(f, b, i->level);
-    add_number(f, b, i->low);
-    add_number(f, b, i->high);
+    cell_end(f->ctx, b, i->level);
+    cell_end(f->ctx, b, i->low);
+    cell_end(f->ctx, b, i->high);
 }
 
 /* ---- extremes ---- */
@@ -133,12 +127,13 @@ static fram_status add_extremes(const study_folder *f, const condition_rows *con
             return status;
         text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, run_figure_name(figure), run_figure_unit(figure),
                     extreme_method_name(r.method), (int)of[c].value.count);
-        add_number(f, b, of[c].block);
-        add_number(f, b, x->duration);
+        cell_end(f->ctx, b, of[c].block);
+        cell_end(f->ctx, b, x->duration);
         add_interval(f, b, &r.most_probable);
         for (int i = 0; i < x->levels; i++)
             add_interval(f, b, &r.level[i]);
-        text_format(f->ctx, b, ",\"%s\"\n", r.note);
+        cell_quoted(f->ctx, b, r.note);
+        text_add(f->ctx, b, "\n");
     }
     return FRAM_OK;
 }
@@ -151,9 +146,11 @@ static fram_status add_annual(const study_folder *f, const condition_rows *condi
     fram_status status = study_annual(f, conditions, figure, block, answer, error);
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
         text_format(f->ctx, b, "%s,%s,%s", run_figure_name(figure), run_figure_unit(figure), x->gev ? "gev" : "gumbel");
-        add_number(f, b, x->annual[i]);
+        cell_end(f->ctx, b, x->annual[i]);
         add_interval(f, b, &answer[i].level);
-        text_format(f->ctx, b, answer[i].why[0] ? ",\"%s\"\n" : ",\n", answer[i].why);
+        if (answer[i].why[0])
+            cell_quoted(f->ctx, b, answer[i].why);
+        text_add(f->ctx, b, answer[i].why[0] ? "\n" : ",\n");
     }
     return status;
 }

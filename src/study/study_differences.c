@@ -1,5 +1,5 @@
 /* differences.csv and its part of the page: conditions that are compared, run by run of the same seed. */
-#include "base/number_text.h"
+#include "study/cells.h"
 #include "study/differences.h"
 #include "study/study_page_parts.h"
 
@@ -38,13 +38,6 @@ static bool take_pair(const study_folder *f, const condition_rows *conditions, c
 
 /* ---- the table ---- */
 
-static void add_number(context *ctx, text_buffer *b, double value)
-{
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, ",%s", isfinite(value) ? text : "");
-}
-
 static bool add_line(const study_folder *f, const condition_rows *conditions, const condition_pair *p,
                      run_figure figure, text_buffer *b)
 {
@@ -61,10 +54,10 @@ static bool add_line(const study_folder *f, const condition_rows *conditions, co
     text_format(f->ctx, b, "%d,%d,%s,%s,%s,%d", (int)p->condition + 1, (int)p->reference + 1,
                 p->key >= 0 ? f->s->keys.data[p->key] : "", run_figure_name(figure), run_figure_unit(figure),
                 (int)pairs);
-    add_number(f->ctx, b, paired.mean);
-    add_number(f->ctx, b, paired.half);
-    add_number(f->ctx, b, means.mean);
-    add_number(f->ctx, b, means.half);
+    cell_number(f->ctx, b, paired.mean);
+    cell_number(f->ctx, b, paired.half);
+    cell_number(f->ctx, b, means.mean);
+    cell_number(f->ctx, b, means.half);
     text_format(f->ctx, b, ",%d\n", (int)freedom);
     return true;
 }

@@ -1,6 +1,6 @@
 /* sensitivity.csv and "Sensitivity" on the page: which key moves which figure, of conditions that are a design for it.
  */
-#include "base/number_text.h"
+#include "study/cells.h"
 #include "study/sensitivity.h"
 #include "study/study_page_parts.h"
 
@@ -119,12 +119,11 @@ static fram_status find_rows(const study_folder *f, const condition_rows *condit
 static void write_row(const study_folder *f, const sensitivity_row *row, text_buffer *b)
 {
     text_format(f->ctx, b, "%s,%s,%d", run_figure_name(row->figure), f->s->keys.data[row->key], (int)row->count);
-    for (int i = 0; i < values_of(f); i++) {
-        char text[NUMBER_TEXT_SIZE];
-        real_to_text(row->value[i], text);
-        text_format(f->ctx, b, ",%s", isnan(row->value[i]) ? "" : text);
-    }
-    text_format(f->ctx, b, row->note[0] ? ",\"%s\"\n" : ",%s\n", row->note);
+    for (int i = 0; i < values_of(f); i++)
+        cell_end(f->ctx, b, row->value[i]);
+    if (row->note[0])
+        cell_quoted(f->ctx, b, row->note);
+    text_add(f->ctx, b, row->note[0] ? "\n" : ",\n");
 }
 
 fram_status study_sensitivity_write(const study_folder *f, const condition_rows *conditions, fram_error *error)

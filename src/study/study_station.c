@@ -1,6 +1,6 @@
 /* station.csv and "Station" on the page: in how many runs a vessel kept the station that was required of it. */
-#include "base/number_text.h"
 #include "model/scenario_vessel.h"
+#include "study/cells.h"
 #include "study/key_names.h"
 #include "study/proportion.h"
 #include "study/study_file.h"
@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 /* What is required of the vessel under a condition, and in how many runs what happened.  runs is 0 where it is not on a
@@ -126,23 +125,16 @@ static proportion kept_of(const study_folder *f, const station_count *c)
 
 /* ---- the table ---- */
 
-static void add_number(context *ctx, text_buffer *b, double value)
-{
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, ",%s", isfinite(value) ? text : "");
-}
-
 static void add_line(const study_folder *f, int32_t condition, const station_count *c, text_buffer *b)
 {
     proportion kept = kept_of(f, c);
     text_format(f->ctx, b, "%d", (int)condition + 1);
-    add_number(f->ctx, b, c->offset_limit);
-    add_number(f->ctx, b, c->heading_limit);
+    cell_number(f->ctx, b, c->offset_limit);
+    cell_number(f->ctx, b, c->heading_limit);
     text_format(f->ctx, b, ",%d,%d", (int)c->runs, (int)c->kept);
-    add_number(f->ctx, b, kept.share);
-    add_number(f->ctx, b, kept.low);
-    add_number(f->ctx, b, kept.high);
+    cell_number(f->ctx, b, kept.share);
+    cell_number(f->ctx, b, kept.low);
+    cell_number(f->ctx, b, kept.high);
     text_format(f->ctx, b, ",%d,%d,%d\n", (int)c->beyond_offset, (int)c->beyond_heading, (int)c->parted);
 }
 

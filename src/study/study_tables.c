@@ -1,31 +1,15 @@
 /* The tables of a study.  No wall-clock times and no order of ends: the same study leaves the same bytes. */
-#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "model/mechanism.h"
+#include "study/cells.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
-
-#include <math.h>
-#include <string.h>
-
-/* A value of a key, quoted where a comma or a quotation mark would divide it. */
-static void add_value(context *ctx, text_buffer *b, const char *value)
-{
-    if (!strpbrk(value, ",\"")) {
-        text_format(ctx, b, ",%s", value);
-        return;
-    }
-    text_add(ctx, b, ",\"");
-    for (const char *c = value; *c; c++)
-        text_format(ctx, b, *c == '"' ? "\"\"" : "%c", *c);
-    text_add(ctx, b, "\"");
-}
 
 static void add_condition(const study_folder *f, int32_t condition, text_buffer *b)
 {
     text_format(f->ctx, b, "%d", (int)condition + 1);
     for (int32_t k = 0; k < f->s->keys.count; k++)
-        add_value(f->ctx, b, study_value(f->s, condition, k));
+        cell_text(f->ctx, b, study_value(f->s, condition, k));
 }
 
 static void add_condition_heads(const study_folder *f, text_buffer *b)
@@ -48,13 +32,6 @@ static void summarise(const study_folder *f, const condition_rows *conditions, t
             run_row_line(f->ctx, &conditions[c].rows.data[i], b);
         }
     }
-}
-
-static void add_number(context *ctx, text_buffer *b, double value)
-{
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, ",%s", isfinite(value) ? text : "");
 }
 
 static fram_status summarise_conditions(const study_folder *f, const condition_rows *conditions, text_buffer *b,
@@ -97,8 +74,8 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
             for (int32_t i = 0; i < n; i++)
                 value.data[i] = conditions[c].rows.data[i].figure[of[k]];
             seed_interval interval = seed_interval_of(value.data, n, f->s->seeds.confidence);
-            add_number(f->ctx, b, interval.mean);
-            add_number(f->ctx, b, interval.half);
+            cell_number(f->ctx, b, interval.mean);
+            cell_number(f->ctx, b, interval.half);
         }
         text_add(f->ctx, b, "\n");
     }
