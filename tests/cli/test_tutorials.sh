@@ -31,3 +31,15 @@ while IFS= read -r line; do
 done < <(grep '^    ' "$FRAM_SOURCE/docs/tutorials.md")
 echo "$count commands of docs/tutorials.md"
 [ "$count" -ge 15 ]
+
+# "Your own vessel and ice" of the README, which takes the floes of its first run: the last one meets ice.
+sed -e ':a;/\\$/{N;s/\\\n *//;ba}' "$FRAM_SOURCE/README.md" >readme
+count=0
+while IFS= read -r line; do
+    count=$((count + 1))
+    bash -c "set -e; $line" >out/log 2>&1 || fail "README: $line: $(tail -n 3 out/log)"
+done < <(grep -E '^    build.* (-o out/(thick|ship.stl|mine)|--geojson|out/floes.geojson)' readme)
+[ "$count" = 5 ] || fail "$count commands of the README instead of 5"
+awk -F, 'NR == 1 { while ($++c != "ice_force_x[N]"); } NR > 1 && $c != 0 { met++ } END { exit !(met > 100) }' \
+    out/mine/series.csv || fail "the run in own ice meets none"
+finish "the README's own vessel meets its own ice"
