@@ -84,9 +84,10 @@
     X(observer_bandwidth, SCALED(0.2, 30, -0.5, 1e-9, 1e6), "rad/s", "passive: how fast estimates follow")            \
     X(bias_time, SCALED(1000, 30, 0.5, 1e-9, 1e9), "s",                                                               \
       "time constant of the estimated load of ice, wind and current")                                                 \
-    X(bias_rate, REAL(0.001, 0, 1e3), "m/s^2.5",                                                                      \
+    X(bias_rate, SCALED(0.001, 30, -0.25, 0, 1e3), "m/s^2.5",                                                         \
       "kalman: how much that load may change, per mass and root of a second")                                         \
-    X(force_noise, REAL(0.0015, 0, 1e3), "m/s^1.5", "kalman: unknown force, per mass, times the root of a second")    \
+    X(force_noise, SCALED(0.0015, 30, 0.25, 0, 1e3), "m/s^1.5",                                                       \
+      "kalman: unknown force, per mass, times the root of a second")                                                  \
     X(frequency, SCALED(0.1, 30, -0.5, 1e-9, 1e6), "rad/s", "natural frequency of the controlled vessel")             \
     X(damping, REAL(1, 0, 100), "1", "its relative damping")                                                          \
     X(reference_frequency, SCALED(0.05, 30, -0.5, 1e-9, 1e6), "rad/s", "of the filter that smooths the way points")   \

@@ -235,6 +235,11 @@ static fram_status add_waypoints(context *ctx, const scenario_positioning *p, in
 
 /* Full scale, at which the model's own time constants hold. */
 #define FULL_SCALE 30.0
+/* What a Kalman filter does not know at the start, as standard deviations at full scale: its speed, and its bias as
+   what that may change in a time. */
+#define FIRST_SPEED 0.1  /* [m/s] */
+#define FIRST_TURN 0.002 /* [rad/s] */
+#define FIRST_TIME 100.0 /* [s] */
 
 static plane_model model_of(const scenario *s, const scenario_positioning *p, int32_t vessel, const world *w)
 {
@@ -310,6 +315,9 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
                                noise_of(&d.model, p->force_noise, length),
                                noise_of(&d.model, p->bias_rate, length),
                                p->bias_time};
+    double stretch = sqrt(s->run.scale / FULL_SCALE);
+    d.first_speed = vec3_make(FIRST_SPEED * stretch, FIRST_SPEED * stretch, FIRST_TURN / stretch);
+    d.first_bias = vec3_scale(d.kalman.bias, sqrt(FIRST_TIME * stretch));
     return d;
 }
 

@@ -34,17 +34,29 @@ enum { N = KALMAN_STATES };
 
 static double component(vec3 v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
-kalman_covariance kalman_begin(const kalman_tuning *tuning, vec3 speed, vec3 bias)
+/* `share` times the covariance of a bias that is uncertain by these standard deviations along and across the vessel,
+   added in the global axes of the state: what a filter believes must not depend on where north is. */
+static void add_bias(double heading, vec3 sd, double share, kalman_covariance *p)
+{
+    double c = real_cos(heading), s = real_sin(heading), x = sd.x * sd.x, y = sd.y * sd.y;
+    const mat3 turned = {{{c * c * x + s * s * y, c * s * (x - y), 0},
+                          {c * s * (x - y), s * s * x + c * c * y, 0},
+                          {0, 0, sd.z * sd.z}}};
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 3; k++)
+            p->of[N * (6 + r) + 6 + k] += share * turned.m[r][k];
+}
+
+kalman_covariance kalman_begin(const kalman_tuning *tuning, double heading, vec3 speed, vec3 bias)
 {
     kalman_covariance p;
     memset(&p, 0, sizeof p);
     for (int i = 0; i < 3; i++) {
-        double sd[3] = {component(tuning->measurement, i), component(speed, i), component(bias, i)};
-        for (int k = 0; k < 3; k++) {
-            int s = 3 * k + i;
-            p.of[N * s + s] = sd[k] * sd[k];
-        }
+        double place = component(tuning->measurement, i), rate = component(speed, i);
+        p.of[N * i + i] = place * place;
+        p.of[N * (3 + i) + 3 + i] = rate * rate;
     }
+    add_bias(heading, bias, 1, &p);
     return p;
 }
 
@@ -108,8 +120,6 @@ static void add_noise(mat3 inverse, const kalman_tuning *tuning, double dt, kalm
             }
             p->of[N * (3 + r) + 3 + k] += dt * sum;
         }
-        double sd = component(tuning->bias, r);
-        p->of[N * (6 + r) + 6 + r] += dt * sd * sd;
     }
 }
 
@@ -121,6 +131,7 @@ void kalman_predict(const plane_model *m, const kalman_tuning *tuning, motion_es
     step_jacobian(m, inverse, tuning, e, dt, f);
     propagate(f, p);
     add_noise(inverse, tuning, dt, p);
+    add_bias(e->place.z, tuning->bias, dt, p);
     vec3 force = vec3_add(tau, plane_to_vessel(e->place.z, e->bias));
     force = vec3_sub(force, mat3_mul_vec(m->damping, e->velocity));
     vec3 rate = plane_to_global(e->place.z, e->velocity);

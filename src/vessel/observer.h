@@ -30,7 +30,8 @@ void passive_observer_step(const plane_model *m, const passive_tuning *tuning, m
 typedef struct kalman_tuning {
     vec3 measurement; /* standard deviations of the measurements [m, m, rad] */
     vec3 force;       /* of the unknown force on the velocities, per square root of a second [N s^0.5, N m s^0.5] */
-    vec3 bias;        /* of the bias's change, per square root of a second [N / s^0.5, N m / s^0.5] */
+    vec3 bias;        /* of the bias's change along and across the vessel, and of its moment's, per square root of a
+                         second [N / s^0.5, N m / s^0.5] */
     double bias_time; /* [s] */
 } kalman_tuning;
 
@@ -41,8 +42,8 @@ typedef struct kalman_covariance {
 } kalman_covariance;
 
 /* The covariance of an estimate that was just set to the measurement, with velocity and bias unknown to `speed` and
-   `bias` (standard deviations, vessel and global). */
-kalman_covariance kalman_begin(const kalman_tuning *tuning, vec3 speed, vec3 bias);
+   `bias` (standard deviations along and across a vessel of this heading). */
+kalman_covariance kalman_begin(const kalman_tuning *tuning, double heading, vec3 speed, vec3 bias);
 /* The state as it moves on by dt. */
 void kalman_predict(const plane_model *m, const kalman_tuning *tuning, motion_estimate *e, kalman_covariance *p,
                     vec3 tau, double dt);

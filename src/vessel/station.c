@@ -10,10 +10,6 @@ TABLE_DEFINE(station, STATION_FIELDS)
 enum { STREAM_SENSOR = 0x5e05 };
 /* Position counts as regained below this share of the limit, so that it is not lost and regained with every wave. */
 #define REGAINED 0.9
-/* What the Kalman filter does not know at the start, as standard deviations: its speed [m/s, m/s, rad/s], and its bias
-   as what it may change in 100 s, whose root is 10. */
-static const vec3 FIRST_SPEED = {0.1, 0.1, 0.002};
-#define FIRST_BIAS 10
 
 static vec3 place_of(const body_table *bodies, int32_t body)
 {
@@ -77,7 +73,7 @@ fram_status station_add(context *ctx, const station_definition *d, int32_t vesse
     s->reference[row].place = s->estimate[row].place = s->measured[row] = place;
     s->estimate[row].velocity = plane_to_vessel(place.z, bodies->velocity[body]);
     s->estimate[row].velocity.z = 0;
-    s->covariance[row] = kalman_begin(&d->kalman, FIRST_SPEED, vec3_scale(d->kalman.bias, FIRST_BIAS));
+    s->covariance[row] = kalman_begin(&d->kalman, place.z, d->first_speed, d->first_bias);
     s->vane_heading[row] = place.z;
     return FRAM_OK;
 }

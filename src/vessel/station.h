@@ -74,6 +74,7 @@ typedef struct station_definition {
     reference_filter filter;
     passive_tuning passive;
     kalman_tuning kalman;
+    vec3 first_speed, first_bias; /* kalman_begin */
     vaning vaning;
     double feed_gain, feed_time;
     vec3 noise;

@@ -162,6 +162,73 @@ END_TEST
 START_TEST(turned_scene) { check_placed(90, 1); }
 END_TEST
 
+/* ---- stations ---- */
+
+/* A ship on dynamic positioning that moves to a way point across current and wind: all of it turned by `turn` degrees
+   about the origin, and lengths times lambda.  Tunings are the defaults. */
+static void station_text(char out[TEXT_SIZE], const char *observer, double turn, double lambda, double root)
+{
+    const double place[2][2] = {{3, -2}, {9, 4}};
+    double c = real_cos(radians(turn)), s = real_sin(radians(turn)), at[2][2], force = lambda * lambda * lambda;
+    for (int i = 0; i < 2; i++) {
+        at[i][0] = lambda * (c * place[i][0] - s * place[i][1]);
+        at[i][1] = lambda * (s * place[i][0] + c * place[i][1]);
+    }
+    snprintf(
+        out, TEXT_SIZE,
+        "run: {duration: 100, time_step: %.17g, scale: %.17g}\n"
+        "vessel:\n  mode: free\n  x: %.17g\n  y: %.17g\n  heading_deg: %.17g\n  hydrodynamics: {source: estimate}\n"
+        "  hull: {length: %.17g, beam: %.17g, draught: %.17g, freeboard: %.17g}\n"
+        "  thrusters:\n    - {kind: tunnel, x: %.17g, thrust: %.17g}\n    - {x: %.17g, thrust: %.17g}\n"
+        "  positioning:\n    active: true\n    observer: %s\n    feed_forward: observed\n"
+        "    noise_position: 0\n    noise_heading_deg: 0\n"
+        "    waypoints: [{time: 0, x: %.17g, y: %.17g, heading_deg: %.17g}]\n"
+        "ice: {source: none}\ndomain: {boundary: open, x_min: -1e3, x_max: 1e3, y_min: -1e3, y_max: 1e3}\n"
+        "environment:\n  current_speed: %.17g\n  current_direction_deg: %.17g\n"
+        "  wind_speed: %.17g\n  wind_direction_deg: %.17g\n",
+        0.125 * root, 30 * lambda, at[0][0], at[0][1], turn + 20, 60 * lambda, 14 * lambda, 5 * lambda, 3 * lambda,
+        20 * lambda, 1e5 * force, -24 * lambda, 2e5 * force, observer, at[1][0], at[1][1], turn + 35, 0.5 * root,
+        turn + 80, 10 * root, turn + 150);
+}
+
+static void check_station(const char *observer, double turn, double lambda, double root)
+{
+    scene plain, other;
+    char text[TEXT_SIZE];
+    station_text(text, observer, 0, 1, 1);
+    scene_open(&plain, text);
+    station_text(text, observer, turn, lambda, root);
+    scene_open(&other, text);
+    double moved = 0, load = 0, apart = 0;
+    for (int i = 0; i < 300; i++) {
+        scene_steps(&plain, 1);
+        scene_steps(&other, 1);
+        vec3 a = plain.w.stations.estimate[0].bias, b = other.w.stations.estimate[0].bias;
+        a = plane_to_global(radians(turn), a);
+        b = vec3_scale(vec3_make(b.x, b.y, b.z / lambda), 1 / (lambda * lambda * lambda));
+        load = fmax(load, hypot(a.x, a.y));
+        apart = fmax(apart, hypot(a.x - b.x, a.y - b.y));
+        vec3 p = plane_to_global(radians(turn), plain.w.bodies.position[0]), q = other.w.bodies.position[0];
+        assert_vec3_close(vec3_scale(q, 1 / lambda), p, 1e-7);
+        moved = fmax(moved, vec3_length(vec3_sub(plain.w.bodies.position[0], vec3_make(3, -2, 0))));
+    }
+    ck_assert_msg(moved > 3 && load > 5e3, "it moved by %g m, and took %g N for a load", moved, load);
+    ck_assert_msg(apart <= 1e-7 * load, "%s, turned by %g, scaled by %g: loads told apart by %g of %g N", observer,
+                  turn, lambda, apart, load);
+    scene_close(&plain);
+    scene_close(&other);
+}
+
+/* What a ship on station believes and does goes by neither where north is nor how large it is. */
+START_TEST(stations_turned_and_scaled)
+{
+    check_station("passive", 40, 1, 1);
+    check_station("passive", 0, 4, 2);
+    check_station("kalman", 40, 1, 1);
+    check_station("kalman", 0, 4, 2);
+}
+END_TEST
+
 /* ---- ice that breaks ---- */
 
 /* A bow `side` metres beside the middle of a sheet and turned by as many degrees cuts into it, by the accurate solver.
@@ -222,4 +289,4 @@ START_TEST(breaking_ice_is_mirrored)
 END_TEST
 
 TEST_MAIN("symmetry", scaling_by_four, scaling_by_sixteen, moving_hull_equals_moving_ice, mirrored_scene, turned_scene,
-          breaking_ice_is_mirrored)
+          stations_turned_and_scaled, breaking_ice_is_mirrored)

@@ -115,7 +115,7 @@ static observer_error observe(bool kalman, double noise)
     const passive_tuning passive = {0.3, 1000};
     const kalman_tuning tuning = {{fmax(noise, 0.02), fmax(noise, 0.02), 1e-3}, {1e4, 1e4, 1e5}, {2e4, 2e4, 2e5}, 1000};
     motion_estimate e = {0};
-    kalman_covariance p = kalman_begin(&tuning, vec3_make(0.1, 0.1, 0.01), vec3_make(1e5, 1e5, 1e6));
+    kalman_covariance p = kalman_begin(&tuning, 1, vec3_make(0.1, 0.1, 0.01), vec3_make(1e5, 1e5, 1e6));
     vec3 place = {0, 0, 1}, velocity = {0}, tau = {0};
     e.place = place;
     random_stream r = random_begin(3, 1, 0);

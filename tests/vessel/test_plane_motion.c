@@ -83,7 +83,7 @@ END_TEST
 START_TEST(a_measurement)
 {
     const kalman_tuning tuning = {{3, 3, 0.2}, {0, 0, 0}, {0, 0, 0}, 500};
-    kalman_covariance p = kalman_begin(&tuning, vec3_make(1, 1, 1), vec3_make(1, 1, 1));
+    kalman_covariance p = kalman_begin(&tuning, 0, vec3_make(1, 1, 1), vec3_make(1, 1, 1));
     motion_estimate e = {.place = {0, 0, 3.1}};
     p.of[0] = 16;                          /* of x: 4 m */
     p.of[3] = p.of[KALMAN_STATES * 3] = 2; /* x with surge */
