@@ -13,25 +13,33 @@ vec3 reference_target(const waypoint_table *path, int32_t vessel, vec3 home, dou
     return target;
 }
 
-/* Semi-implicit: the new acceleration moves the speed, the new speed the place. */
-static void filter_axis(const reference_filter *f, double most, double target, double dt, double *x, double *v,
-                        double *a)
+/* A speed beyond the largest is shortened to it, and its acceleration loses what would lengthen it. */
+static void hold_within(double most, vec3 *v, vec3 *a)
 {
-    double w = f->frequency, k = 2 * f->damping + 1;
-    double jerk = w * w * w * (target - *x) - k * w * w * *v - k * w * *a;
-    *a += dt * jerk;
-    *v += dt * *a;
-    if (fabs(*v) > most) {
-        *v = *v < 0 ? -most : most;
-        *a = 0;
-    }
-    *x += dt * *v;
+    double speed = vec3_length(*v);
+    if (!(speed > most))
+        return;
+    vec3 along = vec3_scale(*v, 1 / speed);
+    *v = vec3_scale(along, most);
+    *a = vec3_mad(*a, along, -fmax(vec3_dot(*a, along), 0));
 }
 
+/* Semi-implicit: the new acceleration moves the speed, the new speed the place. */
 void reference_step(const reference_filter *f, reference_state *s, vec3 target, double dt)
 {
-    double heading = s->place.z + plane_angle(target.z - s->place.z);
-    filter_axis(f, f->most.x, target.x, dt, &s->place.x, &s->velocity.x, &s->acceleration.x);
-    filter_axis(f, f->most.y, target.y, dt, &s->place.y, &s->velocity.y, &s->acceleration.y);
-    filter_axis(f, f->most.z, heading, dt, &s->place.z, &s->velocity.z, &s->acceleration.z);
+    double w = f->frequency, k = 2 * f->damping + 1;
+    vec3 left = vec3_sub(target, s->place);
+    left.z = plane_angle(left.z);
+    vec3 jerk = vec3_scale(left, w * w * w);
+    jerk = vec3_mad(jerk, s->velocity, -k * w * w);
+    jerk = vec3_mad(jerk, s->acceleration, -k * w);
+    s->acceleration = vec3_mad(s->acceleration, jerk, dt);
+    s->velocity = vec3_mad(s->velocity, s->acceleration, dt);
+    vec3 v = {s->velocity.x, s->velocity.y, 0}, a = {s->acceleration.x, s->acceleration.y, 0};
+    vec3 turn = {0, 0, s->velocity.z}, spin = {0, 0, s->acceleration.z};
+    hold_within(f->speed, &v, &a);
+    hold_within(f->turn, &turn, &spin);
+    s->velocity = vec3_make(v.x, v.y, turn.z);
+    s->acceleration = vec3_make(a.x, a.y, spin.z);
+    s->place = vec3_mad(s->place, s->velocity, dt);
 }

@@ -19,13 +19,14 @@ typedef struct reference_state {
 typedef struct reference_filter {
     double frequency; /* natural [rad/s] */
     double damping;   /* relative [1] */
-    vec3 most;        /* largest speeds [m/s, m/s, rad/s] */
+    double speed;     /* largest, in whatever direction [m/s] */
+    double turn;      /* largest turn rate [rad/s] */
 } reference_filter;
 
 /* The last way point whose time has come, or `home` before the first. */
 vec3 reference_target(const waypoint_table *path, int32_t vessel, vec3 home, double time);
-/* eta''' + (2 zeta + 1) w eta'' + (2 zeta + 1) w^2 eta' + w^3 (eta - target) = 0 with the speed held within `most`
-   (Fossen 2011, section 10.2.1); heading goes the short way. */
+/* eta''' + (2 zeta + 1) w eta'' + (2 zeta + 1) w^2 eta' + w^3 (eta - target) = 0 with speed and turn rate held within
+   their largest (Fossen 2011, section 10.2.1); a way from rest to rest is straight, heading goes the short way. */
 void reference_step(const reference_filter *f, reference_state *state, vec3 target, double dt);
 
 #endif

@@ -36,7 +36,7 @@ typedef enum heading_rule { HEADING_FIXED = 0, HEADING_VANING } heading_rule;
     X(lever, double, FIELD_F64, 1, "m", "what moments are divided by where they are compared with forces")     \
     X(model, plane_model, FIELD_F64, 18, "kg, kg/s", "mass and damping about the centre of mass")              \
     X(gains, pid_gains, FIELD_F64, 9, "", "of the controller")                                                 \
-    X(filter, reference_filter, FIELD_F64, 5, "", "of the reference")                                          \
+    X(filter, reference_filter, FIELD_F64, 4, "", "of the reference")                                          \
     X(passive, passive_tuning, FIELD_F64, 2, "", "of the passive observer")                                    \
     X(kalman, kalman_tuning, FIELD_F64, 10, "", "of the Kalman filter")                                        \
     X(vaning, vaning, FIELD_F64, 3, "", "of the heading that meets the ice")                                   \

@@ -70,7 +70,7 @@ END_TEST
 
 START_TEST(reference_is_smooth_and_arrives)
 {
-    const reference_filter f = {0.05, 1, {0.5, 0.5, radians(0.5)}};
+    const reference_filter f = {0.05, 1, 0.5, radians(0.5)};
     reference_state s = {{0, 0, radians(170)}, {0, 0, 0}, {0, 0, 0}};
     double fastest = 0, turn = 0, dt = 0.5;
     for (int n = 0; n < 4000; n++) {
@@ -84,6 +84,29 @@ START_TEST(reference_is_smooth_and_arrives)
     assert_absolute(s.place.y, -5, 1e-6);
     assert_absolute(degrees(s.place.z), 190, 1e-6); /* the short way */
     ck_assert(turn < radians(191));
+}
+END_TEST
+
+/* Its speed is the largest in whatever direction it goes, straight to where it shall be; a place that it is sent to on
+   its way is reached as well. */
+START_TEST(reference_goes_straight)
+{
+    const reference_filter f = {0.05, 1, 0.5, radians(0.5)};
+    reference_state s = {0};
+    double fastest = 0, dt = 0.5;
+    for (int n = 0; n < 1000; n++) {
+        reference_step(&f, &s, vec3_make(80, 60, 0), dt);
+        fastest = fmax(fastest, hypot(s.velocity.x, s.velocity.y));
+        assert_absolute(0.8 * s.place.y - 0.6 * s.place.x, 0, 1e-12);
+    }
+    ck_assert_msg(fastest <= 0.5 * (1 + 1e-12) && fastest > 0.499, "it goes at up to %g m/s", fastest);
+    assert_absolute(s.place.x, 80, 0.02);
+    for (int n = 0; n < 2000; n++) {
+        reference_step(&f, &s, n < 100 ? vec3_make(80, 200, 0) : vec3_make(300, 100, 0), dt);
+        fastest = fmax(fastest, hypot(s.velocity.x, s.velocity.y));
+    }
+    ck_assert(fastest <= 0.5 * (1 + 1e-12));
+    assert_vec3_close(s.place, vec3_make(300, 100, 0), 0.5);
 }
 END_TEST
 
@@ -174,5 +197,5 @@ START_TEST(vaning_turns_the_bow_into_the_ice)
 END_TEST
 
 TEST_MAIN("controller", open_loop_poles_of_the_oracle, pid_step_of_the_oracle, pid_works_in_the_frame_of_the_vessel,
-          reference_is_smooth_and_arrives, waypoints_in_their_time, observers_find_place_and_load,
-          vaning_turns_the_bow_into_the_ice)
+          reference_is_smooth_and_arrives, reference_goes_straight, waypoints_in_their_time,
+          observers_find_place_and_load, vaning_turns_the_bow_into_the_ice)

@@ -97,6 +97,29 @@ START_TEST(a_measurement)
 }
 END_TEST
 
+/* A load that may change three times as fast across the vessel as along it is believed to do so on every heading. */
+START_TEST(a_bias_is_unsure_along_the_vessel)
+{
+    const plane_model m = {{{{3e6, 0, 0}, {0, 6e6, 0}, {0, 0, 3e9}}}, {{{0}}}};
+    const kalman_tuning tuning = {{1, 1, 0.1}, {0, 0, 0}, {3e3, 9e3, 1e5}, 500};
+    const double heading = 0.7, dt = 0.5;
+    kalman_covariance p = kalman_begin(&tuning, heading, vec3_make(0, 0, 0), vec3_make(1e4, 3e4, 1e6));
+    vec3 ahead = plane_to_global(heading, vec3_make(1, 0, 0)), aside = plane_to_global(heading, vec3_make(0, 1, 0));
+    for (int steps = 0; steps < 2; steps++) {
+        double kept = steps == 0 ? 1 : (1 - dt / 500) * (1 - dt / 500), more = steps == 0 ? 0 : dt;
+        const double *xx = &p.of[KALMAN_STATES * 6 + 6], *yx = xx + KALMAN_STATES;
+        double along = ahead.x * (xx[0] * ahead.x + xx[1] * ahead.y) + ahead.y * (yx[0] * ahead.x + yx[1] * ahead.y);
+        double mixed = ahead.x * (xx[0] * aside.x + xx[1] * aside.y) + ahead.y * (yx[0] * aside.x + yx[1] * aside.y);
+        double across = aside.x * (xx[0] * aside.x + xx[1] * aside.y) + aside.y * (yx[0] * aside.x + yx[1] * aside.y);
+        assert_relative(along, 1e8 * kept + 9e6 * more, 1e-12);
+        assert_relative(across, 9e8 * kept + 81e6 * more, 1e-12);
+        assert_absolute(mixed, 0, 1e-4);
+        motion_estimate e = {.place = {0, 0, heading}};
+        kalman_predict(&m, &tuning, &e, &p, vec3_make(0, 0, 0), dt);
+    }
+}
+END_TEST
+
 /* A driven hull goes to where its path is at the end of the step, and turns as the path does. */
 START_TEST(a_hull_follows_its_path)
 {
@@ -119,4 +142,4 @@ START_TEST(a_hull_follows_its_path)
 END_TEST
 
 TEST_MAIN("plane_motion", a_hull_follows_its_path, the_passive_observers_poles, the_kalman_filters_jacobian,
-          a_measurement)
+          a_measurement, a_bias_is_unsure_along_the_vessel)

@@ -22,7 +22,7 @@ static station_definition definition(void)
                                 .model = {mass, damping},
                                 .control_frequency = 0.1,
                                 .control_damping = 1,
-                                .filter = {0.05, 1, {1, 1, 0.01}},
+                                .filter = {0.05, 1, 1, 0.01},
                                 .passive = {0.2, 1000},
                                 .vaning = {radians(1), 60, 1e4},
                                 .feed_gain = 1,
