@@ -31,7 +31,7 @@
     X(rudder_area, AUTOMATIC(0, 1e4), "m2",                                                                          \
       "of all rudders, in the race of the propellers; auto: the least by rule; 0: none, the thrust itself turns")    \
     X(steering_angle_deg, REAL(35, 0, 90), "deg", "largest angle of the rudders, or of the thrust")                  \
-    X(steering_rate_deg, REAL(2.5, 1e-3, 1e3), "deg/s", "at which that angle changes")                               \
+    X(steering_rate_deg, SCALED(2.5, 30, -0.5, 1e-3, 1e3), "deg/s", "at which that angle changes")                   \
     X(steering_x, AUTOMATIC(-1e4, 1e4), "m",                                                                         \
       "where rudders and thrust act, forward of the centre of mass; auto: -0.45 lengths")                            \
     X(lookahead, AUTOMATIC(1e-3, 1e5), "m",                                                                          \
@@ -39,8 +39,8 @@
     X(turning_radius, AUTOMATIC(1e-3, 1e6), "m",                                                                     \
       "of rounded corners and loops of its track, if larger than what it does in open water; auto: that")            \
     X(track_limit, AUTOMATIC(0, 1e6), "m", "track error beyond which it is off its track, an event; auto: its beam") \
-    X(beset_speed, REAL(0.1, 1e-6, 100), "m/s", "a ship that pushes and is slower in the ice ...")                   \
-    X(beset_time, REAL(20, 1e-3, 1e6), "s", "... for so long is beset: it backs, and rams")                          \
+    X(beset_speed, SCALED(0.1, 30, 0.5, 1e-6, 100), "m/s", "a ship that pushes and is slower in the ice ...")        \
+    X(beset_time, SCALED(20, 30, 0.5, 1e-3, 1e6), "s", "... for so long is beset: it backs, and rams")               \
     X(ram_distance, AUTOMATIC(1e-3, 1e5), "m", "it backs so far; auto: its length")                                  \
     X(propellers, INTEGER(1, 1, 4), "1",                                                                             \
       "that share the thrust: for their wash, and for the race that meets the rudders")                              \

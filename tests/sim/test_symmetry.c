@@ -229,6 +229,43 @@ START_TEST(stations_turned_and_scaled)
 }
 END_TEST
 
+/* A ship that drives itself round a corner, all lengths times lambda: rudders and autopilot are the defaults. */
+static void propelled_text(char out[TEXT_SIZE], double lambda, double root)
+{
+    double force = lambda * lambda * lambda;
+    snprintf(out, TEXT_SIZE,
+             "run: {duration: 200, time_step: %.17g, scale: %.17g}\n"
+             "vessel:\n  mode: free\n  speed: %.17g\n  hydrodynamics: {source: estimate}\n"
+             "  hull: {length: %.17g, beam: %.17g, draught: %.17g, freeboard: %.17g}\n"
+             "  propulsion:\n    bollard_pull: %.17g\n    open_water_speed: %.17g\n    propeller_diameter: %.17g\n"
+             "    waypoints: [{x: %.17g, y: %.17g}, {x: %.17g, y: %.17g}]\n"
+             "ice: {source: none}\ndomain: {boundary: open, x_min: -1e4, x_max: 1e4, y_min: -1e4, y_max: 1e4}\n",
+             0.25 * root, 30 * lambda, 2 * root, 60 * lambda, 14 * lambda, 5 * lambda, 3 * lambda, 6e5 * force,
+             7 * root, 3 * lambda, 60 * lambda, 20 * lambda, 100 * lambda, 200 * lambda);
+}
+
+START_TEST(a_ship_under_way_scaled)
+{
+    scene small, large;
+    char text[TEXT_SIZE];
+    propelled_text(text, 1, 1);
+    scene_open(&small, text);
+    propelled_text(text, 4, 2);
+    scene_open(&large, text);
+    double most = 0;
+    for (int i = 0; i < 200; i++) {
+        scene_steps(&small, 1);
+        scene_steps(&large, 1);
+        most = fmax(most, fabs(small.w.propulsion.steering[0]));
+        assert_absolute(large.w.propulsion.steering[0], small.w.propulsion.steering[0], 1e-9);
+        assert_vec3_close(vec3_scale(large.w.bodies.position[0], 0.25), small.w.bodies.position[0], 1e-7);
+    }
+    ck_assert_msg(most > radians(10), "the rudder turned by %g degrees", degrees(most));
+    scene_close(&small);
+    scene_close(&large);
+}
+END_TEST
+
 /* ---- ice that breaks ---- */
 
 /* A bow `side` metres beside the middle of a sheet and turned by as many degrees cuts into it, by the accurate solver.
@@ -289,4 +326,4 @@ START_TEST(breaking_ice_is_mirrored)
 END_TEST
 
 TEST_MAIN("symmetry", scaling_by_four, scaling_by_sixteen, moving_hull_equals_moving_ice, mirrored_scene, turned_scene,
-          stations_turned_and_scaled, breaking_ice_is_mirrored)
+          stations_turned_and_scaled, a_ship_under_way_scaled, breaking_ice_is_mirrored)
