@@ -44,33 +44,35 @@ static bool near(const manage_floe *floe, const manage_window *window)
            floe->box.lo.y <= window->centre.y + half && floe->box.hi.y >= window->centre.y - half;
 }
 
-static void count_in(manage_cover *out, const manage_floe *floe, double part, double limit)
+static void count_in(manage_cover *out, managed_cover *fine, const manage_floe *floe, double part, double limit)
 {
     double size = manage_size(floe->area);
     int k = 0;
     out->ice += part;
-    out->fine.volume += part * floe->thickness;
+    fine->volume += part * floe->thickness;
     if (floe->sheet) {
         out->sheet += part;
-        out->fine.sheet += part;
+        fine->sheet += part;
         return;
     }
     while (k < MANAGE_CLASSES && size > manage_class_size[k])
         k++;
     out->of_class[k] += part;
-    managed_cover_add(&out->fine, size, part);
+    managed_cover_add(fine, size, part);
     out->size_area += part * size;
     out->managed += size <= limit ? part : 0;
     out->largest = fmax(out->largest, size);
 }
 
 fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count, const manage_window *window,
-                           double limit, manage_cover *out, fram_error *error)
+                           double limit, manage_cover *out, managed_cover *fine, fram_error *error)
 {
+    managed_cover unasked, *bins = fine ? fine : &unasked;
     clip_room room = {{{0}, {0}}};
     double whole = window->length * window->width;
     bool good = true;
     *out = (manage_cover){0};
+    *bins = (managed_cover){0};
     for (int32_t i = 0; i < count && good; i++) {
         polygon part;
         if (!near(&floes[i], window))
@@ -78,7 +80,7 @@ fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count
         good = clip(ctx, &floes[i], window, &room, &part);
         double area = good ? fabs(polygon_area(part)) : 0;
         if (area > 0)
-            count_in(out, &floes[i], area / whole, limit);
+            count_in(out, bins, &floes[i], area / whole, limit);
     }
     clip_free(ctx, &room);
     return good ? FRAM_OK : error_memory(error);

@@ -34,13 +34,13 @@ typedef struct manage_cover {
     double of_class[MANAGE_CLASSES + 1]; /* of floes, by size; the sum with `sheet` is `ice` */
     double size_area;                    /* of floes, each times its size [m] */
     double largest;                      /* size of the largest floe of which a part lies in it; 0: none [m] */
-    managed_cover fine;                  /* the same by finer bins of size, with the volume */
 } manage_cover;
 
 double manage_size(double area);
-/* limit: the largest size that counts as managed [m]. */
+/* limit: the largest size that counts as managed [m].  fine: the same by finer bins of size, with the volume; may be
+   NULL. */
 fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count, const manage_window *window,
-                           double limit, manage_cover *out, fram_error *error);
+                           double limit, manage_cover *out, managed_cover *fine, fram_error *error);
 
 /* Unmanaged ice in a strip that begins at a vessel: infinite distances where there is none. */
 typedef struct manage_threat {

@@ -1,28 +1,28 @@
 /* The ice that came to a vessel, for who makes a field of it. */
 #include "results/manage_parts.h"
 
-/* Where the ice of a window is taken: the last time that it was seen before the hull was upon it. */
-static const manage_cover *came_as(const manage_moment *at)
+int manage_came_from(const manage_moment *at)
 {
     if (at->looked[MANAGE_BEHIND] >= 0)
-        return &at->cover[MANAGE_BEHIND];
+        return MANAGE_BEHIND;
     if (at->looked[MANAGE_UPSTREAM] >= 0)
-        return &at->cover[MANAGE_UPSTREAM];
-    return at->looked[MANAGE_AT] >= 0 ? &at->cover[MANAGE_AT] : NULL;
+        return MANAGE_UPSTREAM;
+    return at->looked[MANAGE_AT] >= 0 ? MANAGE_AT : -1;
 }
 
 fram_status manage_met_ice(context *ctx, const char *folder, const char *name, managed_ice *sum, fram_error *error)
 {
-    const manage_options options = {.vessel = name, .limit = (double)NAN, .depth = (double)NAN};
+    const manage_options options = {.vessel = name, .limit = (double)NAN, .depth = (double)NAN, .met = true};
     manage_run m;
     double before = sum->windows;
     fram_status status = manage_read(ctx, folder, &options, &m, error);
     if (status != FRAM_OK)
         return status;
     for (int32_t i = 0; i < m.moments.count; i++) {
-        const manage_cover *cover = came_as(&m.moments.data[i]);
-        if (cover && m.moments.data[i].time >= m.d.s.run.transient)
-            managed_ice_add(sum, &cover->fine, cover->largest);
+        const manage_moment *at = &m.moments.data[i];
+        int place = manage_came_from(at);
+        if (place >= 0 && at->time >= m.d.s.run.transient)
+            managed_ice_add(sum, &m.met.data[i], at->cover[place].largest);
     }
     manage_free(&m);
     if (sum->windows > before)

@@ -33,12 +33,16 @@ typedef struct manage_run {
     double helper_reach[MANAGE_HELPERS]; /* half the length of each [m] */
     double limit, depth;
     ARRAY(manage_moment) moments;
+    ARRAY(managed_cover) met; /* of each moment, where asked for: the ice at the place that manage_came_from tells */
 } manage_run;
 
 /* Reads the run twice and fills in all of it; on an error nothing is left. */
 fram_status manage_read(context *ctx, const char *folder, const manage_options *options, manage_run *m,
                         fram_error *error);
 void manage_free(manage_run *m);
+/* Where the ice of a moment's window is taken as that which came: the last place at which it was seen before the hull
+   was upon it; -1: it was seen nowhere. */
+int manage_came_from(const manage_moment *at);
 /* Seconds until unmanaged ice comes: the nearest, or the largest of it. */
 double manage_alarm(const manage_moment *at, bool largest);
 fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *error);

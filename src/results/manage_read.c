@@ -81,11 +81,17 @@ static void extents(const replay *r, const replay_pose *pose, vec2 along, double
 static double channel_at(const run_data *d, const char *name, double time)
 {
     const double *t = run_channel(d, "time"), *v = run_channel(d, name);
-    int32_t n = d->series.rows, i = 0;
+    int32_t n = d->series.rows, i = 0, end = n;
     if (!t || !v || n == 0)
         return 0;
-    while (i + 1 < n && t[i + 1] < time)
-        i++;
+    /* The last row that is earlier: i, or the first one. */
+    while (end - i > 1) {
+        int32_t middle = i + (end - i) / 2;
+        if (t[middle] < time)
+            i = middle;
+        else
+            end = middle;
+    }
     if (i + 1 >= n || time <= t[i])
         return v[i];
     return v[i] + (v[i + 1] - v[i]) * (time - t[i]) / (t[i + 1] - t[i]);
@@ -271,8 +277,31 @@ static fram_status list_floes(manage_run *m, replay *r, ice_now *ice, fram_error
     return status;
 }
 
+/* Which windows are looked at in the ice of each moment, one after the other: MANAGE_PLACES k + p is that of moment k
+   at place p; -1: no more. */
+typedef struct look_list {
+    int32_array first, next; /* of each moment; after each window */
+} look_list;
+
+static bool list_looks(const manage_run *m, look_list *looks)
+{
+    int32_t count = m->moments.count;
+    if (!array_resize(m->ctx, &looks->first, count) || !array_resize(m->ctx, &looks->next, MANAGE_PLACES * count))
+        return false;
+    for (int32_t i = 0; i < count; i++)
+        looks->first.data[i] = -1;
+    for (int32_t w = MANAGE_PLACES * count - 1; w >= 0; w--) {
+        int32_t i = m->moments.data[w / MANAGE_PLACES].looked[w % MANAGE_PLACES];
+        if (i < 0)
+            continue;
+        looks->next.data[w] = looks->first.data[i];
+        looks->first.data[i] = w;
+    }
+    return true;
+}
+
 /* Everything that is to be looked at in the ice of moment i. */
-static fram_status look_at(manage_run *m, const ice_now *ice, int32_t i, fram_error *error)
+static fram_status look_at(manage_run *m, const look_list *looks, const ice_now *ice, int32_t i, fram_error *error)
 {
     const scenario_domain *d = &m->d.s.domain;
     manage_moment *now = &m->moments.data[i];
@@ -284,13 +313,13 @@ static fram_status look_at(manage_run *m, const ice_now *ice, int32_t i, fram_er
         manage_window strip = {centre, now->updrift, far, now->width};
         status = manage_threat_in(m->ctx, ice->floes.data, ice->floes.count, &strip, m->limit, &now->threat, error);
     }
-    for (int32_t k = i; k < m->moments.count && status == FRAM_OK; k++) {
+    for (int32_t w = looks->first.data[i]; w >= 0 && status == FRAM_OK; w = looks->next.data[w]) {
+        int32_t k = w / MANAGE_PLACES, place = w % MANAGE_PLACES;
         manage_moment *at = &m->moments.data[k];
-        for (int p = 0; p < MANAGE_PLACES && status == FRAM_OK; p++) {
-            manage_window w = window_at(m, k, i);
-            if (at->looked[p] == i)
-                status = manage_measure(m->ctx, ice->floes.data, ice->floes.count, &w, m->limit, &at->cover[p], error);
-        }
+        manage_window window = window_at(m, k, i);
+        managed_cover *met = m->met.count > 0 && place == manage_came_from(at) ? &m->met.data[k] : NULL;
+        status =
+            manage_measure(m->ctx, ice->floes.data, ice->floes.count, &window, m->limit, &at->cover[place], met, error);
     }
     return status;
 }
@@ -308,8 +337,8 @@ static void plan_windows(manage_run *m, const replay *r, int32_t i)
     now->width = hi - lo;
 }
 
-/* Goes through the record; looks: at the ice, otherwise at the hull. */
-static fram_status read_frames(manage_run *m, bool looks, fram_error *error)
+/* Goes through the record; looks: at the ice; NULL: at the hull. */
+static fram_status read_frames(manage_run *m, const look_list *looks, fram_error *error)
 {
     replay r;
     ice_now ice = {0};
@@ -327,7 +356,7 @@ static fram_status read_frames(manage_run *m, bool looks, fram_error *error)
         if (!looks)
             plan_windows(m, &r, i);
         else if ((status = list_floes(m, &r, &ice, error)) == FRAM_OK)
-            status = look_at(m, &ice, i, error);
+            status = look_at(m, looks, &ice, i, error);
         i++;
     }
     replay_moment_free(m->ctx, &ice.plan);
@@ -341,6 +370,7 @@ static fram_status read_frames(manage_run *m, bool looks, fram_error *error)
 void manage_free(manage_run *m)
 {
     array_free(m->ctx, &m->moments);
+    array_free(m->ctx, &m->met);
     run_data_free(m->ctx, &m->d);
 }
 
@@ -358,10 +388,19 @@ static fram_status read_all(manage_run *m, const manage_options *options, fram_e
     if (status == FRAM_OK && m->moments.count == 0)
         status = error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, NULL, "the record shows no vessel");
     if (status == FRAM_OK)
-        status = read_frames(m, false, error);
+        status = read_frames(m, NULL, error);
     for (int32_t k = 0; k < m->moments.count && status == FRAM_OK; k++)
         schedule(m, k);
-    return status == FRAM_OK ? read_frames(m, true, error) : status;
+    look_list looks = {{0}, {0}};
+    for (int32_t k = 0; k < m->moments.count && status == FRAM_OK && options->met; k++) {
+        if (!array_push(m->ctx, &m->met, (managed_cover){.sized = 0}))
+            status = error_memory(error);
+    }
+    if (status == FRAM_OK)
+        status = list_looks(m, &looks) ? read_frames(m, &looks, error) : error_memory(error);
+    array_free(m->ctx, &looks.first);
+    array_free(m->ctx, &looks.next);
+    return status;
 }
 
 fram_status manage_read(context *ctx, const char *folder, const manage_options *options, manage_run *m,

@@ -28,7 +28,7 @@ static manage_cover cover_of(field *f, manage_window w, double limit)
 {
     manage_cover out;
     fram_error error = {0};
-    assert_ok(manage_measure(&f->ctx, f->floe, f->count, &w, limit, &out, &error), error);
+    assert_ok(manage_measure(&f->ctx, f->floe, f->count, &w, limit, &out, NULL, &error), error);
     return out;
 }
 
