@@ -86,6 +86,8 @@ static fram_status commit(atomic_file *a, bool sync, fram_error *error)
 
 fram_status atomic_file_commit(atomic_file *a, fram_error *error) { return commit(a, true, error); }
 
+fram_status atomic_file_place(atomic_file *a, fram_error *error) { return commit(a, false, error); }
+
 void atomic_file_abandon(atomic_file *a)
 {
     if (!a->path)

@@ -15,6 +15,8 @@ typedef struct atomic_file {
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error);
 /* Flush, sync, rename, sync the folder.  On an error the old file is untouched and the temporary one is removed. */
 fram_status atomic_file_commit(atomic_file *a, fram_error *error);
+/* Flush and rename without waiting for the disk, as atomic_file_put. */
+fram_status atomic_file_place(atomic_file *a, fram_error *error);
 /* Remove the temporary file. */
 void atomic_file_abandon(atomic_file *a);
 

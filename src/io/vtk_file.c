@@ -16,7 +16,8 @@ typedef struct vtk_writer {
     context *ctx;
     text_buffer head;
     ARRAY(unsigned char) appended;
-    bool failed; /* no memory */
+    z_stream packer; /* one for all arrays: it takes a quarter of a megabyte, which is cleared when it is made */
+    bool failed;     /* no memory */
 } vtk_writer;
 
 static void append_bytes(vtk_writer *w, const void *data, size_t size)
@@ -28,23 +29,39 @@ static void append_bytes(vtk_writer *w, const void *data, size_t size)
         memcpy(w->appended.data + at, data, size);
 }
 
+/* Packs behind what is there; returns the size, 0: no memory. */
+static uint64_t pack(vtk_writer *w, const void *data, size_t size)
+{
+    uLong room = compressBound((uLong)size);
+    int32_t at = w->appended.count;
+    if (w->failed || size > UINT32_MAX || room > (uLong)(INT32_MAX - at) ||
+        !array_reserve(w->ctx, &w->appended, at + (int32_t)room) || deflateReset(&w->packer) != Z_OK)
+        return 0;
+    w->packer.next_in = (z_const Bytef *)data;
+    w->packer.avail_in = (uInt)size;
+    w->packer.next_out = w->appended.data + at;
+    w->packer.avail_out = (uInt)room;
+    if (deflate(&w->packer, Z_FINISH) != Z_STREAM_END)
+        return 0;
+    w->appended.count = at + (int32_t)w->packer.total_out;
+    return w->packer.total_out;
+}
+
 static void append_array(vtk_writer *w, const void *data, size_t size)
 {
-    uLongf room = compressBound((uLong)size);
+    int32_t at = w->appended.count;
+    uint64_t prefix[4] = {1, size, 0, 0};
     if (size == 0) {
         const uint64_t none[3] = {0};
         append_bytes(w, none, sizeof none);
         return;
     }
-    unsigned char *packed = memory_resize(w->ctx, NULL, room);
-    if (!packed || compress2(packed, &room, data, (uLong)size, COMPRESSION) != Z_OK) {
+    append_bytes(w, prefix, sizeof prefix);
+    prefix[3] = pack(w, data, size);
+    if (prefix[3] == 0)
         w->failed = true;
-    } else {
-        const uint64_t prefix[4] = {1, size, 0, room};
-        append_bytes(w, prefix, sizeof prefix);
-        append_bytes(w, packed, room);
-    }
-    memory_free(w->ctx, packed);
+    else
+        memcpy(w->appended.data + at, prefix, sizeof prefix);
 }
 
 static void add_array(vtk_writer *w, const char *type, const char *name, int components, const void *data, size_t size)
@@ -113,12 +130,15 @@ fram_status vtk_write(context *ctx, const char *path, const vtk_data *data, fram
 {
     vtk_writer w = {.ctx = ctx};
     atomic_file file;
+    if (deflateInit(&w.packer, COMPRESSION) != Z_OK)
+        return error_memory(error);
     compose(&w, data);
+    deflateEnd(&w.packer);
     fram_status status = w.failed || w.head.failed ? error_memory(error) : atomic_file_begin(ctx, path, &file, error);
     if (status == FRAM_OK) {
         status = write_parts(&w, &file, error);
         if (status == FRAM_OK)
-            status = atomic_file_commit(&file, error);
+            status = atomic_file_place(&file, error);
         else
             atomic_file_abandon(&file);
     }

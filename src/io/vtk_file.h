@@ -28,6 +28,7 @@ typedef struct vtk_data {
     double time; /* [s] */
 } vtk_data;
 
+/* Without waiting for the disk: a series has thousands of these, and is written again at any time. */
 fram_status vtk_write(context *ctx, const char *path, const vtk_data *data, fram_error *error);
 
 /* A file of a series; name: relative to the .pvd. */
