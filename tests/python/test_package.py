@@ -413,6 +413,8 @@ class Package(unittest.TestCase):
         with self.assertRaises(fram.InputError) as error:
             fram.open(self.folder / "bad").columns()
         self.assertEqual(error.exception.line, 3)
+        # Units are those of the heads: rows are not read for them.
+        self.assertEqual(fram.open(self.folder / "bad").units, {"time": "s", "x": "m"})
         with self.assertRaises(fram.FileError):
             fram.open(self.folder / "bad").columns("fractures")
 

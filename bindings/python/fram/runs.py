@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import csv
 import html
 import json
@@ -9,7 +10,7 @@ import os
 import pathlib
 import tempfile
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import IO, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -65,29 +66,48 @@ def _heads(row: list[str], path: pathlib.Path, needed: Sequence[str]) -> dict[st
     return units
 
 
-def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[str, np.ndarray], dict[str, str]]:
-    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+def _open_text(path: pathlib.Path) -> IO[str]:
     try:
-        rows = list(csv.reader(_read_text(path).splitlines()))
+        return path.open(encoding="utf-8", errors="surrogateescape", newline="")
+    except OSError as error:
+        raise FileError("io", str(error), file=str(path)) from error
+
+
+def _rows(file: IO[str], path: pathlib.Path) -> Iterator[list[str]]:
+    """The rows of a table, one at a time: as texts they take ten times what their numbers take."""
+    try:
+        yield from csv.reader(file)
     except csv.Error as error:
         raise InputError("input", f"expected rows of numbers: {error}", file=str(path)) from error
-    if not rows:
+    except OSError as error:
+        raise FileError("io", str(error), file=str(path)) from error
+
+
+def _read_units(rows: Iterator[list[str]], path: pathlib.Path, needed: Sequence[str] = ()) -> dict[str, str]:
+    """Units by name of the columns of a table with heads name[unit]."""
+    heads = next(rows, None)
+    if heads is None:
         raise InputError("input", "expected a row of heads, found an empty file", file=str(path), line=1)
-    units = _heads(rows[0], path, needed)
-    heads = list(units)
-    values = np.empty((len(rows) - 1, len(heads)))
-    count = 0
-    for number, row in enumerate(rows[1:], start=2):
-        try:
-            if len(row) != len(heads):
-                raise ValueError(f"there are {len(row)}")
-            values[count] = [float(word) for word in row]
-        except ValueError as error:
-            if number == len(rows):
-                break
-            raise InputError("input", f"expected {len(heads)} numbers: {error}", file=str(path), line=number) from error
-        count += 1
-    return {name: values[:count, i] for i, name in enumerate(heads)}, units
+    return _heads(heads, path, needed)
+
+
+def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[str, np.ndarray], dict[str, str]]:
+    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+    values, bad = array.array("d"), None
+    with _open_text(path) as file:
+        rows = _rows(file, path)
+        units = _read_units(rows, path, needed)
+        for number, row in enumerate(rows, start=2):
+            if bad:
+                raise bad
+            try:
+                if len(row) != len(units):
+                    raise ValueError(f"there are {len(row)}")
+                values.extend([float(word) for word in row])
+            except ValueError as error:
+                bad = InputError("input", f"expected {len(units)} numbers: {error}", file=str(path), line=number)
+    table = np.array(values).reshape(-1, max(len(units), 1))
+    return {name: table[:, i] for i, name in enumerate(units)}, units
 
 
 class Run:
@@ -122,7 +142,9 @@ class Run:
     @property
     def units(self) -> dict[str, str]:
         """Unit of each column of the series."""
-        return _read_table(self.folder / "series.csv")[1]
+        path = self.folder / "series.csv"
+        with _open_text(path) as file:
+            return _read_units(_rows(file, path), path)
 
     def columns(self, table: str = "series") -> dict[str, np.ndarray]:
         """The columns of series.csv or fractures.csv as numpy arrays."""
