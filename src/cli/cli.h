@@ -138,6 +138,7 @@ int session_open(const common_options *common, fram_context **context);
 typedef struct work_view {
     char what[80];
     double begun, shown; /* wall clock [s] */
+    double first, done;  /* of its total: when it was begun, and now */
     bool terminal;
 } work_view;
 int session_open_making(const common_options *common, work_view *view, fram_context **context);

@@ -54,19 +54,24 @@ static void work_show(void *user, const char *what, double done, double total)
 {
     work_view *view = user;
     double now = wall_clock();
-    if (strcmp(view->what, what) != 0) {
+    /* What goes back begins again: a record is read several times. */
+    if (strcmp(view->what, what) != 0 || done < view->done) {
         snprintf(view->what, sizeof view->what, "%s", what);
         view->begun = now;
+        view->first = done;
         view->shown = now - LINE_PERIOD;
     }
+    view->done = done;
     if (now - view->begun < QUIET_TIME || now - view->shown < (view->terminal ? TERMINAL_PERIOD : LINE_PERIOD))
         return;
     view->shown = now;
     fprintf(stderr, "%s%s: ", view->terminal ? "\033[K" : "", what);
-    if (total > 0)
-        fprintf(stderr, "%.0f %%", 100 * done / total);
-    else
+    if (total > 0) {
+        fprintf(stderr, "%.0f %%  left ", 100 * done / total);
+        print_duration(done > view->first ? (now - view->begun) * (total - done) / (done - view->first) : (double)NAN);
+    } else {
         fprintf(stderr, "round %.0f", done);
+    }
     /* On a terminal whatever comes next is written over it. */
     fputs(view->terminal ? "\r" : "\n", stderr);
     fflush(stderr);
