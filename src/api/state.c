@@ -42,7 +42,7 @@ fram_status world_find_inputs(fram_world *w, fram_error *error)
 {
     context *ctx = &w->scenario->context->inner;
     text_buffer list = {0};
-    fram_status status = run_inputs_list(ctx, &w->scenario->inner, &list, error);
+    fram_status status = run_inputs_list(ctx, &w->scenario->inner, NULL, &list, error);
     if (status == FRAM_OK)
         status = run_inputs_digest(ctx, list.data, (size_t)list.count, w->base->inputs, error);
     text_free(ctx, &list);

@@ -128,8 +128,8 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
 }
 
 /* Builds the vessels of a condition, and takes its name and the most that a run may take of memory. */
-static fram_status look_at_condition(const fram_study *s, int32_t condition, char id[CONDITION_ID], double *bytes,
-                                     fram_error *error)
+static fram_status look_at_condition(const fram_study *s, int32_t condition, hull_store *store, char id[CONDITION_ID],
+                                     double *bytes, fram_error *error)
 {
     context *ctx = &s->context->inner;
     scenario one = {0};
@@ -138,7 +138,7 @@ static fram_status look_at_condition(const fram_study *s, int32_t condition, cha
     if (status != FRAM_OK)
         return status;
     *bytes = fmax(*bytes, scene_size_of(&one).bytes);
-    status = study_build_check(ctx, &s->inner, condition, &one, error);
+    status = study_build_check(ctx, &s->inner, condition, &one, store, error);
     if (status == FRAM_OK)
         status = scenario_hash(ctx, &one, hash, error);
     memcpy(id, hash, CONDITION_ID - 1);
@@ -155,8 +155,13 @@ static fram_status look_at_conditions(const fram_study *s, int32_t *differ, int 
     double bytes = 0;
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)count, CONDITION_ID);
     fram_status status = id ? FRAM_OK : error_memory(error);
-    for (int32_t c = 0; c < count && status == FRAM_OK; c++)
-        status = look_at_condition(s, c, id[c], &bytes, error);
+    hull_store store = {.next = 0};
+    for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
+        status = work_continue(ctx, "looking at the conditions", c, count, error);
+        if (status == FRAM_OK)
+            status = look_at_condition(s, c, &store, id[c], &bytes, error);
+    }
+    hull_store_free(ctx, &store);
     int32_t *first = status == FRAM_OK ? twins_find(ctx, id, count) : NULL;
     if (status == FRAM_OK && !first)
         status = error_memory(error);

@@ -351,8 +351,7 @@ int command_study(const command_row *self, int argc, char **argv)
         return answer_usage(&common, "--poll", "expected at most 3600 s");
     fram_context *context = NULL;
     work_view work;
-    /* A study that runs has a line of its own for how far it is. */
-    code = check ? session_open_reading(&common, &work, &context) : session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_study *study = NULL;

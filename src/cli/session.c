@@ -65,7 +65,7 @@ static void work_show(void *user, const char *what, double done, double total)
     if (now - view->begun < QUIET_TIME || now - view->shown < (view->terminal ? TERMINAL_PERIOD : LINE_PERIOD))
         return;
     view->shown = now;
-    fprintf(stderr, "%s%s: ", view->terminal ? "\033[K" : "", what);
+    fprintf(stderr, "%s%s: ", view->terminal ? "\r\033[K" : "", what);
     if (total > 0) {
         fprintf(stderr, "%.0f %%  left ", 100 * done / total);
         print_duration(done > view->first ? (now - view->begun) * (total - done) / (done - view->first) : (double)NAN);

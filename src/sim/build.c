@@ -106,11 +106,11 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
     return status;
 }
 
-fram_status build_check(context *ctx, const scenario *s, fram_error *error)
+fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error)
 {
     model m;
     world w;
-    fram_status status = build_model(ctx, s, &m, error);
+    fram_status status = build_model_of(ctx, s, store, &m, error);
     if (status != FRAM_OK)
         return status;
     status = build_before_ice(ctx, s, &m, &w, error);

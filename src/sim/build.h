@@ -13,8 +13,8 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
                         fram_error *error);
 
 /* The vessels and their stations alone, as build_world makes them, and then nothing of it: for what cannot be, and for
-   the warnings in the log. */
-fram_status build_check(context *ctx, const scenario *s, fram_error *error);
+   the warnings in the log.  store: of hulls, may be NULL (build_hull.h). */
+fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error);
 
 /* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile.
    domain: what it was made in.  out must be empty; on failure it may hold some. */

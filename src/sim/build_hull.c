@@ -83,11 +83,80 @@ static fram_status measure(const scenario_hull *keys, const new_hull *h, hull_pa
     return FRAM_OK;
 }
 
-static fram_status read_hull(context *ctx, const scenario *s, const scenario_hull *keys, new_hull *h, fram_error *error)
+/* ---- hulls that were read before ---- */
+
+static bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+/* All that decides what is read: other keys of a hull do not act on one from a file. */
+static bool is_read_alike(const stored_hull *h, const scenario_hull *keys, const char *path)
+{
+    const scenario_hull *k = &h->keys;
+    return same(k->file_scale, keys->file_scale) && same(k->seal_width, keys->seal_width) &&
+           k->repair == keys->repair && same(k->freeboard, keys->freeboard) &&
+           same(k->piece_distance, keys->piece_distance) && k->most_pieces == keys->most_pieces &&
+           strcmp(h->path, path) == 0;
+}
+
+/* false: no memory. */
+static bool copy_hull(context *ctx, const mesh *surface, const polyhedron_array *pieces, mesh *to,
+                      polyhedron_array *pieces_to)
+{
+    const mat3 as_it_lies = quat_matrix((quat){.w = 1});
+    bool good = mesh_copy(ctx, to, surface);
+    for (int32_t i = 0; i < pieces->count && good; i++)
+        good = array_push(ctx, pieces_to, (polyhedron){.radius = 0}) &&
+               polyhedron_place(ctx, &pieces->data[i], as_it_lies, vec3_make(0, 0, 0), &pieces_to->data[i]);
+    return good;
+}
+
+static void free_stored(context *ctx, stored_hull *h)
+{
+    mesh_free(ctx, &h->surface);
+    polyhedron_array_free(ctx, &h->pieces);
+}
+
+void hull_store_free(context *ctx, hull_store *store)
+{
+    for (int32_t i = 0; i < store->hulls.count; i++)
+        free_stored(ctx, &store->hulls.data[i]);
+    array_free(ctx, &store->hulls);
+    store->next = 0;
+}
+
+static const stored_hull *find_stored(const hull_store *store, const scenario_hull *keys, const char *path)
+{
+    for (int32_t i = 0; store && i < store->hulls.count; i++) {
+        if (is_read_alike(&store->hulls.data[i], keys, path))
+            return &store->hulls.data[i];
+    }
+    return NULL;
+}
+
+static bool keep(context *ctx, hull_store *store, const scenario_hull *keys, const char *path, const new_hull *h)
+{
+    if (store->hulls.count < STORED_HULLS && !array_push(ctx, &store->hulls, (stored_hull){.concavity = 0}))
+        return false;
+    stored_hull *to = &store->hulls.data[store->next];
+    store->next = (store->next + 1) % STORED_HULLS;
+    free_stored(ctx, to);
+    *to = (stored_hull){.keys = *keys, .concavity = h->concavity};
+    snprintf(to->path, sizeof to->path, "%s", path);
+    return copy_hull(ctx, &h->surface, &h->pieces, &to->surface, &to->pieces);
+}
+
+/* ---- a hull ---- */
+
+static fram_status read_hull(context *ctx, const scenario *s, const scenario_hull *keys, hull_store *store, new_hull *h,
+                             fram_error *error)
 {
     char path[2 * SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, keys->file, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "file", "the path of the mesh is too long");
+    const stored_hull *known = find_stored(store, keys, path);
+    if (known) {
+        h->concavity = known->concavity;
+        return copy_hull(ctx, &known->surface, &known->pieces, &h->surface, &h->pieces) ? FRAM_OK : error_memory(error);
+    }
     const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard};
     hull_file_report report;
     fram_status status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
@@ -99,27 +168,29 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
     if (status == FRAM_OK)
         log_write(ctx, LOG_INFO, "it is cut into %d convex pieces within %.3g m of the mesh", (int)h->pieces.count,
                   h->concavity);
+    if (status == FRAM_OK && store && !keep(ctx, store, keys, path, h))
+        status = error_memory(error);
     return status;
 }
 
-static fram_status make(context *ctx, const scenario *s, const scenario_hull *keys, new_hull *h, hull_particulars *p,
-                        fram_error *error)
+static fram_status make(context *ctx, const scenario *s, const scenario_hull *keys, hull_store *store, new_hull *h,
+                        hull_particulars *p, fram_error *error)
 {
     bool from_file = keys->form == HULL_MESH;
     *p = particulars_of(keys);
     fram_status status =
-        from_file ? read_hull(ctx, s, keys, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
+        from_file ? read_hull(ctx, s, keys, store, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, 0, &h->floats, error);
     return status == FRAM_OK && from_file ? measure(keys, h, p, error) : status;
 }
 
-fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, solid_array *solids,
-                       vessel_model *out, fram_error *error)
+fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, hull_store *store,
+                       solid_array *solids, vessel_model *out, fram_error *error)
 {
     const scenario_vessel *v = entry->keys;
     new_hull h = {0};
-    fram_status status = make(ctx, s, &v->hull, &h, &out->particulars, error);
+    fram_status status = make(ctx, s, &v->hull, store, &h, &out->particulars, error);
     if (status == FRAM_OK) {
         out->floats = h.floats;
         out->displaced_mass = h.floats.volume * s->environment.water_density;

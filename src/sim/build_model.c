@@ -3,7 +3,6 @@
 #include "base/transcendental.h"
 #include "sim/approach_watch.h"
 #include "sim/build_flows.h"
-#include "sim/build_hull.h"
 #include "sim/build_hydrodynamics.h"
 #include "sim/build_level.h"
 #include "sim/build_media.h"
@@ -127,10 +126,11 @@ static model settings_of(const scenario *s)
     return out;
 }
 
-fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, model *m, fram_error *error)
+fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, hull_store *store, model *m,
+                               fram_error *error)
 {
     vessel_model v = {.yielding = is_automatic(entry->keys->fender_stiffness) ? 0 : 1 / entry->keys->fender_stiffness};
-    fram_status status = build_hull(ctx, s, entry, &m->solids, &v, error);
+    fram_status status = build_hull(ctx, s, entry, store, &m->solids, &v, error);
     if (status == FRAM_OK)
         status = approach_watch_model(ctx, s, entry, m, &v, error);
     if (status == FRAM_OK)
@@ -160,16 +160,21 @@ fram_status build_method(context *ctx, const scenario *s, model *m, fram_error *
     return status;
 }
 
-fram_status build_model(context *ctx, const scenario *s, model *m, fram_error *error)
+fram_status build_model_of(context *ctx, const scenario *s, hull_store *store, model *m, fram_error *error)
 {
     fram_status status = build_method(ctx, s, m, error);
     if (status != FRAM_OK)
         return status;
     for (int32_t i = 0; i < scenario_vessel_count(s) && status == FRAM_OK; i++) {
         vessel_entry entry = scenario_vessel_entry(s, i);
-        status = build_vessel_model(ctx, s, &entry, m, error);
+        status = build_vessel_model(ctx, s, &entry, store, m, error);
     }
     if (status != FRAM_OK)
         model_free(ctx, m);
     return status;
+}
+
+fram_status build_model(context *ctx, const scenario *s, model *m, fram_error *error)
+{
+    return build_model_of(ctx, s, NULL, m, error);
 }

@@ -4,13 +4,17 @@
 
 #include "model/model.h"
 #include "model/scenario_vessel.h"
+#include "sim/build_hull.h"
 
 /* The model of a scenario, with its vessels.  Errors name the key at fault, or place and element of the mesh file. */
 fram_status build_model(context *ctx, const scenario *s, model *m, fram_error *error);
+/* The same, for looking at many scenarios (build_hull.h); store: may be NULL. */
+fram_status build_model_of(context *ctx, const scenario *s, hull_store *store, model *m, fram_error *error);
 
 /* Its parts: all but the vessels, and one vessel more. */
 fram_status build_method(context *ctx, const scenario *s, model *m, fram_error *error);
-fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, model *m, fram_error *error);
+fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, hull_store *store, model *m,
+                               fram_error *error);
 
 /* What fracture is told, which needs no world. */
 fracture_settings build_fracture_settings(const scenario *s);

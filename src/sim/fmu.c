@@ -150,7 +150,7 @@ static fram_status find_guid(packer *p, const char *list, fram_error *error)
     text_buffer inputs = {0}, all = {0};
     fram_status status = scenario_hash(p->ctx, p->s, hash, error);
     if (status == FRAM_OK)
-        status = run_inputs_list(p->ctx, p->s, &inputs, error);
+        status = run_inputs_list(p->ctx, p->s, NULL, &inputs, error);
     if (status == FRAM_OK) {
         text_format(p->ctx, &all, "%s %s\n%s", FRAM_VERSION, hash, list);
         run_input file;

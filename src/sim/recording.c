@@ -187,7 +187,7 @@ static fram_status end_summary(recording *r, const char *state, const char *mess
 static fram_status identify(recording *r, fram_error *error)
 {
     fram_status status = scenario_hash(r->ctx, r->s, r->hash, error);
-    return status == FRAM_OK ? run_inputs_list(r->ctx, r->s, &r->inputs, error) : status;
+    return status == FRAM_OK ? run_inputs_list(r->ctx, r->s, NULL, &r->inputs, error) : status;
 }
 
 static fram_status write_scenario(recording *r, fram_error *error)

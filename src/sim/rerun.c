@@ -143,7 +143,7 @@ fram_status rerun_start(context *ctx, const char *folder, const scenario *s, dou
     bool found = false;
     fram_status status = scenario_hash(ctx, s, note.scenario_hash, error);
     if (status == FRAM_OK)
-        status = run_inputs_list(ctx, s, &inputs, error);
+        status = run_inputs_list(ctx, s, NULL, &inputs, error);
     if (status == FRAM_OK)
         status = world_init(ctx, m, w, error);
     if (status == FRAM_OK) {

@@ -11,8 +11,21 @@ enum { INPUT_LIMIT = 1 << 30, DIGEST_LENGTH = SHA256_TEXT_SIZE - 1, GAP_LENGTH =
 typedef struct input_list {
     context *ctx;
     const scenario *s;
-    text_buffer *out;
+    text_buffer *known, *out;
 } input_list;
+
+static bool find_known(const text_buffer *known, const char *path, char digest[SHA256_TEXT_SIZE])
+{
+    run_input file;
+    const char *at = known && known->count > 0 ? known->data : "", *end = at + (known ? known->count : 0);
+    while (run_inputs_next(&at, end, &file)) {
+        if ((size_t)file.path_length != strlen(path) || memcmp(file.path, path, strlen(path)) != 0)
+            continue;
+        memcpy(digest, file.digest, SHA256_TEXT_SIZE);
+        return true;
+    }
+    return false;
+}
 
 static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name,
                              fram_error *error)
@@ -26,22 +39,27 @@ static fram_status add_input(void *user, const scenario_key *key, const void *me
     size_t size = 0;
     /* Absolute, as in the run folder's scenario: the run is resumed from any folder. */
     fram_status status = scenario_absolute_path(list->s, name, given, path, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && !find_known(list->known, path, digest)) {
         status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
-    if (status != FRAM_OK)
-        return status;
-    sha256_text(data, size, digest);
-    memory_free(list->ctx, data);
-    text_format(list->ctx, list->out, "%s  %s\n", digest, path);
-    return FRAM_OK;
+        if (status != FRAM_OK)
+            return status;
+        sha256_text(data, size, digest);
+        memory_free(list->ctx, data);
+        if (list->known)
+            text_format(list->ctx, list->known, "%s  %s\n", digest, path);
+    }
+    if (status == FRAM_OK)
+        text_format(list->ctx, list->out, "%s  %s\n", digest, path);
+    return status;
 }
 
-fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *out, fram_error *error)
+fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *known, text_buffer *out, fram_error *error)
 {
-    input_list list = {ctx, s, out};
+    input_list list = {ctx, s, known, out};
     text_add(ctx, out, "");
     fram_status status = scenario_walk(s, add_input, &list, error);
-    return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
+    bool failed = out->failed || !out->data || (known && known->failed);
+    return status == FRAM_OK && failed ? error_memory(error) : status;
 }
 
 static bool begins_with_digest(const char *text, size_t size)

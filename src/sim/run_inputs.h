@@ -7,8 +7,9 @@
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 
-/* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
-fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
+/* "sha256  path" of every file the scenario names, a line each, the paths absolute.  known: lines of files that were
+   looked at before and are not read again, to which the others are added; NULL: none. */
+fram_status run_inputs_list(context *ctx, const scenario *s, text_buffer *known, text_buffer *out, fram_error *error);
 /* A line of such a list. */
 typedef struct run_input {
     char digest[SHA256_TEXT_SIZE];

@@ -325,11 +325,12 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
     return status;
 }
 
-fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error)
+fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, hull_store *store,
+                              fram_error *error)
 {
     log_level usual = ctx->verbosity;
     ctx->verbosity = LOG_ERROR;
-    fram_status status = build_check(ctx, one, error);
+    fram_status status = build_check(ctx, one, store, error);
     ctx->verbosity = usual;
     if (status == FRAM_ERROR_INPUT)
         study_place_error(s, condition, error);

@@ -19,6 +19,7 @@
 #define STUDY_STUDY_FILE_H
 
 #include "model/scenario.h"
+#include "sim/build_hull.h"
 #include "study/study.h"
 
 enum { STUDY_FILE_LIMIT = 1 << 24, STUDY_DEPTH_LIMIT = 8 };
@@ -36,7 +37,8 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
    the study gave the value, the place in the study file or its table. */
 void study_place_error(const study *s, int32_t condition, fram_error *error);
 /* Whether the vessels of a condition's scenario can be built, for what only shows then: a hull that closes nowhere, a
-   mass that sinks.  Warnings are not told: a run tells them. */
-fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error);
+   mass that sinks.  store: for those of the next condition.  Warnings are not told: a run tells them. */
+fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, hull_store *store,
+                              fram_error *error);
 
 #endif

@@ -75,7 +75,7 @@ static fram_status name_condition(study_folder *f, int32_t condition, const scen
     text_buffer b = {0}, inputs = {0};
     fram_status status = scenario_hash(f->ctx, one, of, error);
     if (status == FRAM_OK)
-        status = run_inputs_list(f->ctx, one, &inputs, error);
+        status = run_inputs_list(f->ctx, one, &f->inputs, &inputs, error);
     text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? of : "");
     /* Of each file the hash: the same files elsewhere are the same input. */
     run_input file;
@@ -137,7 +137,7 @@ static bool holds(context *ctx, const char *path, const text_buffer *text)
 }
 
 /* The scenario of a condition at seed 0, to be run with other seeds from any folder. */
-static fram_status write_condition(study_folder *f, int32_t condition, fram_error *error)
+static fram_status write_condition(study_folder *f, int32_t condition, hull_store *store, fram_error *error)
 {
     const scenario_print_options options = {.absolute_paths = true};
     scenario one = {0};
@@ -154,7 +154,7 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
         status = error_memory(error);
     bool fresh = status == FRAM_OK && !holds(f->ctx, path, &text);
     if (fresh)
-        status = study_build_check(f->ctx, f->s, condition, &one, error);
+        status = study_build_check(f->ctx, f->s, condition, &one, store, error);
     if (status == FRAM_OK)
         status = make_folder(f, "runs", f->id[condition], error);
     if (status == FRAM_OK && fresh)
@@ -249,9 +249,26 @@ static fram_status lock_folder(const char *path, int *lock, fram_error *error)
     return status;
 }
 
+static fram_status write_conditions(study_folder *f, fram_error *error)
+{
+    hull_store store = {.next = 0};
+    fram_status status = FRAM_OK;
+    for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++) {
+        status = work_continue(f->ctx, "looking at the conditions", c, f->s->conditions, error);
+        if (status == FRAM_OK)
+            status = write_condition(f, c, &store, error);
+    }
+    hull_store_free(f->ctx, &store);
+    if (status == FRAM_INTERRUPTED)
+        status = error_set(error, status, f->path, 0, NULL,
+                           "interrupted before all conditions were looked at; continue with the same command");
+    return status;
+}
+
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
 {
-    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1, {0}, 0};
+    char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)s->conditions, CONDITION_ID);
+    *f = (study_folder){.ctx = ctx, .s = s, .path = path, .id = id, .lock = -1};
     study_index_heads(f);
     fram_status status = f->id ? check_folder(ctx, path, error) : error_memory(error);
     if (status == FRAM_OK)
@@ -266,11 +283,12 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
         status = make_folder(f, "conditions", NULL, error);
     if (status == FRAM_OK)
         status = make_folder(f, "runs", NULL, error);
-    for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
-        status = write_condition(f, c, error);
+    if (status == FRAM_OK)
+        status = write_conditions(f, error);
     if (status == FRAM_OK)
         status = study_record_write(f, error);
     text_free(ctx, &f->index);
+    text_free(ctx, &f->inputs);
     if (status != FRAM_OK)
         study_folder_close(f);
     return status;

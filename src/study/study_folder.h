@@ -13,6 +13,7 @@ typedef struct study_folder {
     char (*id)[CONDITION_ID]; /* of each condition */
     int lock;                 /* -1 */
     text_buffer index;        /* of index.csv, while the folder is opened */
+    text_buffer inputs;       /* files of the conditions that were looked at so far (sim/run_inputs.h), as long */
     double run_bytes;         /* of memory that a run takes, about: the largest of all conditions */
 } study_folder;
 

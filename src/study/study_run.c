@@ -415,7 +415,11 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
                       fram_error *error)
 {
     study_work w = {.ctx = ctx, .s = s, .options = options, .started = clock_wall()};
+    const volatile int *stop = ctx->stop;
+    if (options->stop)
+        ctx->stop = options->stop;
     fram_status status = study_folder_open(ctx, s, options->folder, &w.folder, error);
+    ctx->stop = stop;
     if (status != FRAM_OK)
         return status;
     w.jobs = options->slurm && options->jobs == 0 ? processes_cores() : study_folder_jobs(&w.folder, options->jobs);

@@ -169,6 +169,45 @@ START_TEST(a_program_of_a_killed_study_is_waited_for)
 }
 END_TEST
 
+static void count_conditions(void *user, const char *what, double done, double total)
+{
+    int *calls = user;
+    ck_assert(done < total || strcmp(what, "looking at the conditions") != 0);
+    *calls += strcmp(what, "looking at the conditions") == 0;
+}
+
+/* The vessels of hundreds of conditions may take minutes before the first run begins. */
+START_TEST(conditions_are_counted_and_a_stop_is_heard_between_them)
+{
+    fram_error error = {0};
+    fram_context *c = NULL;
+    fram_study *s = NULL;
+    char folder[256], path[300], out[300];
+    int calls = 0, stop = 1;
+    fram_context_definition told;
+    fram_context_default(&told);
+    told.work = count_conditions;
+    told.work_user = &calls;
+    ck_assert_int_eq(fram_context_create(&told, &c, &error), FRAM_OK);
+    write_study(folder, path);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    fram_study_extent extent = {0};
+    ck_assert_int_eq(fram_study_measure(s, &extent, &error), FRAM_OK);
+    ck_assert_int_eq(calls, 3);
+    snprintf(out, sizeof out, "%s/out", folder);
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = "/nowhere";
+    d.stop = &stop;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_INTERRUPTED);
+    ck_assert_ptr_nonnull(strstr(error.message, "before all conditions were looked at"));
+    ck_assert_int_eq(calls, 3);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
 START_TEST(a_study_runs_by_the_command)
 {
     const char *program = getenv("FRAM");
@@ -211,4 +250,5 @@ START_TEST(a_study_runs_by_the_command)
 END_TEST
 
 TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs,
-          a_program_of_a_killed_study_is_waited_for, a_study_runs_by_the_command)
+          a_program_of_a_killed_study_is_waited_for, conditions_are_counted_and_a_stop_is_heard_between_them,
+          a_study_runs_by_the_command)

@@ -30,7 +30,7 @@ static inline void fleet_open(fleet *f, const char *const *text, int32_t count, 
     assert_ok(build_method(c, &f->s[0], &f->m, &error), error);
     for (int32_t i = 0; i < count; i++) {
         vessel_entry entry = scenario_vessel_entry(&f->s[i], 0);
-        assert_ok(build_vessel_model(c, &f->s[i], &entry, &f->m, &error), error);
+        assert_ok(build_vessel_model(c, &f->s[i], &entry, NULL, &f->m, &error), error);
     }
     assert_ok(world_init(c, &f->m, &f->w, &error), error);
     assert_ok(build_load_window(c, &f->s[0], count, &f->w, &error), error);

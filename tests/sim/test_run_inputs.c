@@ -1,6 +1,9 @@
 /* What a list of files says of their contents. */
+#include "io/scenario_file.h"
 #include "sim/run_inputs.h"
 #include "testing.h"
+#include <stdio.h>
+#include <unistd.h>
 
 #define ONE "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad" /* of "abc": FIPS 180-4, B.1 */
 #define TWO "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1" /* B.2 */
@@ -73,4 +76,36 @@ START_TEST(without_memory_there_is_no_digest)
 }
 END_TEST
 
-TEST_MAIN("run_inputs", contents_count_and_places_do_not, other_texts_are_refused, without_memory_there_is_no_digest)
+/* A file that was looked at is not read again: it may be gone. */
+START_TEST(files_that_are_known_are_not_read)
+{
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    char name[] = "/tmp/fram_test_XXXXXX", text[200], expected[200];
+    int file = mkstemp(name);
+    ck_assert_int_ge(file, 0);
+    ck_assert_int_eq(write(file, "abc", 3), 3);
+    ck_assert_int_eq(close(file), 0);
+    snprintf(text, sizeof text, "ice: {source: file, file: %s}\n", name);
+    snprintf(expected, sizeof expected, ONE "  %s\n", name);
+    scenario s;
+    text_buffer known = {0}, first = {0}, again = {0}, alone = {0};
+    assert_ok(scenario_parse(&ctx, "s.yaml", text, strlen(text), NULL, &s, &error), error);
+    assert_ok(run_inputs_list(&ctx, &s, &known, &first, &error), error);
+    ck_assert_int_eq(unlink(name), 0);
+    assert_ok(run_inputs_list(&ctx, &s, &known, &again, &error), error);
+    ck_assert_str_eq(first.data, expected);
+    ck_assert_str_eq(again.data, expected);
+    ck_assert_str_eq(known.data, expected);
+    ck_assert_int_eq(run_inputs_list(&ctx, &s, NULL, &alone, &error), FRAM_ERROR_INPUT);
+    text_free(&ctx, &known);
+    text_free(&ctx, &first);
+    text_free(&ctx, &again);
+    text_free(&ctx, &alone);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+TEST_MAIN("run_inputs", contents_count_and_places_do_not, other_texts_are_refused, without_memory_there_is_no_digest,
+          files_that_are_known_are_not_read)
