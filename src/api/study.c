@@ -239,6 +239,25 @@ static fram_status check_slurm_word(const char *key, const char *word, fram_erro
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, key, "expected one line of 1 to %d letters", SLURM_WORD_MOST);
 }
 
+static bool is_option(const char *word, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=' || word[length] == ' ');
+}
+
+/* Options by which tasks would not be those that are waited for. */
+static fram_status check_slurm_option(const char *word, fram_error *error)
+{
+    if (is_option(word, "--array"))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
+                         "the study numbers its tasks itself: expected no --array; runs a task make fewer of them");
+    if (is_option(word, "--clusters") || is_option(word, "--cluster"))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
+                         "expected no --clusters, which squeue would not know of: set SLURM_CLUSTERS for all commands "
+                         "of Slurm");
+    return FRAM_OK;
+}
+
 static fram_status check_slurm(const fram_study_definition *d, fram_error *error)
 {
     bool slurm = d->on && strcmp(d->on, "slurm") == 0;
@@ -255,6 +274,8 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
         if (status == FRAM_OK && strncmp(d->slurm_options[i], "--", 2) != 0)
             status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
                                "expected an option of sbatch, as --account=ice, found %.60s", d->slurm_options[i]);
+        if (status == FRAM_OK)
+            status = check_slurm_option(d->slurm_options[i], error);
     }
     if (status == FRAM_OK && (d->slurm_runs_per_task < 0 || d->slurm_runs_per_task > SLURM_RUNS_MOST))
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_runs_per_task", "expected 0 to %d, found %d",

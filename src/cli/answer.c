@@ -26,8 +26,11 @@ int exit_code_of(fram_status status)
 static const struct {
     const char *key, *option;
 } other_names[] = {
-    {"folder", "--output"}, {"probability", "--level"},     {"poisson_ratio", "--nu"},       {"seal_width", "--seal"},
-    {"slopes", "--slope"},  {"frames_per_second", "--fps"}, {"smallest_area", "--smallest"},
+    {"folder", "--output"},          {"probability", "--level"},
+    {"poisson_ratio", "--nu"},       {"seal_width", "--seal"},
+    {"slopes", "--slope"},           {"frames_per_second", "--fps"},
+    {"smallest_area", "--smallest"}, {"slurm_partition", "--partition"},
+    {"slurm_time", "--time"},        {"slurm_options", "--sbatch"},
 };
 
 /* Whether an option, "--stem-angle-deg", has the name of a member, "stem_angle". */

@@ -246,8 +246,8 @@ static int answer_result(const common_options *common, const char *folder, const
     if (!common->quiet)
         print_result(folder, r, dry);
     if (r->failed > 0)
-        fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s\n", (long long)r->failed_condition,
-                (long long)r->failed_seed, r->reason);
+        fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s%s\n", (long long)r->failed_condition,
+                (long long)r->failed_seed, r->reason, r->made == 0 && !dry ? " (--retry repeats failed runs)" : "");
     int code = r->runs > 0 && r->failed == r->runs ? EXIT_RUN_FAILED : EXIT_GOOD;
     if (!common->json)
         return code;

@@ -89,11 +89,11 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     char size[32], rate[16];
     snprintf(size, sizeof size, "%dx%d", width, height);
     snprintf(rate, sizeof rate, "%d", frames_per_second);
-    /* What spawn takes is not const, and it changes nothing. */
-    char *const arguments[] = {"ffmpeg",    "-y",         "-loglevel", "error",    "-f",      "rawvideo", "-pix_fmt",
-                               "bgr0",      "-s",         size,        "-r",       rate,      "-i",       "pipe:0",
-                               "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p", "-crf",     "21",
-                               "-movflags", "+faststart", "-f",        "mp4",      output,    NULL};
+    /* What spawn takes is not const, and it changes nothing.  Without -xerror a full disk is no failure to ffmpeg. */
+    char *const arguments[] = {"ffmpeg",   "-xerror",   "-y",         "-loglevel", "error",    "-f",      "rawvideo",
+                               "-pix_fmt", "bgr0",      "-s",         size,        "-r",       rate,      "-i",
+                               "pipe:0",   "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p", "-crf",
+                               "21",       "-movflags", "+faststart", "-f",        "mp4",      output,    NULL};
     status = start(v, arguments, error);
     memory_free(ctx, output);
     if (status != FRAM_OK) {

@@ -263,12 +263,25 @@ static void read_log_beside(context *ctx, const char *folder, char out[ROW_REASO
     text_free(ctx, &log);
 }
 
+/* Codes of programs that a signal ended, as a shell tells them; an interrupted run ends with one of them by itself. */
+enum { CODE_INTERRUPTED = 130, CODE_OF_SIGNAL = 128 };
+static void tell_end(int exit_code, char out[ROW_REASON])
+{
+    if (exit_code == CODE_INTERRUPTED)
+        snprintf(out, ROW_REASON, "it was stopped before its end, as by a limit of time");
+    else if (exit_code > CODE_OF_SIGNAL)
+        snprintf(out, ROW_REASON, "it was killed by signal %d, as where memory runs out or a task is lost",
+                 exit_code - CODE_OF_SIGNAL);
+    else
+        snprintf(out, ROW_REASON, "it ended with exit code %d", exit_code);
+}
+
 static void fill_failure(context *ctx, const char *folder, int exit_code, run_row *out)
 {
     run_data d;
     begin_row(out);
     out->failed = true;
-    snprintf(out->reason, sizeof out->reason, "it ended with exit code %d", exit_code);
+    tell_end(exit_code, out->reason);
     if (run_data_read(ctx, folder, false, &d, NULL) != FRAM_OK) {
         read_log_beside(ctx, folder, out->reason);
         return;

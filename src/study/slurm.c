@@ -153,11 +153,23 @@ void slurm_stop(slurm_pool *all)
 {
     for (int32_t i = 0; i < all->jobs.count; i++)
         cancel(all, (long long)all->jobs.data[i]);
-    array_clear(&all->jobs);
+}
+
+/* The numbers of this call's arrays: told on, a later call would cancel what a cluster that was set up anew has given
+   the same number.  Those of a call that was killed stay, and are cancelled. */
+static void forget_jobs(const slurm_pool *all)
+{
+    for (int32_t i = all->arrays - all->jobs.count; all->jobs.count > 0 && i <= all->arrays; i++) {
+        char *job = array_path(all, i, "job");
+        if (job)
+            (void)unlink(job);
+        memory_free(all->ctx, job);
+    }
 }
 
 void slurm_free(slurm_pool *all)
 {
+    forget_jobs(all);
     memory_free(all->ctx, all->folder);
     all->folder = NULL;
     array_free(all->ctx, &all->runs);
@@ -199,11 +211,14 @@ static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *err
     return status;
 }
 
+/* Whether the run is to be submitted: one that was too often is lost. */
+static bool is_waiting(const slurm_run *run) { return run->array < 0 && run->tries < TRIES_MOST; }
+
 static int32_t waiting(const slurm_pool *all)
 {
     int32_t n = 0;
     for (int32_t i = 0; i < all->runs.count; i++)
-        n += all->runs.data[i].array < 0;
+        n += is_waiting(&all->runs.data[i]);
     return n;
 }
 
@@ -215,7 +230,7 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
     all->arrays++;
     for (int32_t i = 0; i < all->runs.count && n < (int64_t)ARRAY_MOST * each; i++) {
         slurm_run *run = &all->runs.data[i];
-        if (run->array >= 0)
+        if (!is_waiting(run))
             continue;
         text_format(all->ctx, &list, "%s %lld", run->id, (long long)run->seed);
         if (run->frames > 0) {
@@ -362,8 +377,8 @@ void slurm_look(slurm_pool *all)
     if (clock_wall() - all->asked < poll || all->runs.count == 0)
         return;
     all->asked = clock_wall();
-    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--name=fram-study", "--format=%i %t %r",
-                                 NULL};
+    /* By whatever name: an option of sbatch or a variable of its environment may give another one. */
+    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--format=%i %t %r", NULL};
     text_buffer answer = {0};
     int code = 0;
     /* A scheduler that does not answer has lost nothing. */

@@ -296,10 +296,29 @@ static fram_status work_loop(study_work *w, fram_error *error)
 
 /* ---- runs by Slurm ---- */
 
+/* A task passes over what has a row: a failure that is tried again has none. */
+static fram_status forget_failure(const study_work *w, int32_t condition, int32_t index, fram_error *error)
+{
+    static const char *const endings[] = {".row", ".exit"};
+    if (!w->conditions[condition].seeds.data[index].row.failed || w->options->slurm->dry_run)
+        return FRAM_OK;
+    for (int i = 0; i < 2; i++) {
+        char *path = study_run_path(&w->folder, condition, w->s->seeds.first + index, endings[i]);
+        if (!path)
+            return error_memory(error);
+        (void)unlink(path);
+        memory_free(w->ctx, path);
+    }
+    return FRAM_OK;
+}
+
 static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *error)
 {
     int32_t condition = 0, index = 0;
     while (next_run(w, &condition, &index)) {
+        fram_status status = forget_failure(w, condition, index, error);
+        if (status != FRAM_OK)
+            return status;
         if (!array_push(w->ctx, &w->task, (int64_t)condition << 32 | index) ||
             !slurm_add(queue, w->folder.id[condition], w->s->seeds.first + index, w->task.count - 1, 0))
             return error_memory(error);

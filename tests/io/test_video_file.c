@@ -3,6 +3,9 @@
 
 #include "scratch.h"
 
+#include <signal.h>
+#include <sys/resource.h>
+
 enum { WIDTH = 64, HEIGHT = 48, FRAMES = 3 };
 
 static void put_frames(video_file *v)
@@ -39,4 +42,32 @@ START_TEST(two_at_once)
 }
 END_TEST
 
-TEST_MAIN("video_file", two_at_once)
+/* As on a full disk: what was there stays, and nothing half-written takes its name. */
+START_TEST(no_room_for_the_file)
+{
+    context ctx;
+    fram_error e = {0};
+    video_file video;
+    scratch s = scratch_make();
+    context_init(&ctx);
+    struct rlimit before, limit;
+    ck_assert_int_eq(getrlimit(RLIMIT_FSIZE, &before), 0);
+    limit = before;
+    limit.rlim_cur = 512;
+    ck_assert(signal(SIGXFSZ, SIG_IGN) != SIG_ERR); /* and so it is to ffmpeg */
+    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    fram_status status = video_begin(&ctx, scratch_path(&s, "full.mp4"), WIDTH, HEIGHT, 10, &video, &e);
+    if (status == FRAM_OK) {
+        put_frames(&video);
+        status = video_end(&video, &e);
+    }
+    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &before), 0);
+    if (status != FRAM_ERROR_UNSUPPORTED) {
+        ck_assert_int_eq(status, FRAM_ERROR_IO);
+        ck_assert_ptr_nonnull(strstr(e.message, "ffmpeg could not make the video"));
+    }
+    ck_assert_int_eq(rmdir(s.folder), 0);
+}
+END_TEST
+
+TEST_MAIN("video_file", two_at_once, no_room_for_the_file)

@@ -30,6 +30,17 @@ vary: {{list: [{{run.speed_limit: 100, vessel.mass: 1.8e6}}, {{run.speed_limit: 
        {{run.speed_limit: 90, vessel.mass: 1.8e6}}]}}
 """
 
+# A scheduler that makes the tasks of an array one after the other, at once.
+SBATCH = """#!/bin/bash
+[ "$1" != --version ] || exit 0
+script=${!#}
+last=$(sed -n 's/^#SBATCH --array=0-//p' "$script")
+for task in $(seq 0 "$last"); do
+    SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=$task bash "$script"
+done >/dev/null 2>&1 &
+echo 7
+"""
+
 
 class Arrays(unittest.TestCase):
     def setUp(self):
@@ -43,7 +54,8 @@ class Arrays(unittest.TestCase):
         return [FRAM, "study", str(self.study), "-o", str(self.at / folder), *map(str, more)]
 
     def fram(self, *words, code=0, environment=None):
-        done = subprocess.run(self.words(*words, "--json"), capture_output=True, text=True, env=environment)
+        done = subprocess.run(self.words(*words, "--json"), capture_output=True, text=True, env=environment,
+                              timeout=300)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stdout
 
@@ -71,9 +83,64 @@ class Arrays(unittest.TestCase):
         self.assertEqual(json.loads(self.fram("out", "--partition", "all", code=2))["error"]["key"], "--on")
         error = json.loads(self.fram("out", "--on", "slurm", "--sbatch", "account", code=2))["error"]
         self.assertIn("--account=ice", error["message"])
+        for option in ("--array=0-9%2", "--clusters=far"):
+            error = json.loads(self.fram("out", "--on", "slurm", "--sbatch", option, code=2))["error"]
+            self.assertEqual(error["key"], "--sbatch")
+            self.assertIn("expected no " + option[:7], error["message"])
         none = dict(os.environ, PATH="/nowhere")
         error = json.loads(self.fram("out", "--on", "slurm", code=2, environment=none))["error"]
         self.assertIn("sbatch", error["message"])
+
+    def scheduler(self):
+        """Programs by the names of Slurm's, in front of all others."""
+        programs = self.at / "bin"
+        programs.mkdir()
+        for name, text in (("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "#!/bin/sh\n")):
+            (programs / name).write_text(text)
+            (programs / name).chmod(0o755)
+        return dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
+
+    def test_failures_are_made_again(self):
+        self.study.write_text(STUDY.format(seeds=1))
+        environment = self.scheduler()
+        words = ("out", "--on", "slurm", "--poll", "20")
+        first = json.loads(self.fram(*words, environment=environment))
+        self.assertEqual((first["failed"], first["made"]), (1, 3))
+        # It ends, which it did not where tasks found that the run has failed already; it fails again.
+        failed, = [p for p in (self.at / "out").glob("runs/*/1.row") if "failed" in p.read_text()]
+        changed = failed.stat().st_mtime_ns
+        self.fram(*words, "--retry", "--dry-run", environment=environment)
+        self.assertEqual(failed.stat().st_mtime_ns, changed)
+        again = json.loads(self.fram(*words, "--retry", environment=environment))
+        self.assertEqual((again["failed"], again["made"]), (1, 1))
+
+    def test_what_a_limit_of_time_stopped_goes_on(self):
+        self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
+        self.fram("here")
+        script = self.fram("there", "--on", "slurm", "--dry-run")
+        program = self.at / "program"
+        program.write_text(f'#!/bin/sh\necho "$1" >>{self.at}/calls\nexec {FRAM} "$@"\n')
+        program.chmod(0o755)
+        script = "".join(f"fram={program}\n" if line.startswith("fram=") else line
+                         for line in script[:script.rindex("{")].splitlines(keepends=True))
+        there = self.at / "there"
+        condition = next(there.glob("conditions/*.yaml"))
+        run = there / "runs" / condition.stem / "1"
+        (there / "slurm").mkdir()
+        (there / "slurm" / "1.list").write_text(f"{condition.stem} 1\n")
+        task = dict(os.environ, SLURM_ARRAY_TASK_ID="0", SLURM_ARRAY_JOB_ID="7")
+        whole = json.loads((self.at / "here" / run.relative_to(there) / "run.json").read_text())
+        for damage, calls in ((False, ["resume"]), (True, ["resume", "run"])):
+            subprocess.run([FRAM, "run", condition, "-o", run, "--set", "run.seed=1", "--until", "1", "--force", "-q"],
+                           check=True)
+            for path in run.glob("checkpoint-*.fram") if damage else ():
+                path.write_bytes(b"no checkpoint")
+            subprocess.run(["bash", "-c", script], check=True, env=task)
+            self.assertEqual((self.at / "calls").read_text().split(), calls)
+            self.assertEqual((run.parent / "1.exit").read_text(), "0\n")
+            self.assertEqual(json.loads((run / "run.json").read_text())["state_hash"], whole["state_hash"])
+            (run.parent / "1.exit").unlink()
+            (self.at / "calls").unlink()
 
     def test_the_same_bytes_though_a_node_is_lost(self):
         why = cluster.missing()
@@ -128,7 +195,7 @@ class Arrays(unittest.TestCase):
         fcntl.flock(lock, fcntl.LOCK_EX)
         time.sleep(14)
         os.close(lock)
-        out, error = process.communicate(timeout=200)
+        out, error = process.communicate(timeout=3000)
         self.assertEqual(process.returncode, 0, error)
         result = json.loads(out.splitlines()[-1])
         self.assertEqual((result["failed"], result["made"]), (0, 2))

@@ -4,6 +4,7 @@
 #include "study/slurm.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 typedef struct scheduler {
     char folder[64], before[4096];
@@ -78,4 +79,70 @@ START_TEST(tasks_that_wait_are_told_with_their_reasons)
 }
 END_TEST
 
-TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons)
+static void begin_queue(context *ctx, scheduler *s, const slurm_options *options, slurm_pool *queue)
+{
+    fram_error error;
+    context_init(ctx);
+    begin(s);
+    ck_assert_int_eq(slurm_begin(ctx, options, s->folder, "/bin/fram", queue, &error), FRAM_OK);
+    ck_assert(slurm_add(queue, "0123456789ab", 1, 5, 0));
+    ck_assert_int_eq(slurm_submit(queue, &error), FRAM_OK);
+}
+
+/* Whether the folder tells the number of its first array. */
+static bool has_job(const scheduler *s)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/slurm/1.job", s->folder);
+    return access(path, F_OK) == 0;
+}
+
+/* A run whose tasks vanish again and again, cancelled by somebody, say, is submitted four times and no more. */
+START_TEST(what_is_lost_again_and_again_has_failed)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    int32_t task = -1;
+    int code = 0, looks = 0;
+    for (; !slurm_ended(&queue, &task, &code) && looks < 20; looks++) {
+        ck_assert_ptr_null(told(&s, &queue, ""));
+        ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    }
+    ck_assert_int_eq(task, 5);
+    ck_assert_int_eq(code, 128 + 9);
+    ck_assert_int_eq(queue.arrays, 4);
+    ck_assert_int_eq(queue.runs.count, 0);
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
+/* Tasks of another name, which `#SBATCH --job-name` of a user or SBATCH_JOB_NAME gives, are there all the same. Numbers
+   of what has ended are not kept: there, they would be cancelled by the next call, whosever they are by then. */
+START_TEST(tasks_are_known_by_their_number)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    ck_assert(has_job(&s));
+    write_script(&s, "squeue", "#!/bin/sh\ncase $* in *--name*) ;; *) echo 7_0 R None ;; esac\n");
+    for (int i = 0; i < 4; i++) {
+        queue.asked = -1e9;
+        slurm_look(&queue);
+    }
+    ck_assert_int_eq(queue.runs.data[0].array, 0);
+    ck_assert_int_eq(queue.runs.data[0].missed, 0);
+    slurm_free(&queue);
+    ck_assert(!has_job(&s));
+    end(&s);
+}
+END_TEST
+
+TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
+          tasks_are_known_by_their_number)
