@@ -133,8 +133,9 @@ int refuse_run_folder(const common_options *common, const char *scenario, const 
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
  */
 int session_open(const common_options *common, fram_context **context);
-/* The same for commands that make worlds or fields: Ctrl-C ends the making (see session_stop_flag), and how far it is
-   is shown on standard error, by a view that lives as long as the context. */
+/* The same for commands that make worlds or fields, or files of a run: Ctrl-C ends the making (see session_stop_flag),
+   so that no half-written file stays, and how far it is is shown on standard error, by a view that lives as long as the
+   context. */
 typedef struct work_view {
     char what[80];
     double begun, shown; /* wall clock [s] */

@@ -27,7 +27,7 @@ int command_manage(const command_row *self, int argc, char **argv)
         return code;
     fram_context *context = NULL;
     work_view work;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
     char *text = NULL;

@@ -35,7 +35,7 @@ int command_report(const command_row *self, int argc, char **argv)
         return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};

@@ -1,6 +1,8 @@
 /* fram run and fram resume: a simulation with results on disk. */
 #include "cli/cli.h"
 
+#include <string.h>
+
 /* Later than any scenario ends. */
 #define TO_THE_END 1e12
 
@@ -27,13 +29,27 @@ static void print_result(const common_options *common, const char *folder, const
     json_end(&j);
 }
 
+/* How a shell takes the folder as one word. */
+static void print_resume(const char *folder)
+{
+    bool plain =
+        folder[strspn(folder, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=:,@%")] == '\0';
+    fprintf(stderr, "continue with: fram resume %s%s", folder[0] == '-' ? "./" : "", plain ? folder : "'");
+    for (const char *c = folder; *c && !plain; c++) {
+        if (*c == '\'')
+            fputs("'\\'", stderr);
+        fputc(*c, stderr);
+    }
+    fputs(plain ? "\n" : "'\n", stderr);
+}
+
 static int finish(const common_options *common, fram_status status, const fram_error *error, const char *folder,
                   const fram_run_result *result)
 {
     if (status != FRAM_OK) {
         int code = answer_error(common, error);
         if (status == FRAM_INTERRUPTED && result->steps > 0)
-            fprintf(stderr, "continue with: fram resume %s\n", folder);
+            print_resume(folder);
         return code;
     }
     print_result(common, folder, result);

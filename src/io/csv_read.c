@@ -14,9 +14,19 @@
 /* What may stand about a number, and alone in a line that counts for none. */
 #define BLANKS " \t"
 
+/* What a header that lacks a name may have instead. */
+static const char *header_hint(const char *header)
+{
+    return strchr(header, '"')      ? "; names stand without quotation marks"
+           : strpbrk(header, ";\t") ? "; columns are divided by commas"
+           : header[0] == '#'       ? "; comments are not read"
+                                    : "";
+}
+
 /* A header cell is the name, or "name[unit]" in the unit that is asked for, if one is: no other unit is taken for it.
  */
-static fram_status check_unit(const char *path, const char *cell, const char *wanted, fram_error *error)
+static fram_status check_unit(const char *path, const char *header, const char *cell, const char *wanted,
+                              fram_error *error)
 {
     const char *unit = strchr(wanted, '[');
     size_t name = strcspn(cell, ",["), length = strcspn(cell + name, ",");
@@ -26,8 +36,8 @@ static fram_status check_unit(const char *path, const char *cell, const char *wa
         length--;
     if (length == strlen(unit) && strncmp(cell + name, unit, length) == 0)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, path, 1, wanted, "expected the unit %s, found %.*s", unit, (int)length,
-                     cell + name);
+    return error_set(error, FRAM_ERROR_INPUT, path, 1, wanted, "expected the unit %s, found %.*s%s", unit, (int)length,
+                     cell + name, header_hint(header));
 }
 
 fram_status csv_refuse_twice(const char *path, const char *name, int32_t first, int32_t second, fram_error *error)
@@ -37,9 +47,9 @@ fram_status csv_refuse_twice(const char *path, const char *name, int32_t first, 
                      (int)first + 1, (int)second + 1);
 }
 
-/* Column number of each name in the header row. */
+/* Column number of each name in the header row, and how many it has. */
 static fram_status find_columns(const char *path, const char *header, const char *const *names, int32_t count,
-                                int32_t *at, fram_error *error)
+                                int32_t *at, int32_t *width, fram_error *error)
 {
     for (int32_t k = 0; k < count; k++) {
         at[k] = -1;
@@ -53,15 +63,17 @@ static fram_status find_columns(const char *path, const char *header, const char
                 if (at[k] >= 0)
                     return csv_refuse_twice(path, names[k], at[k], column, error);
                 at[k] = column;
-                if (check_unit(path, c, names[k], error) != FRAM_OK)
+                if (check_unit(path, header, c, names[k], error) != FRAM_OK)
                     return FRAM_ERROR_INPUT;
             }
             c += whole;
             if (!*c)
                 break;
         }
+        *width = column + 1;
         if (at[k] < 0)
-            return error_set(error, FRAM_ERROR_INPUT, path, 1, names[k], "the file has no column of this name");
+            return error_set(error, FRAM_ERROR_INPUT, path, 1, names[k], "the file has no column of this name%s",
+                             header_hint(header));
     }
     return FRAM_OK;
 }
@@ -103,10 +115,18 @@ static bool push_value(context *ctx, const int32_t *at, int32_t count, int32_t c
     return good;
 }
 
-static fram_status read_row(context *ctx, const char *path, int line, const char *row, const int32_t *at, int32_t count,
-                            double_array *columns, fram_error *error)
+typedef struct column_reader {
+    context *ctx;
+    const char *const *names;
+    int32_t count, width; /* names, columns of the file */
+    int32_t *at;          /* column of each name */
+    double_array *columns;
+} column_reader;
+
+static fram_status read_row(const column_reader *r, const char *path, int line, const char *row, fram_error *error)
 {
-    int32_t column = 0, asked = next_asked(at, count, 0);
+    const int32_t *at = r->at;
+    int32_t count = r->count, column = 0, asked = next_asked(at, count, 0);
     for (const char *c = row; *c; column++) {
         const char *passed = c;
         if (column != asked && c[0] == '0' && c[1] == ',') {
@@ -125,7 +145,7 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
             return error_set(error, FRAM_ERROR_INPUT, path, line, NULL, "column %d: expected a number",
                              (int)column + 1);
         if (column == asked) {
-            if (!push_value(ctx, at, count, column, value, columns))
+            if (!push_value(r->ctx, at, count, column, value, r->columns))
                 return error_memory(error);
             asked = next_asked(at, count, column + 1);
         }
@@ -137,6 +157,11 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
                              "the row has %d values; the header names a column %d that is asked for", (int)column,
                              (int)at[k] + 1);
     }
+    if (column > r->width)
+        return error_set(error, FRAM_ERROR_INPUT, path, line, NULL,
+                         "the row has %d values, the header %d columns: is one of the commas a decimal or a thousands "
+                         "mark?",
+                         (int)column, (int)r->width);
     return FRAM_OK;
 }
 
@@ -251,14 +276,6 @@ static fram_status read_lines(context *ctx, const char *path, const line_reader 
 
 /* ---- some columns ---- */
 
-typedef struct column_reader {
-    context *ctx;
-    const char *const *names;
-    int32_t count;
-    int32_t *at; /* column of each name */
-    double_array *columns;
-} column_reader;
-
 static bool is_row(int line, const char *text) { return line > 1 && text[strspn(text, BLANKS)] != '\0'; }
 
 static fram_status read_columns(void *user, const char *path, int line, const char *text, fram_error *error)
@@ -266,8 +283,8 @@ static fram_status read_columns(void *user, const char *path, int line, const ch
     column_reader *r = user;
     if (line > 1 && !is_row(line, text))
         return FRAM_OK;
-    return line == 1 ? find_columns(path, text, r->names, r->count, r->at, error)
-                     : read_row(r->ctx, path, line, text, r->at, r->count, r->columns, error);
+    return line == 1 ? find_columns(path, text, r->names, r->count, r->at, &r->width, error)
+                     : read_row(r, path, line, text, error);
 }
 
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,

@@ -256,6 +256,9 @@ static fram_status write_all(vtk_export *e, int64_t every, export_report *report
             report->time = e->r.frame.time;
         status = write_frame(e, report->frames++, error);
     }
+    if (status == FRAM_INTERRUPTED)
+        return error_set(error, status, e->folder, 0, NULL, "interrupted; %lld frames are there, without their list",
+                         (long long)report->frames);
     return status == FRAM_OK ? write_series(e, error) : status;
 }
 

@@ -94,8 +94,18 @@ static int find_head(const char *path, const char *line, const char *name, bool 
 typedef struct csv_want {
     const char *path;
     int time, value; /* columns; time -1: not read */
+    int width;       /* columns of the file */
     bool maxima;
 } csv_want;
+
+static int count_heads(const char *line)
+{
+    char head[CELL_ROOM];
+    int n = 0;
+    for (const char *c = line; c; n++)
+        c = next_cell(c, head, sizeof head);
+    return n;
+}
 
 /* Numbers of a line; *found false for an empty cell of maxima. */
 static fram_status read_line(const csv_want *want, const char *line, int number, double *time, double *value,
@@ -106,11 +116,17 @@ static fram_status read_line(const csv_want *want, const char *line, int number,
     *found = true;
     for (const char *c = line; c; column++) {
         c = next_cell(c, cell, sizeof cell);
+        if (column >= want->width && *cell)
+            return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
+                             "the row has more cells than the header has columns, %d: is one of the commas a decimal "
+                             "or a thousands mark?",
+                             want->width);
         if (column != want->time && column != want->value)
             continue;
         if (!*cell && want->maxima) {
             *found = false;
-            return FRAM_OK;
+            seen++;
+            continue;
         }
         double x = 0;
         char *end = cell + strlen(cell);
@@ -188,6 +204,7 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
     if (status == FRAM_OK && strlen(text) != size)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "expected text, found a NUL byte");
     if (status == FRAM_OK) {
+        want.width = count_heads(text);
         want.value = find_head(path, text, source->channel, true, unit, error);
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
     }

@@ -190,6 +190,9 @@ static fram_status check_folder(context *ctx, const char *path, fram_error *erro
         /* Another study that begins may have made folder and file between these looks. */
         if (status == FRAM_ERROR_USAGE && (has_leftovers_only(path) || file_is_readable(b.data)))
             status = FRAM_OK;
+        else if (status == FRAM_ERROR_USAGE)
+            status = error_set(error, status, path, 0, NULL,
+                               "the folder holds something else than a study; name another one");
     }
     text_free(ctx, &b);
     return status;

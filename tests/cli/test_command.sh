@@ -203,18 +203,18 @@ wait_for_start() {
         sleep 0.1
     done
 }
-"$FRAM" run scene.yaml -o long --set run.duration=10000 --set vessel.speed=0 --json >out 2>err &
+"$FRAM" run scene.yaml -o "it's long" --set run.duration=10000 --set vessel.speed=0 --json >out 2>err &
 pid=$!
-wait_for_start long
+wait_for_start "it's long"
 sleep 0.5
 kill -INT $pid
 code=0
 wait $pid || code=$?
 same "$code" 130 "exit code after Ctrl-C"
-says "fram resume long" err
-ls long/checkpoint-*.fram >/dev/null || fail "no checkpoint after Ctrl-C"
-now=$(python3 -c 'import json; print(json.load(open("long/run.json"))["time_s"] + 0.1)')
-expect 0 "$FRAM" resume long --until "$now"
+says "continue with: fram resume 'it'\\''s long'" err
+ls "it's long"/checkpoint-*.fram >/dev/null || fail "no checkpoint after Ctrl-C"
+now=$(python3 -c 'import json; print(json.load(open("it\x27s long/run.json"))["time_s"] + 0.1)')
+expect 0 "$FRAM" resume "it's long" --until "$now"
 
 # So does a terminal that closes, unless nohup says otherwise; a closed pipe costs the progress lines only.  While a
 # run writes, no other one does.

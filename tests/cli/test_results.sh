@@ -156,6 +156,17 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+    # SIGTERM, as Ctrl-C, as soon as the file has begun leaves nothing half-written; where it is whole by then, that.
+    "$FRAM" export run --netcdf -o stopped.nc 2>err >out &
+    until compgen -G 'stopped.nc*' >found || ! kill -0 $!; do :; done 2>kills
+    kill -TERM $! 2>kills
+    code=0
+    wait $! || code=$?
+    case $code in
+    0) [ "$(compgen -G 'stopped.nc*')" = stopped.nc ] || fail "an export left $(compgen -G 'stopped.nc*')" ;;
+    130) [ -z "$(compgen -G 'stopped.nc*')" ] || fail "an interrupted export left $(compgen -G 'stopped.nc*')" ;;
+    *) fail "an interrupted export has exit code $code: $(cat err)" ;;
+    esac
     expect 2 "$FRAM" export run --netcdf -o no/such/run.nc
     says "cannot open for writing" err
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json

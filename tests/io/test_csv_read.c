@@ -44,7 +44,7 @@ static void assert_refused(const char *text, size_t size, int line, const char *
 
 START_TEST(columns_are_found_by_name_in_any_order)
 {
-    static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5\n";
+    static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5,\n"; /* a comma at the end is none */
     double_array columns[COLUMNS] = {0};
     fram_error error;
     ck_assert_int_eq(read_text(text, sizeof text - 1, columns, &error), FRAM_OK);
@@ -99,6 +99,12 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
     ASSERT_REFUSED("time[s],force[N]\n1,2\n,\n", 3, "expected a number");
     ASSERT_REFUSED("time[s],force[N]\n1 1,2\n", 2, "expected a number");
     ASSERT_REFUSED("time[s],force[N]\n1,2\0,3\n", 2, "NUL");
+    /* 1000 and 0.25 of people who write 1,000 and 0,25: never one column for another. */
+    ASSERT_REFUSED("time[s],force[N]\n1,000,2\n", 2, "the row has 3 values, the header 2 columns");
+    ASSERT_REFUSED("time[s],x[m],force[N]\n0,0,7,2\n0,25,7,2\n", 2, "is one of the commas a decimal");
+    ASSERT_REFUSED("\"time[s]\",\"force[N]\"\n1,2\n", 1, "no column of this name; names stand without quotation marks");
+    ASSERT_REFUSED("time[s];force[N]\n1;2\n", 1, "columns are divided by commas");
+    ASSERT_REFUSED("# of a tank\ntime[s],force[N]\n1,2\n", 1, "comments are not read");
 }
 END_TEST
 

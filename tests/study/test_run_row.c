@@ -123,6 +123,28 @@ START_TEST(processes_tell_how_they_ended)
 }
 END_TEST
 
+/* A signal, and a stop, are told as what they are; there is no run.json that would say more. */
+START_TEST(failures_without_a_word_tell_how_they_ended)
+{
+    static const struct {
+        int code;
+        const char *reason;
+    } cases[] = {{7, "it ended with exit code 7"},
+                 {130, "it was stopped before its end, as by a limit of time"},
+                 {137, "it was killed by signal 9, as where memory runs out or a task is lost"}};
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 3; i++) {
+        run_rows rows = {0};
+        fram_error error;
+        assert_ok(run_rows_failed(&ctx, "/nonexistent", cases[i].code, &rows, &error), error);
+        ck_assert(rows.data[0].failed);
+        ck_assert_str_eq(rows.data[0].reason, cases[i].reason);
+        array_free(&ctx, &rows);
+    }
+}
+END_TEST
+
 /* As many at a time as memory holds, where that is known; one always. */
 START_TEST(processes_fit_the_memory)
 {
@@ -138,4 +160,4 @@ START_TEST(processes_fit_the_memory)
 END_TEST
 
 TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
-          processes_tell_how_they_ended, processes_fit_the_memory)
+          processes_tell_how_they_ended, failures_without_a_word_tell_how_they_ended, processes_fit_the_memory)

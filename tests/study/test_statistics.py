@@ -207,6 +207,8 @@ class Statistics(unittest.TestCase):
         self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:4:", "equal distances", "found one of 4 s")
         blanks = self.write("time,x\n\n0,1\n# a comment\n1,2\n5,3\n6,1\n", "blanks.csv")
         self.refused(("fatigue", blanks, "--channel", "x"), "blanks.csv:6:", "found one of 4 s")
+        commas = self.write("time,x\n0,1\n1,2,\n2,0,5\n", "commas.csv")
+        self.refused(("fatigue", commas, "--channel", "x"), "commas.csv:4:", "more cells than the header", "a decimal")
         rows = "".join(f"{0.5 * i + (400 if i > 700 else 0)},{i % 7}\n" for i in range(1000))
         gap = self.write("time,x\n" + rows, "gap.csv")
         self.refused(("extremes", gap, "--channel", "x"), "gap.csv:703:", "0.5 s as most are", "found one of 400.5 s")

@@ -377,6 +377,12 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                                   text=True)
             self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
             self.assertEqual("base.yaml" in done.stderr, tells)
+        # One of something else is left alone, --force or not.
+        (self.at / "mine").mkdir()
+        (self.at / "mine" / "letter").write_text("")
+        error = self.fram(study, "-o", self.at / "mine", "--force", code=2)["error"]
+        self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
+        self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
 
     @WHOLE
     def test_seeds_go_on_until_the_interval_is_narrow(self):
