@@ -7,6 +7,7 @@ the making has begun; a making that does not listen runs into the watchdog.
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -35,7 +36,7 @@ def interrupt(words, folder, number):
                           text=True) as process:
         try:
             heard = ""
-            while not heard.rstrip().endswith(("%", *"0123456789")):
+            while not re.search(r": (\d+ %|round \d)", heard):
                 heard = process.stderr.readline()
                 if not heard:
                     break
