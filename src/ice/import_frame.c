@@ -4,9 +4,9 @@
 
 /* Lengths are too long by (r / 2R)^2, 0.6 % so far from the centre [m]. */
 #define REACH_MOST 1e6
-/* Ice is at high latitudes, and a floe of 50 km covers less than a square degree: no tank or planar field is so far
-   from its origin with floes so small [deg]. */
-#define LATITUDE_LEAST 40
+/* Sea ice begins at the south coast of the Bohai Sea, and a floe of 50 km covers less than a square degree: no tank or
+   planar field is so far from its origin with floes so small [deg]. */
+#define LATITUDE_LEAST 37
 #define FLOE_MOST 0.5
 
 static polygon all_vertices(const import_rings *r) { return (polygon){r->rings.vertex.data, r->rings.vertex.count}; }

@@ -270,6 +270,10 @@ area = step * (q(math.radians(75.01)) - q(math.radians(75)))
 sys.exit(abs(float(sys.argv[1]) / area - 1) > 1e-6)
 END
 done
+# The southernmost sea ice, off Laizhou.
+echo '{"type":"Polygon","coordinates":[[[119.5,37.1],[119.51,37.1],[119.51,37.11],[119.5,37.11],[119.5,37.1]]]}' >bohai.geojson
+expect 2 "$FRAM" field bohai.geojson
+says "look like degrees" err
 expect 2 "$FRAM" field floes.geojson --bad drop --degrees --scale 2
 says "have no scale" err
 sed 's/40.1/400.1/g' floes.geojson >far.geojson
