@@ -271,7 +271,9 @@ sys.exit(abs(float(sys.argv[1]) / area - 1) > 1e-6)
 END
 done
 # The southernmost sea ice, off Laizhou.
-echo '{"type":"Polygon","coordinates":[[[119.5,37.1],[119.51,37.1],[119.51,37.11],[119.5,37.11],[119.5,37.1]]]}' >bohai.geojson
+cat >bohai.geojson <<'END'
+{"type": "Polygon", "coordinates": [[[119.5, 37.1], [119.51, 37.1], [119.51, 37.11], [119.5, 37.11], [119.5, 37.1]]]}
+END
 expect 2 "$FRAM" field bohai.geojson
 says "look like degrees" err
 expect 2 "$FRAM" field floes.geojson --bad drop --degrees --scale 2
