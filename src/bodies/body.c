@@ -38,6 +38,48 @@ void body_remove(body_table *bodies, int32_t slot)
     bodies->generation[slot] = generation;
 }
 
+/* Slots that are looked at together. */
+enum { LOOK_SLOTS = 32 };
+
+/* A byte is 0 to 5; adding 6 sets its bit 3 from MOTION_PRESCRIBED on, and adding 3 that of MOTION_ASLEEP alone. */
+static bool any_moves(const uint8_t kinds[LOOK_SLOTS])
+{
+    static_assert(MOTION_STATIC < MOTION_PRESCRIBED && MOTION_PRESCRIBED == 2 && MOTION_CARRIED == 4 &&
+                      MOTION_ASLEEP == 5,
+                  "bits of the motions");
+    const uint64_t each = 0x0101010101010101U;
+    uint64_t bytes[LOOK_SLOTS / sizeof each], moving = 0;
+    memcpy(bytes, kinds, sizeof bytes);
+    for (size_t i = 0; i < sizeof bytes / sizeof *bytes; i++)
+        moving |= (bytes[i] + 6 * each) & ~(bytes[i] + 3 * each);
+    return (moving & (8 * each)) != 0;
+}
+
+static bool moves(const body_table *b, int32_t slot)
+{
+    return b->motion[slot] != MOTION_NONE && b->motion[slot] != MOTION_STATIC && b->motion[slot] != MOTION_ASLEEP;
+}
+
+int32_t body_next_moving(const body_table *b, int32_t first, int32_t end)
+{
+    while (first < end) {
+        if (moves(b, first))
+            return first;
+        first += end - first >= LOOK_SLOTS && !any_moves(b->motion + first) ? LOOK_SLOTS : 1;
+    }
+    return end;
+}
+
+bool body_slots_stand(const body_table *b, int32_t first, int32_t end)
+{
+    if (first >= end)
+        return true;
+    const vec3 none = {0, 0, 0};
+    const vec3 *v = b->velocity + first;
+    return body_next_moving(b, first, end) == end && memcmp(v, &none, sizeof none) == 0 &&
+           memcmp(v, v + 1, (size_t)(end - first - 1) * sizeof *v) == 0;
+}
+
 vec3 body_point_velocity(const body_table *b, int32_t slot, vec3 point)
 {
     vec3 arm = vec3_sub(point, b->position[slot]);

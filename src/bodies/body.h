@@ -7,6 +7,8 @@
 #include "base/table.h"
 #include "base/vec.h"
 
+#include <string.h>
+
 /* A slot is never moved while its body lives; a freed slot is used again with the next generation. */
 typedef enum motion {
     MOTION_NONE = 0,   /* free slot */
@@ -53,6 +55,18 @@ static inline bool body_is_dynamic(const body_table *b, int32_t slot) { return b
 static inline bool body_is_free(const body_table *b, int32_t slot)
 {
     return b->motion[slot] == MOTION_DYNAMIC || b->motion[slot] == MOTION_ASLEEP;
+}
+
+/* The first slot of first..end-1 whose body moves or may move in a step (dynamic, prescribed or carried), `end`
+   without. What does not is passed over many slots at a time, so that ice at rest costs a walk over bodies next to
+   nothing. */
+int32_t body_next_moving(const body_table *b, int32_t first, int32_t end);
+/* No slot of first..end-1 has a body that moves, or one that sleeps on ice that drifts. */
+bool body_slots_stand(const body_table *b, int32_t first, int32_t end);
+/* All slots of first..end-1 have a body. */
+static inline bool body_slots_are_taken(const body_table *b, int32_t first, int32_t end)
+{
+    return !memchr(b->motion + first, MOTION_NONE, (size_t)(end - first));
 }
 
 /* Velocity [m/s] of the body's material point now at `point` (global). */

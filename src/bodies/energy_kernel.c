@@ -19,6 +19,9 @@ double KERNEL(energy_sum)(const body_table *bodies)
 {
     double sum = 0;
     for (int32_t slot = 0; slot < bodies->count; slot += V8_LANES) {
+        int32_t end = slot + V8_LANES < bodies->count ? slot + V8_LANES : bodies->count;
+        if (body_slots_stand(bodies, slot, end))
+            continue;
         double energy[V8_LANES];
         v8_store(energy, energies(bodies, slot));
         for (int32_t i = 0; i < V8_LANES && slot + i < bodies->count; i++)

@@ -182,6 +182,42 @@ static bool pieces_are_outline(int32_t piece_count, int32_t first_size, int32_t 
     return piece_count == 1 && first_size == outline_count;
 }
 
+static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
+{
+    int32_t sum = 0, first = s->shapes.piece_first[row], count = s->shapes.piece_count[row];
+    if (count == 0 || pieces_are_outline(count, s->pieces.size[first], s->shapes.outline_count[row]))
+        return 0;
+    for (int32_t i = first; i < first + count; i++)
+        sum += s->pieces.size[i];
+    return sum;
+}
+
+/* Adds what a prism has in the pools `times` times. */
+static void count_prism(shape_store *s, int32_t row, int32_t times)
+{
+    if (!s->is_counted || s->shapes.kind[row] != SHAPE_PRISM)
+        return;
+    s->live_vertices += times * (s->shapes.outline_count[row] + vertices_of_pieces(s, row));
+    s->live_pieces += times * s->shapes.piece_count[row];
+}
+
+static void count_all(shape_store *s)
+{
+    s->is_counted = true;
+    s->live_vertices = s->live_pieces = 0;
+    for (int32_t i = 0; i < s->shapes.count; i++)
+        count_prism(s, i, 1);
+}
+
+#ifndef NDEBUG
+static bool count_is_right(const shape_store *s)
+{
+    shape_store again = *s;
+    count_all(&again);
+    return again.live_vertices == s->live_vertices && again.live_pieces == s->live_pieces;
+}
+#endif
+
 #ifndef NDEBUG
 /* Areas are sums of products of coordinates: what rounding may add to the pieces of an outline, as a part of it. */
 static const double SAME_AREA = 1e-9;
@@ -240,6 +276,7 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
         t->piece_count[*row] = piece_count;
         t->solid[*row] = -1;
         s->changes++;
+        count_prism(s, *row, 1);
         assert(prism_is_sound(s, *row));
     }
     memory_free(ctx, inner);
@@ -338,6 +375,7 @@ fram_status solid_add(context *ctx, solid_array *solids, mesh *surface, polyhedr
 void shape_remove(shape_store *s, int32_t row)
 {
     assert(row >= 0 && row < s->shapes.count);
+    count_prism(s, row, -1);
     for (int f = 0; f < shape_table_info.field_count; f++) {
         const field_info *field = &shape_table_info.fields[f];
         memset((char *)table_field(&s->shapes, field) + field->size * (size_t)row, 0, field->size);
@@ -346,16 +384,6 @@ void shape_remove(shape_store *s, int32_t row)
 }
 
 /* ---- compaction ---- */
-
-static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
-{
-    int32_t sum = 0, first = s->shapes.piece_first[row], count = s->shapes.piece_count[row];
-    if (count == 0 || pieces_are_outline(count, s->pieces.size[first], s->shapes.outline_count[row]))
-        return 0;
-    for (int32_t i = first; i < first + count; i++)
-        sum += s->pieces.size[i];
-    return sum;
-}
 
 /* Copies one shape's vertices and pieces behind what the new pools hold, and points the shape there. */
 static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices, piece_table *pieces)
@@ -384,13 +412,10 @@ enum { DEAD_SHARE = 4 };
 
 fram_status shape_compact(context *ctx, shape_store *s)
 {
-    int32_t live_vertices = 0, live_pieces = 0;
-    for (int32_t i = 0; i < s->shapes.count; i++) {
-        if (s->shapes.kind[i] != SHAPE_PRISM)
-            continue;
-        live_vertices += s->shapes.outline_count[i] + vertices_of_pieces(s, i);
-        live_pieces += s->shapes.piece_count[i];
-    }
+    if (!s->is_counted)
+        count_all(s);
+    assert(count_is_right(s));
+    int32_t live_vertices = s->live_vertices, live_pieces = s->live_pieces;
     if (DEAD_SHARE * (int64_t)(s->vertices.count - live_vertices) <= live_vertices)
         return FRAM_OK;
     shape_vertex_table vertices = {0};

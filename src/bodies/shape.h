@@ -61,6 +61,10 @@ typedef struct shape_store {
     shape_vertex_table vertices;
     const solid_array *solids; /* lent, not state; NULL: none */
     uint64_t changes;          /* shapes that came or went since the store was made; no state */
+    /* What living prisms have in the pools, no state either: once counted, it follows what comes and goes.  Whoever
+       gives the tables another content says that it is not counted. */
+    int32_t live_vertices, live_pieces;
+    bool is_counted;
 } shape_store;
 
 void shape_store_free(context *ctx, shape_store *s);

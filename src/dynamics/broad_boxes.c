@@ -3,12 +3,17 @@
    Travel is a bound on the way that any point of a body has gone: the way of its centre plus that of its outermost
    point about it.  While it has not used up the room that was left in the fat box when it was looked at last, the body
    needs no new look; and two bodies that were parted by a gap have not met before their travels have used it up
-   (pair_table.clear).  So a step of a body that goes nowhere near a change costs a subtraction. */
+   (pair_table.clear).  So a step of a body that goes nowhere near a change costs a subtraction, and one of bodies that
+   stand still, of which all slots of a chunk have one, next to nothing. */
 #include "base/pool.h"
 #include "dynamics/collision_scratch.h"
 
-/* Bodies a block. */
+#include <assert.h>
+#include <string.h>
+
+/* Bodies a block, whole chunks. */
 enum { BLOCK_BODIES = 256 };
+static_assert(BLOCK_BODIES % BOX_CHUNK == 0, "a chunk is of one block");
 /* Bounds are taken smaller by this share, far more than what rounding can take from them. */
 #define SURE (1 - 1e-9)
 
@@ -137,14 +142,39 @@ static void look_at_body(const box_work *w, int32_t i, box_block *found)
     found->changed = true;
 }
 
+static int32_t chunk_end(int32_t first, int32_t block_end)
+{
+    return first + BOX_CHUNK < block_end ? first + BOX_CHUNK : block_end;
+}
+
+/* Every slot has the body that its box was made for, and none of them moves or has moved since the last look. */
+static bool chunk_stands(const box_work *w, int32_t first, int32_t end)
+{
+    const body_table *b = w->bodies;
+    const broad_table *boxes = w->boxes;
+    size_t count = (size_t)(end - first);
+    return body_next_moving(b, first, end) == end && body_slots_are_taken(b, first, end) &&
+           !memchr(boxes->fixed + first, false, count) &&
+           memcmp(boxes->generation + first, b->generation + first, count * sizeof *b->generation) == 0 &&
+           memcmp(boxes->position + first, b->position + first, count * sizeof *b->position) == 0;
+}
+
 static void look_at_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const box_work *w = arg;
     box_block *found = &w->scratch->box_blocks.data[block];
     *found = (box_block){false, -1};
-    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, w->bodies->count); i++)
-        look_at_body(w, i, found);
+    int32_t block_end = pool_block_end(block, BLOCK_BODIES, w->bodies->count);
+    for (int32_t first = BLOCK_BODIES * block, end; first < block_end; first = end) {
+        end = chunk_end(first, block_end);
+        bool stands = chunk_stands(w, first, end);
+        w->scratch->standing.data[first / BOX_CHUNK] = stands;
+        if (stands)
+            memset(w->scratch->change.data + first, BOX_KEPT, (size_t)(end - first));
+        for (int32_t i = first; i < end && !stands; i++)
+            look_at_body(w, i, found);
+    }
 }
 
 /* The margin on all sides, and in front of a moving body the way that it is about to go. */
@@ -159,6 +189,16 @@ static void make_fat_box(const box_work *w, int32_t i, box3 box)
     w->boxes->stay[i] = w->boxes->travel[i] + SURE * margin;
 }
 
+static bool all_have_room(const box_work *w, int32_t first, int32_t end)
+{
+    const double *stay = w->boxes->stay, *travel = w->boxes->travel;
+    double least = 0.5 * w->settings->margin;
+    for (int32_t i = first; i < end; i++)
+        if (!(stay[i] - travel[i] >= least))
+            return false;
+    return true;
+}
+
 /* Second pass, when some body needs a new box: those that will soon need one get theirs now. */
 static void renew_body(const box_work *w, int32_t i, box_block *found)
 {
@@ -166,7 +206,7 @@ static void renew_body(const box_work *w, int32_t i, box_block *found)
     uint8_t *change = &w->scratch->change.data[i];
     if (boxes->generation[i] == 0 && *change != BOX_NEW)
         return;
-    if (*change == BOX_KEPT && boxes->stay[i] - boxes->travel[i] >= 0.5 * w->settings->margin)
+    if (*change == BOX_KEPT && all_have_room(w, i, i + 1))
         return;
     box3 box = body_box(w->bodies, w->shapes, i);
     if (!box_is_somewhere(box)) {
@@ -189,8 +229,14 @@ static void renew_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const box_work *w = arg;
-    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, w->bodies->count); i++)
-        renew_body(w, i, &w->scratch->box_blocks.data[block]);
+    int32_t block_end = pool_block_end(block, BLOCK_BODIES, w->bodies->count);
+    for (int32_t first = BLOCK_BODIES * block, end; first < block_end; first = end) {
+        end = chunk_end(first, block_end);
+        uint8_t *stands = &w->scratch->standing.data[first / BOX_CHUNK];
+        *stands = *stands && all_have_room(w, first, end);
+        for (int32_t i = first; i < end && !*stands; i++)
+            renew_body(w, i, &w->scratch->box_blocks.data[block]);
+    }
 }
 
 fram_status broad_boxes_update(context *ctx, const body_table *bodies, const shape_store *shapes,
@@ -200,7 +246,7 @@ fram_status broad_boxes_update(context *ctx, const body_table *bodies, const sha
     *any = false;
     int32_t count = bodies->count, blocks = pool_blocks(count, BLOCK_BODIES);
     if (!table_resize(ctx, boxes, &broad_table_info, count) || !array_resize(ctx, &s->change, count) ||
-        !array_resize(ctx, &s->box_blocks, blocks))
+        !array_resize(ctx, &s->standing, pool_blocks(count, BOX_CHUNK)) || !array_resize(ctx, &s->box_blocks, blocks))
         return error_memory(error);
     box_work work = {bodies, shapes, settings, boxes, s};
     if (blocks > 0)

@@ -1,9 +1,6 @@
 /* Which bodies may come to touch for a good while: pairs of wide boxes, each around a fat box with room for it to move
    in.  While fat boxes stay inside their wide ones, all pairs of fat boxes are among these pairs, and nobody has to
-   look for any.  Looked for is around renewed wide boxes only, in grids of the plane: one grid for each power of two of
-   box size, so that a hull of 200 m and walls of a kilometre stand in coarse grids of their own and cost the floes
-   nothing; and those that were renewed together stand in grids apart from the others, so that of two of them the
-   smaller one looks for the larger, which has no need to look through fine grids.
+   look for any.  Looked for is around renewed wide boxes only.
 
    All of this is memory of what could be made again at any time; no result depends on it. */
 #include "base/pool.h"
@@ -15,165 +12,55 @@
    fat box changes, less of it more searches (docs/decisions/0240-pairs-of-wider-boxes.md). */
 #define WIDE_MARGINS 8.0
 
-/* Bodies a block. */
-enum { BLOCK_BODIES = 512 };
-
-/* ---- grids ---- */
-
-/* Cells of level L are 2^L metres wide, larger than every box filed there. */
-enum { LEVEL_LEAST = -16, LEVEL_MOST = 47, LEVELS = LEVEL_MOST - LEVEL_LEAST + 1 };
-
-/* Grids are numbered by level, that of renewed boxes after that of the others. */
-enum { GRIDS = 2 * LEVELS };
-static int grid_number(int level, bool renewed) { return 2 * (level - LEVEL_LEAST) + renewed; }
-static bool grid_is_renewed(int number) { return number % 2 != 0; }
-static double cell_width(int number) { return ldexp(1, number / 2 + LEVEL_LEAST); }
-
-static int level_of(box3 box)
-{
-    int level;
-    (void)frexp(fmax(box.hi.x - box.lo.x, box.hi.y - box.lo.y), &level);
-    return level < LEVEL_LEAST ? LEVEL_LEAST : level > LEVEL_MOST ? LEVEL_MOST : level;
-}
-
-static int64_t cell_of(double x, double cell) { return (int64_t)floor(x / cell); }
-
-static uint32_t hash_cell(int grid, int64_t column, int64_t row)
-{
-    uint64_t h = (uint64_t)column * 0x9e3779b97f4a7c15ULL ^ (uint64_t)row * 0xc2b2ae3d27d4eb4fULL ^
-                 (uint64_t)(uint32_t)grid * 0x165667b19e3779f9ULL;
-    h = (h ^ (h >> 29)) * 0xbf58476d1ce4e5b9ULL;
-    return (uint32_t)(h >> 32);
-}
-
-/* All of them, in one table. */
-typedef struct grids {
-    context *ctx;
-    collision_scratch *scratch;
-    uint32_t mask;        /* buckets - 1 */
-    int32_t count[GRIDS]; /* bodies of each */
-} grids;
-
-static grid_entry entry_of(const wide_box *w, int32_t slot)
-{
-    int grid = grid_number(level_of(w->box), w->renewed);
-    double cell = cell_width(grid);
-    return (grid_entry){cell_of(0.5 * (w->box.lo.x + w->box.hi.x), cell),
-                        cell_of(0.5 * (w->box.lo.y + w->box.hi.y), cell), slot, grid};
-}
-
-static void file_block(void *arg, int32_t block, int32_t thread)
-{
-    const grids *g = arg;
-    collision_scratch *s = g->scratch;
-    (void)thread;
-    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, s->wide.count); i++) {
-        if (s->wide.data[i].generation == 0)
-            continue;
-        grid_entry e = s->filed.data[i] = entry_of(&s->wide.data[i], i);
-        s->bucket.data[i] = (int32_t)(hash_cell(e.grid, e.column, e.row) & g->mask);
-    }
-}
-
-/* Counting sort of all boxed bodies into hash buckets, each in slot order. */
-static bool build_grids(context *ctx, collision_scratch *s, grids *g)
-{
-    const wide_box *wide = s->wide.data;
-    int32_t count = s->wide.count;
-    *g = (grids){.ctx = ctx, .scratch = s, .mask = 63};
-    while (g->mask < 2 * (uint32_t)count)
-        g->mask = 2 * g->mask + 1;
-    int32_t buckets = (int32_t)g->mask + 1;
-    if (!array_resize(ctx, &s->bucket_start, buckets + 1) || !array_resize(ctx, &s->bucket, count) ||
-        !array_resize(ctx, &s->filed, count))
-        return false;
-    memset(s->bucket_start.data, 0, (size_t)(buckets + 1) * sizeof *s->bucket_start.data);
-    pool_run(ctx, file_block, g, pool_blocks(count, BLOCK_BODIES));
-    for (int32_t i = 0; i < count; i++) {
-        if (wide[i].generation == 0)
-            continue;
-        s->bucket_start.data[s->bucket.data[i]]++;
-        g->count[s->filed.data[i].grid]++;
-    }
-    for (int32_t i = 0; i < buckets; i++)
-        s->bucket_start.data[i + 1] += s->bucket_start.data[i]; /* now the end of each bucket, and the whole count */
-    if (!array_resize(ctx, &s->entries, s->bucket_start.data[buckets]))
-        return false;
-    for (int32_t i = count - 1; i >= 0; i--) {
-        if (wide[i].generation == 0)
-            continue;
-        /* Filled from the back: the ends become starts. */
-        s->entries.data[--s->bucket_start.data[s->bucket.data[i]]] = s->filed.data[i];
-    }
-    return true;
-}
-
 /* ---- searches ---- */
 
-static bool consider(const grids *g, int32_t slot, const grid_entry *e, pair_key_array *found)
+typedef struct box_search {
+    context *ctx;
+    collision_scratch *s;
+} box_search;
+
+/* Of one renewed box. */
+typedef struct search_around {
+    const box_search *search;
+    pair_key_array *found;
+    int32_t slot, grid;
+} search_around;
+
+static bool consider(void *user, int32_t other)
 {
-    const wide_box *a = &g->scratch->wide.data[slot], *b = &g->scratch->wide.data[e->slot];
-    bool twice = e->slot <= slot && e->grid == g->scratch->filed.data[slot].grid; /* it finds us itself */
-    if (twice || (a->fixed && b->fixed) || !box3_meet(a->box, b->box))
+    const search_around *around = user;
+    const collision_scratch *s = around->search->s;
+    int32_t slot = around->slot, grid = box_grid_of(&s->grid, other);
+    const wide_box *a = &s->wide.data[slot], *b = &s->wide.data[other];
+    /* Of two that are both renewed the smaller one finds the other. */
+    bool finds_us = b->renewed && (grid < around->grid || (grid == around->grid && other <= slot));
+    if (finds_us || (a->fixed && b->fixed) || !box3_meet(a->box, b->box))
         return true;
-    uint64_t low = (uint64_t)(slot < e->slot ? slot : e->slot), high = (uint64_t)(slot < e->slot ? e->slot : slot);
-    return array_push(g->ctx, found, low << 32 | high);
+    uint64_t low = (uint64_t)(slot < other ? slot : other), high = (uint64_t)(slot < other ? other : slot);
+    return array_push(around->search->ctx, around->found, low << 32 | high);
 }
 
-static bool search_cell(const grids *g, int32_t slot, int grid, int64_t column, int64_t row, pair_key_array *found)
+static bool search_all(const box_search *search, int32_t slot, pair_key_array *found)
 {
-    const collision_scratch *s = g->scratch;
-    uint32_t bucket = hash_cell(grid, column, row) & g->mask;
-    for (int32_t i = s->bucket_start.data[bucket]; i < s->bucket_start.data[bucket + 1]; i++) {
-        const grid_entry *e = &s->entries.data[i];
-        if (e->grid == grid && e->column == column && e->row == row && !consider(g, slot, e, found))
+    const collision_scratch *s = search->s;
+    search_around around = {search, found, slot, box_grid_of(&s->grid, slot)};
+    for (int32_t grid = 0; grid < BOX_GRIDS; grid++) {
+        bool all_find_us = grid < around.grid && s->renewed_of[grid] == s->grid.member[grid].count;
+        if (!all_find_us && !box_grid_search(&s->grid, grid, s->wide.data[slot].box, consider, &around))
             return false;
     }
     return true;
 }
 
-/* Bodies whose middle lies within half a cell of the box; a box with more cells than the grid has bodies walks those.
- */
-static bool search_grid(const grids *g, int32_t slot, int grid, pair_key_array *found)
-{
-    const collision_scratch *s = g->scratch;
-    double cell = cell_width(grid), half = 0.5 * cell;
-    box3 box = s->wide.data[slot].box;
-    int64_t left = cell_of(box.lo.x - half, cell), right = cell_of(box.hi.x + half, cell);
-    int64_t low = cell_of(box.lo.y - half, cell), high = cell_of(box.hi.y + half, cell);
-    double cells = (double)(right - left + 1) * (double)(high - low + 1);
-    if (cells > s->entries.count) {
-        for (int32_t i = 0; i < s->entries.count; i++)
-            if (s->entries.data[i].grid == grid && !consider(g, slot, &s->entries.data[i], found))
-                return false;
-        return true;
-    }
-    for (int64_t row = low; row <= high; row++)
-        for (int64_t column = left; column <= right; column++)
-            if (!search_cell(g, slot, grid, column, row, found))
-                return false;
-    return true;
-}
-
-/* Whether a renewed box of one grid has to look through another: of two that are both renewed the smaller one looks. */
-static bool has_to_search(int own, int grid) { return !grid_is_renewed(grid) || grid >= own; }
-
-static bool search_all(const grids *g, int32_t slot, pair_key_array *found)
-{
-    int own = g->scratch->filed.data[slot].grid;
-    for (int grid = 0; grid < GRIDS; grid++)
-        if (g->count[grid] > 0 && has_to_search(own, grid) && !search_grid(g, slot, grid, found))
-            return false;
-    return true;
-}
+enum { SEARCH_BLOCK = 64 };
 
 static void search_block(void *arg, int32_t block, int32_t thread)
 {
-    const grids *g = arg;
-    const collision_scratch *s = g->scratch;
-    found_pairs *found = &s->found.data[thread];
-    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, s->wide.count); i++)
-        if (s->wide.data[i].renewed && !search_all(g, i, &found->keys))
+    const box_search *search = arg;
+    const collision_scratch *s = search->s;
+    found_pairs *found = &search->s->found.data[thread];
+    for (int32_t i = SEARCH_BLOCK * block; i < pool_block_end(block, SEARCH_BLOCK, s->renewed.count); i++)
+        if (s->wide.data[s->renewed.data[i]].renewed && !search_all(search, s->renewed.data[i], &found->keys))
             found->memory_failed = true;
 }
 
@@ -198,36 +85,66 @@ static bool is_outside(const broad_table *boxes, const wide_box *w, int32_t i)
            !box_holds(w->box, fat_box(boxes, i));
 }
 
-/* Looked for among all in every step, since a state may have been loaded since. */
 typedef struct wide_work {
     const broad_table *boxes;
     double room;
     collision_scratch *s;
 } wide_work;
 
+/* The end of the boxes from here on that are as they were when they were last looked at. */
+static int32_t pass_standing(const wide_work *w, int32_t i, int32_t end)
+{
+    while (i < end && i % BOX_CHUNK == 0 && w->s->standing.data[i / BOX_CHUNK])
+        i += BOX_CHUNK;
+    return i < end ? i : end;
+}
+
 static int32_t find_outside(const void *arg, int32_t first, int32_t end)
 {
     const wide_work *w = arg;
-    while (first < end && (w->boxes->generation[first] == 0 || !is_outside(w->boxes, &w->s->wide.data[first], first)))
-        first++;
-    return first;
+    for (int32_t i = pass_standing(w, first, end); i < end; i = pass_standing(w, i + 1, end))
+        if (w->boxes->generation[i] != 0 && is_outside(w->boxes, &w->s->wide.data[i], i))
+            return i;
+    return end;
 }
 
-/* Those that have used up half of their room get new boxes, too, so that the next one is a while off; those of bodies
-   that are gone go. */
-static void renew_block(void *arg, int32_t block, int32_t thread)
+/* Those that left their wide boxes get new ones, and those that have used up half of their room, so that the next one
+   is a while off; those of bodies that are gone go. */
+static int32_t pick_renewed(const void *arg, int32_t first, int32_t end, int32_t *out)
 {
     const wide_work *work = arg;
     const broad_table *boxes = work->boxes;
-    (void)thread;
-    for (int32_t i = BLOCK_BODIES * block; i < pool_block_end(block, BLOCK_BODIES, boxes->count); i++) {
+    int32_t found = 0;
+    for (int32_t i = pass_standing(work, first, end); i < end; i = pass_standing(work, i + 1, end)) {
         wide_box *w = &work->s->wide.data[i];
-        w->renewed = false;
-        if (boxes->generation[i] == 0)
-            w->generation = 0;
-        else if (is_outside(boxes, w, i) || !box_holds(w->box, box_grown(fat_box(boxes, i), 0.5 * work->room)))
+        if (boxes->generation[i] == 0) {
+            if (w->generation == 0)
+                continue;
+            *w = (wide_box){.generation = 0};
+        } else if (is_outside(boxes, w, i) || !box_holds(w->box, box_grown(fat_box(boxes, i), 0.5 * work->room))) {
             *w = (wide_box){box_grown(fat_box(boxes, i), work->room), boxes->generation[i], boxes->fixed[i], true};
+        } else {
+            continue;
+        }
+        out[found++] = i;
     }
+    return found;
+}
+
+static bool file_renewed(context *ctx, collision_scratch *s)
+{
+    memset(s->renewed_of, 0, sizeof s->renewed_of);
+    for (int32_t k = 0; k < s->renewed.count; k++) {
+        int32_t i = s->renewed.data[k];
+        if (!s->wide.data[i].renewed) {
+            box_grid_take(&s->grid, i);
+            continue;
+        }
+        if (!box_grid_put(ctx, &s->grid, i, s->wide.data[i].box))
+            return false;
+        s->renewed_of[box_grid_of(&s->grid, i)]++;
+    }
+    return true;
 }
 
 /* ---- pairs ---- */
@@ -258,56 +175,67 @@ static bool begin_search(context *ctx, collision_scratch *s)
     return true;
 }
 
-/* Counts, and then puts, keys by the slot that stands `shift` bits up. */
-static void count_keys(const pair_key_array *keys, int shift, int32_t *count)
+/* Sorts by eleven bits at a time: what it costs goes with the keys, not with the slots. */
+enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
+
+static int32_t digit_of(uint64_t key, int shift) { return (int32_t)(key >> shift & (DIGITS - 1)); }
+
+/* One pass, by the digit that stands `shift` bits up, into *out, which has room for all. */
+static void sort_by_digit(const pair_key_array *keys, int shift, pair_key_array *out)
 {
+    int32_t first[DIGITS + 1] = {0};
     for (int32_t i = 0; i < keys->count; i++)
-        count[(keys->data[i] >> shift & UINT32_MAX) + 1]++;
-}
-static void put_keys(const pair_key_array *keys, int shift, int32_t *first, uint64_t *out)
-{
+        first[digit_of(keys->data[i], shift) + 1]++;
+    for (int32_t d = 1; d < DIGITS; d++)
+        first[d] += first[d - 1];
     for (int32_t i = 0; i < keys->count; i++)
-        out[first[keys->data[i] >> shift & UINT32_MAX]++] = keys->data[i];
+        out->data[first[digit_of(keys->data[i], shift)]++] = keys->data[i];
 }
 
-/* One pass of a counting sort of the keys in `count` lists into *out, which has room for them. */
-static void sort_keys(found_pairs *list, int32_t count, int shift, int32_array *first, pair_key_array *out)
+static void swap_keys(pair_key_array *a, pair_key_array *b)
 {
-    memset(first->data, 0, (size_t)first->count * sizeof *first->data);
-    for (int32_t t = 0; t < count; t++)
-        count_keys(&list[t].keys, shift, first->data);
-    for (int32_t i = 1; i < first->count; i++)
-        first->data[i] += first->data[i - 1];
-    for (int32_t t = 0; t < count; t++)
-        put_keys(&list[t].keys, shift, first->data, out->data);
+    pair_key_array before = *a;
+    *a = *b;
+    *b = before;
 }
 
-/* What all threads found, ascending: by the higher slot of each pair first, then by the lower one. */
-static bool gather_fresh(context *ctx, collision_scratch *s)
+/* Ascending: by the higher slot of each pair first, then by the lower one. */
+static bool sort_fresh(context *ctx, collision_scratch *s)
 {
-    int64_t count = 0;
-    for (int32_t t = 0; t < s->found.count; t++) {
-        if (s->found.data[t].memory_failed)
-            return false;
-        count += s->found.data[t].keys.count;
-    }
-    if (count > INT32_MAX || !array_resize(ctx, &s->fresh, (int32_t)count) ||
-        !array_resize(ctx, &s->by_higher.keys, (int32_t)count) || !array_resize(ctx, &s->first_key, s->wide.count + 1))
+    if (!array_resize(ctx, &s->spare_keys, s->fresh.count))
         return false;
-    if (count > 0) {
-        sort_keys(s->found.data, s->found.count, 0, &s->first_key, &s->by_higher.keys);
-        sort_keys(&s->by_higher, 1, 32, &s->first_key, &s->fresh);
+    for (int slot = 0; slot <= 32; slot += 32) {
+        for (int digit = 0; (s->wide.count - 1) >> digit > 0; digit += DIGIT_BITS) {
+            sort_by_digit(&s->fresh, slot + digit, &s->spare_keys);
+            swap_keys(&s->fresh, &s->spare_keys);
+        }
     }
     return true;
+}
+
+/* What all threads found, ascending. */
+static bool gather_fresh(context *ctx, collision_scratch *s)
+{
+    array_clear(&s->fresh);
+    for (int32_t t = 0; t < s->found.count; t++) {
+        const pair_key_array *keys = &s->found.data[t].keys;
+        int32_t at = s->fresh.count;
+        if (s->found.data[t].memory_failed || keys->count > INT32_MAX - at ||
+            !array_resize(ctx, &s->fresh, at + keys->count))
+            return false;
+        if (keys->count > 0)
+            memcpy(s->fresh.data + at, keys->data, (size_t)keys->count * sizeof *keys->data);
+    }
+    return s->fresh.count == 0 || sort_fresh(ctx, s);
 }
 
 /* Pairs of renewed wide boxes, each once. */
 static bool find_fresh(context *ctx, collision_scratch *s)
 {
-    grids g;
-    if (!build_grids(ctx, s, &g) || !begin_search(ctx, s))
+    box_search search = {ctx, s};
+    if (!file_renewed(ctx, s) || !begin_search(ctx, s))
         return false;
-    pool_run(ctx, search_block, &g, pool_blocks(s->wide.count, BLOCK_BODIES));
+    pool_run(ctx, search_block, &search, pool_blocks(s->renewed.count, SEARCH_BLOCK));
     return gather_fresh(ctx, s);
 }
 
@@ -315,17 +243,23 @@ static bool find_fresh(context *ctx, collision_scratch *s)
 static bool merge_candidates(context *ctx, collision_scratch *s)
 {
     int32_t kept = s->kept.count, fresh = s->fresh.count;
-    if (kept > INT32_MAX - fresh || !array_resize(ctx, &s->merged_keys, kept + fresh))
+    if (kept > INT32_MAX - fresh || !array_resize(ctx, &s->spare_keys, kept + fresh))
         return false;
     const uint64_t *old = s->candidates.data;
     for (int32_t at = 0, k = 0, f = 0; at < kept + fresh; at++) {
         bool of_old = f == fresh || (k < kept && old[s->kept.data[k]] < s->fresh.data[f]);
-        s->merged_keys.data[at] = of_old ? old[s->kept.data[k++]] : s->fresh.data[f++];
+        s->spare_keys.data[at] = of_old ? old[s->kept.data[k++]] : s->fresh.data[f++];
     }
-    pair_key_array before = s->candidates;
-    s->candidates = s->merged_keys;
-    s->merged_keys = before;
+    swap_keys(&s->candidates, &s->spare_keys);
     return true;
+}
+
+void collision_scratch_forget(collision_scratch *s)
+{
+    array_clear(&s->wide);
+    array_clear(&s->renewed);
+    array_clear(&s->candidates);
+    box_grid_clear(&s->grid);
 }
 
 bool broad_candidates_update(context *ctx, const collision_settings *settings, const broad_table *boxes,
@@ -334,15 +268,19 @@ bool broad_candidates_update(context *ctx, const collision_settings *settings, c
     int32_t before = s->wide.count;
     if (!array_resize(ctx, &s->wide, boxes->count))
         return false;
-    for (int32_t i = before; i < boxes->count; i++)
+    for (int32_t i = before; i < boxes->count; i++) {
         s->wide.data[i] = (wide_box){.generation = 0};
+        s->standing.data[i / BOX_CHUNK] = false;
+    }
     wide_work work = {boxes, WIDE_MARGINS * settings->margin, s};
     if (pool_find(ctx, find_outside, &work, boxes->count) == boxes->count)
         return true;
-    pool_run(ctx, renew_block, &work, pool_blocks(boxes->count, BLOCK_BODIES));
-    bool found =
-        pool_pick(ctx, pick_kept, s, s->candidates.count, &s->kept) && find_fresh(ctx, s) && merge_candidates(ctx, s);
+    for (int32_t k = 0; k < s->renewed.count; k++)
+        s->wide.data[s->renewed.data[k]].renewed = false;
+    bool found = pool_pick(ctx, pick_renewed, &work, boxes->count, &s->renewed) &&
+                 pool_pick(ctx, pick_kept, s, s->candidates.count, &s->kept) && find_fresh(ctx, s) &&
+                 merge_candidates(ctx, s);
     if (!found)
-        array_clear(&s->wide); /* boxes whose pairs are not known are none */
+        collision_scratch_forget(s);
     return found;
 }

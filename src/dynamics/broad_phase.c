@@ -20,19 +20,16 @@ void collision_scratch_free(context *ctx, collision_scratch *s)
     if (!s)
         return;
     array_free(ctx, &s->change);
-    array_free(ctx, &s->filed);
-    array_free(ctx, &s->entries);
-    array_free(ctx, &s->bucket);
-    array_free(ctx, &s->bucket_start);
+    array_free(ctx, &s->standing);
+    array_free(ctx, &s->renewed);
+    box_grid_free(ctx, &s->grid);
     for (int32_t t = 0; t < s->found.count; t++)
         array_free(ctx, &s->found.data[t].keys);
     array_free(ctx, &s->found);
-    array_free(ctx, &s->by_higher.keys);
-    array_free(ctx, &s->first_key);
     array_free(ctx, &s->fresh);
     array_free(ctx, &s->wide);
     array_free(ctx, &s->kept);
-    array_free(ctx, &s->merged_keys);
+    array_free(ctx, &s->spare_keys);
     array_free(ctx, &s->candidates);
     array_free(ctx, &s->chosen);
     array_free(ctx, &s->chosen_end);

@@ -16,6 +16,8 @@ typedef struct collision_settings {
 typedef struct collision_scratch collision_scratch;
 collision_scratch *collision_scratch_create(context *ctx);
 void collision_scratch_free(context *ctx, collision_scratch *s);
+/* Call it when boxes were given another state, a copy or one that was read: what is remembered of them goes. */
+void collision_scratch_forget(collision_scratch *s);
 
 /* Bring the kept pairs up to date, after whatever moved bodies since the last time.  Fat boxes are renewed when a
    body's box has left its own, so the list depends on the state alone.  Pairs of two bodies that cannot move, and of

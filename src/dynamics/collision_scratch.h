@@ -2,13 +2,11 @@
 #ifndef DYNAMICS_COLLISION_SCRATCH_H
 #define DYNAMICS_COLLISION_SCRATCH_H
 
+#include "dynamics/box_grid.h"
 #include "dynamics/collision.h"
 
-/* A body in its grid, filed by the middle of its wide box. */
-typedef struct grid_entry {
-    int64_t column, row;
-    int32_t slot, grid;
-} grid_entry;
+/* Slots that are passed over together where all of them stand still (broad_boxes.c). */
+enum { BOX_CHUNK = 64 };
 
 /* What the broad phase found of a slot in this update. */
 enum { BOX_KEPT = 0, BOX_MOVED, BOX_NEW };
@@ -51,21 +49,19 @@ typedef struct narrow_room {
 } narrow_room;
 
 struct collision_scratch {
-    ARRAY(uint8_t) change;     /* of each slot, BOX_... */
-    ARRAY(grid_entry) filed;   /* of each slot with a wide box */
-    ARRAY(grid_entry) entries; /* in the order of their buckets */
-    int32_array bucket;        /* of each slot */
-    int32_array bucket_start;
-    ARRAY(found_pairs) found;   /* of each thread, in any order */
-    found_pairs by_higher;      /* all of them, by their higher slot */
-    int32_array first_key;      /* of each slot in a list by slots */
-    pair_key_array fresh;       /* ascending */
-    ARRAY(wide_box) wide;       /* of each slot */
-    int32_array kept;           /* places of candidates that stay */
-    pair_key_array merged_keys; /* candidates while they are made, and those of before */
-    pair_key_array candidates;  /* pairs whose wide boxes met when the later one was made, ascending */
-    index_array chosen;         /* of each candidate, see broad_phase.c */
-    index_array chosen_end;     /* pairs up to the end of each block of candidates */
+    ARRAY(uint8_t) change;         /* of each slot, BOX_... */
+    ARRAY(uint8_t) standing;       /* of each chunk of slots: its fat boxes are those of the last update */
+    ARRAY(wide_box) wide;          /* of each slot */
+    int32_array renewed;           /* slots whose wide boxes are others since the last change of any, or gone */
+    int32_t renewed_of[BOX_GRIDS]; /* those in each grid, without the gone */
+    box_grid grid;                 /* of wide boxes */
+    ARRAY(found_pairs) found;      /* of each thread, in any order */
+    pair_key_array fresh;          /* ascending */
+    int32_array kept;              /* places of candidates that stay */
+    pair_key_array spare_keys;     /* candidates while they are made, fresh ones while they are sorted */
+    pair_key_array candidates;     /* pairs whose wide boxes met when the later one was made, ascending */
+    index_array chosen;            /* of each candidate, see broad_phase.c */
+    index_array chosen_end;        /* pairs up to the end of each block of candidates */
     pair_table merged;
     ARRAY(box_block) box_blocks;
     ARRAY(pair_block) pair_blocks; /* beyond count: empty, but with their memory */

@@ -34,11 +34,12 @@ static void integrate_block(void *arg, int32_t block, int32_t thread)
 {
     const pose_work *work = arg;
     body_table *bodies = work->bodies;
-    int32_t groups = (bodies->count + V8_LANES - 1) / V8_LANES, first = block * MOTION_GROUPS;
-    int32_t end = first + MOTION_GROUPS < groups ? first + MOTION_GROUPS : groups;
+    int32_t first = motion_block_first(block), end = motion_block_end(bodies, block);
     (void)thread;
-    KERNEL_PICK(work->ctx, motion_advance)(bodies, work->dt, first, end);
-    for (int32_t i = V8_LANES * first; i < V8_LANES * end && i < bodies->count; i++) {
+    if (body_slots_stand(bodies, first, end))
+        return;
+    KERNEL_PICK(work->ctx, motion_advance)(bodies, work->dt, first / V8_LANES, (end + V8_LANES - 1) / V8_LANES);
+    for (int32_t i = first; i < end; i++) {
         if (bodies->motion[i] == MOTION_PRESCRIBED || bodies->motion[i] == MOTION_CARRIED)
             body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], work->dt);
         else if (bodies->motion[i] == MOTION_ASLEEP)

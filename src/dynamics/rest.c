@@ -1,5 +1,7 @@
 #include "dynamics/rest.h"
 
+#include <string.h>
+
 #define TABLE_SELF rest_table
 TABLE_DEFINE(rest, REST_FIELDS)
 #undef TABLE_SELF
@@ -10,6 +12,13 @@ static const double STRIKING = 2;
 
 /* Means of pushes go on over this many times the time in which what differs from them is remembered. */
 static const double MEAN_TIMES = 4;
+
+/* Pushes are forgotten when they, and what they would do until they have faded, are this part of what wakes: what is
+   left out is as small beside the speed at which bodies sleep. */
+static const double FADED = 1e-6;
+
+/* Slots that are passed over together where none of them has another body than before. */
+enum { CHUNK = 64 };
 
 static bool is_asleep(const body_table *b, int32_t slot) { return b->motion[slot] == MOTION_ASLEEP; }
 
@@ -28,6 +37,8 @@ static void forget(rest_table *rest, int32_t slot)
     rest->push[slot] = rest->mean_push[slot] = rest->gain[slot] = none;
     rest->turn[slot] = rest->mean_turn[slot] = rest->spin[slot] = none;
 }
+
+static double age_most(const rest_settings *settings) { return MEAN_TIMES * settings->time; }
 
 void rest_wake(body_table *bodies, rest_table *rest, int32_t slot)
 {
@@ -66,18 +77,39 @@ static bool has_left(const body_table *bodies, const broad_table *boxes, int32_t
            (!body_is_alive(bodies, slot) || boxes->generation[slot] != bodies->generation[slot]);
 }
 
-bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *media, body_table *bodies,
-                 const broad_table *boxes, rest_table *rest)
+static bool same_media(const rest_media *a, const rest_media *b)
 {
-    if (!(settings->speed > 0))
-        return true;
-    if (!table_resize(ctx, rest, &rest_table_info, bodies->count))
-        return false;
+    return is_within(0, a->wind, b->wind) && is_within(0, a->current, b->current) &&
+           is_within(0, a->ground, b->ground) && a->slack == b->slack && a->swerve == b->swerve;
+}
+
+/* In the slots of a chunk are the bodies that these rows tell of. */
+static bool are_known(const body_table *bodies, const uint32_t *generation, int32_t first, int32_t end)
+{
+    return body_slots_are_taken(bodies, first, end) &&
+           memcmp(generation + first, bodies->generation + first, (size_t)(end - first) * sizeof *generation) == 0;
+}
+
+/* Rows of bodies that came or went begin anew. */
+static void know_bodies(const body_table *bodies, rest_table *rest)
+{
+    for (int32_t first = 0; first < bodies->count; first += CHUNK) {
+        int32_t end = first + CHUNK < bodies->count ? first + CHUNK : bodies->count;
+        for (int32_t i = are_known(bodies, rest->generation, first, end) ? end : first; i < end; i++) {
+            uint32_t now = body_is_alive(bodies, i) ? bodies->generation[i] : 0;
+            if (rest->generation[i] != now)
+                forget(rest, i);
+            rest->generation[i] = now;
+        }
+    }
+}
+
+/* What sleeps sleeps on in the same media, and goes with the ground. */
+static void look_at_media(const rest_media *media, body_table *bodies, rest_table *rest, rest_seen *seen)
+{
+    if (seen->known && same_media(media, &seen->media))
+        return;
     for (int32_t i = 0; i < bodies->count; i++) {
-        uint32_t now = body_is_alive(bodies, i) ? bodies->generation[i] : 0;
-        if (rest->generation[i] != now)
-            forget(rest, i);
-        rest->generation[i] = now;
         if (!is_asleep(bodies, i))
             continue;
         if (is_undisturbed(media, bodies, rest, i))
@@ -85,9 +117,25 @@ bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *
         else
             rest_wake(bodies, rest, i);
     }
-    for (int32_t i = 0; i < boxes->count && i < bodies->count; i++)
-        if (has_left(bodies, boxes, i))
-            wake_in(bodies, boxes, rest, i);
+    *seen = (rest_seen){*media, true};
+}
+
+bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *media, body_table *bodies,
+                 const broad_table *boxes, rest_table *rest, rest_seen *seen)
+{
+    if (!(settings->speed > 0))
+        return true;
+    if (!table_resize(ctx, rest, &rest_table_info, bodies->count))
+        return false;
+    know_bodies(bodies, rest);
+    look_at_media(media, bodies, rest, seen);
+    int32_t count = boxes->count < bodies->count ? boxes->count : bodies->count;
+    for (int32_t first = 0; first < count; first += CHUNK) {
+        int32_t end = first + CHUNK < count ? first + CHUNK : count;
+        for (int32_t i = are_known(bodies, boxes->generation, first, end) ? end : first; i < end; i++)
+            if (has_left(bodies, boxes, i))
+                wake_in(bodies, boxes, rest, i);
+    }
     return true;
 }
 
@@ -157,8 +205,7 @@ static void note_motion(const rest_settings *settings, vec3 ground, double dt, c
 {
     rest->touch[i] = 0;
     if (!may_sleep(b, i)) {
-        if (!is_asleep(b, i))
-            rest->still[i] = 0;
+        rest->still[i] = 0;
         return;
     }
     double rim = vec3_length(b->angular_velocity[i]) * shapes->shapes.radius[b->shape[i]];
@@ -181,6 +228,7 @@ static void note_push(const body_table *b, rest_table *rest, int32_t slot, int32
 {
     if (!is_asleep(b, slot) || !may_sleep(b, other))
         return;
+    rest->touch[slot] |= REST_RECALLS;
     rest->push[slot] = vec3_add(rest->push[slot], impulse);
     rest->turn[slot] = vec3_add(rest->turn[slot], vec3_cross(vec3_sub(point, b->position[slot]), impulse));
 }
@@ -194,19 +242,51 @@ static void follow_mean(double part, double left, vec3 now, vec3 *mean, vec3 *be
 
 static void sum_pushes(const rest_settings *settings, double dt, rest_table *rest, int32_t i)
 {
-    rest->age[i] += dt;
-    double part = dt / fmin(rest->age[i], MEAN_TIMES * settings->time), left = fmax(0, 1 - dt / settings->time);
+    rest->age[i] = fmin(rest->age[i] + dt, age_most(settings));
+    double part = dt / rest->age[i], left = fmax(0, 1 - dt / settings->time);
     follow_mean(part, left, rest->push[i], &rest->mean_push[i], &rest->gain[i]);
     follow_mean(part, left, rest->turn[i], &rest->mean_turn[i], &rest->spin[i]);
 }
 
-/* Speed of the centre or of the rim, whichever is greater, that pushes beyond their mean would have given a body. */
-static double missed_speed(const body_table *b, const shape_store *shapes, const rest_table *rest, int32_t i)
+/* Speed of the centre or of the rim, whichever is greater, that an impulse and an angular one [N s, N m s] would have
+   given a body. */
+static double missed_speed(const body_table *b, const shape_store *shapes, int32_t i, double impulse, double turn)
 {
     sym3 inertia = b->inertia[i];
     double least = fmin(inertia.xx, fmin(inertia.yy, inertia.zz));
-    return fmax(vec3_length(rest->gain[i]) / b->mass[i],
-                vec3_length(rest->spin[i]) * shapes->shapes.radius[b->shape[i]] / least);
+    return fmax(impulse / b->mass[i], turn * shapes->shapes.radius[b->shape[i]] / least);
+}
+
+/* Nothing has pushed it in this step, and what did before is next to nothing by now; a mean that is left goes on to be
+   missed for the time in which pushes are remembered. */
+static bool has_faded(const rest_settings *settings, double dt, const body_table *b, const shape_store *shapes,
+                      const rest_table *rest, int32_t i)
+{
+    const vec3 none = {0, 0, 0};
+    if (rest->age[i] < age_most(settings) || !is_within(0, rest->push[i], none) || !is_within(0, rest->turn[i], none))
+        return false;
+    double steps = settings->time / dt;
+    double impulse = vec3_length(rest->gain[i]) + steps * vec3_length(rest->mean_push[i]);
+    double turn = vec3_length(rest->spin[i]) + steps * vec3_length(rest->mean_turn[i]);
+    return missed_speed(b, shapes, i, impulse, turn) < FADED * STRIKING * settings->speed;
+}
+
+static void forget_pushes(rest_table *rest, int32_t i)
+{
+    rest->touch[i] = 0;
+    rest->mean_push[i] = rest->gain[i] = rest->mean_turn[i] = rest->spin[i] = (vec3){0, 0, 0};
+}
+
+/* The first row of first..end-1 of a body asleep that recalls something, `end` without. */
+static int32_t next_recalling(const body_table *bodies, const rest_table *rest, int32_t first, int32_t end)
+{
+    static const uint8_t none[8] = {0};
+    while (first < end) {
+        if (is_asleep(bodies, first) && rest->touch[first] != 0)
+            return first;
+        first += end - first >= 8 && memcmp(rest->touch + first, none, sizeof none) == 0 ? 8 : 1;
+    }
+    return end;
 }
 
 void rest_note(const rest_settings *settings, const rest_media *media, double dt, body_table *bodies,
@@ -215,10 +295,11 @@ void rest_note(const rest_settings *settings, const rest_media *media, double dt
     if (!(settings->speed > 0))
         return;
     double least = STRIKING * settings->speed;
-    for (int32_t i = 0; i < rest->count; i++) {
+    int32_t rows = rest->count;
+    for (int32_t i = body_next_moving(bodies, 0, rows); i < rows; i = body_next_moving(bodies, i + 1, rows))
         note_motion(settings, media->ground, dt, bodies, shapes, rest, i);
+    for (int32_t i = next_recalling(bodies, rest, 0, rows); i < rows; i = next_recalling(bodies, rest, i + 1, rows))
         rest->push[i] = rest->turn[i] = (vec3){0, 0, 0};
-    }
     for (int32_t i = 0; i < contacts->count; i++) {
         const contact *c = &contacts->data[i];
         note_touch(least, media->ground, bodies, rest, c->a, c->b, c);
@@ -229,12 +310,12 @@ void rest_note(const rest_settings *settings, const rest_media *media, double dt
         note_push(bodies, rest, c->a, c->b, impulse, c->point);
         note_push(bodies, rest, c->b, c->a, vec3_neg(impulse), c->point);
     }
-    for (int32_t i = 0; i < rest->count; i++) {
-        if (!is_asleep(bodies, i))
-            continue;
+    for (int32_t i = next_recalling(bodies, rest, 0, rows); i < rows; i = next_recalling(bodies, rest, i + 1, rows)) {
         sum_pushes(settings, dt, rest, i);
-        if (missed_speed(bodies, shapes, rest, i) > least)
+        if (missed_speed(bodies, shapes, i, vec3_length(rest->gain[i]), vec3_length(rest->spin[i])) > least)
             rest_wake(bodies, rest, i);
+        else if (has_faded(settings, dt, bodies, shapes, rest, i))
+            forget_pushes(rest, i);
     }
 }
 
@@ -257,15 +338,18 @@ static void fall_asleep(const rest_media *media, body_table *b, rest_table *rest
     rest->wind[i] = media->wind;
     rest->current[i] = media->current;
     rest->age[i] = 0;
+    rest->touch[i] = REST_RECALLS;
 }
 
 void rest_settle(const rest_settings *settings, const rest_media *media, body_table *bodies,
-                 const contact_array *contacts, rest_table *rest)
+                 const contact_array *contacts, rest_table *rest, rest_seen *seen)
 {
     if (!(settings->speed > 0))
         return;
     bool any = false;
-    for (int32_t i = 0; i < rest->count; i++) {
+    seen->known = seen->known && same_media(media, &seen->media);
+    int32_t rows = rest->count;
+    for (int32_t i = body_next_moving(bodies, 0, rows); i < rows; i = body_next_moving(bodies, i + 1, rows)) {
         if (!rests(settings, media, bodies, rest, i))
             continue;
         fall_asleep(media, bodies, rest, i);
@@ -274,7 +358,10 @@ void rest_settle(const rest_settings *settings, const rest_media *media, body_ta
     /* One that fell asleep no longer pushes those that sleep already: the means of these begin anew. */
     for (int32_t i = 0; i < contacts->count && any; i++) {
         int32_t a = contacts->data[i].a, b = contacts->data[i].b;
-        if (a < rest->count && b < rest->count && is_asleep(bodies, a) && is_asleep(bodies, b))
-            rest->age[a] = rest->age[b] = 0;
+        if (a >= rest->count || b >= rest->count || !is_asleep(bodies, a) || !is_asleep(bodies, b))
+            continue;
+        rest->age[a] = rest->age[b] = 0;
+        rest->touch[a] |= REST_RECALLS;
+        rest->touch[b] |= REST_RECALLS;
     }
 }

@@ -27,24 +27,32 @@ typedef struct rest_media {
     bool calm;          /* neither moves anywhere past what rests */
 } rest_media;
 
-/* Of a body in contact: BUSY with something that keeps it awake, HELD by an impulse. */
-enum { REST_BUSY = 1, REST_HELD = 2 };
+/* Of a body in contact: BUSY with something that keeps it awake, HELD by an impulse.  Of one asleep: it RECALLS pushes,
+   or fell asleep so lately that its means are still young; the columns of pushes of all others are zero. */
+enum { REST_BUSY = 1, REST_HELD = 2, REST_RECALLS = 4 };
 
 /* A row for each body slot, or none.  Of a body asleep all but touch and still tell what bodies awake do to it. */
-#define REST_FIELDS(X)                                                                        \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that the row tells of; 0: none")  \
-    X(touch, uint8_t, FIELD_U8, 1, "1", "REST_BUSY, REST_HELD")                               \
-    X(still, double, FIELD_F64, 1, "s", "time for which it has been slow")                    \
-    X(wind, vec3, FIELD_F64, 3, "m/s", "past it as it fell asleep")                           \
-    X(current, vec3, FIELD_F64, 3, "m/s", "past it as it fell asleep")                        \
-    X(push, vec3, FIELD_F64, 3, "N s", "impulse in the last step, global frame")              \
-    X(turn, vec3, FIELD_F64, 3, "N m s", "the same of the moment about its centre of mass")   \
-    X(age, double, FIELD_F64, 1, "s", "time over which the means are taken")                  \
-    X(mean_push, vec3, FIELD_F64, 3, "N s", "mean impulse of a step")                         \
-    X(mean_turn, vec3, FIELD_F64, 3, "N m s", "the same of the moment")                       \
-    X(gain, vec3, FIELD_F64, 3, "N s", "sum of impulses beyond their mean, fading with time") \
+#define REST_FIELDS(X)                                                                         \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that the row tells of; 0: none")   \
+    X(touch, uint8_t, FIELD_U8, 1, "1", "REST_BUSY, REST_HELD, REST_RECALLS")                  \
+    X(still, double, FIELD_F64, 1, "s", "time for which it has been slow")                     \
+    X(wind, vec3, FIELD_F64, 3, "m/s", "past it as it fell asleep")                            \
+    X(current, vec3, FIELD_F64, 3, "m/s", "past it as it fell asleep")                         \
+    X(push, vec3, FIELD_F64, 3, "N s", "impulse in the last step, global frame")               \
+    X(turn, vec3, FIELD_F64, 3, "N m s", "the same of the moment about its centre of mass")    \
+    X(age, double, FIELD_F64, 1, "s", "time over which the means are taken, up to their most") \
+    X(mean_push, vec3, FIELD_F64, 3, "N s", "mean impulse of a step")                          \
+    X(mean_turn, vec3, FIELD_F64, 3, "N m s", "the same of the moment")                        \
+    X(gain, vec3, FIELD_F64, 3, "N s", "sum of impulses beyond their mean, fading with time")  \
     X(spin, vec3, FIELD_F64, 3, "N m s", "the same of the moment")
 TABLE_DECLARE(rest, REST_FIELDS)
+
+/* The media in which all that sleeps is known to be undisturbed: memory that saves a look at each, never state.  {0}:
+   nothing is known. */
+typedef struct rest_seen {
+    rest_media media;
+    bool known;
+} rest_seen;
 
 /* A body that is asleep moves freely again; nothing happens to others. */
 void rest_wake(body_table *bodies, rest_table *rest, int32_t slot);
@@ -53,7 +61,7 @@ void rest_wake(body_table *bodies, rest_table *rest, int32_t slot);
    or let go is another body), and what fell asleep in other media; what sleeps on gets the velocity of the ground.
    false: no memory.  Nothing happens with a speed of 0, here and below. */
 bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *media, body_table *bodies,
-                 const broad_table *boxes, rest_table *rest);
+                 const broad_table *boxes, rest_table *rest, rest_seen *seen);
 /* With the pairs of the step: wakes, and keeps awake, what a body of another material, or one that
    is driven, may reach. */
 void rest_wake_near(const rest_settings *settings, body_table *bodies, const pair_table *pairs, rest_table *rest);
@@ -66,6 +74,6 @@ void rest_note(const rest_settings *settings, const rest_media *media, double dt
                const shape_store *shapes, const contact_array *contacts, rest_table *rest);
 /* At the end of a step: puts to sleep what rests.  contacts: those of the step. */
 void rest_settle(const rest_settings *settings, const rest_media *media, body_table *bodies,
-                 const contact_array *contacts, rest_table *rest);
+                 const contact_array *contacts, rest_table *rest, rest_seen *seen);
 
 #endif

@@ -70,7 +70,7 @@ int32_t solver_contact_place(solver *s, const body_table *bodies, const contact_
 static int32_t find_massless(const void *arg, int32_t first, int32_t end)
 {
     const body_table *bodies = arg;
-    for (int32_t i = first; i < end; i++) {
+    for (int32_t i = body_next_moving(bodies, first, end); i < end; i = body_next_moving(bodies, i + 1, end)) {
         if (!body_is_dynamic(bodies, i))
             continue;
         sym3 inertia = body_total_inertia(bodies, i);
@@ -101,10 +101,11 @@ typedef struct acceleration_work {
 static void accelerate_block(void *arg, int32_t block, int32_t thread)
 {
     const acceleration_work *work = arg;
-    int32_t groups = (work->bodies->count + V8_LANES - 1) / V8_LANES, first = block * MOTION_GROUPS;
+    int32_t first = motion_block_first(block), end = motion_block_end(work->bodies, block);
     (void)thread;
-    KERNEL_PICK(work->ctx, motion_accelerate)
-    (work->bodies, work->loads, work->dt, first, first + MOTION_GROUPS < groups ? first + MOTION_GROUPS : groups);
+    if (body_next_moving(work->bodies, first, end) < end)
+        KERNEL_PICK(work->ctx, motion_accelerate)
+    (work->bodies, work->loads, work->dt, first / V8_LANES, (end + V8_LANES - 1) / V8_LANES);
 }
 
 void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt)

@@ -5,6 +5,8 @@
 #include "fluid/level.h"
 #include "fluid/tilted.h"
 
+#include <string.h>
+
 typedef struct fluid_work {
     context *ctx;
     const media *media;
@@ -50,12 +52,12 @@ static wrench total_of(const fluid_load *load)
     return sum;
 }
 
-static void clear_slot(const prism_output *out, int32_t at)
+static void clear_slots(const prism_output *out, int32_t at, int32_t count)
 {
-    out->total[at] = (wrench){{0, 0, 0}, {0, 0, 0}};
-    out->volume[at] = 0;
+    memset(out->total + at, 0, (size_t)count * sizeof *out->total);
+    memset(out->volume + at, 0, (size_t)count * sizeof *out->volume);
     if (out->load)
-        out->load[at] = (fluid_load){0};
+        memset(out->load + at, 0, (size_t)count * sizeof *out->load);
 }
 
 static void add_wrench(wrench *to, const wrench *w)
@@ -119,7 +121,12 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
     if (end > w->bodies->count)
         end = w->bodies->count;
     double own[PRISM_BLOCK];
+    bool idle = !d->flooding && body_next_moving(w->bodies, first, end) == end;
     const prism_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
+    if (idle) {
+        clear_slots(&out, 0, end - first);
+        return;
+    }
     int32_t left = level_block(w->ctx, &w->prisms, first, end, &out, rest);
     dry_level_faces(w, first, end, rest, left);
     int32_t walked = tilted_block(w->ctx, &w->prisms, first, rest, left, &out, others);
@@ -137,7 +144,7 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
         if (body_is_dynamic(w->bodies, slot))
             w->loads[slot].force.z -= w->bodies->mass[slot] * w->media->gravity;
         else
-            clear_slot(&out, slot - first);
+            clear_slots(&out, slot - first, 1);
     }
 }
 
@@ -178,7 +185,9 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     int32_t blocks = pool_blocks(bodies->count, work.block);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
-    for (int32_t slot = 0; slot < bodies->count; slot++) {
+    int32_t count = bodies->count;
+    for (int32_t slot = body_next_moving(bodies, 0, count); slot < count;
+         slot = body_next_moving(bodies, slot + 1, count)) {
         int32_t shape = bodies->shape[slot];
         if (body_is_dynamic(bodies, slot) && shape >= 0 && shapes->shapes.kind[shape] == SHAPE_SOLID)
             apply_solid(&work, slot, shapes->shapes.solid[shape]);

@@ -197,8 +197,14 @@ static void respond_block(void *arg, int32_t block, int32_t thread)
     (void)thread;
     const response_work *w = arg;
     int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS;
-    for (int32_t slot = first; slot < end && slot < w->bodies->count; slot += GROUP_SLOTS)
-        respond_group(w, slot);
+    if (end > w->bodies->count)
+        end = w->bodies->count;
+    int32_t slot = body_next_moving(w->bodies, first, end);
+    while (slot < end) {
+        int32_t group = slot - slot % GROUP_SLOTS;
+        respond_group(w, group);
+        slot = body_next_moving(w->bodies, group + GROUP_SLOTS, end);
+    }
 }
 
 /* The screening by weak_drag_kernel.h takes a limit this part of implicit_part's own, so that rounding decides nothing.

@@ -157,8 +157,7 @@ bool tile_index_build(context *ctx, tile_index *index, const tile_grid *g, const
         index->first.data[i] = -1;
     for (int32_t row = floes->count - 1; row >= 0; row--) {
         int32_t cell = floes->tile[row] - 1;
-        index->next.data[row] = -1;
-        if (floes->body[row] < 0 || cell < 0)
+        if (cell < 0 || floes->body[row] < 0)
             continue;
         index->next.data[row] = index->first.data[cell];
         index->first.data[cell] = row;

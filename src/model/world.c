@@ -179,9 +179,17 @@ uint64_t world_hash(const world *w)
     return hash;
 }
 
+void world_forget(world *w)
+{
+    collision_scratch_forget(w->scratch.collision);
+    w->scratch.rest_seen = (rest_seen){0};
+    w->shapes.is_counted = false;
+}
+
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
 {
     world_table to[WORLD_TABLE_COUNT], from[WORLD_TABLE_COUNT];
+    world_forget(dst);
     world_tables(dst, to);
     world_tables(src, from);
     for (int t = 0; t < WORLD_TABLE_COUNT; t++)

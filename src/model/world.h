@@ -137,6 +137,7 @@ typedef struct world {
         ARRAY(vec3) wash_force;         /* of each vessel on all floes; empty without wash [N] */
         fracture_event_array fractures;
         solver_report solver;
+        rest_seen rest_seen;
         collision_scratch *collision;
         crushing_scratch *crushing;
         fracture_scratch *fracture;
@@ -167,6 +168,8 @@ void world_poison_scratch(world *w);
 /* 64-bit hash of the whole state, but for `recorded`, which is no part of what is simulated: a world has the same hash
    whether it is recorded or not.  Inputs, and contacts between hulls, count from the first on. */
 uint64_t world_hash(const world *w);
+/* What scratch remembers of the state goes: call it when the tables are given another one. */
+void world_forget(world *w);
 /* dst's state becomes src's; both are of the same model. */
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);
 /* The first differing table, field and row of two states, as text; false when they are equal. */

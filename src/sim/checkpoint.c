@@ -238,6 +238,7 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
                             checkpoint_note *note, bool *other, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
+    world_forget(w);
     world_tables(w, tables);
     table_file_number numbers[NUMBER_COUNT] = {
         {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}, {"failed", 0}};

@@ -176,7 +176,7 @@ static rest_media rest_media_now(const model *m, const world *w)
 static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_error *error)
 {
     rest_media around = rest_media_now(m, w);
-    if (!rest_follow(ctx, &m->rest, &around, &w->bodies, &w->boxes, &w->rest))
+    if (!rest_follow(ctx, &m->rest, &around, &w->bodies, &w->boxes, &w->rest, &w->scratch.rest_seen))
         return error_memory(error);
     fram_status status = broad_phase_update(ctx, &w->bodies, &w->shapes, &m->collision, &w->boxes, &w->pairs,
                                             w->scratch.collision, error);
@@ -262,12 +262,14 @@ static fram_status integrate(context *ctx, const model *m, world *w, fram_error 
 }
 
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked; the tiles
-   of a sheet that drifts leave with their cells. */
+   of a sheet that drifts leave with their cells, and what sleeps without one has not moved. */
 static void remove_strays(const model *m, world *w)
 {
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
-        if (body < 0 || (w->drift.count > 0 && w->floes.tile[i] != 0))
+        bool stays =
+            body < 0 || (w->drift.count == 0 ? w->bodies.motion[body] == MOTION_ASLEEP : w->floes.tile[i] != 0);
+        if (stays)
             continue;
         vec3 r = w->bodies.position[body];
         double reach = w->shapes.shapes.radius[w->bodies.shape[body]];
@@ -291,7 +293,7 @@ static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error
     if (shape_compact(ctx, &w->shapes) != FRAM_OK)
         return error_memory(error);
     rest_media around = rest_media_now(m, w);
-    rest_settle(&m->rest, &around, &w->bodies, &w->scratch.contacts, &w->rest);
+    rest_settle(&m->rest, &around, &w->bodies, &w->scratch.contacts, &w->rest, &w->scratch.rest_seen);
     return FRAM_OK;
 }
 
@@ -362,15 +364,13 @@ static double reach_of(const world *w, int32_t body)
     return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
 }
 
-/* Comparisons are written so that a value that is no number fails them. */
+/* What moves.  Comparisons are written so that a value that is no number fails them. */
 static int32_t find_astray(const void *arg, int32_t first, int32_t end)
 {
     const state_check *check = arg;
     const body_table *b = &check->w->bodies;
     double limit = check->speed_limit * check->speed_limit;
-    for (int32_t i = first; i < end; i++) {
-        if (b->motion[i] == MOTION_NONE)
-            continue;
+    for (int32_t i = body_next_moving(b, first, end); i < end; i = body_next_moving(b, i + 1, end)) {
         vec3 r = b->position[i], v = b->velocity[i], o = b->angular_velocity[i];
         double reach = reach_of(check->w, i);
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;

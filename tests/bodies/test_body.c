@@ -29,6 +29,47 @@ START_TEST(slots_are_used_again_lowest_first)
 }
 END_TEST
 
+/* Against a look at each, over parts of all lengths. */
+START_TEST(what_moves_is_found_among_what_rests)
+{
+    enum { SLOTS = 300 };
+    context ctx;
+    context_init(&ctx);
+    body_table b = {0};
+    random_stream draw = random_begin(11, 0, 0);
+    static const motion kinds[] = {MOTION_STATIC,     MOTION_ASLEEP,  MOTION_NONE,
+                                   MOTION_PRESCRIBED, MOTION_DYNAMIC, MOTION_CARRIED};
+    ck_assert(table_resize(&ctx, &b, &body_table_info, SLOTS));
+    for (int round = 0; round < 40; round++) {
+        /* From hardly any that moves to many. */
+        double moving = 0.001 * (1 << round % 10);
+        for (int32_t i = 0; i < SLOTS; i++) {
+            bool moves = random_uniform(&draw, 0, 1) < moving;
+            b.motion[i] = (uint8_t)kinds[(moves ? 3 : 0) + (int)random_uniform(&draw, 0, 2.999)];
+        }
+        for (int32_t first = 0; first <= SLOTS; first++) {
+            int32_t end = (int32_t)random_uniform(&draw, first, SLOTS + 0.999), next = first;
+            bool taken = true;
+            while (next < end && (b.motion[next] == MOTION_NONE || b.motion[next] == MOTION_STATIC ||
+                                  b.motion[next] == MOTION_ASLEEP))
+                next++;
+            for (int32_t i = first; i < end; i++)
+                taken = taken && body_is_alive(&b, i);
+            ck_assert_int_eq(body_next_moving(&b, first, end), next);
+            ck_assert_int_eq(body_slots_are_taken(&b, first, end), taken);
+            ck_assert_int_eq(body_slots_stand(&b, first, end), next == end);
+        }
+    }
+    memset(b.motion, MOTION_ASLEEP, SLOTS);
+    for (int32_t i = 0; i < SLOTS; i += 37) { /* one of them on ice that drifts */
+        b.velocity[i].y = 1e-300;
+        ck_assert(!body_slots_stand(&b, 0, SLOTS) && body_slots_stand(&b, 0, i) && body_slots_stand(&b, i + 1, SLOTS));
+        b.velocity[i].y = 0;
+    }
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
 START_TEST(a_removed_body_leaves_no_trace_but_its_generation)
 {
     context ctx;
@@ -132,6 +173,12 @@ START_TEST(kinetic_energy_is_that_of_the_books)
         b.orientation[s] = quat_from_roll_pitch_yaw(draw[13], draw[14], 6 * draw[15]);
     }
     body_remove(&b, 9);
+    /* A group of eight that stands, and one that sleeps on ice that drifts. */
+    for (int32_t s = 16; s < 32 && s < b.count; s++) {
+        b.motion[s] = MOTION_ASLEEP;
+        b.angular_velocity[s] = vec3_make(0, 0, 0);
+        b.velocity[s] = vec3_make(s < 24 ? 0 : 0.5, 0, 0);
+    }
     double energy = body_books_of(&b).kinetic_energy;
     ck_assert(energy > 1e5);
     for (isa i = ISA_BASELINE; i <= isa_best(); i++) {
@@ -142,5 +189,6 @@ START_TEST(kinetic_energy_is_that_of_the_books)
 }
 END_TEST
 
-TEST_MAIN("body", slots_are_used_again_lowest_first, a_removed_body_leaves_no_trace_but_its_generation,
-          frames_and_velocities, books_add_up, kinetic_energy_is_that_of_the_books, memory_runs_out)
+TEST_MAIN("body", slots_are_used_again_lowest_first, what_moves_is_found_among_what_rests,
+          a_removed_body_leaves_no_trace_but_its_generation, frames_and_velocities, books_add_up,
+          kinetic_energy_is_that_of_the_books, memory_runs_out)

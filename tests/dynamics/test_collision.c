@@ -18,10 +18,15 @@ static int32_t regular(rig *r, motion kind, int sides, double radius, double tur
 
 /* ---- broad phase ---- */
 
+static bool is_fixed(const rig *r, int32_t slot)
+{
+    return r->bodies.motion[slot] == MOTION_STATIC || r->bodies.motion[slot] == MOTION_ASLEEP;
+}
+
 static bool boxes_meet(const rig *r, int32_t a, int32_t b)
 {
     box3 x = {r->boxes.lo[a], r->boxes.hi[a]}, y = {r->boxes.lo[b], r->boxes.hi[b]};
-    bool fixed = r->bodies.motion[a] == MOTION_STATIC && r->bodies.motion[b] == MOTION_STATIC;
+    bool fixed = is_fixed(r, a) && is_fixed(r, b);
     return body_is_alive(&r->bodies, a) && body_is_alive(&r->bodies, b) && !fixed && box3_meet(x, y);
 }
 
@@ -153,6 +158,83 @@ START_TEST(pairs_of_many_are_found_on_any_threads)
         r.ctx.threads = NULL;
         rig_free(&r);
     }
+}
+END_TEST
+
+/* Some move among many that stand; of these some wake, fall asleep, are carried off or replaced meanwhile. */
+START_TEST(pairs_with_a_crowd_that_stands_are_found)
+{
+    enum { ROWS = 24, SLOTS = ROWS * ROWS };
+    rig r = rig_make(0.1);
+    r.gravity = vec3_make(0, 0, 0);
+    random_stream draw = random_begin(10, 0, 0);
+    for (int i = 0; i < SLOTS; i++) {
+        vec3 p = {2.2 * (i % ROWS), 2.2 * floor(1.0 * i / ROWS), 0};
+        int32_t slot = regular(&r, i % 3 ? MOTION_ASLEEP : MOTION_STATIC, 3 + i % 6, 1.2, 0.1 * i, p);
+        if (i % 149 == 7) {
+            r.bodies.motion[slot] = MOTION_DYNAMIC;
+            r.bodies.velocity[slot] = vec3_make(3 * random_normal(&draw), 3 * random_normal(&draw), 0);
+        }
+    }
+    for (int k = 0; k < 120; k++) {
+        int32_t slot = (int32_t)random_uniform(&draw, 0, SLOTS - 0.001);
+        if (k % 6 == 1 && r.bodies.motion[slot] == MOTION_ASLEEP) {
+            r.bodies.motion[slot] = MOTION_DYNAMIC;
+            r.bodies.velocity[slot] = vec3_make(0, 1, 0);
+        } else if (k % 6 == 3 && r.bodies.motion[slot] == MOTION_DYNAMIC) {
+            r.bodies.motion[slot] = MOTION_ASLEEP;
+            r.bodies.velocity[slot] = vec3_make(0, 0, 0);
+        } else if (k % 6 == 5) {
+            vec3 p = r.bodies.position[slot];
+            body_remove(&r.bodies, slot);
+            shape_remove(&r.shapes, slot);
+            if (k % 4 == 3)
+                regular(&r, MOTION_ASLEEP, 5, 1.1, 0, p);
+        }
+        update_pairs(&r);
+        integrate_poses(&r.ctx, &r.bodies, r.dt);
+    }
+    /* Sleepers that drift with their ice are followed. */
+    for (int32_t i = 0; i < r.bodies.count; i++)
+        if (r.bodies.motion[i] == MOTION_ASLEEP)
+            r.bodies.velocity[i] = vec3_make(1, 0.5, 0);
+    for (int k = 0; k < 40; k++) {
+        integrate_poses(&r.ctx, &r.bodies, r.dt);
+        update_pairs(&r);
+    }
+    rig_free(&r);
+}
+END_TEST
+
+/* A state whose boxes are others than those of the scratch, though nothing has moved since: the scratch was told. */
+START_TEST(another_state_of_what_stands_finds_its_pairs)
+{
+    rig r = rig_make(0.1);
+    for (int i = 0; i < 80; i++)
+        regular(&r, MOTION_ASLEEP, 4, 1, 0, vec3_make(3 * i, 0, 0));
+    regular(&r, MOTION_DYNAMIC, 4, 1, 0, vec3_make(30, 20, 0));
+    broad_table boxes = {0};
+    pair_table pairs = {0};
+    for (int32_t i = 0; i < 80; i++)
+        r.bodies.position[i].y = 50;
+    update_pairs(&r);
+    ck_assert(table_copy(&r.ctx, &boxes, &r.boxes, &broad_table_info) &&
+              table_copy(&r.ctx, &pairs, &r.pairs, &pair_table_info));
+    for (int32_t i = 0; i < 80; i++)
+        r.bodies.position[i].y = 0;
+    update_pairs(&r);
+    update_pairs(&r);
+    ck_assert(table_copy(&r.ctx, &r.boxes, &boxes, &broad_table_info) &&
+              table_copy(&r.ctx, &r.pairs, &pairs, &pair_table_info));
+    for (int32_t i = 0; i < 80; i++)
+        r.bodies.position[i].y = 50;
+    collision_scratch_forget(r.scratch);
+    r.bodies.position[80].y = 49;
+    update_pairs(&r);
+    ck_assert_int_gt(r.pairs.count, 0);
+    table_free(&r.ctx, &boxes, &broad_table_info);
+    table_free(&r.ctx, &pairs, &pair_table_info);
+    rig_free(&r);
 }
 END_TEST
 
@@ -579,9 +661,10 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("collision", broad_phase_finds_all_pairs, pairs_keep_their_axes, a_state_of_another_time_finds_its_pairs,
-          pairs_of_a_crowd_adrift_are_found, pairs_of_many_are_found_on_any_threads, unmoved_boxes_are_kept,
-          lost_bodies_are_named, level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies,
-          order_of_the_bodies_does_not_matter, crossed_edges_meet_in_a_point,
+          pairs_of_a_crowd_adrift_are_found, pairs_of_many_are_found_on_any_threads,
+          pairs_with_a_crowd_that_stands_are_found, another_state_of_what_stands_finds_its_pairs,
+          unmoved_boxes_are_kept, lost_bodies_are_named, level_prisms_touch_as_their_outlines_do,
+          contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter, crossed_edges_meet_in_a_point,
           a_body_in_a_bay_is_not_tested_again_and_again, what_is_remembered_of_compounds_leaves_nothing_out,
           keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal, patch_pairs_are_left_to_others,
           no_contact_takes_the_normal_of_a_seam, memory_runs_out)

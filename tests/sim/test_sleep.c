@@ -173,6 +173,63 @@ static double towed_impulse(bool sleeps, int *near_asleep)
     return sum;
 }
 
+/* A push too small to wake anybody is remembered, and forgotten when it has faded. */
+START_TEST(pushes_are_forgotten_in_time)
+{
+    scene k;
+    fram_error error = {0};
+    open_row(&k, true);
+    scene_steps(&k, 60);
+    const rest_table *r = &k.w.rest;
+    int32_t first = scene_floe(&k, 0), next = scene_floe(&k, 1);
+    ck_assert_int_eq(r->touch[next], REST_RECALLS); /* fallen asleep lately */
+    scene_steps(&k, 4 * 50 + 10);
+    ck_assert_int_eq(r->touch[next], 0);
+    wrench push = {.force = {0.05 * SPEED / STEP * mass_of(&k), 0, 0}};
+    for (int step = 0; step < 3; step++) {
+        assert_ok(world_add_wrench(&k.ctx, &k.w, first, push, &error), error);
+        scene_steps(&k, 1);
+    }
+    scene_steps(&k, 20); /* a millimetre to go */
+    ck_assert_int_eq(k.w.bodies.motion[next], MOTION_ASLEEP);
+    ck_assert_int_eq(r->touch[next], REST_RECALLS);
+    ck_assert_double_gt(r->gain[next].x, 0);
+    rest_wake(&k.w.bodies, &k.w.rest, first);
+    k.w.bodies.velocity[first] = vec3_make(-1.5 * SPEED, 0, 0); /* away, too slowly to wake */
+    scene_steps(&k, 4 * 50);
+    ck_assert_int_eq(r->touch[next], REST_RECALLS);
+    ck_assert_double_gt(r->mean_push[next].x, 0);
+    scene_steps(&k, 16 * 4 * 50);
+    ck_assert_int_eq(k.w.bodies.motion[next], MOTION_ASLEEP);
+    ck_assert_int_eq(r->touch[next], 0);
+    assert_bits(r->mean_push[next].x, 0);
+    assert_bits(r->gain[next].x, 0);
+    assert_bits(r->age[next], 4);
+    scene_close(&k);
+}
+END_TEST
+
+/* What fell asleep in another wind wakes, too, when its state is given to a world that knows this wind. */
+START_TEST(a_state_that_is_given_is_looked_at)
+{
+    scene k, other;
+    fram_error error = {0};
+    open_row(&k, true);
+    open_row(&other, true);
+    scene_steps(&k, 60);
+    scene_steps(&other, 60);
+    ck_assert_int_eq(asleep(&k), ROW + 1);
+    for (int32_t i = 0; i < other.w.rest.count; i++)
+        other.w.rest.wind[i].x = 3;
+    assert_ok(world_copy_state(&k.ctx, &k.w, &other.w, &error), error);
+    ck_assert_int_eq(asleep(&k), ROW + 1);
+    scene_steps(&k, 1);
+    ck_assert_int_eq(asleep(&k), 0);
+    scene_close(&k);
+    scene_close(&other);
+}
+END_TEST
+
 START_TEST(a_hull_meets_ice_awake)
 {
     int near = 0;
@@ -185,4 +242,4 @@ END_TEST
 
 TEST_MAIN("sleep", what_rests_falls_asleep_after_its_time, a_row_that_sleeps_is_struck_as_one_awake,
           a_slow_push_goes_through_a_row_that_sleeps, another_wind_wakes_all, what_lost_its_neighbour_wakes,
-          a_hull_meets_ice_awake)
+          pushes_are_forgotten_in_time, a_state_that_is_given_is_looked_at, a_hull_meets_ice_awake)
