@@ -96,7 +96,7 @@ WORDS = idle_keys|sanity|sanity_gear|sanity_units|verdict|faults|vessel_list
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
 	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
-		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability))$$'
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability|channels|pressure|why|inputs|hull|manage|ice))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads
@@ -114,7 +114,7 @@ test-bare: build/bare/build.ninja ## build without the optional libraries, and r
 	@cmake --build --preset bare -j$(JOBS) --target fram_command example_controller \
 		tests_io tests_api tests_results
 	@cd build/bare && $(CTEST) -L '^(io|cli|api|results)$$' \
-		-E '^(cli/($(WORDS)|bench|packed_field|hull_files|check|effective|tracks|capability_met)|io/geojson)$$'
+		-E '^(cli/($(WORDS)|bench|packed_field|hull_files|check|effective|tracks|capability_met|channels|json)|io/geojson)$$'
 
 lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
 	@tools/lint.sh
@@ -150,6 +150,9 @@ bench: build ## measure the speed of BENCH_SCENE (managed ice); BENCH_FLAGS go t
 
 bench-users: build ## scenes of users, step by step; BENCH_FLAGS="--old FRAM" beside an older build
 	@$(PYTHON) bench/run_users.py $(BENCH_FLAGS)
+
+bench-channel: build | $(STAMPS)/python ## what more and more channel behind a ship costs (its first call simulates 5 km: an hour)
+	@$(PYTHON) bench/run_channel.py $(BENCH_FLAGS)
 
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE (Box3D, Jolt) on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)

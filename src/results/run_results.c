@@ -46,6 +46,20 @@ static fram_status read_loads(context *ctx, const scenario *s, int32_t vessel, c
     return status == FRAM_OK ? csv_read(ctx, path, names, CHANNELS, column, error) : status;
 }
 
+/* Loads that stay 0 are told where somebody may look for them. */
+static void tell_without_ice(context *ctx, const scenario *s, const vessel_entry *entry,
+                             const double_array column[CHANNELS])
+{
+    int32_t rows = column[TIME].count;
+    for (int k = RAW_X; k < CHANNELS; k++)
+        for (int32_t i = 0; i < rows; i++)
+            if (column[k].data[i] != 0)
+                return;
+    if (rows > 0 && s->ice.source != ICE_NONE)
+        log_write(ctx, LOG_WARNING, "%s met no ice until t = %.4g s: plan.png shows where both are",
+                  vessel_title_of(entry).text, column[TIME].data[rows - 1]);
+}
+
 static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder, fram_error *error)
 {
     char to[PATH_ROOM];
@@ -55,6 +69,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
     double_array column[CHANNELS] = {0};
     fram_status status = read_loads(ctx, s, vessel, folder, column, error);
     if (status == FRAM_OK) {
+        tell_without_ice(ctx, s, &entry, column);
         double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
         for (int k = RAW_X; k < CHANNELS; k++) {
             for (int32_t i = 0; i < column[k].count; i++)

@@ -144,4 +144,24 @@ grep -q 'towing carriage' edge/report.html && fail "a moored vessel has a towing
 for run in held tow; do
     grep -q 'driven edge' $run/report.html && fail "a run without a driven edge is told of one: $run"
 done
+
+# Ice that a ship does not meet is told of when the run ends; not where one meets it, nor where there is none.
+cat >far.yaml <<'YAML'
+run: {duration: 3, time_step: 0.02}
+vessel: {mode: towed, x: -60, speed: 2, ramp: 0.5, hull: {length: 60, beam: 12, draught: 4, freeboard: 3}}
+ice: {source: floes, floes: [{length: 10, width: 10, x: 50}]}
+domain: {x_min: -200, x_max: 200, y_min: -50, y_max: 50, boundary: open}
+output: {csv_interval: 0.5}
+YAML
+met() {
+    expect 0 "$FRAM" run far.yaml -o far --force "$@"
+    cp err met.txt
+}
+met
+grep -q "the vessel met no ice until t = 3 s" met.txt || fail "a ship that met no ice is not told of it: $(cat met.txt)"
+met --set vessel.x=16
+grep -q "met no ice" met.txt && fail "a ship that met ice is told that it met none: $(cat met.txt)"
+sed -i "s|source: floes.*|source: none}|" far.yaml
+met
+grep -q "met no ice" met.txt && fail "a ship in open water is told that it met no ice: $(cat met.txt)"
 finish "a report begins with its verdict"

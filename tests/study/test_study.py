@@ -265,6 +265,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual(told["list"][1]["load_mean_N"], float(self.rows("out")[3]["load_mean[N]"]))
         self.assertIn("no study", self.fram("list", self.at, code=2)["error"]["message"])
 
+    @WHOLE
     def test_many_runs_that_are_there_cost_reading_alone(self):
         count = 100 if SHORT else 1000
         study = self.write("set: {run.duration: 0.1, run.transient: 0}\nvary: {latin: {count: %d, keys: "
@@ -682,6 +683,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertNotEqual(first["state_hash"], other["state_hash"])
             self.assertEqual([t["state_hash"] for t in twins], 2 * [first["state_hash"]])
 
+    @WHOLE
     def test_which_input_moves_the_load(self):
         if not SHORT:  # its sums stand in tests/study/test_sensitivity.c
             study = self.write("vary: {sobol: {count: 10, keys: {vessel.speed: [1, 2], output.averaging_window: "
