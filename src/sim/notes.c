@@ -133,6 +133,24 @@ static double course_of(const scenario_vessel *v)
     return v->mode == VESSEL_FREE ? v->heading_deg : automatic_or(v->course_deg, v->heading_deg);
 }
 
+/* A channel that costs more than the ship's surroundings [m]: see docs/performance.md. */
+#define LONG_CHANNEL 500.0
+/* Of a ship's speed: at which pieces in its channel may fall asleep without a change of its mean load. */
+#define CHANNEL_SLEEP 0.1
+
+/* A ship that cuts a long channel through ice none of which sleeps. */
+static void note_channel(const note_taker *n, const scenario *s, const vessel_entry *entry)
+{
+    double speed = speed_in_ice(s, entry->keys), way = speed * s->run.duration;
+    if (s->ice.source != ICE_LEVEL || !s->ice.breakable || s->ice.sleep_speed > 0 ||
+        way < LONG_CHANNEL * s->run.scale / scenario_default_scale())
+        return;
+    note_fact(n,
+              "channel: %s may go %.4g m, and pieces behind it cost as much as those beside it while they are awake; "
+              "ice.sleep_speed: %.2g lets them sleep",
+              vessel_title_of(entry).text, way, CHANNEL_SLEEP * speed);
+}
+
 static void note_vessel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
     const scenario_vessel *v = entry->keys;
@@ -169,6 +187,7 @@ static void take_notes(const note_taker *n, const scenario *s)
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
         note_vessel(n, s, &entry);
+        note_channel(n, s, &entry);
     }
     sanity_tell(s, tell_warning, n);
     if (s->run.solver.baumgarte)

@@ -108,4 +108,19 @@ expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --se
     --set ice.breakable=true
 grep '^warning: ice' err && fail "ice of a tank is told"
 told ship.yaml "ice.flexural_strength: 20000 Pa" --set ice.flexural_strength=2e4
+
+# A ship that cuts a long channel is told what it costs to keep awake; not one that stops early, or whose ice sleeps.
+cat >long.yaml <<'END'
+run: {duration: 400, time_step: 0.02}
+vessel: {mode: towed, x: -60, speed: 2, hull: {length: 60, beam: 14, draught: 5, freeboard: 3}}
+ice: {source: level, thickness: 0.7, breakable: true, level: {x_min: 0}}
+domain: {x_min: -100, x_max: 900, y_min: -60, y_max: 60, boundary: open}
+END
+note="channel: the vessel may go 800 m, and pieces behind it cost as much as those beside it while they are awake; ice.sleep_speed: 0.2 lets them sleep"
+expect 0 "$FRAM" check long.yaml
+grep -qF "$note" out err || fail "a long channel is not told of: $(cat out err)"
+for set in run.duration=100 ice.sleep_speed=0.1 ice.breakable=false run.scale=100; do
+    expect 0 "$FRAM" check long.yaml --set $set
+    grep -q 'channel: the vessel' out err && fail "a channel is told of with $set"
+done
 finish "each slip of the pen is told or refused, with its key and the remedy"
