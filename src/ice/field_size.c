@@ -2,9 +2,9 @@
 #include "ice/field_size.h"
 
 #include "base/random.h"
+#include "base/sort.h"
 #include "base/transcendental.h"
 #include <math.h>
-#include <stdlib.h>
 
 /* Slices by which the mean area is found, halvings of an inverse. */
 enum { MEAN_SLICES = 8192, HALVINGS = 200, SHIFT_HALVINGS = 60 };
@@ -309,17 +309,11 @@ fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64
     return FRAM_OK;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double size_law_distance(const size_law *law, double *sample, int32_t count)
 {
     double most = 0;
     if (count > 0)
-        qsort(sample, (size_t)count, sizeof *sample, ascending);
+        numbers_sort(sample, count);
     for (int32_t i = 0; i < count; i++) {
         if (law->kind == SIZE_CONSTANT) {
             /* A law of one value: the part of the sample that is another, but for rounding. */

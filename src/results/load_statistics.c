@@ -1,18 +1,12 @@
 #include "results/load_statistics.h"
 
 #include "base/channel_statistics.h"
+#include "base/sort.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LEVELS = 120, BARS = 30, CORRELATED_MOST = 20000 };
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Long series are thinned: a correlation that dies within a few steps of the thinned one counts as none. */
 static double integral_time_scale(const double *value, int32_t count, double step)
@@ -85,7 +79,7 @@ bool load_distribution_of(context *ctx, const double *value, int32_t count, doub
     if (!sorted)
         return false;
     memcpy(sorted, value, (size_t)count * sizeof *sorted);
-    qsort(sorted, (size_t)count, sizeof *sorted, ascending);
+    numbers_sort(sorted, count);
     bool good = find_exceedance(ctx, sorted, count, out) && find_histogram(ctx, sorted, count, out);
     memory_free(ctx, sorted);
     return good;

@@ -1,13 +1,13 @@
 #include "results/manage.h"
 
 #include "base/channel_statistics.h"
+#include "base/sort.h"
 #include "io/csv.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_parts.h"
 #include "results/rainflow.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 double manage_alarm(const manage_moment *at, bool largest)
@@ -71,12 +71,6 @@ static void sum_wait(const manage_run *m, manage_summary *out)
     }
 }
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* false: no memory. */
 static bool sum_alarms(const manage_run *m, bool largest, double *least, double *median)
 {
@@ -88,7 +82,7 @@ static bool sum_alarms(const manage_run *m, bool largest, double *least, double 
             good = array_push(m->ctx, &times, manage_alarm(&m->moments.data[i], largest));
     }
     if (good && times.count > 0) {
-        qsort(times.data, (size_t)times.count, sizeof *times.data, ascending);
+        numbers_sort(times.data, times.count);
         *least = times.data[0];
         *median = times.data[times.count / 2];
     }

@@ -1,5 +1,6 @@
 #include "results/run_data.h"
 
+#include "base/sort.h"
 #include "io/file.h"
 #include "io/json_walk.h"
 #include "io/scenario_file.h"
@@ -7,7 +8,6 @@
 #include "results/replay.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
@@ -154,12 +154,6 @@ static fram_status read_note(context *ctx, const char *folder, run_note *n, fram
 
 /* ---- the field ---- */
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static bool note_field(context *ctx, const replay *r, field_state *f)
 {
     double volume = 0;
@@ -179,7 +173,7 @@ static bool note_field(context *ctx, const replay *r, field_state *f)
     int32_t n = f->areas.count;
     if (n == 0)
         return true;
-    qsort(f->areas.data, (size_t)n, sizeof *f->areas.data, ascending);
+    numbers_sort(f->areas.data, n);
     f->mean = f->area / n;
     f->median = 0.5 * (f->areas.data[(n - 1) / 2] + f->areas.data[n / 2]);
     f->greatest = f->areas.data[n - 1];

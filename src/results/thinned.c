@@ -1,6 +1,5 @@
 #include "results/thinned.h"
-
-#include <stdlib.h>
+#include "base/sort.h"
 
 bool thinned_add(context *ctx, thinned *t, double value)
 {
@@ -17,16 +16,10 @@ bool thinned_add(context *ctx, thinned *t, double value)
     return array_push(ctx, &t->value, value);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double thinned_percentile(thinned *t, int percent)
 {
     if (t->value.count == 0)
         return 0;
-    qsort(t->value.data, (size_t)t->value.count, sizeof *t->value.data, ascending);
+    numbers_sort(t->value.data, t->value.count);
     return t->value.data[(int64_t)(t->value.count - 1) * percent / 100];
 }

@@ -1,21 +1,14 @@
 #include "sim/bench.h"
 
 #include "base/clock.h"
+#include "base/sort.h"
 #include "bodies/energy.h"
 #include "sim/bench_measure.h"
 #include "sim/build.h"
 
-#include <stdlib.h>
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 static double median(double *value, int64_t count)
 {
-    qsort(value, (size_t)count, sizeof *value, ascending);
+    numbers_sort(value, count);
     return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
 }
 

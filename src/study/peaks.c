@@ -1,7 +1,7 @@
 #include "study/peaks.h"
+#include "base/sort.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* ---- nature ---- */
 
@@ -100,17 +100,7 @@ bool cluster_peaks(context *ctx, const series_set *s, double threshold, int32_t 
     return true;
 }
 
-static int rising(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void values_sort(double_array *a)
-{
-    if (a->count > 1)
-        qsort(a->data, (size_t)a->count, sizeof *a->data, rising);
-}
+void values_sort(double_array *a) { numbers_sort(a->data, a->count); }
 
 double sorted_quantile(const double *sorted, int32_t count, double p)
 {

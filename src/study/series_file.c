@@ -1,6 +1,7 @@
 #include "study/series_file.h"
 
 #include "base/number_text.h"
+#include "base/sort.h"
 #include "io/csv_read.h"
 #include "io/file.h"
 #include "io/utf8.h"
@@ -10,7 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -323,12 +323,6 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
 
 /* ---- all files ---- */
 
-static int compare_reals(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* The middle one of the steps between rows, of two rows and more; 0: no memory. */
 static double usual_step(context *ctx, const double_array *time)
 {
@@ -337,7 +331,7 @@ static double usual_step(context *ctx, const double_array *time)
     for (int32_t i = 0; step && i < count; i++)
         step[i] = time->data[i + 1] - time->data[i];
     if (step) {
-        qsort(step, (size_t)count, sizeof *step, compare_reals);
+        numbers_sort(step, count);
         middle = step[count / 2];
     }
     memory_free(ctx, step);
