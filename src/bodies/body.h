@@ -61,7 +61,7 @@ static inline bool body_is_free(const body_table *b, int32_t slot)
    without. What does not is passed over many slots at a time, so that ice at rest costs a walk over bodies next to
    nothing. */
 int32_t body_next_moving(const body_table *b, int32_t first, int32_t end);
-/* No slot of first..end-1 has a body that moves, or one that sleeps on ice that drifts. */
+/* No slot of first..end-1 has a body that moves, and all velocities are +0: none sleeps on ice that drifts. */
 bool body_slots_stand(const body_table *b, int32_t first, int32_t end);
 /* All slots of first..end-1 have a body. */
 static inline bool body_slots_are_taken(const body_table *b, int32_t first, int32_t end)

@@ -147,7 +147,8 @@ static int32_t chunk_end(int32_t first, int32_t block_end)
     return first + BOX_CHUNK < block_end ? first + BOX_CHUNK : block_end;
 }
 
-/* Every slot has the body that its box was made for, and none of them moves or has moved since the last look. */
+/* Every slot has the body that its box was made for, and none of them moves or has moved since the last look.  Places
+   are compared, not orientations: what cannot move by itself is carried at most, and that without turning. */
 static bool chunk_stands(const box_work *w, int32_t first, int32_t end)
 {
     const body_table *b = w->bodies;

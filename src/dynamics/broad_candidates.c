@@ -2,7 +2,8 @@
    in.  While fat boxes stay inside their wide ones, all pairs of fat boxes are among these pairs, and nobody has to
    look for any.  Looked for is around renewed wide boxes only.
 
-   All of this is memory of what could be made again at any time; no result depends on it. */
+   All of this is memory of what could be made again at any time; no result depends on it, as long as it is told when
+   boxes become those of another state (collision_scratch_forget). */
 #include "base/pool.h"
 #include "dynamics/collision_scratch.h"
 
@@ -175,7 +176,8 @@ static bool begin_search(context *ctx, collision_scratch *s)
     return true;
 }
 
-/* Sorts by eleven bits at a time: what it costs goes with the keys, not with the slots. */
+/* Sorts by eleven bits at a time: what it costs goes with the keys, not with the slots, of which there are fewer than
+   2^22 (CONTACT_MOST_BODIES). */
 enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
 
 static int32_t digit_of(uint64_t key, int shift) { return (int32_t)(key >> shift & (DIGITS - 1)); }

@@ -19,7 +19,8 @@ void collision_scratch_free(context *ctx, collision_scratch *s);
 /* Call it when boxes were given another state, a copy or one that was read: what is remembered of them goes. */
 void collision_scratch_forget(collision_scratch *s);
 
-/* Bring the kept pairs up to date, after whatever moved bodies since the last time.  Fat boxes are renewed when a
+/* Bring the kept pairs up to date, after whatever moved bodies since the last time; a body that is static or asleep has
+   not been turned without being moved.  Fat boxes are renewed when a
    body's box has left its own, so the list depends on the state alone.  Pairs of two bodies that cannot move, and of
    removed bodies, are not kept. */
 fram_status broad_phase_update(context *ctx, const body_table *bodies, const shape_store *shapes,

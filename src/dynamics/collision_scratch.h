@@ -1,11 +1,14 @@
-/* Memory of both phases of collision detection, kept between steps for its size only.  Inside dynamics. */
+/* Memory of both phases of collision detection.  Wide boxes, their grid and pairs, and which chunks stand, are kept from
+   step to step and belong to one state (collision_scratch_forget); all else is kept for its size only.  Inside
+   dynamics. */
 #ifndef DYNAMICS_COLLISION_SCRATCH_H
 #define DYNAMICS_COLLISION_SCRATCH_H
 
 #include "dynamics/box_grid.h"
 #include "dynamics/collision.h"
 
-/* Slots that are passed over together where all of them stand still (broad_boxes.c). */
+/* Slots that are passed over together where all of them stand still (broad_boxes.c): few enough that some chunks stand
+   beside what moves; blocks of work are whole chunks. */
 enum { BOX_CHUNK = 64 };
 
 /* What the broad phase found of a slot in this update. */

@@ -17,7 +17,7 @@ static const double MEAN_TIMES = 4;
    left out is as small beside the speed at which bodies sleep. */
 static const double FADED = 1e-6;
 
-/* Slots that are passed over together where none of them has another body than before. */
+/* Slots that are passed over together where none of them has another body than before; a number of this file's own. */
 enum { CHUNK = 64 };
 
 static bool is_asleep(const body_table *b, int32_t slot) { return b->motion[slot] == MOTION_ASLEEP; }

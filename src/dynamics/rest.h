@@ -31,7 +31,8 @@ typedef struct rest_media {
    or fell asleep so lately that its means are still young; the columns of pushes of all others are zero. */
 enum { REST_BUSY = 1, REST_HELD = 2, REST_RECALLS = 4 };
 
-/* A row for each body slot, or none.  Of a body asleep all but touch and still tell what bodies awake do to it. */
+/* A row for each body slot, or none.  Of a body asleep push, turn and what follows them tell what bodies awake do to
+   it. */
 #define REST_FIELDS(X)                                                                         \
     X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that the row tells of; 0: none")   \
     X(touch, uint8_t, FIELD_U8, 1, "1", "REST_BUSY, REST_HELD, REST_RECALLS")                  \

@@ -262,7 +262,8 @@ static fram_status integrate(context *ctx, const model *m, world *w, fram_error 
 }
 
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked; the tiles
-   of a sheet that drifts leave with their cells, and what sleeps without one has not moved. */
+   of a sheet that drifts leave with their cells.  Where none drifts, what sleeps has not moved since it was looked at
+   here: it fell asleep after that, at the end of its step. */
 static void remove_strays(const model *m, world *w)
 {
     for (int32_t i = 0; i < w->floes.count; i++) {
@@ -364,7 +365,7 @@ static double reach_of(const world *w, int32_t body)
     return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
 }
 
-/* What moves.  Comparisons are written so that a value that is no number fails them. */
+/* The first body that moves and has gone astray.  Comparisons are written so that a value that is no number fails them. */
 static int32_t find_astray(const void *arg, int32_t first, int32_t end)
 {
     const state_check *check = arg;
