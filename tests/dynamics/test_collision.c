@@ -189,9 +189,11 @@ START_TEST(pairs_with_a_crowd_that_stands_are_found)
             body_remove(&r.bodies, slot);
             shape_remove(&r.shapes, slot);
             if (k % 4 == 3)
-                regular(&r, MOTION_ASLEEP, 5, 1.1, 0, p);
+                regular(&r, MOTION_ASLEEP, 5, 1.5, 0, p);
         }
         update_pairs(&r);
+        for (int32_t i = 0; i < r.bodies.count; i++)
+            ck_assert_uint_eq(r.boxes.generation[i], body_is_alive(&r.bodies, i) ? r.bodies.generation[i] : 0);
         integrate_poses(&r.ctx, &r.bodies, r.dt);
     }
     /* Sleepers that drift with their ice are followed. */
@@ -202,6 +204,26 @@ START_TEST(pairs_with_a_crowd_that_stands_are_found)
         integrate_poses(&r.ctx, &r.bodies, r.dt);
         update_pairs(&r);
     }
+    rig_free(&r);
+}
+END_TEST
+
+/* It stands where another one stood, in the same slot, and is larger. */
+START_TEST(a_new_body_among_what_stands_has_its_own_box)
+{
+    rig r = rig_make(0.1);
+    for (int i = 0; i < 80; i++)
+        regular(&r, MOTION_ASLEEP, 4, 1, 0, vec3_make(6 * i, 0, 0));
+    regular(&r, MOTION_DYNAMIC, 4, 1, 0, vec3_make(60, 3, 0));
+    update_pairs(&r);
+    update_pairs(&r);
+    ck_assert_int_eq(r.pairs.count, 0);
+    body_remove(&r.bodies, 10);
+    shape_remove(&r.shapes, 10);
+    ck_assert_int_eq(regular(&r, MOTION_ASLEEP, 4, 2.5, 0, vec3_make(60, 0, 0)), 10);
+    update_pairs(&r);
+    ck_assert_int_eq(r.pairs.count, 1);
+    ck_assert_uint_eq(r.boxes.generation[10], r.bodies.generation[10]);
     rig_free(&r);
 }
 END_TEST
@@ -662,9 +684,10 @@ END_TEST
 
 TEST_MAIN("collision", broad_phase_finds_all_pairs, pairs_keep_their_axes, a_state_of_another_time_finds_its_pairs,
           pairs_of_a_crowd_adrift_are_found, pairs_of_many_are_found_on_any_threads,
-          pairs_with_a_crowd_that_stands_are_found, another_state_of_what_stands_finds_its_pairs,
-          unmoved_boxes_are_kept, lost_bodies_are_named, level_prisms_touch_as_their_outlines_do,
-          contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter, crossed_edges_meet_in_a_point,
-          a_body_in_a_bay_is_not_tested_again_and_again, what_is_remembered_of_compounds_leaves_nothing_out,
-          keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal, patch_pairs_are_left_to_others,
-          no_contact_takes_the_normal_of_a_seam, memory_runs_out)
+          pairs_with_a_crowd_that_stands_are_found, a_new_body_among_what_stands_has_its_own_box,
+          another_state_of_what_stands_finds_its_pairs, unmoved_boxes_are_kept, lost_bodies_are_named,
+          level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter,
+          crossed_edges_meet_in_a_point, a_body_in_a_bay_is_not_tested_again_and_again,
+          what_is_remembered_of_compounds_leaves_nothing_out, keys_are_unique_and_die_with_their_bodies,
+          tangents_are_orthonormal, patch_pairs_are_left_to_others, no_contact_takes_the_normal_of_a_seam,
+          memory_runs_out)
