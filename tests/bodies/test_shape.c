@@ -255,11 +255,15 @@ START_TEST(rows_are_used_again_and_pools_squeezed)
     for (int i = 0; i < 30; i++)
         add(&ctx, &s, o, i % 3 ? square : corner, i % 3 ? 4 : 6);
     int32_t before = s.vertices.count;
+    ck_assert_int_eq(shape_compact(&ctx, &s), FRAM_OK); /* counts, and follows from now on */
+    ck_assert_int_eq(s.vertices.count, before);
     for (int32_t i = 0; i < 30; i++)
         if (i % 3 != 1 && i < 27)
             shape_remove(&s, i);
     ck_assert_int_eq(shape_compact(&ctx, &s), FRAM_OK);
     ck_assert_int_lt(s.vertices.count, before / 2);
+    ck_assert_int_eq(s.live_vertices, s.vertices.count);
+    ck_assert_int_eq(s.live_pieces, s.pieces.count);
     for (int32_t i = 0; i < 30; i++) {
         bool live = i % 3 == 1 || i >= 27;
         ck_assert_int_eq(s.shapes.kind[i], live ? SHAPE_PRISM : SHAPE_NONE);
@@ -275,6 +279,7 @@ START_TEST(rows_are_used_again_and_pools_squeezed)
     ck_assert_int_eq(shape_compact(&ctx, &s), FRAM_OK);
     ck_assert_int_eq(s.vertices.count, after);
     ck_assert_int_eq(add(&ctx, &s, o, square, 4), 0);
+    ck_assert_int_eq(s.live_vertices, s.vertices.count);
     /* An outline of the store itself, while its pool grows. */
     fram_error e = {0};
     for (int k = 0; k < 40; k++) {

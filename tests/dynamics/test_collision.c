@@ -161,6 +161,19 @@ START_TEST(pairs_of_many_are_found_on_any_threads)
 }
 END_TEST
 
+/* Every living body is where its fat box says. */
+static void assert_boxes_hold(const rig *r)
+{
+    for (int32_t i = 0; i < r->bodies.count; i++) {
+        bool lives = body_is_alive(&r->bodies, i);
+        ck_assert_uint_eq(r->boxes.generation[i], lives ? r->bodies.generation[i] : 0);
+        vec3 p = r->bodies.position[i], reach = {0.4, 0.4, 0.4}; /* less than any of them is wide */
+        box3 inside = {vec3_sub(p, reach), vec3_add(p, reach)}, box = {r->boxes.lo[i], r->boxes.hi[i]};
+        ck_assert(!lives || (box.lo.x <= inside.lo.x && box.lo.y <= inside.lo.y && box.hi.x >= inside.hi.x &&
+                             box.hi.y >= inside.hi.y));
+    }
+}
+
 /* Some move among many that stand; of these some wake, fall asleep, are carried off or replaced meanwhile. */
 START_TEST(pairs_with_a_crowd_that_stands_are_found)
 {
@@ -192,17 +205,23 @@ START_TEST(pairs_with_a_crowd_that_stands_are_found)
                 regular(&r, MOTION_ASLEEP, 5, 1.5, 0, p);
         }
         update_pairs(&r);
-        for (int32_t i = 0; i < r.bodies.count; i++)
-            ck_assert_uint_eq(r.boxes.generation[i], body_is_alive(&r.bodies, i) ? r.bodies.generation[i] : 0);
+        assert_boxes_hold(&r);
         integrate_poses(&r.ctx, &r.bodies, r.dt);
     }
     /* Sleepers that drift with their ice are followed. */
+    for (int32_t i = 0; i < r.bodies.count; i++) {
+        if (!body_is_alive(&r.bodies, i))
+            ck_assert_int_eq(regular(&r, MOTION_ASLEEP, 4, 1, 0, vec3_make(0, -3, 0)), i);
+        if (r.bodies.motion[i] == MOTION_DYNAMIC)
+            r.bodies.motion[i] = MOTION_ASLEEP;
+    }
+    update_pairs(&r);
     for (int32_t i = 0; i < r.bodies.count; i++)
-        if (r.bodies.motion[i] == MOTION_ASLEEP)
-            r.bodies.velocity[i] = vec3_make(1, 0.5, 0);
+        r.bodies.velocity[i] = vec3_scale(vec3_make(1, 0.5, 0), r.bodies.motion[i] == MOTION_ASLEEP);
     for (int k = 0; k < 40; k++) {
         integrate_poses(&r.ctx, &r.bodies, r.dt);
         update_pairs(&r);
+        assert_boxes_hold(&r);
     }
     rig_free(&r);
 }
