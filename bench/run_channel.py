@@ -99,7 +99,9 @@ def page(new, old, options):
     from run_users import machine
     model, load = machine()
     compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    head = "| channel, m | floes | ms a step | times that of 100 m |" + (" old, ms | times its 100 m | old/new |" if old else "")
+    head = "| channel, m | floes | ms a step | times that of 100 m |"
+    if old:
+        head += " old, ms | times its 100 m | old/new |"
     rows = []
     for i, way in enumerate(WAYS):
         row = f"| {way:,} | {new.floes[i]:,} | {1e3 * new.median(i):.2f} | {new.ratio(i, new, 0):.2f} |"
@@ -112,8 +114,8 @@ def page(new, old, options):
         f"`bench/run_channel.py`, {options.rounds} rounds of {options.steps} steps from each state, "
         "one thread, CPU time, medians.", "",
         "`scenes/level_ice.yaml` with more ice before the bow, `run.time_step: 0.02`, `ice.sleep_speed: 0.2` and",
-        "`ice.sleep_time: 2`.  Ratios are medians of those inside each round.  With 100 m of channel the pieces beside a",
-        "hull of 60 m and behind it are not yet as many as later.", "",
+        "`ice.sleep_time: 2`.  Ratios are medians of those inside each round.  With 100 m of channel the pieces beside",
+        "a hull of 60 m and behind it are not yet as many as later.", "",
         head, "|" + "---|" * (head.count("|") - 1), *rows, ""])
 
 

@@ -1,5 +1,5 @@
-/* Memory of both phases of collision detection.  Wide boxes, their grid and pairs, and which chunks stand, are kept from
-   step to step and belong to one state (collision_scratch_forget); all else is kept for its size only.  Inside
+/* Memory of both phases of collision detection.  Wide boxes, their grid and pairs, and which chunks stand, are kept
+   from step to step and belong to one state (collision_scratch_forget); all else is kept for its size only.  Inside
    dynamics. */
 #ifndef DYNAMICS_COLLISION_SCRATCH_H
 #define DYNAMICS_COLLISION_SCRATCH_H

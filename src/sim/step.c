@@ -365,7 +365,8 @@ static double reach_of(const world *w, int32_t body)
     return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
 }
 
-/* The first body that moves and has gone astray.  Comparisons are written so that a value that is no number fails them. */
+/* The first body that moves and has gone astray.  Comparisons are written so that a value that is no number fails them.
+ */
 static int32_t find_astray(const void *arg, int32_t first, int32_t end)
 {
     const state_check *check = arg;

@@ -116,7 +116,8 @@ vessel: {mode: towed, x: -60, speed: 2, hull: {length: 60, beam: 14, draught: 5,
 ice: {source: level, thickness: 0.7, breakable: true, level: {x_min: 0}}
 domain: {x_min: -100, x_max: 900, y_min: -60, y_max: 60, boundary: open}
 END
-note="channel: the vessel may go 800 m, and pieces behind it cost as much as those beside it while they are awake; ice.sleep_speed: 0.2 lets them sleep"
+note="channel: the vessel may go 800 m, and pieces behind it cost as much as those beside it while they are awake;"
+note+=" ice.sleep_speed: 0.2 lets them sleep"
 expect 0 "$FRAM" check long.yaml
 grep -qF "$note" out err || fail "a long channel is not told of: $(cat out err)"
 for set in run.duration=100 ice.sleep_speed=0.1 ice.breakable=false run.scale=100; do
