@@ -76,6 +76,13 @@ static void note_ice(const note_taker *n, const scenario *s)
 /* Of the speed that a ship makes under its own power: about what is left of it in ice that it breaks well. */
 #define OWN_POWER_IN_ICE 0.5
 
+/* About how fast a vessel goes in ice by itself or as it is driven [m/s]. */
+static double own_speed_in_ice(const scenario_vessel *v)
+{
+    bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
+    return own ? fmax(v->speed, OWN_POWER_IN_ICE * vessel_fastest(v)) : vessel_fastest(v);
+}
+
 /* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files of drift and current say is not
    known here, and a file stands in place of the speed that is given beside it. */
 static double speed_in_ice(const scenario *s, const scenario_vessel *v)
@@ -84,9 +91,7 @@ static double speed_in_ice(const scenario *s, const scenario_vessel *v)
     const scenario_environment *e = &s->environment;
     double current = e->water && !e->current_file[0] ? e->current_speed : 0;
     double drift = d->boundary == DOMAIN_FEEDING ? automatic_or(d->drift_speed, current) : current;
-    bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
-    double ship = own ? fmax(v->speed, OWN_POWER_IN_ICE * vessel_fastest(v)) : vessel_fastest(v);
-    return fmax(ship, drift);
+    return fmax(own_speed_in_ice(v), drift);
 }
 
 /* What breaks the ice at its edge, by the loads that fracture compares (docs/theory.md). */
@@ -141,7 +146,9 @@ static double course_of(const scenario_vessel *v)
 /* A ship that cuts a long channel through ice none of which sleeps. */
 static void note_channel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
-    double speed = speed_in_ice(s, entry->keys), way = speed * s->run.duration;
+    const scenario_domain *d = &s->domain;
+    double speed = own_speed_in_ice(entry->keys), x = d->x_max - d->x_min, y = d->y_max - d->y_min;
+    double way = fmin(speed * s->run.duration, sqrt(x * x + y * y));
     if (s->ice.source != ICE_LEVEL || !s->ice.breakable || s->ice.sleep_speed > 0 ||
         way < LONG_CHANNEL * s->run.scale / scenario_default_scale())
         return;

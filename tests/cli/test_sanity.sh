@@ -120,8 +120,12 @@ note="channel: the vessel may go 800 m, and pieces behind it cost as much as tho
 note+=" ice.sleep_speed: 0.2 lets them sleep"
 expect 0 "$FRAM" check long.yaml
 grep -qF "$note" out err || fail "a long channel is not told of: $(cat out err)"
-for set in run.duration=100 ice.sleep_speed=0.1 ice.breakable=false run.scale=100; do
+for set in run.duration=100 ice.sleep_speed=0.1 ice.breakable=false run.scale=100 domain.x_max=300; do
     expect 0 "$FRAM" check long.yaml --set $set
     grep -q 'channel: the vessel' out err && fail "a channel is told of with $set"
 done
+# One on station that ice drifts to cuts none.
+sed -i -e 's/mode: towed/mode: free/' -e 's/speed: 2/speed: 0/' -e 's/open}/feeding, drift_speed: 2}/' long.yaml
+expect 0 "$FRAM" check long.yaml
+grep -q 'channel: the vessel' out err && fail "a ship that stays is told of a channel"
 finish "each slip of the pen is told or refused, with its key and the remedy"
