@@ -81,6 +81,9 @@ static inline double automatic_or(double value, double otherwise) { return is_au
 
 /* The default of run.scale. */
 double scenario_default_scale(void);
+/* Size of what is simulated over full size, by run.scale: by Froude, defaults that are lengths go with it, times and
+   speeds with its root. */
+static inline double scenario_size(const scenario *s) { return s->run.scale / scenario_default_scale(); }
 /* Every key at its default for a scaling factor, lists empty.  Allocates nothing. */
 void scenario_defaults(scenario *s, double scale);
 void scenario_free(context *ctx, scenario *s);

@@ -44,7 +44,8 @@
     X(ram_distance, AUTOMATIC(1e-3, 1e5), "m", "it backs so far; auto: its length")                                  \
     X(propellers, INTEGER(1, 1, 4), "1",                                                                             \
       "that share the thrust: for their wash, and for the race that meets the rudders")                              \
-    X(propeller_diameter, AUTOMATIC(1e-3, 100), "m", "of each; auto: 45 kPa of bollard pull on their discs")         \
+    X(propeller_diameter, AUTOMATIC(1e-3, 100), "m",                                                                 \
+      "of each; auto: 45 kPa * scale / 30 of bollard pull on their discs")                                           \
     X(propeller_spacing, AUTOMATIC(0, 1e3), "m", "between their axes; auto: 1.5 diameters")                          \
     X(propeller_z, AUTOMATIC(-1e3, 0), "m", "of their axes above the design waterline; auto: -0.6 draughts")         \
     X(waypoints, LIST(course_point, 1000), "",                                                                       \

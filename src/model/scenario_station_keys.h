@@ -35,27 +35,28 @@
       "begin where the lines balance current and wind; false: begin where the vessel is put")                  \
     X(lines, LIST(mooring_line, 64), "", "the lines, 64 in all")
 
-#define SCENARIO_THRUSTER_KEYS(X)                                                                                \
-    X(kind, CHOICE(thruster_kind, THRUSTER_AZIMUTH, "tunnel azimuth main"), "",                                  \
-      "tunnel: athwartships; azimuth: turns; main: along the ship, with a rudder or without")                    \
-    X(x, REAL(0, -1e4, 1e4), "m", "forward of amidships")                                                        \
-    X(y, REAL(0, -1e4, 1e4), "m", "to port")                                                                     \
-    X(z, REAL(0, -1e4, 1e4), "m", "above the design waterline")                                                  \
-    X(thrust, REAL(1e5, 1e-9, 1e10), "N", "largest thrust; main: ahead")                                         \
-    X(thrust_astern, AUTOMATIC(0, 1e10), "N", "tunnel and main: largest thrust the other way; auto: the same")   \
-    X(time_constant, SCALED(1, 30, 0.5, 0, 1e4), "s", "of the shaft speed, after which the thrust goes")         \
-    X(speed_rate, SCALED(0.2, 30, -0.5, 1e-9, 1e6), "1/s",                                                       \
-      "fastest change of the shaft speed, as a part of the largest")                                             \
-    X(turn_rate_deg, SCALED(12, 30, -0.5, 1e-9, 1e6), "deg/s", "fastest turn of an azimuth or a rudder")         \
-    X(rudder_deg, REAL(0, 0, 60), "deg", "main: largest deflection of the thrust ahead by the rudder; 0: none")  \
-    X(forbidden_deg, REAL(0, -360, 360), "deg", "azimuth: middle of the forbidden sector, from the bow")         \
-    X(forbidden_width_deg, REAL(0, 0, 179), "deg", "azimuth: width of the forbidden sector; 0: none")            \
-    X(cost, REAL(1, 1e-9, 1e9), "1", "weight of its thrust in the allocation")                                   \
-    X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust; auto: 6.25 W for each newton")                     \
-    X(diameter, AUTOMATIC(1e-3, 100), "m", "of the propeller, for its wash; auto: 45 kPa of thrust on its disc") \
-    X(failure_time, AUTOMATIC(0, 1e9), "s", "it fails then; auto: never")                                        \
-    X(setting, REAL(0, -1, 1), "1", "without positioning: thrust over the largest")                              \
-    X(direction_deg, REAL(0, -360, 360), "deg",                                                                  \
+#define SCENARIO_THRUSTER_KEYS(X)                                                                               \
+    X(kind, CHOICE(thruster_kind, THRUSTER_AZIMUTH, "tunnel azimuth main"), "",                                 \
+      "tunnel: athwartships; azimuth: turns; main: along the ship, with a rudder or without")                   \
+    X(x, REAL(0, -1e4, 1e4), "m", "forward of amidships")                                                       \
+    X(y, REAL(0, -1e4, 1e4), "m", "to port")                                                                    \
+    X(z, REAL(0, -1e4, 1e4), "m", "above the design waterline")                                                 \
+    X(thrust, REAL(1e5, 1e-9, 1e10), "N", "largest thrust; main: ahead")                                        \
+    X(thrust_astern, AUTOMATIC(0, 1e10), "N", "tunnel and main: largest thrust the other way; auto: the same")  \
+    X(time_constant, SCALED(1, 30, 0.5, 0, 1e4), "s", "of the shaft speed, after which the thrust goes")        \
+    X(speed_rate, SCALED(0.2, 30, -0.5, 1e-9, 1e6), "1/s",                                                      \
+      "fastest change of the shaft speed, as a part of the largest")                                            \
+    X(turn_rate_deg, SCALED(12, 30, -0.5, 1e-9, 1e6), "deg/s", "fastest turn of an azimuth or a rudder")        \
+    X(rudder_deg, REAL(0, 0, 60), "deg", "main: largest deflection of the thrust ahead by the rudder; 0: none") \
+    X(forbidden_deg, REAL(0, -360, 360), "deg", "azimuth: middle of the forbidden sector, from the bow")        \
+    X(forbidden_width_deg, REAL(0, 0, 179), "deg", "azimuth: width of the forbidden sector; 0: none")           \
+    X(cost, REAL(1, 1e-9, 1e9), "1", "weight of its thrust in the allocation")                                  \
+    X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust; auto: 6.25 W/N * sqrt(scale / 30)")               \
+    X(diameter, AUTOMATIC(1e-3, 100), "m",                                                                      \
+      "of the propeller, for its wash; auto: 45 kPa * scale / 30 of thrust on its disc")                        \
+    X(failure_time, AUTOMATIC(0, 1e9), "s", "it fails then; auto: never")                                       \
+    X(setting, REAL(0, -1, 1), "1", "without positioning: thrust over the largest")                             \
+    X(direction_deg, REAL(0, -360, 360), "deg",                                                                 \
       "without positioning: direction of an azimuth's thrust, or angle of a rudder")
 
 #define SCENARIO_PATH_POINT_KEYS(X)                                      \

@@ -185,6 +185,10 @@ static void find_equilibrium(context *ctx, const vessel_entry *entry, const mode
 
 /* ---- thrusters, way points ---- */
 
+/* Power of an open propeller per newton at its largest thrust, at full scale [W/N]: a bollard pull of 160 N per
+   kilowatt is usual for unducted azimuth and tunnel thrusters.  A speed, by its unit. */
+#define POWER_PER_THRUST (1000.0 / 160)
+
 static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_entry *entry, int32_t vessel, world *w,
                                  fram_error *error)
 {
@@ -204,7 +208,7 @@ static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_e
             .forbidden_centre = radians(t->forbidden_deg),
             .forbidden_half = radians(0.5 * t->forbidden_width_deg),
             .cost = t->cost,
-            .full_power = t->power,
+            .full_power = automatic_or(t->power, POWER_PER_THRUST * sqrt(scenario_size(s)) * t->thrust),
             .failure_time = automatic_or(t->failure_time, HUGE_VAL),
             .order = t->setting * (t->setting >= 0 ? t->thrust : astern),
             .order_angle = radians(t->direction_deg),
@@ -233,8 +237,6 @@ static fram_status add_waypoints(context *ctx, const scenario_positioning *p, in
 
 /* ---- station ---- */
 
-/* Full scale, at which the model's own time constants hold. */
-#define FULL_SCALE 30.0
 /* What a Kalman filter does not know at the start, as standard deviations at full scale: its speed, and its bias as
    what that may change in a time. */
 #define FIRST_SPEED 0.1  /* [m/s] */
@@ -245,7 +247,7 @@ static plane_model model_of(const scenario *s, const scenario_positioning *p, in
 {
     int32_t body = w->vessels.body[vessel];
     vec3 added = w->bodies.added_mass[body];
-    double mass = w->bodies.mass[body], stretch = sqrt(s->run.scale / FULL_SCALE);
+    double mass = w->bodies.mass[body], stretch = sqrt(scenario_size(s));
     vec3 m = {automatic_or(p->mass_surge, mass + added.x), automatic_or(p->mass_sway, mass + added.y),
               automatic_or(p->mass_yaw, w->bodies.inertia[body].zz + w->bodies.added_inertia[body].z)};
     vec3 d = {automatic_or(p->damping_surge, m.x / (100 * stretch)),
@@ -307,13 +309,13 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
         .seed = noise_seed(s, v),
     };
     /* A filter that trusts its measurements wholly has no gain to compute: a hundredth of a metre at least, scaled. */
-    double least = 0.01 * s->run.scale / FULL_SCALE;
+    double least = 0.01 * scenario_size(s);
     double position_noise = fmax(p->noise_position, least);
     d.kalman = (kalman_tuning){{position_noise, position_noise, fmax(turn, 1e-4)},
                                noise_of(&d.model, p->force_noise, length),
                                noise_of(&d.model, p->bias_rate, length),
                                p->bias_time};
-    double stretch = sqrt(s->run.scale / FULL_SCALE);
+    double stretch = sqrt(scenario_size(s));
     d.first_speed = vec3_make(FIRST_SPEED * stretch, FIRST_SPEED * stretch, FIRST_TURN / stretch);
     d.first_bias = vec3_scale(d.kalman.bias, sqrt(FIRST_TIME * stretch));
     return d;

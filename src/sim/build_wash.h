@@ -5,6 +5,6 @@
 #include "model/model.h"
 
 /* hull: what is known of the vessel so far, its particulars and centre of mass among it. */
-wash_model build_wash(const scenario_vessel *keys, const vessel_model *hull);
+wash_model build_wash(const scenario *s, const scenario_vessel *keys, const vessel_model *hull);
 
 #endif

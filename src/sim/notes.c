@@ -150,7 +150,7 @@ static void note_channel(const note_taker *n, const scenario *s, const vessel_en
     double speed = own_speed_in_ice(entry->keys), x = d->x_max - d->x_min, y = d->y_max - d->y_min;
     double way = fmin(speed * s->run.duration, sqrt(x * x + y * y));
     if (s->ice.source != ICE_LEVEL || !s->ice.breakable || s->ice.sleep_speed > 0 ||
-        way < LONG_CHANNEL * s->run.scale / scenario_default_scale())
+        way < LONG_CHANNEL * scenario_size(s))
         return;
     note_fact(n,
               "channel: %s may go %.4g m, and pieces behind it cost as much as those beside it while they are awake; "

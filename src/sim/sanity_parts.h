@@ -23,7 +23,7 @@ static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.fo
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power)
 {
-    return real_pow(s->run.scale / scenario_default_scale(), power);
+    return real_pow(scenario_size(s), power);
 }
 
 #endif

@@ -264,7 +264,7 @@ static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e,
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    double size = s->run.scale / scenario_default_scale();
+    double size = scenario_size(s);
     if (p->length < SHORTEST * fmin(1, size) || p->length > LONGEST * fmax(1, size))
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: a file in millimetres wants "

@@ -9,10 +9,6 @@
 TABLE_DEFINE(thruster, THRUSTER_FIELDS)
 #undef TABLE_SELF
 
-/* Power of an open propeller per newton at its largest thrust: a bollard pull of 160 N per kilowatt is usual for
-   unducted azimuth and tunnel thrusters. */
-#define POWER_PER_THRUST (1000.0 / 160)
-
 /* An order from the start is one that the thruster can follow. */
 static fram_status check_order(const thruster_definition *d, fram_error *error)
 {
@@ -74,7 +70,7 @@ fram_status thruster_add(context *ctx, const thruster_definition *d, const vesse
     t->forbidden_centre[row] = d->forbidden_centre;
     t->forbidden_half[row] = d->kind == THRUSTER_AZIMUTH ? d->forbidden_half : 0;
     t->cost[row] = d->cost;
-    t->full_power[row] = isnan(d->full_power) ? d->ahead * POWER_PER_THRUST : d->full_power;
+    t->full_power[row] = d->full_power;
     t->failure_time[row] = d->failure_time;
     t->order[row] = d->order;
     t->angle[row] = t->order_angle[row] = d->kind == THRUSTER_TUNNEL ? 0.5 * PI : d->order_angle;

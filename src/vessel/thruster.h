@@ -45,7 +45,7 @@ typedef struct thruster_definition {
     vec3 place;           /* ship coordinates [m] */
     double ahead, astern; /* [N] */
     double time_constant, speed_rate, turn_rate, rudder, forbidden_centre, forbidden_half, cost;
-    double full_power; /* a NaN: from momentum theory, see thruster_power */
+    double full_power;
     double failure_time;
     double order, order_angle; /* at the start */
 } thruster_definition;

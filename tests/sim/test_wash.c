@@ -115,6 +115,26 @@ START_TEST(propulsion_washes_too)
 }
 END_TEST
 
+/* At a quarter of full size, by Froude: discs bear a quarter of the pressure, a newton takes half of the power. */
+START_TEST(propellers_left_to_fram_go_with_scale)
+{
+    static const char *const quarter[] = {"run.scale=7.5"};
+    static const char *const text = "run: {scale: 30}\n"
+                                    "vessel:\n  mode: free\n"
+                                    "  hull: {form: box, length: 60, beam: 14, draught: 6, freeboard: 4}\n"
+                                    "  propulsion: {bollard_pull: 4.0e5}\n"
+                                    "  thrusters: [{x: 20, thrust: 1.0e5}]\n"
+                                    "ice: {source: none}\n";
+    scene k;
+    scene_open_with(&k, text, quarter, 1);
+    const wash_model *wash = &k.m.vessels.data[0].wash;
+    assert_relative(wash->diameter, sqrt(4 * 4e5 / (PI * 45e3 / 4)), 1e-12);
+    assert_relative(wash->thruster[0], sqrt(4 * 1e5 / (PI * 45e3 / 4)), 1e-12);
+    assert_relative(k.w.thrusters.full_power[0], 6.25 / 2 * 1e5, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
 /* Off: as if there were no such thing; on: the same with another number of threads, and as state goes on. */
 START_TEST(off_changes_nothing)
 {
@@ -167,4 +187,4 @@ END_TEST
 
 TEST_MAIN("wash", pushes_the_floe_behind_and_no_other, pushes_with_the_floes_own_drag, turns_round_with_the_thrust,
           gives_no_more_than_the_thrust, propulsion_washes_too, off_changes_nothing,
-          goes_on_from_a_copy_with_more_threads, refuses_wash_that_cannot_be)
+          propellers_left_to_fram_go_with_scale, goes_on_from_a_copy_with_more_threads, refuses_wash_that_cannot_be)

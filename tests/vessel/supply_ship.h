@@ -59,7 +59,7 @@ static inline thruster_definition supply_tunnel(double x)
                                  .speed_rate = 10,
                                  .turn_rate = 1,
                                  .cost = 1,
-                                 .full_power = (double)NAN,
+                                 .full_power = 6.25 * most,
                                  .failure_time = HUGE_VAL};
 }
 
@@ -69,6 +69,7 @@ static inline thruster_definition supply_main(double y)
     d.kind = THRUSTER_MAIN;
     d.place.y = y;
     d.ahead = d.astern = 31.2 * 160 * 160;
+    d.full_power = 6.25 * d.ahead;
     return d;
 }
 
