@@ -96,7 +96,7 @@ WORDS = idle_keys|sanity|sanity_gear|sanity_units|verdict|faults|vessel_list
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
 	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
-		-E '^($(MANY_TRIALS)|ice/crushing_oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability|channels|pressure|why|inputs|hull|manage|ice))$$'
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|dynamics/oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability|channels|pressure|why|inputs|hull|manage|ice))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads

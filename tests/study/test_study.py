@@ -17,7 +17,7 @@ import unittest
 
 from studies import BASE, FRAM, SHORT, StudyTest
 
-# Many runs for their statistics, whose sums stand in tests in C of this room.
+# Many runs for their numbers: their sums stand in tests in C of this room, what starts and stops runs in the others here.
 WHOLE = unittest.skipIf(SHORT, "tests are short")
 
 
@@ -111,6 +111,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertAlmostEqual(float(rows["moored"]["line_tension_largest[N]"]), tension, delta=1e-6 * tension)
         self.assertEqual(rows["east"]["line_tension_largest[N]"], "")
 
+    @WHOLE
     def test_a_ship_with_another_one_and_without_it(self):
         (self.at / "two.yaml").write_text("""
 run: {duration: 3, time_step: 0.02, transient: 1}
@@ -237,6 +238,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.fram(path, "-o", folder, code=2)
         self.assertTrue(first.exists())
 
+    @WHOLE
     def test_the_effective_study_is_the_study(self):
         study = self.write("set: {run.duration: 0.2, run.transient: 0.1}\nseeds: {least: 2, first: 3}\n"
                            "vary: {latin: {count: 3, keys: {vessel.speed: [1, 2], ice.thickness: [0.5, 1]}}}\n"
@@ -451,6 +453,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                              capture_output=True, text=True)
         self.assertEqual(json.loads(one.stdout)["jobs"], 1)
 
+    @WHOLE
     def test_conditions_of_a_list_a_table_and_a_hypercube(self):
         study = self.write("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
                            "    - {vessel.speed: 2, ice.thickness: 1}\n")
@@ -492,6 +495,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertLess(there, 6)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 6)
 
+    @WHOLE
     def test_the_page_and_the_netcdf_file(self):
         study = self.write("seeds: {least: 2, first: 4}\nkeep: series\n"
                            "vary: {grid: {ice.thickness: [0.5, 1], vessel.speed: [2, 2.5]}}\n")
@@ -559,6 +563,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.skipTest("python3-xarray or python3-netcdf4 is not installed")
         self.assertEqual(json.loads(done.stdout), [words, [0, 0, 1]])
 
+    @WHOLE
     def test_a_year_of_which_no_run_saw_any_load_has_no_level(self):
         study = self.write("seeds: 12\nset: {run.duration: 0.2, run.transient: 0.1, ice.source: none}\n"
                            "extremes: {duration: 1min, hours: [100], annual: [1e-2]}\n")
@@ -669,6 +674,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertIn("too few", self.rows("few", "extremes.csv")[0]["note"])
         self.assertIn("condition 1", self.rows("few", "annual.csv")[0]["note"])
 
+    @WHOLE
     def test_conditions_that_are_the_same_scenario_share_their_runs(self):
         # As Morris' designs on few levels have them: their runs have one folder, and are made once.
         base = "set: {run.duration: 0.3, run.transient: 0.1}\nkeep: summary\n"
