@@ -358,7 +358,7 @@ static void tell_domain(const teller *t, const vessel_entry *e)
 static void tell_basin(const teller *t)
 {
     const scenario *s = t->s;
-    bool drifts = s->environment.current_speed > 0 || s->environment.current_file[0];
+    bool drifts = s->environment.water && (s->environment.current_speed > 0 || s->environment.current_file[0]);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         bool held = e.keys->mooring.lines.count > 0 || e.keys->positioning.active;

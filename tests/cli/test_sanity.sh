@@ -83,6 +83,11 @@ expect 0 "$FRAM" check hull.yaml --set environment.wind_speed=0 --set environmen
     --set vessel.mode=towed --set vessel.speed=1
 grep 'no load will come' err && fail "a towed vessel is told to rest"
 
+# Walls hold the ice that a current drives, and where there is no water there is none.
+told ship.yaml "domain.boundary: walls keep the ice in a basin|take feeding" --set domain.boundary=walls
+expect 0 "$FRAM" check ship.yaml --set domain.boundary=walls --set environment.water=false
+grep 'walls keep the ice' err && fail "a current is told that is without effect"
+
 # One vessel of two that moves is enough, and so is one that drives itself.
 cat >two.yaml <<'END'
 run: {duration: 10, time_step: 0.005}
