@@ -483,6 +483,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
         tell_hull(&t, &e);
         tell_domain(&t, &e);
         tell_station(&t, &e);
+        sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, &e, tell, to);
         sanity_tell_control(s, &e, tell, to);
     }

@@ -16,6 +16,8 @@ void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __a
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to);
 /* What of a vessel's gear does not belong together or to its hull.  sanity_tell asks. */
 void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
+/* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
+void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */

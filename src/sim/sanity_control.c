@@ -31,11 +31,7 @@ static void tell_interval(const teller *t, const char *key, double interval)
 
 static void tell_model_mass(const teller *t, const char *key, double mass)
 {
-    const scenario_vessel *v = t->e->keys;
-    double own = automatic_or(v->mass, 0);
-    if (is_automatic(v->mass) && sanity_own_hull(v))
-        own = t->s->environment.water_density * v->hull.length * v->hull.beam * v->hull.draught *
-              automatic_or(v->hull.block_coefficient, 0.7);
+    double own = sanity_about_mass(t->s, t->e->keys);
     if (!is_automatic(mass) && own > 0 && (mass < MODEL_MASS_LEAST * own || mass > MODEL_MASS_MOST * own))
         sanity_say(t->tell, t->to,
                    "%s.positioning.%s: %.4g kg is %.3g of the vessel's mass, about %.3g kg: give kilograms with the "

@@ -20,6 +20,19 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN]);
 /* A hull by its particulars; that of a file has its size in the file. */
 static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
 
+/* Of what a box of its hull displaces. */
+#define SANITY_BLOCK 0.7
+
+/* About the mass of a vessel [kg]; 0: not known. */
+static inline double sanity_about_mass(const scenario *s, const scenario_vessel *v)
+{
+    const scenario_hull *h = &v->hull;
+    if (!is_automatic(v->mass) || !sanity_own_hull(v))
+        return automatic_or(v->mass, 0);
+    return s->environment.water_density * h->length * h->beam * h->draught *
+           automatic_or(h->block_coefficient, SANITY_BLOCK);
+}
+
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power)
 {
