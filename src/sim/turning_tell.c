@@ -70,6 +70,32 @@ static vec2 place_at(const pattern_view *v, const model *m, const world *w, int3
     return vec2_add(place, vec2_make(c * at.x - e * at.y, e * at.x + c * at.y));
 }
 
+/* The speed that a period asks for, and what the ship makes at its power. */
+static void tell_period(const pattern_view *v)
+{
+    const scenario_propulsion *p = &v->entry->keys->propulsion;
+    const propulsion_settings *set = v->set;
+    double length = track_of_pattern(&v->shape, set->turning.corner).length;
+    if (is_automatic(p->pattern.period))
+        return;
+    if (set->speed > set->open_water_speed)
+        log_write(
+            v->ctx, LOG_WARNING,
+            "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s makes %.4g m/s in "
+            "open water at that power: take %.4g s or more",
+            v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
+            set->open_water_speed, length / set->open_water_speed);
+    else if (set->speed <= set->beset_speed)
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s counts as beset "
+                  "under %.3g m/s (propulsion.beset_speed): take less than %.4g s",
+                  v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
+                  set->beset_speed, length / set->beset_speed);
+}
+
+/* Without the rounding about an axis. */
+static double tidy(double metres) { return fabs(metres) < 1e-6 ? 0 : metres; }
+
 /* Whether a place is in the domain; tells if it is not. */
 static bool check_place(const pattern_view *v, double time, vec2 at)
 {
@@ -79,7 +105,7 @@ static bool check_place(const pattern_view *v, double time, vec2 at)
     log_write(v->ctx, LOG_WARNING,
               "%s.propulsion.pattern: at %.4g s it leads to (%.4g, %.4g) m, outside of the domain, where there is "
               "no ice: enlarge the domain, or take a smaller or nearer pattern (loops have a radius of %.4g m)",
-              v->entry->path, time, at.x, at.y, v->set->turning.corner);
+              v->entry->path, time, tidy(at.x), tidy(at.y), v->set->turning.corner);
     return false;
 }
 
@@ -129,5 +155,6 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
                   "through (domain.boundary: feeding)",
                   vessel_title_of(entry).text);
     tell_arcs(&v);
+    tell_period(&v);
     tell_domain(&v, m, w, p->count - 1);
 }

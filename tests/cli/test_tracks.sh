@@ -48,6 +48,14 @@ holds "pattern: at 0 s it leads to .*outside of the domain" err
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.kind=square \
     --set vessels.breaker.propulsion.pattern.width=100 --set vessels.breaker.propulsion.turning_radius=90
 says "corners of 90 m radius leave nothing straight of a side of 100 m" err
+# A period that asks for more than the ship makes, for less than counts as beset, and for what lies between.
+period=vessels.breaker.propulsion.pattern.period
+expect 0 "$FRAM" check scene.yaml --set $period=1 --set vessels.breaker.propulsion.speed=auto
+holds "vessels\[1\].propulsion.pattern.period: a round of .* m in 1 s asks for .* vessel breaker makes .* m/s" err
+expect 0 "$FRAM" check scene.yaml --set $period=3e5 --set vessels.breaker.propulsion.speed=auto
+holds "pattern.period: a round of .* m in 3e+05 s asks for .* and vessel breaker counts as beset under" err
+expect 0 "$FRAM" check scene.yaml --set $period=100 --set vessels.breaker.propulsion.speed=auto
+grep 'pattern.period' err && fail "a period is told that the ship can keep"
 
 expect 0 "$FRAM" run scene.yaml -o one -q --threads 1
 expect 0 "$FRAM" run scene.yaml -o two -q --threads 2
