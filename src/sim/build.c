@@ -106,6 +106,13 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
     return status;
 }
 
+/* Floes of a list are a thousand at most and made at once: what is wrong with their places is known without a run. */
+static fram_status check_listed(context *ctx, const scenario *s, const model *m, world *w, fram_error *error)
+{
+    field_report report = {0};
+    return s->ice.source == ICE_FLOES ? name_ice(s, build_field(ctx, s, m, w, &report, error), error) : FRAM_OK;
+}
+
 fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error)
 {
     model m;
@@ -114,8 +121,10 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram
     if (status != FRAM_OK)
         return status;
     status = build_before_ice(ctx, s, &m, &w, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
+        status = check_listed(ctx, s, &m, &w, error);
         world_free(ctx, &w);
+    }
     model_free(ctx, &m);
     return status;
 }

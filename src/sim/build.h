@@ -12,8 +12,8 @@
 fram_status build_world(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error);
 
-/* The vessels and their stations alone, as build_world makes them, and then nothing of it: for what cannot be, and for
-   the warnings in the log.  store: of hulls, may be NULL (build_hull.h). */
+/* The vessels and their stations alone, and floes that are listed, as build_world makes them, and then nothing of it:
+   for what cannot be, and for the warnings in the log.  store: of hulls, may be NULL (build_hull.h). */
 fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error);
 
 /* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile.

@@ -64,6 +64,8 @@ all_told floes.yaml "ice.floes[0].x=20" "ice.floes[0].velocity_y=20" "ice.floes[
     "ice.floes[0]: 280.5 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
 all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
     "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
+sed 's/{x: 50,[^}]*}/&, {x: 55, length: 20, width: 20}/' floes.yaml >heap.yaml
+all_told heap.yaml -- "pairs of floes overlap at the start, as ice.floes[0] and ice.floes[1], by 300 m2"
 all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diameter_max=2000" \
     "ice.populations[0].thickness_deviation=20" "ice.populations[0].flexural_deviation=8e5" \
     "ice.populations[0].crushing_deviation=9e6" domain.y_max=-20 domain.y_min=-100 vessel.y=-60 \
