@@ -79,8 +79,12 @@ static void note_ice(const note_taker *n, const scenario *s)
 /* About how fast a vessel goes in ice by itself or as it is driven [m/s]. */
 static double own_speed_in_ice(const scenario_vessel *v)
 {
-    bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
-    return own ? fmax(v->speed, OWN_POWER_IN_ICE * vessel_fastest(v)) : vessel_fastest(v);
+    const scenario_propulsion *p = &v->propulsion;
+    if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull))
+        return vessel_fastest(v);
+    /* Where less is wanted the rest of the power goes into the ice. */
+    double left = OWN_POWER_IN_ICE * vessel_open_water_speed(p);
+    return fmax(v->speed, fmin(left, automatic_or(p->speed, HUGE_VAL)));
 }
 
 /* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files of drift and current say is not

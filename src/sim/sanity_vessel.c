@@ -77,7 +77,7 @@ static void tell_propulsion(const teller *t)
     const scenario_propulsion *p = &v->propulsion;
     if (is_automatic(p->bollard_pull))
         return;
-    double most = p->open_water_speed * real_pow(p->power, 1.0 / 3);
+    double most = vessel_open_water_speed(p);
     if (!is_automatic(p->speed) && p->speed > most)
         sanity_say(t->tell, t->to,
                    "%s.propulsion.speed: %.4g m/s is more than the ship makes in open water at that power, %.4g m/s",

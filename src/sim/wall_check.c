@@ -47,14 +47,18 @@ static double fastest_on_path(const scenario_vessel *v)
     return most;
 }
 
+/* As the key of the power says. */
+double vessel_open_water_speed(const scenario_propulsion *p)
+{
+    return p->open_water_speed * real_pow(p->power, 1.0 / 3);
+}
+
 double vessel_fastest(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;
     if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull))
         return fmax(v->speed, fastest_on_path(v));
-    /* As the key of the power says. */
-    double most = p->open_water_speed * real_pow(p->power, 1.0 / 3);
-    return fmax(v->speed, fmin(most, automatic_or(p->speed, HUGE_VAL)));
+    return fmax(v->speed, fmin(vessel_open_water_speed(p), automatic_or(p->speed, HUGE_VAL)));
 }
 
 bool vessel_keeps_course(const scenario_vessel *v)

@@ -20,6 +20,8 @@ void wall_remind(context *ctx, const scenario *s, const model *m, const world *w
 /* The fastest that a vessel goes by itself, on its path or on its carriage [m/s]: an upper bound for one under its own
  * power. */
 double vessel_fastest(const scenario_vessel *v);
+/* What a ship with propulsion makes in open water at its power, whatever speed is wanted [m/s]. */
+double vessel_open_water_speed(const scenario_propulsion *p);
 /* Whether it goes on along its course: on a carriage, or under its own power where nothing says otherwise. */
 bool vessel_keeps_course(const scenario_vessel *v);
 

@@ -104,11 +104,14 @@ told ship.yaml "centre_of_gravity_x: the vessel trims" --set vessel.centre_of_gr
 told ship.yaml "centre_of_gravity_y: the vessel heels" --set vessel.centre_of_gravity_y=5
 told ship.yaml "vessel.mass is 0.106" --set vessel.mass=5.5e5
 
-# Times; how fast vessel and ice meet, by the drift, a path or half of what the ship's own power gives.
+# Times; how fast vessel and ice meet, by the drift, a path, the speed that is wanted or half of what
+# the ship's own power gives in open water, whatever is less.
 told ship.yaml "the vessel and the ice move 0.11 of its thickness past each other in a step at 0.4 m/s" \
     --set run.time_step=0.2
-told drive.yaml "the vessel and the ice move 0.11 of its thickness past each other in a step at 1.5 m/s" \
+told drive.yaml "the vessel and the ice move 0.21 of its thickness past each other in a step at 3 m/s" \
     --set run.time_step=0.05
+told drive.yaml "the vessel and the ice move 0.25 of its thickness past each other in a step at 3.5 m/s" \
+    --set run.time_step=0.05 --set vessel.propulsion.speed=5
 sed 's/free/prescribed/; s/^  propulsion.*/  path: [{time: 0}, {time: 60, x: 60}]/' drive.yaml >path.yaml
 told path.yaml "the vessel and the ice move 0.14 of its thickness past each other in a step at 1 m/s" \
     --set run.time_step=0.1
