@@ -100,6 +100,10 @@ static fram_status check_feeding(const scenario *s, fram_error *error)
         if (d->drift_file[0] && !is_automatic(d->drift_speed))
             return fault(s, error, "domain.drift_speed",
                          "expected auto, since domain.drift_file tells it, found %g m/s", d->drift_speed);
+        double narrow = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
+        if (s->ice.source != ICE_LEVEL && 2 * automatic_or(d->band, 0) >= narrow)
+            return fault(s, error, "domain.band", "expected less than half of the domain, %g m, found %g m",
+                         0.5 * narrow, d->band);
         return FRAM_OK;
     }
     if (d->drift_file[0])

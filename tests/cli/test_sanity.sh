@@ -22,6 +22,7 @@ for scene in "$FRAM_SOURCE"/scenes/*.yaml; do
 done
 
 # A number in another unit.
+refused domain.band "expected less than half of the domain, 160 m, found 200 m" --set domain.band=200
 refused vessel.mass "thrown out of the water" --set vessel.mass=5000
 refused vessel.mass "it sinks" --set vessel.mass=5e9
 refused ice.concentration "from 0.01 to 1" --set ice.concentration=70
