@@ -60,6 +60,67 @@ fram_status build_footprint(context *ctx, const world *w, int32_t body, bool bel
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* Part of a footprint that its pieces must leave open for them to be told apart. */
+#define OPEN_PART 0.01
+
+/* Plan points of a convex piece of a hull, or of its part below still water. */
+static bool add_piece(context *ctx, const world *w, int32_t body, const polyhedron *p, bool below_water,
+                      vec2_array *points)
+{
+    bool good = true;
+    for (int32_t f = 0; f < p->face.count; f++) {
+        const int32_t *loop = &p->loop.data[p->face.data[f].first];
+        for (int32_t k = 2; good && k < p->face.data[f].count; k++) {
+            vec3 corner[3] = {p->vertex.data[loop[0]], p->vertex.data[loop[k - 1]], p->vertex.data[loop[k]]};
+            for (int i = 0; i < 3; i++)
+                corner[i] = body_to_global(&w->bodies, body, corner[i]);
+            good = add_triangle(ctx, corner, below_water, points);
+        }
+    }
+    return good;
+}
+
+/* Plan outlines of all convex pieces, and the area of all together. */
+static bool add_pieces(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out, double *area)
+{
+    const polyhedron_array *pieces = &shape_solid(&w->shapes, w->bodies.shape[body])->pieces;
+    vec2_array points = {0}, outline = {0};
+    bool good = true;
+    *area = 0;
+    for (int32_t i = 0; good && i < pieces->count; i++) {
+        points.count = 0;
+        good = add_piece(ctx, w, body, &pieces->data[i], below_water, &points) &&
+               polygon_convex_hull(ctx, (polygon){points.data, points.count}, &outline);
+        if (!good || outline.count < 3)
+            continue;
+        polygon part = {outline.data, outline.count};
+        *area += polygon_area(part);
+        good = polygon_list_push(ctx, out, part);
+    }
+    array_free(ctx, &points);
+    array_free(ctx, &outline);
+    return good;
+}
+
+fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out,
+                       fram_error *error)
+{
+    vec2_array footprint = {0};
+    polygon_list parts = {0};
+    double area = 0;
+    fram_status status = build_footprint(ctx, w, body, below_water, &footprint, error);
+    polygon whole = {footprint.data, footprint.count};
+    bool good = status == FRAM_OK && add_pieces(ctx, w, body, below_water, &parts, &area);
+    bool apart = good && whole.count >= 3 && area < (1 - OPEN_PART) * polygon_area(whole);
+    for (int32_t i = 0; good && apart && i < polygon_list_count(&parts); i++)
+        good = polygon_list_push(ctx, out, polygon_list_get(&parts, i));
+    if (good && !apart)
+        good = polygon_list_push(ctx, out, whole);
+    array_free(ctx, &footprint);
+    polygon_list_free(ctx, &parts);
+    return status == FRAM_OK && !good ? error_memory(error) : status;
+}
+
 /* Outlines along a space-filling curve: neighbours in the water become neighbours in memory.  NULL: no memory. */
 static int32_t *memory_order(context *ctx, const polygon_list *outlines)
 {

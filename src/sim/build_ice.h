@@ -18,5 +18,9 @@ double build_ice_elevation(const scenario *s, double thickness);
    and of its part below still water. */
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error);
+/* The same as convex outlines that are hardly larger: those of the hull's convex pieces, where the footprint holds open
+   water between them, as of a catamaran; else the footprint alone.  Added to `out`. */
+fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out,
+                       fram_error *error);
 
 #endif

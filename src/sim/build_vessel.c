@@ -110,27 +110,45 @@ static vessel_title title_of_row(const scenario *s, int32_t row)
 /* Part of the smaller footprint that rounding may take for an overlap. */
 #define TOUCHING 1e-9
 
+/* All outlines of a plan together. */
+static double plan_area(const polygon_list *plan)
+{
+    double area = 0;
+    for (int32_t i = 0; i < polygon_list_count(plan); i++)
+        area += polygon_area(polygon_list_get(plan, i));
+    return area;
+}
+
+static double plans_overlap(const polygon_list *a, const polygon_list *b)
+{
+    double common = 0;
+    for (int32_t i = 0; i < polygon_list_count(a); i++)
+        for (int32_t k = 0; k < polygon_list_count(b); k++)
+            common += polygon_overlap_area(polygon_list_get(a, i), polygon_list_get(b, k));
+    return common;
+}
+
 /* Two hulls that are in each other would be thrown apart by the first step.  Seen from above, decks and overhangs
    included. */
 static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
                                           int32_t row, fram_error *error)
 {
-    vec2_array own = {0}, other = {0};
+    polygon_list own = {0}, other = {0};
     fram_status status = FRAM_OK;
     if (row > 0)
-        status = build_footprint(ctx, w, w->vessels.body[row], false, &own, error);
+        status = build_plan(ctx, w, w->vessels.body[row], false, &own, error);
     for (int32_t v = 0; v < row && status == FRAM_OK; v++) {
-        status = build_footprint(ctx, w, w->vessels.body[v], false, &other, error);
-        polygon a = {own.data, own.count}, b = {other.data, other.count};
-        double common = status == FRAM_OK ? polygon_overlap_area(a, b) : 0;
-        if (common > TOUCHING * fmin(polygon_area(a), polygon_area(b)))
+        polygon_list_clear(&other);
+        status = build_plan(ctx, w, w->vessels.body[v], false, &other, error);
+        double common = status == FRAM_OK ? plans_overlap(&own, &other) : 0;
+        if (common > TOUCHING * fmin(plan_area(&own), plan_area(&other)))
             status = vessel_fault(s, entry, "x", error,
                                   "the hull lies in that of %s at the start, by %.4g m2 as seen from above: move one "
                                   "of them",
                                   title_of_row(s, v).text, common);
     }
-    array_free(ctx, &own);
-    array_free(ctx, &other);
+    polygon_list_free(ctx, &own);
+    polygon_list_free(ctx, &other);
     return status;
 }
 

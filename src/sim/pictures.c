@@ -51,13 +51,17 @@ static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
 static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t body, fram_error *error)
 {
     for (int below = 0; below < 2; below++) {
-        vec2_array outline = {0};
-        fram_status status = build_footprint(ctx, w, body, below == 1, &outline, error);
+        polygon_list plan = {0};
+        fram_status status = build_plan(ctx, w, body, below == 1, &plan, error);
         plan_shape shape = {.style = below ? PLAN_WATERLINE : PLAN_DECK, .height = HUGE_VAL};
-        bool good = status == FRAM_OK && begin_shape(ctx, p, shape);
-        for (int32_t i = 0; good && i < outline.count; i++)
-            good = array_push(ctx, &p->vertex, outline.data[i]);
-        array_free(ctx, &outline);
+        bool good = status == FRAM_OK;
+        for (int32_t k = 0; good && k < polygon_list_count(&plan); k++) {
+            polygon outline = polygon_list_get(&plan, k);
+            good = begin_shape(ctx, p, shape);
+            for (int32_t i = 0; good && i < outline.count; i++)
+                good = array_push(ctx, &p->vertex, outline.vertex[i]);
+        }
+        polygon_list_free(ctx, &plan);
         if (status != FRAM_OK)
             return status;
         if (!good)

@@ -318,16 +318,20 @@ static int32_t floe_outline(const scenario_floe *f, vec2 out[FLOE_SIDES_MOST])
 static void warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row)
 {
     const scenario_ice *ice = &s->ice;
-    vec2_array hull = {0};
+    polygon_list hull = {0};
     fram_error ignored = {0};
-    if (ice->source != ICE_FLOES || build_footprint(ctx, w, w->vessels.body[row], false, &hull, &ignored) != FRAM_OK)
+    if (ice->source != ICE_FLOES || build_plan(ctx, w, w->vessels.body[row], false, &hull, &ignored) != FRAM_OK)
         return;
-    polygon ship = {hull.data, hull.count};
     for (int32_t i = 0; i < ice->floes.count; i++) {
         const scenario_floe *f = &ice->floes.data[i];
         vec2 corner[FLOE_SIDES_MOST];
         polygon floe = {corner, floe_outline(f, corner)};
-        double common = polygon_overlap_area(ship, floe), least = fmin(polygon_area(ship), polygon_area(floe));
+        double common = 0, ship = 0;
+        for (int32_t k = 0; k < polygon_list_count(&hull); k++) {
+            common += polygon_overlap_area(polygon_list_get(&hull, k), floe);
+            ship += polygon_area(polygon_list_get(&hull, k));
+        }
+        double least = fmin(ship, polygon_area(floe));
         if (is_automatic(f->elevation) && common > INSIDE * least)
             log_write(
                 ctx, LOG_WARNING,
@@ -335,7 +339,7 @@ static void warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e
                 "one of them",
                 (int)i, common, f->x, f->y, vessel_title_of(e).text);
     }
-    array_free(ctx, &hull);
+    polygon_list_free(ctx, &hull);
 }
 
 void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *m, const world *w,

@@ -151,4 +151,41 @@ for change in barge.mode=free barge.y=9; do
     grep -q 'is driven through' err && fail "vessels are said to meet with $change"
 done
 
+# Between the two hulls of a catamaran there is water: a tug and a floe find room there, and the picture shows it.
+python3 - <<'END'
+corners = [(x, y, z) for side in (-10, 10) for z in (-3, 2) for y in (side - 2, side + 2) for x in (-20, 20)]
+faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+with open("catamaran.obj", "w") as file:
+    file.writelines("v %g %g %g\n" % c for c in corners)
+    file.writelines("f %d %d %d %d\n" % tuple(i + first for i in f) for first in (0, 8) for f in faces)
+END
+cat >catamaran.yaml <<'END'
+run: {duration: 0.02, time_step: 0.02}
+vessels:
+  - {name: cat, mode: towed, hull: {form: file, file: catamaran.obj}}
+  - {name: tug, mode: towed, x: -10, hull: {form: box, length: 12, beam: 5, draught: 2, freeboard: 1}}
+ice: {source: floes, thickness: 0.5, floes: [{x: 10, length: 5, width: 5}]}
+domain: {x_min: -50, x_max: 50, y_min: -50, y_max: 50, boundary: open}
+END
+expect 0 "$FRAM" run catamaran.yaml -o catamaran
+grep '^warning.*lie inside' err && fail "a floe in open water is told to be in a hull"
+python3 - <<'END' || fail "the picture does not show the water between the hulls"
+import os
+import pathlib
+import sys
+
+sys.path.insert(0, os.environ["FRAM_SOURCE"] + "/tests/views")
+import chromium
+
+_, _, channels, rows = chromium.pixels(pathlib.Path("catamaran/plan.png").read_bytes())
+at = lambda x, y: tuple(rows[y][channels * x:channels * x + 3])
+middle, water = (514, 564), at(30, 80)  # ten pixels a metre
+assert at(*middle) == water, at(*middle)
+assert all(at(514, 564 + side) != water for side in (-100, 100)), (at(514, 464), at(514, 664))
+END
+expect 2 "$FRAM" check catamaran.yaml --set vessels.tug.y=8
+says "vessels[1].x: the hull lies in that of vessel cat at the start, by 30 m2 as seen from above" err
+expect 0 "$FRAM" check catamaran.yaml --set "ice.floes[0].y=10"
+says "ice.floes[0]: 20 m2 of the floe at (10, 10) m lie inside the hull of vessel cat" err
+
 finish "vessels of a list go by name"
