@@ -126,6 +126,10 @@ static fram_status check_station(const scenario *s, const vessel_entry *e, fram_
         return vessel_fault(s, e, "thrusters", error,
                             "expected none, since %s.mode is not free, found %d: thrusters move a vessel in mode: free",
                             e->path, (int)v->thrusters.count);
+    if (held && v->positioning.active)
+        return vessel_fault(s, e, "positioning.active", error,
+                            "expected false, since %s.mode is not free: a vessel that is positioned needs mode: free",
+                            e->path);
     if (v->positioning.active && v->thrusters.count == 0)
         return vessel_fault(s, e, "thrusters", error,
                             "expected thrusters, since %s.positioning.active is true, found none", e->path);

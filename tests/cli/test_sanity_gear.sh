@@ -133,6 +133,10 @@ told ship.yaml "csv_interval: 100 s leaves 6 rows" --set output.csv_interval=100
 grep -v propulsion drive.yaml >towed.yaml
 told towed.yaml "vessel.ramp: 100 s is not over when the run ends" --set vessel.mode=towed --set vessel.speed=2 \
     --set vessel.ramp=100
+for mode in towed prescribed; do
+    refused towed.yaml "vessel.positioning.active: expected false, since vessel.mode is not free" \
+        --set vessel.positioning.active=true --set vessel.mode=$mode
+done
 
 # The writing.
 refused ship.yaml 'found "0.7 m"' --set "ice.thickness=0.7 m"
