@@ -70,12 +70,28 @@ static void tell_reach(const teller *t)
                    t->e->path, all ? "for all of them are at one place" : "for they push through amidships");
 }
 
+/* The first way point that is not asked for in the run. */
+static void tell_late(const teller *t)
+{
+    const scenario_positioning *p = &t->e->keys->positioning;
+    for (int32_t i = 0; i < p->waypoints.count; i++) {
+        if (p->waypoints.data[i].time <= t->s->run.duration)
+            continue;
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.waypoints[%d].time: %g s is after the end of the run, %g s: the vessel does not go "
+                   "there",
+                   t->e->path, (int)i, p->waypoints.data[i].time, t->s->run.duration);
+        return;
+    }
+}
+
 static void tell_positioning(const teller *t)
 {
     const scenario_positioning *p = &t->e->keys->positioning;
     if (!p->active)
         return;
     tell_reach(t);
+    tell_late(t);
     tell_interval(t, "interval", p->interval);
     tell_interval(t, "sample_interval", p->sample_interval);
     tell_model_mass(t, "mass_surge", p->mass_surge);

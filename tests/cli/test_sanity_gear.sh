@@ -79,6 +79,11 @@ held "no thruster pushes the vessel aside" --set "vessel.thrusters[0].kind=main"
 held "the thrusters do not turn the vessel, for all of them are at one place" --set "vessel.thrusters[1].x=30"
 held "the thrusters do not turn the vessel|through amidships" --set vessel.positioning.control=heading \
     --set "vessel.thrusters[0].x=0" --set "vessel.thrusters[1].x=0"
+goes='positioning: {active: true, waypoints: [{time: 60, x: 5}, {time: 6000, x: 9}]}'
+sed "s/^  thrusters.*/&\n  $goes/" held.yaml >late.yaml
+told late.yaml "vessel.positioning.waypoints[1].time: 6000 s is after the end of the run, 600 s"
+expect 0 "$FRAM" check late.yaml --set "vessel.positioning.waypoints[1].time=600"
+grep 'waypoints' err && fail "a way point of the end is told"
 for options in vessel.positioning.active=true vessel.positioning.control=heading; do
     expect 0 "$FRAM" check held.yaml --set vessel.positioning.active=true --set "$options"
     grep 'warning: vessel.positioning: ' err && fail "thrusters that do it are told: $options"
