@@ -172,13 +172,25 @@ static void log_populations(context *ctx, const field_population_report *parts, 
               (int)report->rounds, report->field.largest_overlap);
 }
 
+/* The scenario's word for a part of what is asked of the room of the ice. */
+static const char *ice_key_of(const scenario *s, const char *member)
+{
+    if (strcmp(member, "mean_area") == 0)
+        return "mean_floe_area";
+    if (strcmp(member, "keep_out") != 0)
+        return member;
+    return s->ice.open_water.count > 0 ? "open_water"
+           : s->ice.open_water_file[0] ? "open_water_file"
+                                       : "keep_out_margin";
+}
+
 void name_ice_request(const scenario *s, fram_error *error)
 {
     char member[sizeof error->key];
     if (!error || !error->key[0] || error->file[0])
         return;
     snprintf(member, sizeof member, "%s", error->key);
-    const char *key = strcmp(member, "mean_area") == 0 ? "mean_floe_area" : member;
+    const char *key = ice_key_of(s, member);
     snprintf(error->key, sizeof error->key, "%s%.100s", strcmp(member, "domain") == 0 ? "" : "ice.", key);
     scenario_locate(s, error);
 }

@@ -75,6 +75,13 @@ all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diamet
 all_told packed.yaml "ice.populations[0].diameter=150" -- \
     "populations[0].diameter: the mean, 150 m, is outside of the sizes that are drawn|10 to 100 m"
 
+# No water is left: the key that took it is named.
+sed 's/^ice: {/&open_water: [{length: 900, width: 900}], /' towed.yaml >bare.yaml
+expect 2 "$FRAM" run bare.yaml -o bare
+says "bare.yaml:3:7: ice.open_water: no water is left for ice beside the vessels and the zones without ice" err
+expect 2 "$FRAM" run towed.yaml -o bare --set ice.keep_out_margin=400
+says "ice.keep_out_margin: no water is left for ice" err
+
 # Control, thrusters, station.
 all_told held.yaml vessel.positioning.interval=1000 vessel.positioning.sample_interval=0.001 \
     vessel.positioning.damping=0 vessel.positioning.mass_surge=5000 vessel.positioning.bias_time=1 \

@@ -283,7 +283,7 @@ START_TEST(impossible_targets)
     ck_assert(polygon_list_push(&ctx, &zones, (polygon){all, 4}));
     q = request_of(0.9, 1);
     q.keep_out = &zones;
-    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "no free area");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "no water is left for ice");
     polygon_list_clear(&zones);
     static const vec2 dart[4] = {{0, 60}, {40, 100}, {0, 80}, {-40, 100}};
     ck_assert(polygon_list_push(&ctx, &zones, (polygon){dart, 4}));
