@@ -80,11 +80,17 @@ static fram_status check_sizes(const feeding_definition *d, double band, double 
             "expected a tile that is %.4g m larger than the window both ways, for floes of %.4g m, so that "
             "none is in the window twice; it is larger by %.4g m and %.4g m",
             room, 2 * radius, spare.x, spare.y);
-    if (!(band >= radius && 2 * band < fmin(size.x, size.y)))
+    double half = 0.5 * fmin(size.x, size.y);
+    if (!(radius < half))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "window",
+                         "expected more than %.4g m both ways, as the largest floe measures, found %.4g m: make the "
+                         "domain larger or the floes smaller",
+                         2 * radius, 2 * half);
+    if (!(band >= radius && band < half))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
                          "expected a band from %.4g m, the radius of the largest floe, to %.4g m, half of the window; "
-                         "it is %.4g m",
-                         radius, 0.5 * fmin(size.x, size.y), band);
+                         "it is %.4g m: give such a band, make the domain larger or the floes smaller",
+                         radius, half, band);
     return FRAM_OK;
 }
 

@@ -19,7 +19,7 @@ static double tile_length(const scenario *s, double given, double window)
     return automatic_or(given, window + spare);
 }
 
-/* tile and band are keys of the domain. */
+/* Window, tile and band are keys of the domain. */
 static fram_status name_key(const scenario *s, fram_status status, fram_error *error)
 {
     if (status != FRAM_ERROR_INPUT || !error)
@@ -28,6 +28,8 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
         snprintf(error->key, sizeof error->key, "domain.tile_x");
     else if (strcmp(error->key, "band") == 0)
         snprintf(error->key, sizeof error->key, "domain.band");
+    else if (strcmp(error->key, "window") == 0)
+        snprintf(error->key, sizeof error->key, "domain");
     scenario_locate(s, error);
     return status;
 }

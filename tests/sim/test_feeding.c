@@ -456,6 +456,8 @@ START_TEST(refusals_name_their_key)
     check_refusal(alone, both, 2, "domain.drift_speed");
     static const char *const aside[] = {"vessel.x=35"};
     check_refusal(around, aside, 1, "domain.band");
+    static const char *const large[] = {"ice.mean_floe_area=6000", "vessel.present=false"};
+    check_refusal(around, large, 2, "domain");
 }
 END_TEST
 
