@@ -402,7 +402,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     const char *path = source->files[i];
     series_rows rows = {0};
     double_array *value = &out->values[i];
-    double from = 0;
+    double from = -HUGE_VAL; /* times of a file may begin below zero */
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)

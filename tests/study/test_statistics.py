@@ -114,6 +114,12 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(self.fram("extremes", file, "--channel", "x", "--minima", "--method", "gumbel")
                                ["series"]["greatest"], -3, delta=1e-9)
 
+    def test_times_of_a_file_begin_where_they_begin(self):
+        # All rows of a file are read where nothing else was asked: those before zero too.
+        file = self.write("time,x\n" + "".join(f"{i / 10},{i * 7919 % 100}\n" for i in range(-200, 100)))
+        for words, values in (((), 300), (("--from", "-5"), 150), (("--from", "0"), 100)):
+            self.assertEqual(self.fram("fatigue", file, "--channel", "x", *words)["series"]["values"], values)
+
     def test_too_little_is_told_and_no_error(self):
         file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
         for method in self.fram("extremes", file, "--channel", "x", "--block", "10")["methods"]:
