@@ -321,18 +321,23 @@ int command_extremes(const command_row *self, int argc, char **argv)
 
 /* ---- fram fatigue ---- */
 
-/* Counts by classes of the range, an equal width each. */
+/* Counts by classes of the range, an equal width each, with their upper ends. */
 enum { CLASSES = 10 };
+
+static double class_end(const fram_fatigue *f, int at) { return f->greatest * (at + 1) / CLASSES; }
+
 static void print_classes(const fram_fatigue *f)
 {
     double count[CLASSES] = {0};
     for (int64_t i = 0; i < f->count; i++) {
-        int at = (int)(f->list[i].range / f->greatest * CLASSES);
-        count[at < CLASSES ? at : CLASSES - 1] += f->list[i].count;
+        int at = 0;
+        while (at < CLASSES - 1 && f->list[i].range > class_end(f, at))
+            at++;
+        count[at] += f->list[i].count;
     }
     printf("ranges            cycles\n");
     for (int i = 0; i < CLASSES; i++)
-        printf("  up to %10.4g  %.1f\n", f->greatest * (i + 1) / CLASSES, count[i]);
+        printf("  up to %10.4g  %.1f\n", class_end(f, i), count[i]);
 }
 
 static void print_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)

@@ -120,6 +120,16 @@ class Statistics(unittest.TestCase):
         for words, values in (((), 300), (("--from", "-5"), 150), (("--from", "0"), 100)):
             self.assertEqual(self.fram("fatigue", file, "--channel", "x", *words)["series"]["values"], values)
 
+    def test_a_class_of_ranges_ends_with_its_end(self):
+        # Ranges of 1, 2 ... 10: one in each class of `up to 1`, `up to 2` ...
+        turns = [0]
+        for i in range(1, 11):
+            turns.append(turns[-1] + (i if i % 2 else -i))
+        file = self.write("time,x\n" + "".join(f"{i},{x}\n" for i, x in enumerate(turns)))
+        done = subprocess.run([FRAM, "fatigue", str(file), "--channel", "x"], capture_output=True, text=True)
+        classes = [line.split()[2:] for line in done.stdout.splitlines() if line.startswith("  up to")]
+        self.assertEqual(classes, [[str(i), "0.5"] for i in range(1, 11)], done.stdout)
+
     def test_too_little_is_told_and_no_error(self):
         file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
         for method in self.fram("extremes", file, "--channel", "x", "--block", "10")["methods"]:
