@@ -108,6 +108,8 @@ channel_statistics channel_statistics_of(const double *time, const double *value
         s.least = fmin(s.least, value[i]);
         s.greatest = fmax(s.greatest, value[i]);
     }
+    if (s.least == s.greatest && isfinite(s.mean)) /* of equal values a mean by a sum is a rounding off */
+        s.mean = s.least;
     double square = 0;
     for (int32_t i = first; i < count; i++)
         square += (value[i] - s.mean) * (value[i] - s.mean) / (count - first);

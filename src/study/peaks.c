@@ -49,6 +49,11 @@ series_nature series_nature_of(const series_set *s)
     }
     if (n.values == 0)
         return n;
+    if (!(n.least < n.greatest)) { /* of equal values a mean by a sum is off by rounding, and that would have a scale */
+        n.mean = n.least;
+        n.time_scale = s->step;
+        return n;
+    }
     n.mean = sum / (double)n.values;
     for (int32_t p = 0; p < s->count; p++)
         for (int32_t i = 0; i < s->parts[p].count; i++)

@@ -25,6 +25,20 @@ START_TEST(statistics_of_a_channel)
 }
 END_TEST
 
+/* Equal values scatter by nothing and have no peaks, though the mean that a sum makes of them is a rounding off. */
+START_TEST(equal_values_scatter_by_nothing)
+{
+    enum { N = 3000 };
+    double time[N], value[N];
+    for (int i = 0; i < N; i++) {
+        time[i] = i;
+        value[i] = 0.1;
+    }
+    channel_statistics s = channel_statistics_of(time, value, N, 0);
+    ck_assert(s.mean == 0.1 && s.deviation == 0 && s.peaks == 0);
+}
+END_TEST
+
 /* What was not measured is no number. */
 START_TEST(nothing_is_measured)
 {
@@ -76,4 +90,5 @@ START_TEST(peaks_may_be_many)
 }
 END_TEST
 
-TEST_MAIN("channel_statistics", statistics_of_a_channel, nothing_is_measured, peaks_have_a_side, peaks_may_be_many)
+TEST_MAIN("channel_statistics", statistics_of_a_channel, equal_values_scatter_by_nothing, nothing_is_measured,
+          peaks_have_a_side, peaks_may_be_many)

@@ -140,6 +140,9 @@ class Statistics(unittest.TestCase):
         still = self.write("time,x\n" + "".join(f"{i},3\n" for i in range(300)), "still.csv")
         for method in self.fram("extremes", still, "--channel", "x")["methods"]:
             self.assertIn("constant", method["note"])
+        tenth = self.write("time,x\n" + "".join(f"{i},0.1\n" for i in range(300)), "tenth.csv")
+        facts = self.fram("fatigue", tenth, "--channel", "x")["series"]
+        self.assertEqual((facts["mean"], facts["deviation"], facts["time_scale_s"]), (0.1, 0, 1))
         drift = self.write("time,x\n" + "".join(f"{i},{(i * 7919 % 100) / 50 + (i > 1000)}\n" for i in range(2000)),
                            "drift.csv")
         note = self.fram("extremes", drift, "--channel", "x", "--method", "gumbel", "--block",
