@@ -18,7 +18,7 @@ const page_figure page_figures[PAGE_FIGURES] = {
     {ROW_line_tension_range_equivalent, "Equivalent tension range", "kN", 1e-3},
     {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
 enum { WORST = 10 };
-/* An interval wider than this part of the mean calls for more seeds. */
+/* An interval wider than this part of the mean calls for more seeds, where the study does not say what does. */
 #define WIDE 0.1
 
 /* ---- numbers ---- */
@@ -222,11 +222,17 @@ static void add_interval(study_page *p, seed_interval i)
     html_cell(&p->page, text);
 }
 
+static double wide_of(const study_page *p)
+{
+    double within = p->f->s->seeds.mean_within;
+    return within > 0 ? within : WIDE;
+}
+
 /* Half the interval of the mean load is a large part of it. */
 static bool wants_seeds(study_page *p, int32_t condition)
 {
     seed_interval of = page_interval(p, condition, &page_figures[0]);
-    return isfinite(of.mean) && of.mean != 0 && !(of.half <= WIDE * fabs(of.mean));
+    return isfinite(of.mean) && of.mean != 0 && !(of.half <= wide_of(p) * fabs(of.mean));
 }
 
 static void add_row(study_page *p, int32_t condition, const bool *has)
@@ -270,7 +276,7 @@ static void add_table(study_page *p, const bool *has)
         html_paragraph(&p->page,
                        "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean, or "
                        "not known, of one seed.",
-                       100 * WIDE);
+                       100 * wide_of(p));
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
 }

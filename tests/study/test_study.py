@@ -397,6 +397,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertTrue(narrow or rows == 9)
         extent = self.fram("check", study)
         self.assertEqual((extent["runs_least"], extent["runs_most"]), (2, 9))
+        # The page asks for more seeds where the study would, not where half the interval is over a tenth.
+        for within, tells in (("5", None), ("0.001", "wider than 0.1 % of the mean")):
+            asked = self.write(f"seeds: {{least: 2, most: 3, mean_within: {within}}}\n")
+            self.fram(asked, "-o", self.at / "out")
+            page = (self.at / "out" / "study.html").read_text()
+            self.assertEqual("Seeds with &quot;more&quot;" in page or 'Seeds with "more"' in page, tells is not None)
+            self.assertIn(tells or "Conditions", page)
         # Until a rare load is known: ten runs carry a law, and any interval will do.
         rare = self.write("seeds: {least: 4, most: 14, extreme_within: 10}\nextremes: {duration: 30s}\n")
         self.assertEqual(self.fram(rare, "-o", self.at / "rare")["runs"], 10)
