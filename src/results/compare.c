@@ -84,17 +84,33 @@ static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
     add_row(p, name, rows[i].unit, value);
 }
 
-/* Vessels of lists are compared by name: those of the first run. */
+static int32_t named_vessels(const scenario *s) { return scenario_names_vessels(s) ? scenario_vessel_count(s) : 0; }
+
+/* Vessels of lists are compared by name: those of the first run, and what the second has besides; NULL after them. */
+static const scenario *next_vessel(const pair *p, int32_t at, int32_t *index)
+{
+    const scenario *first = &p->d[0].s, *second = &p->d[1].s;
+    *index = at;
+    if (at < named_vessels(first))
+        return first;
+    for (int32_t v = 0, besides = named_vessels(first); v < named_vessels(second); v++) {
+        bool of_both = named_vessels(first) > 0 && scenario_find_vessel(first, scenario_vessel_name(second, v)) >= 0;
+        *index = v;
+        if (!of_both && besides++ == at)
+            return second;
+    }
+    return NULL;
+}
+
 static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
-    const scenario *s = &p->d[0].s;
-    int32_t named = scenario_names_vessels(s) ? scenario_vessel_count(s) : 0;
+    const scenario *s;
     add_row(p, "simulated time", "s", time);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         find_row(p, i, rows[i].channel, "");
-        for (int32_t v = 0; v < named; v++)
-            find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_entry(s, v).keys->name);
+        for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
+            find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_name(s, v));
     }
     p->result->same_scenario = strcmp(p->d[0].note.scenario_hash, p->d[1].note.scenario_hash) == 0;
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
@@ -136,13 +152,11 @@ static fram_status overlay_chart(pair *p, const char *channel, const char *title
 static fram_status overlay_charts(pair *p, const char *channel, const char *title, const char *label, double factor,
                                   fram_error *error)
 {
-    const scenario *s = &p->d[0].s;
-    int32_t named = scenario_names_vessels(s) ? scenario_vessel_count(s) : 0;
+    const scenario *s;
     fram_status status = overlay_chart(p, channel, title, label, factor, error);
-    for (int32_t v = 0; v < named && status == FRAM_OK; v++) {
+    for (int32_t at = 0, v = 0; status == FRAM_OK && (s = next_vessel(p, at, &v)); at++) {
         char full[120];
-        snprintf(full, sizeof full, "%s, vessel %.*s", title, (int)VESSEL_NAME_MOST,
-                 scenario_vessel_entry(s, v).keys->name);
+        snprintf(full, sizeof full, "%s, vessel %.*s", title, (int)VESSEL_NAME_MOST, scenario_vessel_name(s, v));
         status = overlay_chart(p, vessel_channel_name(s, v, channel).text, full, label, factor, error);
     }
     return status;

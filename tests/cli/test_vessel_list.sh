@@ -119,6 +119,11 @@ says "- not the first" err
 for name in loads-tug.png station-tug.json; do
     [ ! -e "$run/$name" ] || fail "$name of the run before was left"
 done
+
+# A vessel that the second run alone has is told too, after those of the first.
+"$FRAM" compare "$run" "$scratch/start" --json >"$scratch/besides" || fail "runs of other vessels are not compared"
+grep -q '"tug: ice load along X, mean","unit":"kN","a":null,"b":[-0-9]' "$scratch/besides" ||
+    fail "the tug of the second run is not told"
 head -1 "$run/series.csv" | grep -q "tug\." && fail "a vessel that is not present has columns"
 
 # Vessels whose motions are given and meet: told before the run, with the time (hulls 20 m long, 2 m/s after a ramp of
