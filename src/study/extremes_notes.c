@@ -53,9 +53,12 @@ fram_status extremes_refuse_few(extreme_result *out)
     static const char *const what[EXTREME_METHODS] = {
         "exceedances of the first level",       "crossings of the first level",       "block maxima", "block maxima",
         "independent peaks over the threshold", "peaks between crossings of the mean"};
+    static const char *const less[EXTREME_METHODS] = {[EXTREME_ACER] = ", or take a lower threshold or order",
+                                                      [EXTREME_UPCROSSING] = ", or take a lower threshold",
+                                                      [EXTREME_POT] = ", or take a lower threshold"};
     out->answered = false;
     say(out, "No answer: %d %s are too few, at least %d are needed: run longer, or more seeds%s.", (int)out->sample,
-        what[out->method], (int)LAW_VALUES_LEAST, out->method == EXTREME_POT ? ", or take a lower threshold" : "");
+        what[out->method], (int)LAW_VALUES_LEAST, less[out->method] ? less[out->method] : "");
     return FRAM_OK;
 }
 

@@ -137,6 +137,11 @@ class Statistics(unittest.TestCase):
                 self.assertFalse(method["answered"])
                 self.assertIn("No answer", method["note"])
                 self.assertIsNone(method["most_probable"]["level"])
+        # What a person has asked too much of is named.
+        long = self.write("time,x\n" + "".join(f"{i},{i * 7919 % 1009}\n" for i in range(4000)), "long.csv")
+        for words, told in ((("--method", "acer", "--order", "3000"), "or take a lower threshold or order"),
+                            (("--method", "upcrossing", "--threshold", "2000"), "or take a lower threshold")):
+            self.assertIn(told, self.fram("extremes", long, "--channel", "x", *words)["methods"][0]["note"])
         still = self.write("time,x\n" + "".join(f"{i},3\n" for i in range(300)), "still.csv")
         for method in self.fram("extremes", still, "--channel", "x")["methods"]:
             self.assertIn("constant", method["note"])
