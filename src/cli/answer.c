@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 int exit_code_of(fram_status status)
 {
@@ -57,11 +58,19 @@ static const char *option_of(const common_options *common, const char *key)
     return NULL;
 }
 
+static bool is_folder(const char *path)
+{
+    struct stat state;
+    return stat(path, &state) == 0 && S_ISDIR(state.st_mode);
+}
+
 static fram_error in_words_of_command(const common_options *common, const fram_error *error)
 {
     fram_error e = *error;
-    /* At a line of a file it is a column or a key of that, and `vessel` of a file is the section of a scenario. */
-    bool of_file = error->line > 0 || (error->file[0] && strcmp(error->key, "vessel") == 0);
+    /* At a line of a file it is a column or a key of that, and `vessel` of a file is the section of a scenario; of the
+       folder of a run it is the one that was asked for. */
+    bool of_scenario = error->file[0] && !is_folder(error->file) && strcmp(error->key, "vessel") == 0;
+    bool of_file = error->line > 0 || of_scenario;
     const char *option = of_file ? NULL : option_of(common, error->key);
     if (option)
         snprintf(e.key, sizeof e.key, "%s", option);

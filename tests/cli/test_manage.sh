@@ -150,7 +150,7 @@ grep -qw "nan" sheet/manage.html && fail "the page tells a time of nothing"
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere
 expect 2 "$FRAM" manage both
-says "vessel: several vessels do not drive themselves: name the one that is protected" err
+says "--vessel: several vessels do not drive themselves: name the one that is protected" err
 expect 2 "$FRAM" manage both --vessel nobody
 says "nobody" err
 expect 2 "$FRAM" manage both --vessel ship --limit -1

@@ -126,7 +126,7 @@ same "$(value "j['vessel'], j['floes'][0]['floe']")" "barge 1" "the named vessel
 expect 0 "$FRAM" why two --time 1 --vessel barge
 says "Vessel barge. " out
 expect 2 "$FRAM" why two --peak 1 --vessel 2
-says 'expected the name of a vessel, "tug", "barge"; found "2"' err
+says '--vessel: expected the name of a vessel, "tug", "barge"; found "2"' err
 # Nothing touched.
 expect 0 "$FRAM" why two --time 0.1
 says "No ice touched the vessel in the 0.5 s up to then." out
