@@ -214,7 +214,7 @@ static void print_floating(const fram_hull_floating *f)
            f->second_moment_longitudinal);
     printf("  transverse BM           %14.*f m     GM %.*f\n", l, f->bm_transverse, l, f->gm_transverse);
     printf("  longitudinal BM         %14.*f m     GM %.*f\n", l, f->bm_longitudinal, l, f->gm_longitudinal);
-    printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35);
+    printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35 + 0.0); /* 0, not -0 */
     printf("  stiffness roll C44      %14.6g N m   pitch C55 %.6g N m\n", f->c44, f->c55);
     printf("  coefficients: block %.4f, waterplane %.4f, midship %.4f, prismatic %.4f\n", f->block, f->waterplane,
            f->midship, f->prismatic);
@@ -342,6 +342,17 @@ static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, 
     return status;
 }
 
+/* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
+#define LONGEST 500.0
+
+static void warn_of_size(const common_options *common, const hull_words *w, const fram_hull_floating *f)
+{
+    if (w->path && f->length_waterline > LONGEST && !common->quiet)
+        fprintf(stderr,
+                "warning: the waterline is %.4g m long: a file in millimetres wants --scale 0.001, in feet 0.3048\n",
+                f->length_waterline);
+}
+
 int command_hull(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -378,6 +389,7 @@ int command_hull(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
+        warn_of_size(&common, &w, &floating);
         if (common.json) {
             print_json(&w, &surface, &floating, &pieces);
         } else {

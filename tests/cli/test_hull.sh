@@ -23,6 +23,32 @@ same "$(value 'abs(j["level_m"] + 0.5) < 1e-12, abs(j["heel_deg"]) < 1e-9, j["kg
 expect 0 "$FRAM" hull box.stl
 says "displaced volume" out
 says "closed, 12 triangles, 8 vertices" out
+says "C35 0 N" out
+! grep -q warning err || fail "a box of 40 m is warned of: $(cat err)"
+
+# A ship of kilometres is one in millimetres; a model of a basin is small, and right.
+sed 's/^v \(.*\) \(.*\) \(.*\)/v \1e3 \2e3 \3e3/' >long.obj <<'END'
+v -20 -5 -3
+v 20 -5 -3
+v 20 5 -3
+v -20 5 -3
+v -20 -5 2
+v 20 -5 2
+v 20 5 2
+v -20 5 2
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+END
+expect 0 "$FRAM" hull long.obj
+says "warning: the waterline is 4e+04 m long: a file in millimetres wants --scale 0.001" err
+expect 0 "$FRAM" hull long.obj --scale 0.001
+! grep -q warning err || fail "a file in millimetres is warned of: $(cat err)"
+expect 0 "$FRAM" hull long.obj --scale 0.00001
+! grep -q warning err || fail "a model is warned of: $(cat err)"
 
 # An icebreaker of a given block coefficient, in all formats.
 for ending in stl obj gdf; do
