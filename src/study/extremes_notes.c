@@ -106,6 +106,10 @@ void extremes_cut(extreme_result *out, int levels, double least, const char *why
     say(out, "%s", why);
 }
 
+/* Under this shape estimates by likelihood depend on the largest values alone, and their profile is none of chi squared
+   (Smith 1985). */
+#define SHAPE_REGULAR (-0.5)
+
 static void doubt_interval(extreme_result *out, const level_interval *i)
 {
     if (!isfinite(i->low) || !isfinite(i->high))
@@ -127,6 +131,12 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
             out->tail.c);
     if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && out->law.shape > 0.5)
         say(out, "The tail is so heavy (shape %.2g) that its variance is infinite.", out->law.shape);
+    if (!rates && ask->fit == FIT_LIKELIHOOD && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) &&
+        out->law.shape < SHAPE_REGULAR)
+        say(out,
+            "The law ends at %.4g (shape %.2g): under -0.5 likelihood has no interval (Smith 1985), and levels may be "
+            "too low.",
+            out->law.location - out->law.scale / out->law.shape, out->law.shape);
     if (out->sample < 2 * LAW_VALUES_LEAST)
         say(out, "The sample is small (%d): its interval is a guess of the right size.", (int)out->sample);
 }

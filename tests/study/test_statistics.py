@@ -158,6 +158,16 @@ class Statistics(unittest.TestCase):
                          "--method", "gumbel")["methods"][0]["note"]
         self.assertIn("times as long as the data", note)
 
+    def test_a_law_that_ends_at_the_sample_is_told(self):
+        # Quantiles of the generalized law of shape -0.7, location 0 and scale 1, which ends at 1/0.7.
+        for shape, told in ((0.7, True), (0.3, False)):
+            values = [(1 - (-math.log((i + 0.5) / 60)) ** shape) / shape for i in range(60)]
+            file = self.write("x\n" + "\n".join(map(str, values)) + "\n", "ends.csv")
+            note = self.fram("extremes", file, "--channel", "x", "--maxima", "--block", "60", "--duration", "10min",
+                             "--method", "gev")["methods"][0]["note"]
+            self.assertEqual("under -0.5 likelihood has no interval" in note, told, note)
+            self.assertEqual("The law ends at 1.4" in note, told, note)
+
     def test_plots_are_drawn_where_there_is_an_answer(self):
         self.maxima()
         words = ("extremes", self.at / "series.csv", "--channel", "load", "--maxima", "--block", "10min", "--draw")
