@@ -120,5 +120,7 @@ channel_statistics channel_statistics_of(const double *time, const double *value
     s.peak = downwards ? s.least : s.greatest;
     s.peaks = above;
     s.significant = downwards ? significant_peak(&down, &s.peaks) : s.significant_above;
+    if (s.least == s.greatest) /* no peaks: the value that is held */
+        s.significant = s.significant_above = s.least;
     return s;
 }

@@ -15,7 +15,7 @@
 typedef struct channel_statistics {
     double mean, deviation, least, greatest;
     double peak;              /* least or greatest, whichever is larger in size */
-    double significant;       /* on the side of `peak`; 0: no peak there */
+    double significant;       /* on the side of `peak`; the value where all are equal, 0 where there is none */
     double significant_above; /* the same upwards, whatever the side of `peak` */
     int32_t peaks;            /* on the side of `peak` */
 } channel_statistics;

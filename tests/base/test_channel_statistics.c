@@ -25,7 +25,8 @@ START_TEST(statistics_of_a_channel)
 }
 END_TEST
 
-/* Equal values scatter by nothing and have no peaks, though the mean that a sum makes of them is a rounding off. */
+/* Equal values scatter by nothing and have no peaks, though the mean that a sum makes of them is a rounding off; what
+   is significant of them is the value. */
 START_TEST(equal_values_scatter_by_nothing)
 {
     enum { N = 3000 };
@@ -36,6 +37,7 @@ START_TEST(equal_values_scatter_by_nothing)
     }
     channel_statistics s = channel_statistics_of(time, value, N, 0);
     ck_assert(s.mean == 0.1 && s.deviation == 0 && s.peaks == 0);
+    ck_assert(s.significant == 0.1 && s.significant_above == 0.1);
 }
 END_TEST
 
