@@ -427,6 +427,24 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     return status;
 }
 
+/* A realization that is given twice would count as two, and every interval be too narrow. */
+static fram_status check_different(context *ctx, const series_source *source, fram_error *error)
+{
+    struct stat *state = memory_array(ctx, (size_t)source->count, sizeof *state);
+    fram_status status = state ? FRAM_OK : error_memory(error);
+    for (int32_t i = 0; i < source->count && status == FRAM_OK; i++) {
+        if (stat(source->files[i], &state[i]) != 0)
+            state[i].st_ino = 0;
+        for (int32_t k = 0; k < i && state[i].st_ino != 0 && status == FRAM_OK; k++)
+            if (state[k].st_ino == state[i].st_ino && state[k].st_dev == state[i].st_dev)
+                status = error_set(error, FRAM_ERROR_INPUT, source->files[i], 0, NULL,
+                                   "is the same as %.200s, and would count twice: each is a realization of its own",
+                                   source->files[k]);
+    }
+    memory_free(ctx, state);
+    return status;
+}
+
 fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error)
 {
     *out = (series_data){.count = source->count};
@@ -435,7 +453,7 @@ fram_status series_read(context *ctx, const series_source *source, series_data *
                          "`time` tells when the values of the others were taken: name one of those");
     out->parts = memory_array(ctx, (size_t)source->count, sizeof *out->parts);
     out->values = memory_array(ctx, (size_t)source->count, sizeof *out->values);
-    fram_status status = out->parts && out->values ? FRAM_OK : error_memory(error);
+    fram_status status = out->parts && out->values ? check_different(ctx, source, error) : error_memory(error);
     out->set.step = source->step > 0 ? source->step : 0;
     for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
         status = read_file(ctx, source, i, out, error);

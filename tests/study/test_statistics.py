@@ -120,6 +120,14 @@ class Statistics(unittest.TestCase):
         for words, values in (((), 300), (("--from", "-5"), 150), (("--from", "0"), 100)):
             self.assertEqual(self.fram("fatigue", file, "--channel", "x", *words)["series"]["values"], values)
 
+    def test_a_realization_counts_once(self):
+        file = self.write("time,x\n" + "".join(f"{i},{i * 7919 % 100}\n" for i in range(100)))
+        copy = self.write(file.read_text(), "copy.csv")
+        self.assertEqual(self.fram("fatigue", file, copy, "--channel", "x")["series"]["values"], 200)
+        for command in ("fatigue", "extremes"):
+            error = self.fram(command, copy, file, f"{file.parent}/./series.csv", "--channel", "x", code=2)["error"]
+            self.assertIn("would count twice", error["message"])
+
     def test_a_class_of_ranges_ends_with_its_end(self):
         # Ranges of 1, 2 ... 10: one in each class of `up to 1`, `up to 2` ...
         turns = [0]
@@ -260,13 +268,14 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", self.at, "--channel", "x"), str(self.at))
 
     def test_the_runs_of_a_large_study_are_taken_at_once(self):
-        files = [self.write("x\n1\n2\n", "two.csv")] * 300
+        files = [self.write("x\n1\n2\n", f"two{i}.csv") for i in range(300)]
         self.assertEqual(self.fram("extremes", *files, "--channel", "x", "--step", 1)["series"]["values"], 600)
         few = self.fram("extremes", *files[:1], "--channel", "x", "--step", 1)["methods"][0]["note"]
         self.assertIn("fewer than ten values", few)
 
     def test_series_that_hold_no_block_are_told(self):
-        files = [self.write("x\n" + "".join(f"{math.sin(0.01 * i)}\n" for i in range(600)))] * 4
+        text = "x\n" + "".join(f"{math.sin(0.01 * i)}\n" for i in range(600))
+        files = [self.write(text, f"wave{i}.csv") for i in range(4)]
         (told,) = self.fram("extremes", *files, "--channel", "x", "--step", 1, "--method", "gev")["methods"]
         self.assertIn(f"no series is as long as a block, {told['block_s']:.4g} s: run longer", told["note"])
 
