@@ -83,8 +83,8 @@ static fram_status check_sizes(const feeding_definition *d, double band, double 
     double half = 0.5 * fmin(size.x, size.y);
     if (!(radius < half))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "window",
-                         "expected more than %.4g m both ways, as the largest floe measures, found %.4g m: make the "
-                         "domain larger or the floes smaller",
+                         "expected more than %.4g m both ways, as the largest floe measures, found %.4g m: make it "
+                         "larger or the floes smaller",
                          2 * radius, 2 * half);
     if (!(band >= radius && band < half))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",

@@ -206,11 +206,9 @@ static fram_status make_floes(context *ctx, const field_request *r, field_work *
         return status;
     /* The cells tile the domain, so that what is left of them is the free area. */
     double free_area = cells_area(&w->parts);
-    if (!(free_area > 0))
-        return error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
-            "no water is left for ice beside the vessels and the zones without ice: make the domain larger or the "
-            "zones smaller");
+    status = field_room_check(free_area, error);
+    if (status != FRAM_OK)
+        return status;
     double mean_area = cells_area(&w->voronoi) / polygon_list_count(&w->voronoi);
     double sliver = polygon_list_count(&w->zones) ? SMALLEST_PIECE * mean_area : 0;
     if (!keep_large(ctx, &w->parts, &w->parts, fmax(r->smallest_area, sliver), &w->kept))

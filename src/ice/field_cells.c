@@ -52,6 +52,15 @@ fram_status field_area_check(box2 domain, double concentration, const polygon_li
     return FRAM_OK;
 }
 
+fram_status field_room_check(double free_area, fram_error *error)
+{
+    if (free_area > 0)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
+                     "no water is left for ice beside the vessels and the zones without ice: make the domain larger or "
+                     "the zones smaller");
+}
+
 /* ---- zones ---- */
 
 /* Corners of tangents to the circle of `margin` about v, whose normals turn from n1 to n2 counter-clockwise. */

@@ -311,11 +311,8 @@ fram_status field_packed(context *ctx, overlay *o, const field_packed_request *r
     pack_state s = {0};
     field_packed_report found = {0};
     status = find_obstacles(ctx, o, request, &s, error);
-    if (status == FRAM_OK && !(s.free_area > 0))
-        status = error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
-            "no water is left for ice beside the vessels and the zones without ice: make the domain larger or the "
-            "zones smaller");
+    if (status == FRAM_OK)
+        status = field_room_check(s.free_area, error);
     if (status == FRAM_OK)
         status = draw_floes(ctx, request, &s, error);
     if (status == FRAM_OK)

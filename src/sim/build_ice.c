@@ -121,6 +121,22 @@ fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_wa
     return status == FRAM_OK && !good ? error_memory(error) : status;
 }
 
+double build_plan_area(const polygon_list *plan)
+{
+    double area = 0;
+    for (int32_t i = 0; i < polygon_list_count(plan); i++)
+        area += polygon_area(polygon_list_get(plan, i));
+    return area;
+}
+
+double build_plan_overlap(const polygon_list *plan, polygon outline)
+{
+    double common = 0;
+    for (int32_t i = 0; i < polygon_list_count(plan); i++)
+        common += polygon_overlap_area(polygon_list_get(plan, i), outline);
+    return common;
+}
+
 /* Outlines along a space-filling curve: neighbours in the water become neighbours in memory.  NULL: no memory. */
 static int32_t *memory_order(context *ctx, const polygon_list *outlines)
 {

@@ -22,5 +22,8 @@ fram_status build_footprint(context *ctx, const world *w, int32_t body, bool bel
    water between them, as of a catamaran; else the footprint alone.  Added to `out`. */
 fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out,
                        fram_error *error);
+/* Area of all outlines of a plan together, and what they have in common with a convex outline [m2]. */
+double build_plan_area(const polygon_list *plan);
+double build_plan_overlap(const polygon_list *plan, polygon outline);
 
 #endif

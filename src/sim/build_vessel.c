@@ -110,21 +110,11 @@ static vessel_title title_of_row(const scenario *s, int32_t row)
 /* Part of the smaller footprint that rounding may take for an overlap. */
 #define TOUCHING 1e-9
 
-/* All outlines of a plan together. */
-static double plan_area(const polygon_list *plan)
-{
-    double area = 0;
-    for (int32_t i = 0; i < polygon_list_count(plan); i++)
-        area += polygon_area(polygon_list_get(plan, i));
-    return area;
-}
-
 static double plans_overlap(const polygon_list *a, const polygon_list *b)
 {
     double common = 0;
-    for (int32_t i = 0; i < polygon_list_count(a); i++)
-        for (int32_t k = 0; k < polygon_list_count(b); k++)
-            common += polygon_overlap_area(polygon_list_get(a, i), polygon_list_get(b, k));
+    for (int32_t k = 0; k < polygon_list_count(b); k++)
+        common += build_plan_overlap(a, polygon_list_get(b, k));
     return common;
 }
 
@@ -141,7 +131,7 @@ static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const
         polygon_list_clear(&other);
         status = build_plan(ctx, w, w->vessels.body[v], false, &other, error);
         double common = status == FRAM_OK ? plans_overlap(&own, &other) : 0;
-        if (common > TOUCHING * fmin(plan_area(&own), plan_area(&other)))
+        if (common > TOUCHING * fmin(build_plan_area(&own), build_plan_area(&other)))
             status = vessel_fault(s, entry, "x", error,
                                   "the hull lies in that of %s at the start, by %.4g m2 as seen from above: move one "
                                   "of them",
@@ -168,6 +158,6 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
     if (status == FRAM_OK)
         status = check_clear_of_vessels(ctx, s, entry, w, row, error);
     if (status == FRAM_OK)
-        vessel_warnings(ctx, s, entry, m, w, row);
+        status = vessel_warnings(ctx, s, entry, m, w, row, error);
     return status;
 }

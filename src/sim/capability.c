@@ -301,7 +301,8 @@ static fram_status measure_met(context *ctx, const scenario *s, const world *w, 
     status = capability_ice_measured(ctx, &met, c, error);
     /* The window's, not the scenario's. */
     bool input = status == FRAM_ERROR_INPUT && error;
-    if (input && (strcmp(error->key, "domain.band") == 0 || strncmp(error->key, "domain.tile", 11) == 0)) {
+    if (input && (strcmp(error->key, "domain") == 0 || strcmp(error->key, "domain.band") == 0 ||
+                  strncmp(error->key, "domain.tile", 11) == 0)) {
         snprintf(error->key, sizeof error->key, "window");
         error->file[0] = '\0';
         error->line = error->column = 0;

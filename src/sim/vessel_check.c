@@ -315,23 +315,19 @@ static int32_t floe_outline(const scenario_floe *f, vec2 out[FLOE_SIDES_MOST])
     return n;
 }
 
-static void warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row)
+static fram_status warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row,
+                                 fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
     polygon_list hull = {0};
-    fram_error ignored = {0};
-    if (ice->source != ICE_FLOES || build_plan(ctx, w, w->vessels.body[row], false, &hull, &ignored) != FRAM_OK)
-        return;
-    for (int32_t i = 0; i < ice->floes.count; i++) {
+    fram_status status = FRAM_OK;
+    if (ice->source == ICE_FLOES)
+        status = build_plan(ctx, w, w->vessels.body[row], false, &hull, error);
+    for (int32_t i = 0; i < ice->floes.count && status == FRAM_OK; i++) {
         const scenario_floe *f = &ice->floes.data[i];
         vec2 corner[FLOE_SIDES_MOST];
         polygon floe = {corner, floe_outline(f, corner)};
-        double common = 0, ship = 0;
-        for (int32_t k = 0; k < polygon_list_count(&hull); k++) {
-            common += polygon_overlap_area(polygon_list_get(&hull, k), floe);
-            ship += polygon_area(polygon_list_get(&hull, k));
-        }
-        double least = fmin(ship, polygon_area(floe));
+        double common = build_plan_overlap(&hull, floe), least = fmin(build_plan_area(&hull), polygon_area(floe));
         if (is_automatic(f->elevation) && common > INSIDE * least)
             log_write(
                 ctx, LOG_WARNING,
@@ -340,14 +336,15 @@ static void warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e
                 (int)i, common, f->x, f->y, vessel_title_of(e).text);
     }
     polygon_list_free(ctx, &hull);
+    return status;
 }
 
-void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *m, const world *w,
-                     int32_t row)
+fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *m, const world *w,
+                            int32_t row, fram_error *error)
 {
     const vessel_model *hull = &m->vessels.data[row];
     warn_of_mesh(ctx, s, e, hull);
-    warn_of_floes(ctx, s, e, w, row);
+    fram_status status = warn_of_floes(ctx, s, e, w, row, error);
     warn_of_stability(ctx, s, e, hull);
     warn_of_mass(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
@@ -355,4 +352,5 @@ void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, con
     wall_warnings(ctx, s, e, m, w, row);
     meeting_warnings(ctx, s, e, m, w, row);
     turning_tell(ctx, s, e, m, w, row);
+    return status;
 }

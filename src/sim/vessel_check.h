@@ -11,7 +11,7 @@
 fram_status vessel_check(const scenario *s, const vessel_entry *entry, const model *m, int32_t row, fram_error *error);
 /* Warnings to the log: capsizing, a list or a trim at the start, a jump to the waterline, negative damping, springs and
    buoyancy too stiff for the step, a hull that reaches a wall.  w holds the vessel and its lines. */
-void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
-                     int32_t row);
+fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
+                            int32_t row, fram_error *error);
 
 #endif

@@ -17,7 +17,7 @@ import unittest
 
 from studies import BASE, FRAM, SHORT, StudyTest
 
-# Many runs for their numbers: their sums stand in tests in C of this room, what starts and stops runs in the others here.
+# Many runs for their numbers: their sums stand in tests in C of this room, what starts and stops runs in other methods.
 WHOLE = unittest.skipIf(SHORT, "tests are short")
 
 
