@@ -34,9 +34,6 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
 }
 
 /* What goes with a power of the scale has that of full size at the default one. */
-static inline double sanity_at_scale(const scenario *s, double power)
-{
-    return real_pow(scenario_size(s), power);
-}
+static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
 
 #endif
