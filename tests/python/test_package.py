@@ -138,6 +138,8 @@ class Package(unittest.TestCase):
         np.testing.assert_allclose(times, [0.02, 0.04, 0.06])
         self.assertAlmostEqual(world.step(9, lambda w: False), 0.08)
         self.assertAlmostEqual(world.run_until(0.2, lambda w: w.time < 0.15), 0.16)
+        self.assertEqual(world.copy().step(9, lambda w: np.all(w.values() > 1e300)), world.time + 0.02)
+        self.assertEqual(world.copy().run_until(0.3, lambda w: np.bool_(False)), world.time + 0.02)
         self.assertEqual(world.step(0), world.time)
         for bad in (lambda: world.step(-1), lambda: world.run_until(float("nan"))):
             with self.assertRaises(fram.UsageError):

@@ -228,6 +228,11 @@ def _selection(kind: Union[str, Sequence[str], None]) -> int:
     return bits
 
 
+def _is_false(answer: object) -> bool:
+    """Whether a callback returned False, Python's or numpy's: None and 0 are no answer."""
+    return answer is False or isinstance(answer, np.bool_) and not answer
+
+
 def _frozen(array: np.ndarray) -> np.ndarray:
     array.flags.writeable = False
     return array
@@ -372,7 +377,7 @@ class World:
             finally:
                 calls.pop()
             check(status, error)
-            if callback is not None and callback(self) is False:
+            if callback is not None and _is_false(callback(self)):
                 break
         return self.time
 
@@ -383,7 +388,7 @@ class World:
         while self.time < time - 1e-9 * self.scenario.time_step:
             before = self.steps
             self.step(1)
-            if callback is not None and callback(self) is False or self.steps == before:
+            if callback is not None and _is_false(callback(self)) or self.steps == before:
                 break
         return self.time
 
