@@ -90,6 +90,17 @@ class Worlds(unittest.TestCase):
         world._calls.pop()
         world.close()
 
+    def test_channels_within_a_step_are_no_numbers(self):
+        seen = []
+        context = fram.Context(log=lambda _level, _text: seen.append((world["time"], world.values())))
+        scenario = fram.Scenario.from_text(FREE.replace("x: 18", "x: 18, failure_time: 0.1"), context=context)
+        world = scenario.world()
+        world.step(3)  # it tells that the thruster fails
+        self.assertEqual(len(seen), 1)
+        for time, values in seen:
+            self.assertTrue(np.isnan(time))
+            self.assertTrue(np.all(np.isnan(values)))
+
     def test_worlds_of_one_context_in_threads(self):
         alone = fram.Scenario.from_text(FREE).world()
         alone.step(30)

@@ -435,8 +435,8 @@ class World:
         return name in self._channels or name in self._inputs
 
     def values(self) -> np.ndarray:
-        """All channels in their order."""
-        out = np.empty(len(self._channels))
+        """All channels in their order; NaN, as each by itself, while another call on the world has not returned."""
+        out = np.full(len(self._channels), np.nan)
         lib.fram_world_values(self._living(), ffi.cast("double *", out.ctypes.data), len(out))
         return out
 
