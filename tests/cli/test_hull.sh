@@ -74,6 +74,10 @@ refused_ship() {
     same "$(value 'j["error"]["key"]')" "$1" "key of $*"
 }
 refused_ship --block-coefficient 0.98
+# The range that docs/hulls.md tells is the one that a refusal tells.
+expect 2 "$FRAM" hull --ship --length 220 --beam 42 --draught 12 --block-coefficient 0.98
+range=$(sed -n 's/.* can be \(0\.[0-9][0-9]\)[0-9]* to \(0\.[0-9][0-9]\)[0-9]*, .*/\1 to \2/p' err)
+says "of 220 x 42 x 12 m reaches block coefficients of $range;" "$FRAM_SOURCE/docs/hulls.md"
 refused_ship --flare-angle-deg 8
 refused_ship --bilge-radius 30
 refused_ship --transom 0.05
