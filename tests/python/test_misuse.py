@@ -258,8 +258,10 @@ class Runs(unittest.TestCase):
                                    (b"time[s],b[m],b[m]\n1,2,3\n", 1, "b"), (b"a[s],b[m]\n1,2\n", 1, "time")):
             run = self.broken("series.csv", content)
             self.assert_refused(lambda: run.series, "series.csv", line, key)
-        run = self.broken("series.csv", b"time[s],b[m]\n1,2\n2")  # it is still being written
-        np.testing.assert_array_equal(run.columns()["b"], [2])
+        for begun in (b"2", b"2,", b"2,1", b"2,1.5e-0"):  # of 2,1.5e-07: it is still being written
+            run = self.broken("series.csv", b"time[s],b[m]\n1,2\n" + begun)
+            np.testing.assert_array_equal(run.columns()["b"], [2])
+        self.assert_refused(self.broken("series.csv", b"time[s],b[m]\n1,2\n2\n").columns, "series.csv", 3)
 
     def test_files_that_are_gone(self):
         run = self.broken("series.csv", b"")

@@ -74,9 +74,12 @@ def _open_text(path: pathlib.Path) -> IO[str]:
 
 
 def _rows(file: IO[str], path: pathlib.Path) -> Iterator[list[str]]:
-    """The rows of a table, one at a time: as texts they take ten times what their numbers take."""
+    """The rows of a table, one at a time: as texts they take ten times what their numbers take.
+
+    A line without an end is not whole yet: its last number may be half of one.
+    """
     try:
-        yield from csv.reader(file)
+        yield from csv.reader(line for line in file if line[-1] in "\r\n")
     except csv.Error as error:
         raise InputError("input", f"expected rows of numbers: {error}", file=str(path)) from error
     except OSError as error:
@@ -93,19 +96,18 @@ def _read_units(rows: Iterator[list[str]], path: pathlib.Path, needed: Sequence[
 
 def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[str, np.ndarray], dict[str, str]]:
     """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
-    values, bad = array.array("d"), None
+    values = array.array("d")
     with _open_text(path) as file:
         rows = _rows(file, path)
         units = _read_units(rows, path, needed)
         for number, row in enumerate(rows, start=2):
-            if bad:
-                raise bad
             try:
                 if len(row) != len(units):
                     raise ValueError(f"there are {len(row)}")
                 values.extend([float(word) for word in row])
             except ValueError as error:
-                bad = InputError("input", f"expected {len(units)} numbers: {error}", file=str(path), line=number)
+                raise InputError("input", f"expected {len(units)} numbers: {error}", file=str(path),
+                                 line=number) from error
     table = np.array(values).reshape(-1, max(len(units), 1))
     return {name: table[:, i] for i, name in enumerate(units)}, units
 
