@@ -56,6 +56,11 @@ typedef struct record_reader {
     char damage[160]; /* why reading stopped before the end of the file; empty otherwise */
 } record_reader;
 
+/* What a reader says that needs one. */
+#define RECORD_WITHOUT_FRAME                                                                                        \
+    "the record holds no frame: there is one each output.frame_interval, none if that is 0; shorten it, or record " \
+    "for longer"
+
 /* FRAM_ERROR_INPUT when it is not a record of this version and byte order. */
 fram_status record_open(context *ctx, const char *path, record_reader *r, fram_error *error);
 /* The next block.  found is false at the end of the file and at the first damaged or unfinished block: the reader's

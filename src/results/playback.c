@@ -275,8 +275,7 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
     size_t size = 0;
     fram_status status = measure(r, &m, error);
     if (status == FRAM_OK && m.frames == 0)
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                           "the record holds no frame; give the scenario an output.frame_interval above 0");
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, RECORD_WITHOUT_FRAME);
     if (status == FRAM_OK)
         status = read_viewer(ctx, options->viewer, &page, &size, error);
     if (status != FRAM_OK)

@@ -325,7 +325,7 @@ fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error 
         return status;
     status = read_ahead(r, error);
     if (status == FRAM_OK && !r->has_next)
-        status = wrong(r, "the record holds no frame; give the scenario an output.frame_interval above 0", error);
+        status = wrong(r, RECORD_WITHOUT_FRAME, error);
     if (status != FRAM_OK)
         replay_close(r);
     return status;

@@ -263,6 +263,14 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(run.columns()["b"], [2])
         self.assert_refused(self.broken("series.csv", b"time[s],b[m]\n1,2\n2\n").columns, "series.csv", 3)
 
+    def test_recordings_shorter_than_an_interval(self):
+        world = towed().world()
+        world.step()
+        with world.record(self.bad.parent / "short"):
+            world.step(2)  # of 0.02 s: the next frame would be at 0.1 s
+        with self.assertRaisesRegex(fram.InputError, "no frame: .*output.frame_interval.*record for longer"):
+            fram.open(self.bad.parent / "short").floes(0.05)
+
     def test_files_that_are_gone(self):
         run = self.broken("series.csv", b"")
         (self.bad / "series.csv").unlink()
