@@ -307,8 +307,12 @@ static bool is_touched(const world *w, int32_t body)
     return false;
 }
 
-static bool is_towed(const world *w, int32_t body)
+/* A carriage tells a vessel how to go over the water, and leaves it free to heave. */
+static bool goes_as_towed(const world *w, int32_t body)
 {
+    vec3 u = w->bodies.velocity[body];
+    if (!(u.x * u.x + u.y * u.y >= u.z * u.z))
+        return false;
     for (int32_t v = 0; v < w->vessels.count; v++) {
         if (w->vessels.body[v] == body && w->vessels.joint[v] >= 0)
             return true;
@@ -319,7 +323,7 @@ static bool is_towed(const world *w, int32_t body)
 /* What a user can do about a body that is too fast. */
 static const char *remedy_of(const world *w, int32_t body)
 {
-    if (!body_is_dynamic(&w->bodies, body) || is_towed(w, body))
+    if (!body_is_dynamic(&w->bodies, body) || goes_as_towed(w, body))
         return "it moves as the scenario says: correct that, or raise run.speed_limit";
     if (is_touched(w, body))
         return "contacts act on it; a smaller run.time_step may help";

@@ -77,6 +77,10 @@ same "$(value 'j["error"]["status"]')" simulation "status of a run that went wro
 says "run.speed_limit is 0.05 m/s; nothing touches it" err
 grep -q "rad/s" err && fail "a vessel that rises is told to turn"
 same "$(status_of fast)" failed "status of a run that went wrong"
+# A carriage leaves heave to the water: a towed vessel that rises does not move as the scenario says.
+expect 1 "$FRAM" run scene.yaml -o rises -q --set run.speed_limit=0.05 --set vessel.mode=towed --set vessel.speed=0 \
+    --set vessel.mass=1e6
+says "run.speed_limit is 0.05 m/s; nothing touches it" err
 
 # Two programs that write one output: each ends well, and the file is whole.
 for _ in 1 2 3 4; do
