@@ -1,6 +1,7 @@
 /* Results of a run in the formats of other programs, as pictures, pages and video.  All of them read the run's folder
    only, of a run that ended or goes on, and write files that are whole or not there.  Where `output` is NULL the result
-   goes into the run's folder, and fram_result.path says where. */
+   goes into the run's folder, and fram_result.path says where.  A file that is there is replaced; one that the run is
+   made of (series.csv, record.fram, ...) is FRAM_ERROR_USAGE. */
 #ifndef FRAM_RESULTS_H
 #define FRAM_RESULTS_H
 

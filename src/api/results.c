@@ -3,6 +3,7 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "io/path.h"
 #include "results/export.h"
 #include "results/manage.h"
 #include "results/plot.h"
@@ -93,6 +94,8 @@ fram_status fram_plot(fram_context *c, const char *run, const char *const *chann
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"channels", channels}, {"output", output});
     for (int i = 0; i < channel_count && status == FRAM_OK; i++)
         status = REFUSE_NULL(error, {"channels", channels[i]});
+    if (status == FRAM_OK)
+        status = path_refuse_own(run, output, error);
     if (status != FRAM_OK)
         return status;
     return plot_channels(&c->inner, run, channels, channel_count, from, to, output, error);
@@ -133,6 +136,10 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
         REFUSE_NULL(error, {"context", c}, {"run_a", run_a}, {"run_b", run_b}, {"comparison", comparison});
     if (status == FRAM_OK)
         status = comparison_check(comparison, size, error);
+    if (status == FRAM_OK && output)
+        status = path_refuse_own(run_a, output, error);
+    if (status == FRAM_OK && output)
+        status = path_refuse_own(run_b, output, error);
     if (status != FRAM_OK)
         return status;
     comparison_inside *in = memory_array(&c->inner, 1, sizeof *in);

@@ -2,6 +2,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "io/path.h"
 #include "results/playback.h"
 #include "results/run_results.h"
 #include "sim/bench.h"
@@ -286,6 +287,8 @@ fram_status(fram_playback)(fram_context *c, const fram_playback_definition *defi
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_playback", error);
     if (status == FRAM_OK)
         status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
+    if (status == FRAM_OK)
+        status = path_refuse_own(d->folder, d->output, error);
     if (status != FRAM_OK)
         return status;
     const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit, d->pressure};

@@ -1,6 +1,7 @@
 #include "io/path.h"
 
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM], fram_error *error)
@@ -13,6 +14,21 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
                      (int)PATH_ROOM);
 }
 
+fram_status path_refuse_own(const char *run, const char *path, fram_error *error)
+{
+    static const char *const names[] = {"scenario.yaml", "run.json",    "series.csv",
+                                        "fractures.csv", "record.fram", "peaks.fram"};
+    struct stat one, other;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char own[PATH_ROOM]; /* where that is too long there is no such file */
+        if (path_join(run, names[i], own, NULL) == FRAM_OK && stat(own, &one) == 0 && stat(path, &other) == 0 &&
+            one.st_dev == other.st_dev && one.st_ino == other.st_ino)
+            return error_set(error, FRAM_ERROR_USAGE, path, 0, "output",
+                             "expected a file of its own, found one that the run is made of");
+    }
+    return FRAM_OK;
+}
+
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],
                           fram_error *error)
 {
@@ -20,7 +36,7 @@ fram_status path_given_or(const char *given, const char *folder, const char *nam
         return path_join(folder, name, out, error);
     int length = snprintf(out, PATH_ROOM, "%s", given);
     if (length >= 0 && length < PATH_ROOM)
-        return FRAM_OK;
+        return folder ? path_refuse_own(folder, given, error) : FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL,
                      "expected a path of less than %d bytes, found a longer one", (int)PATH_ROOM);
 }

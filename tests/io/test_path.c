@@ -1,6 +1,6 @@
-/* io/path: a path is whole or refused, to the byte. */
+/* io/path: a path is whole or refused, to the byte, and no output is what a run is made of. */
 #include "io/path.h"
-#include "testing.h"
+#include "scratch.h"
 
 START_TEST(a_path_is_whole_or_refused)
 {
@@ -21,6 +21,24 @@ START_TEST(a_path_is_whole_or_refused)
 }
 END_TEST
 
+START_TEST(files_that_a_run_is_made_of_are_no_output)
+{
+    static char out[PATH_ROOM], around[PATH_ROOM];
+    fram_error error = {0};
+    scratch s = scratch_make();
+    const char *own = scratch_path(&s, "series.csv");
+    assert_ok(path_refuse_own(s.folder, own, &error), error); /* it is not there yet */
+    scratch_write(own, "1", 1);
+    assert_fails(path_given_or(own, s.folder, "run.nc", out, &error), error, FRAM_ERROR_USAGE, "made of");
+    ck_assert_str_eq(error.key, "output");
+    snprintf(around, sizeof around, "%s/./series.csv", s.folder);
+    assert_fails(path_refuse_own(s.folder, around, &error), error, FRAM_ERROR_USAGE, "made of");
+    assert_ok(path_refuse_own("/usr", own, &error), error);
+    assert_ok(path_given_or(s.folder, NULL, NULL, out, &error), error);
+    scratch_remove(&s, "series.csv");
+}
+END_TEST
+
 START_TEST(a_path_from_the_root_is_whole_or_empty)
 {
     static char before[PATH_ROOM], out[PATH_ROOM];
@@ -38,4 +56,5 @@ START_TEST(a_path_from_the_root_is_whole_or_empty)
 }
 END_TEST
 
-TEST_MAIN("path", a_path_is_whole_or_refused, a_path_from_the_root_is_whole_or_empty)
+TEST_MAIN("path", a_path_is_whole_or_refused, files_that_a_run_is_made_of_are_no_output,
+          a_path_from_the_root_is_whole_or_empty)

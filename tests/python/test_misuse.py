@@ -263,6 +263,16 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(run.columns()["b"], [2])
         self.assert_refused(self.broken("series.csv", b"time[s],b[m]\n1,2\n2\n").columns, "series.csv", 3)
 
+    def test_what_a_run_is_made_of_is_not_written_over(self):
+        run = self.broken("station.json", b"{}")
+        os.symlink("series.csv", self.bad / "link.html")
+        for name in ("series.csv", "record.fram", "run.json", "scenario.yaml", "fractures.csv", "link.html"):
+            before = (self.bad / name).read_bytes()
+            with self.assertRaisesRegex(fram.UsageError, "output: .*made of"):
+                run.report(self.bad / name)
+            self.assertEqual((self.bad / name).read_bytes(), before)
+        self.assertTrue(pathlib.Path(run.report(self.bad / "mine.html")).is_file())
+
     def test_recordings_shorter_than_an_interval(self):
         world = towed().world()
         world.step()

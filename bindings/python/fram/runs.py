@@ -208,7 +208,10 @@ class Run:
                 if f["geometry"]["type"] == "Polygon"]
 
     def report(self, output: Union[str, os.PathLike, None] = None) -> str:
-        """Write the run's HTML report; its path."""
+        """Write the run's HTML report; its path.
+
+        output: a file that is there is replaced; one that the run is made of is a UsageError.
+        """
         result, error = ffi.new("fram_result *"), new_error()
         where = ffi.NULL if output is None else ffi.new("char[]", bytes_of(output))
         self._context._check(lib.fram_report(self._context._pointer, bytes_of(self.folder), where, False, result,
