@@ -19,6 +19,10 @@ typedef struct fram_result {
     double time;               /* of the first of them, simulated [s] */
 } fram_result;
 
+/* Whether a path names one of the files that the run in the folder is made of, over which nothing is written; false
+   without a folder or a path. */
+FRAM_API bool fram_run_has_file(const char *run, const char *path);
+
 /* ---- Formats of other programs ---- */
 
 /* For ParaView: run.pvd in the folder `output` (RUN/vtk), with floes, hull and forces of every `every`-th frame. */

@@ -88,6 +88,8 @@ fram_status(fram_report)(fram_context *c, const char *run, const char *output, b
     return answer(status, &report, result, size);
 }
 
+bool fram_run_has_file(const char *run, const char *path) { return run && path && path_is_own(run, path); }
+
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
                       double to, const char *output, fram_error *error)
 {

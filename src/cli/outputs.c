@@ -1,6 +1,8 @@
 /* What an output may not be written over: the one rule of all commands, told in docs/results.md. */
 #include "cli/cli.h"
 
+#include "fram/results.h"
+
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -10,19 +12,6 @@ static bool is_one_file(const char *a, const char *b)
     struct stat one, other;
     return strcmp(a, b) == 0 ||
            (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
-}
-
-/* Whether the path names a file that a run is made of. */
-static bool is_of_run(const char *run, const char *path)
-{
-    static const char *const names[] = {"scenario.yaml", "run.json", "series.csv", "fractures.csv", "record.fram"};
-    char own[4096];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        int length = snprintf(own, sizeof own, "%s/%s", run, names[i]);
-        if (length > 0 && length < (int)sizeof own && is_one_file(own, path))
-            return true;
-    }
-    return false;
 }
 
 /* Whether a name ends in one of the endings, "png svg". */
@@ -62,8 +51,7 @@ static bool is_of_another_kind(const output_file *o)
 static bool is_input(const command_files *files, const char *path)
 {
     for (int i = 0; i < FILES_ROOM; i++) {
-        if ((files->inputs[i] && is_one_file(files->inputs[i], path)) ||
-            (files->runs[i] && is_of_run(files->runs[i], path)))
+        if ((files->inputs[i] && is_one_file(files->inputs[i], path)) || fram_run_has_file(files->runs[i], path))
             return true;
     }
     return false;
@@ -93,7 +81,7 @@ int refuse_outputs(const common_options *common, const command_files *files)
 
 int refuse_run_folder(const common_options *common, const char *scenario, const char *folder)
 {
-    if (!is_of_run(folder, scenario))
+    if (!fram_run_has_file(folder, scenario))
         return -1;
     return answer_usage(common, "--output",
                         "names a folder in which the run would write over the scenario that it reads; give it a folder "

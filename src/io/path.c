@@ -14,7 +14,7 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
                      (int)PATH_ROOM);
 }
 
-fram_status path_refuse_own(const char *run, const char *path, fram_error *error)
+bool path_is_own(const char *run, const char *path)
 {
     static const char *const names[] = {"scenario.yaml", "run.json",    "series.csv",
                                         "fractures.csv", "record.fram", "peaks.fram"};
@@ -23,10 +23,17 @@ fram_status path_refuse_own(const char *run, const char *path, fram_error *error
         char own[PATH_ROOM]; /* where that is too long there is no such file */
         if (path_join(run, names[i], own, NULL) == FRAM_OK && stat(own, &one) == 0 && stat(path, &other) == 0 &&
             one.st_dev == other.st_dev && one.st_ino == other.st_ino)
-            return error_set(error, FRAM_ERROR_USAGE, path, 0, "output",
-                             "expected a file of its own, found one that the run is made of");
+            return true;
     }
-    return FRAM_OK;
+    return false;
+}
+
+fram_status path_refuse_own(const char *run, const char *path, fram_error *error)
+{
+    if (!path_is_own(run, path))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, path, 0, "output",
+                     "expected a file of its own, found one that the run is made of");
 }
 
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],

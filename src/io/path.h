@@ -9,8 +9,9 @@ enum { PATH_ROOM = 4096 };
 
 /* "FOLDER/NAME".  FRAM_ERROR_INPUT when that is too long. */
 fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM], fram_error *error);
-/* FRAM_ERROR_USAGE, key "output", where the path names one of the files that the run in the folder is made of: nothing
-   that is made from a run is written over it. */
+/* Whether the path names one of the files that the run in the folder is made of. */
+bool path_is_own(const char *run, const char *path);
+/* FRAM_ERROR_USAGE, key "output", where it does: nothing that is made from a run is written over it. */
 fram_status path_refuse_own(const char *run, const char *path, fram_error *error);
 /* "FOLDER/NAME", or `given` alone where it is not NULL: the output that a caller may have named, which is no file that
    the run in the folder is made of.  folder NULL: there is none. */

@@ -300,6 +300,10 @@ START_TEST(results)
     REFUSED(fram_report(NULL, run, NULL, false, &result, &e));
     REFUSED(fram_report(c, NULL, NULL, false, &result, &e));
     assert_ok(fram_report(c, run, NULL, true, NULL, &e), e);
+    char own[4096];
+    snprintf(own, sizeof own, "%s/series.csv", run);
+    REFUSED(fram_report(c, run, own, false, &result, &e));
+    ck_assert(fram_run_has_file(run, own) && !fram_run_has_file(NULL, own) && !fram_run_has_file(run, NULL));
 
     const char *channels[] = {"ice_force_x", NULL, "no such channel"};
     char *text;
