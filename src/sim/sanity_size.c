@@ -1,11 +1,10 @@
 /* A hull of one size, and numbers or a scale of another: what is left at its default of full size beside a model, or
    the scale of a tank beside a ship.  See sim/sanity.h. */
 #include "sim/sanity_parts.h"
+#include "sim/vessel_check.h"
 
 #include <math.h>
 
-/* Of ships that are tested [m], full size; over the default scale the longest model that a tank takes, 17 m. */
-#define LONGEST_SHIP 500.0
 /* Decks over the waterline, in beams: those of cruise ships and car carriers, 1. */
 #define HIGHEST_DECK 1.0
 /* Of a hull's weight: tugs pull a fifth of theirs, lines of small buoys begin with a quarter. */
@@ -17,8 +16,9 @@
 static void tell_scale(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
-    double scale = t->s->run.scale, longest = LONGEST_SHIP / scenario_default_scale();
-    if (scale < scenario_default_scale() && v->hull.length <= LONGEST_SHIP && v->hull.length > longest * scale)
+    /* Over the default scale the longest ship is the longest model that a tank takes, 17 m. */
+    double scale = t->s->run.scale, longest = VESSEL_LONGEST / scenario_default_scale();
+    if (scale < scenario_default_scale() && v->hull.length <= VESSEL_LONGEST && v->hull.length > longest * scale)
         sanity_say(t->tell, t->to,
                    "run.scale: %g is that of a tank, where hulls measure up to %.3g m, and %s is %.4g m long: "
                    "thresholds of the ice, thrusters and controllers have the defaults of a model; leave it out, or "

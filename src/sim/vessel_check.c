@@ -249,9 +249,8 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 
 /* ---- a hull from a file ---- */
 
-/* Sizes of what is taken for a ship or a structure at full size [m], as those of vessel.hull.length. */
+/* Shorter than any ship or structure, full size [m]; both ends as those of vessel.hull.length (sim/sanity.c). */
 #define SHORTEST 4.0
-#define LONGEST 500.0
 /* Part of the length by which amidships may lie beside the middle of the waterline. */
 #define OFF_AMIDSHIPS 0.2
 /* Part of the beam by which the centre of buoyancy may lie beside the centre line. */
@@ -265,11 +264,11 @@ static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e,
     if (e->keys->hull.form != HULL_MESH)
         return;
     double size = scenario_size(s);
-    if (p->length < SHORTEST * fmin(1, size) || p->length > LONGEST * fmax(1, size))
+    if (p->length < SHORTEST * fmin(1, size) || p->length > VESSEL_LONGEST * fmax(1, size))
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: a file in millimetres wants "
                   "hull.file_scale 0.001, one in feet 0.3048",
-                  e->path, p->length, SHORTEST * fmin(1, size), LONGEST * fmax(1, size));
+                  e->path, p->length, SHORTEST * fmin(1, size), VESSEL_LONGEST * fmax(1, size));
     if (p->beam > p->length)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,

@@ -437,9 +437,10 @@ static fram_status check_different(context *ctx, const series_source *source, fr
             state[i].st_ino = 0;
         for (int32_t k = 0; k < i && state[i].st_ino != 0 && status == FRAM_OK; k++)
             if (state[k].st_ino == state[i].st_ino && state[k].st_dev == state[i].st_dev)
-                status = error_set(error, FRAM_ERROR_INPUT, source->files[i], 0, NULL,
-                                   "is the same as %.200s, and would count twice: each is a realization of its own",
-                                   source->files[k]);
+                status = error_set(
+                    error, FRAM_ERROR_INPUT, source->files[i], 0, NULL,
+                    "is given twice (%.200s is the same), and would count twice: each is a realization of its own",
+                    source->files[k]);
     }
     memory_free(ctx, state);
     return status;
