@@ -18,7 +18,9 @@ if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ OR FRAM_SHORT_TESTS)
     list(APPEND test_environment "FRAM_TEST_SHORT=1")
 endif()
 if(FRAM_SANITIZE)
-    list(APPEND test_environment "FRAM_TEST_SANITIZE=${FRAM_SANITIZE}"
+    # LeakSanitizer guesses where a library opened late, as NetCDF is, has its variables of each thread: of a place that
+    # ends in 0x010 it takes what stands before it for a header of glibc 2.19, and faults. They are found without.
+    list(APPEND test_environment "FRAM_TEST_SANITIZE=${FRAM_SANITIZE}" "ASAN_OPTIONS=intercept_tls_get_addr=0"
         "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tools/leaks.txt:print_suppressions=0"
         "UBSAN_OPTIONS=print_stacktrace=1" "TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1")
 endif()

@@ -32,7 +32,7 @@ expect() {
 # Whether the command has an optional library: built_with cairo, built_with netcdf.
 built_with() { "$FRAM" --version | grep -q "$1"; }
 # The value of an expression of the JSON object j on the last line of out.
-value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
+value() { tail -n 1 out | python3 -S -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
 # same FOUND WANTED NAME
 same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
 # says WORDS FILE, holds PATTERN FILE: the file has the words, or a line of the pattern.

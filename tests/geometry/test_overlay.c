@@ -194,7 +194,7 @@ START_TEST(areas_balance)
 {
     setup();
     polygon_list l[4] = {{{0}, {0}}}, parts = {0};
-    int rounds = getenv("FRAM_TEST_SHORT") ? 100 : 1500;
+    int rounds = getenv("FRAM_TEST_SHORT") ? 100 : 500;
     for (int kind = 0; kind < 6; kind++)
         for (int round = 0; round < rounds; round++) {
             random_stream r = random_begin(71, (uint32_t)kind, (uint32_t)round);

@@ -106,7 +106,7 @@ START_TEST(common_part_as_geos_finds_it)
     vec2_array ab = {0}, ba = {0};
     polygon_list geos = {0};
     fram_error error;
-    int cases = getenv("FRAM_TEST_SHORT") ? 10000 : 140000, overlapping = 0;
+    int cases = getenv("FRAM_TEST_SHORT") ? 10000 : 40000, overlapping = 0;
     for (int round = 0; round < cases; round++) {
         vec2 a[16], b[16];
         int32_t n, m;

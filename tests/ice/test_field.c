@@ -462,13 +462,13 @@ START_TEST(periodic_fields)
         assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         assert_relative(r.concentration, 0.9, 1e-6);
         assert_relative(r.free_area, 60000, 1e-9);
-        for (int copy = 0; copy < 9; copy++)
+        for (int copy = 0; copy < 4; copy++) /* beside, above and across: what meets over an edge or a corner */
             for (int32_t i = 0; i < r.floes; i++) {
                 polygon p = polygon_list_get(&floes, i);
                 vec2 moved[64];
                 ck_assert_int_le(p.count, 64);
                 for (int32_t k = 0; k < p.count; k++)
-                    moved[k] = vec2_add(p.vertex[k], vec2_make(300 * (copy % 3), 200.0 * (copy / 3)));
+                    moved[k] = vec2_add(p.vertex[k], vec2_make(300 * (copy % 2), 200.0 * (copy / 2)));
                 ck_assert(polygon_list_push(&ctx, &all, (polygon){moved, p.count}));
             }
         assert_apart(&ctx, &all);

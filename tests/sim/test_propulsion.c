@@ -201,7 +201,7 @@ typedef struct ice_run {
     const char *thickness_key, *start_key;
     double thickness, start;
 } ice_run;
-static int ice_steps(void) { return getenv("FRAM_TEST_SHORT") ? 400 : 1200; }
+static int ice_steps(void) { return getenv("FRAM_TEST_SHORT") ? 400 : 800; }
 #define ICE_STEP 0.02
 
 /* By the equation of motion, M dv/dt = T_net(v) - factor R(v), where R grows as the hull enters the ice, which begins 2

@@ -9,9 +9,9 @@ import unittest
 
 from studies import FRAM, SHORT, StudyTest
 
-RUNS = 8
+RUNS = 4
 STUDY = """set: {run.duration: 0.5, run.transient: 0}
-seeds: 4
+seeds: 2
 keep: series
 vary: {grid: {vessel.speed: [1.5, 2]}}
 """
