@@ -62,17 +62,24 @@ enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame and in the last checkpoint, of the pictures of a run,
    and of the page that plays it without its record. */
 enum { SERIES_COLUMNS = 120, POSE_BYTES = 18, CHECKPOINT_BYTES = 1500, PICTURE_BYTES = 160000, PAGE_BYTES = 670000 };
+/* What output.record_limit counts in [bytes]. */
+#define MEGABYTE 1e6
+
+/* Of the record, with a frame every `interval` seconds [bytes]: thinned out as output.record_limit says. */
+static double frames_bytes(const scenario *s, double interval, int32_t floes)
+{
+    double all = interval > 0 ? s->run.duration / interval * floes * POSE_BYTES : 0, limit = s->output.record_limit;
+    return limit > 0 ? fmin(all, limit * MEGABYTE) : all;
+}
 
 static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t floes)
 {
     double rows = s->output.csv_interval > 0 ? s->run.duration / s->output.csv_interval : steps;
-    double frames = s->output.frame_interval > 0 ? s->run.duration / s->output.frame_interval : 0;
     double bytes = ROW_BYTES;
     if (keep != KEEP_SUMMARY)
         bytes += rows * SERIES_COLUMNS * NUMBER_BYTES;
     if (keep == KEEP_ALL)
-        bytes += fmin(frames * floes * POSE_BYTES, s->output.record_limit) + (double)floes * CHECKPOINT_BYTES +
-                 PICTURE_BYTES;
+        bytes += frames_bytes(s, s->output.frame_interval, floes) + (double)floes * CHECKPOINT_BYTES + PICTURE_BYTES;
     return bytes;
 }
 
@@ -81,8 +88,7 @@ static double record_bytes_of(const scenario *s, double steps, int32_t floes)
 {
     scenario one = *s;
     one.output.frame_interval = study_worst_frames(s);
-    double frames = fmin(s->run.duration / one.output.frame_interval * floes * POSE_BYTES, s->output.record_limit);
-    return bytes_of(&one, KEEP_ALL, steps, floes) + frames + PAGE_BYTES;
+    return bytes_of(&one, KEEP_ALL, steps, floes) + frames_bytes(&one, one.output.frame_interval, floes) + PAGE_BYTES;
 }
 
 /* Steps that the ice stays in a domain that it drifts through. */

@@ -208,6 +208,38 @@ START_TEST(conditions_are_counted_and_a_stop_is_heard_between_them)
 }
 END_TEST
 
+/* Bytes of a run that is kept whole, of one floe in 1,000 steps, with these keys of its output. */
+static double kept_bytes(fram_context *c, const char *output)
+{
+    fram_error error = {0};
+    fram_study *s = NULL;
+    fram_study_extent extent = {0};
+    char folder[256], path[300];
+    write_study(folder, path);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "scenario: floe.yaml\nset: {run.duration: 20, output.csv_interval: 20%s}\nkeep: all\n", output);
+    ck_assert_int_eq(fclose(file), 0);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    ck_assert_int_eq(fram_study_measure(s, &extent, &error), FRAM_OK);
+    fram_study_destroy(s);
+    return extent.run_bytes;
+}
+
+/* A floe in a frame takes 18 bytes. */
+START_TEST(the_record_of_a_kept_run_counts_up_to_its_limit)
+{
+    fram_context *c = context_of();
+    double without = kept_bytes(c, ", output.frame_interval: 0");
+    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02") - without, 18000, 1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02, output.record_limit: 0") - without, 18000,
+                            1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02, output.record_limit: 0.01") - without, 10000,
+                            1e-6);
+    fram_context_destroy(c);
+}
+END_TEST
+
 START_TEST(a_study_runs_by_the_command)
 {
     const char *program = getenv("FRAM");
@@ -251,4 +283,4 @@ END_TEST
 
 TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs,
           a_program_of_a_killed_study_is_waited_for, conditions_are_counted_and_a_stop_is_heard_between_them,
-          a_study_runs_by_the_command)
+          the_record_of_a_kept_run_counts_up_to_its_limit, a_study_runs_by_the_command)
