@@ -140,9 +140,6 @@ static void tell_line(const teller *t, int32_t i)
                    "%s.mooring.lines[%d].spacing_deg: %d lines at %g degrees go round more than once: give the angle "
                    "between neighbours",
                    t->e->path, (int)i, (int)l->count, l->spacing_deg);
-    if (sanity_own_hull(v) && fabs(v->mooring.x) + l->fairlead_distance > OVERHANG * v->hull.length)
-        sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
-                   t->e->path, fabs(v->mooring.x) + l->fairlead_distance, v->hull.length);
     if (l->count > 1 && fabs(l->spacing_deg) < 1e-9)
         sanity_say(t->tell, t->to, "%s.mooring.lines[%d].spacing_deg: %d lines lie one upon another at 0 degrees apart",
                    t->e->path, (int)i, (int)l->count);
@@ -150,16 +147,6 @@ static void tell_line(const teller *t, int32_t i)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].weight: a line of %.4g N/m parts under %.3g m of itself: give N/m", t->e->path,
                    (int)i, l->weight, l->breaking_load / l->weight);
-    if (sanity_own_hull(v) && v->mooring.z > MOST_HEIGHT * v->hull.freeboard)
-        sanity_say(t->tell, t->to,
-                   "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
-                   "negative under water",
-                   t->e->path, v->mooring.z, v->hull.freeboard);
-    if (sanity_own_hull(v) && -v->mooring.z > MOST_SINKING * v->hull.draught)
-        sanity_say(t->tell, t->to,
-                   "%s.mooring.z: fairleads %.4g m under the design waterline, far under a keel at %.4g m: give metres "
-                   "from the waterline, not from the bottom or the deck",
-                   t->e->path, -v->mooring.z, v->hull.draught);
     if (!is_automatic(l->release_time) && l->release_time > 0 && l->release_time < r->transient)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].release_time: it is let go at %g s, in the transient of %g s that statistics "
@@ -168,6 +155,31 @@ static void tell_line(const teller *t, int32_t i)
     if (!is_automatic(l->release_time) && l->release_time > r->duration)
         sanity_say(t->tell, t->to, "%s.mooring.lines[%d].release_time: %g s is after the end of the run, %g s",
                    t->e->path, (int)i, l->release_time, r->duration);
+}
+
+/* Where the lines come aboard, told once for all of them. */
+static void tell_fairleads(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_mooring *m = &v->mooring;
+    if (m->lines.count == 0 || !sanity_own_hull(v))
+        return;
+    double farthest = 0;
+    for (int32_t i = 0; i < m->lines.count; i++)
+        farthest = fmax(farthest, fabs(m->x) + m->lines.data[i].fairlead_distance);
+    if (farthest > OVERHANG * v->hull.length)
+        sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
+                   t->e->path, farthest, v->hull.length);
+    if (m->z > MOST_HEIGHT * v->hull.freeboard)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
+                   "negative under water",
+                   t->e->path, m->z, v->hull.freeboard);
+    if (-m->z > MOST_SINKING * v->hull.draught)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.z: fairleads %.4g m under the design waterline, far under a keel at %.4g m: give metres "
+                   "from the waterline, not from the bottom or the deck",
+                   t->e->path, -m->z, v->hull.draught);
 }
 
 /* ---- its way ---- */
@@ -315,6 +327,7 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
     tell_propulsion(&t);
     for (int32_t i = 0; i < e->keys->mooring.lines.count; i++)
         tell_line(&t, i);
+    tell_fairleads(&t);
     tell_motion(&t);
     tell_flows(&t);
 }

@@ -96,6 +96,14 @@ told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.moori
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400
 told ship.yaml "mooring.z: fairleads 50 m under the design waterline|keel at 6.5 m" --set vessel.mooring.z=-50
+# Of several lines once, since nothing in the sentence is of one of them.
+line='- {distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8, fairlead_distance: 200'
+sed -e "s/- {count: 8, spacing_deg: 45.*/$line},/" -e "s/^ *breaking_load.*/      $line, direction_deg: 120}/" \
+    -e 's/},$/}/' ship.yaml >lines.yaml
+told lines.yaml "fairleads 200 m from amidships" --set vessel.mooring.z=-50
+for words in "fairleads 200 m from amidships" "mooring.z: fairleads 50 m under"; do
+    same "$(grep -c "$words" err)" 1 "warnings of both lines: $words"
+done
 told ship.yaml "lines[0].release_time: 3600 s is after the end" --set "vessel.mooring.lines[0].release_time=3600"
 told ship.yaml "lines[0].weight: 1.5 N/m|not kg/m or kN/m" --set "vessel.mooring.lines[0].weight=1.5"
 told ship.yaml "thrusters[0].failure_time: 3600 s is after the end" --set "vessel.thrusters[0].failure_time=3600"
