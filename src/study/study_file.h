@@ -22,7 +22,9 @@
 #include "sim/build_hull.h"
 #include "study/study.h"
 
-enum { STUDY_FILE_LIMIT = 1 << 24, STUDY_DEPTH_LIMIT = 8 };
+/* The most bytes of a study file and of what its conditions come from: the most conditions with tens of keys each are a
+   study file of that size when they are written out one by one. */
+enum { STUDY_FILE_LIMIT = 1 << 28, STUDY_DEPTH_LIMIT = 8 };
 
 /* On success free with study_free; on failure nothing is left to free. */
 fram_status study_read(context *ctx, const char *path, study *s, fram_error *error);
