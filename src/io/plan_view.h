@@ -1,5 +1,5 @@
-/* Plan views: polygons seen from above with water, scale bar, north of the global frame (Y up) and a caption, as PNG.
- */
+/* Plan views: polygons seen from above with water, scale bar, the axes of the global frame (X to the right, Y up) and a
+   caption, as PNG or SVG. */
 #ifndef IO_PLAN_VIEW_H
 #define IO_PLAN_VIEW_H
 

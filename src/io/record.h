@@ -3,9 +3,10 @@
 
    Layout, all numbers in the byte order of the machine that wrote it:
      head    "FRAMREC\n", u32 version, u32 0x01020304, u32 0, u32 crc of the 20 bytes before
-     block   u32 'BLK\n', u32 type, u64 length, u32 crc of the payload, u32 crc of the 20 bytes before; payload; zeros
-   up to a multiple of 8 so that blocks begin at multiples of 8 and a length is trusted only after its checksum.  crc is
-   that of zlib. */
+     block   u32 'BLK\n', u32 type, u64 length, u32 crc of the payload, u32 crc of the 20 bytes before; payload;
+             zeros up to a multiple of 8
+
+   Thus blocks begin at multiples of 8, and a length is trusted only after its checksum.  crc is that of zlib. */
 #ifndef IO_RECORD_H
 #define IO_RECORD_H
 

@@ -6,8 +6,10 @@
               u32 crc of the 28 bytes before
      body     u32 count of numbers, each: name, u64
               u32 count of byte strings, each: name, u64 size, bytes
-              u32 count of tables, each: name, u32 count of fields, each field: name, u32 kind, u32 components; i32
-   rows; the fields' columns one after the other A name is a u32 length and its bytes. */
+              u32 count of tables, each: name, u32 count of fields, each field: name, u32 kind, u32 components;
+              i32 rows; the fields' columns one after the other
+
+   A name is a u32 length and its bytes. */
 #ifndef IO_TABLE_FILE_H
 #define IO_TABLE_FILE_H
 

@@ -13,8 +13,9 @@
        TEXT(value)                              scenario_text
        PATH(value)                              scenario_text, a file relative to the scenario's folder
        SECTION(noun)                            a nested scenario_<noun>, one key of a mapping
-       LIST(noun, most)                         an ARRAY of at most so many scenario_<noun>, written as a list of
-   mappings Units are SI; only keys that end in _deg hold degrees.  Directions are towards, counter-clockwise from X.
+       LIST(noun, most)                         an ARRAY of at most so many scenario_<noun>, a list of mappings
+
+   Units are SI; only keys that end in _deg hold degrees.  Directions are towards, counter-clockwise from X.
 
    Knows the enums of lower rooms; must not know files. */
 #ifndef MODEL_SCENARIO_KEYS_H

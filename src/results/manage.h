@@ -46,9 +46,6 @@ typedef struct manage_summary {
     int32_t tension_line;
 } manage_summary;
 
-/* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,
-   may be NULL.  FRAM_ERROR_INPUT for a folder without a run or a record, and for a vessel that is not there or not to
-   be told from others. */
 /* What is told on a terminal, or one JSON object in SI units; numbers that there are not are null. */
 fram_status manage_text(context *ctx, const manage_summary *s, const manage_summary *beside, bool json,
                         text_buffer *out, fram_error *error);
@@ -56,6 +53,9 @@ fram_status manage_text(context *ctx, const manage_summary *s, const manage_summ
    it: right behind the icebreakers where they broke it, else as far upstream as it was seen, else before the hull.
    name: as manage_options. */
 fram_status manage_met_ice(context *ctx, const char *folder, const char *name, managed_ice *sum, fram_error *error);
+/* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,
+   may be NULL.  FRAM_ERROR_INPUT for a folder without a run or a record, and for a vessel that is not there or not to
+   be told from others. */
 fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
                          manage_summary *beside, fram_error *error);
 
