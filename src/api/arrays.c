@@ -10,16 +10,9 @@
 _Static_assert(sizeof(vec2) == 2 * sizeof(double), "vertices of outlines");
 _Static_assert(sizeof(vec3) == 3 * sizeof(double) && sizeof(quat) == 4 * sizeof(double), "rows of a view");
 
-static inline fram_body_kind kind_of(const body_table *b, int32_t slot)
-{
-    static const fram_body_kind kinds[MATERIAL_COUNT] = {
-        [MATERIAL_ICE] = FRAM_BODY_FLOE, [MATERIAL_HULL] = FRAM_BODY_VESSEL, [MATERIAL_WALL] = FRAM_BODY_WALL};
-    return b->shape[slot] >= 0 && b->material[slot] < MATERIAL_COUNT ? kinds[b->material[slot]] : FRAM_BODY_OTHER;
-}
-
 static inline bool is_selected(const body_table *b, int32_t slot, unsigned selection)
 {
-    return body_is_alive(b, slot) && (selection == 0 || (selection >> kind_of(b, slot) & 1) != 0);
+    return body_is_alive(b, slot) && (selection == 0 || (selection >> world_body_kind(b, slot) & 1) != 0);
 }
 
 /* Bodies are copied in runs of so many, a column after the other: reading 10,000 in every step costs what memory costs.
@@ -51,7 +44,7 @@ static double thickness_of(const world *w, int32_t slot)
 /* Row of the floe table, -1. */
 static inline int32_t floe_of(const world *w, int32_t slot)
 {
-    return kind_of(&w->bodies, slot) == FRAM_BODY_FLOE ? w->bodies.owner[slot] : -1;
+    return world_body_kind(&w->bodies, slot) == FRAM_BODY_FLOE ? w->bodies.owner[slot] : -1;
 }
 
 /* Bodies of these slots as rows from `row`. */
@@ -61,7 +54,7 @@ static void put_bodies(const world *w, const int32_t *slot, int count, int row, 
     for (int i = 0; a->id && i < count; i++)
         a->id[row + i] = (fram_body_id){slot[i], b->generation[slot[i]]};
     for (int i = 0; a->kind && i < count; i++)
-        a->kind[row + i] = (int32_t)kind_of(b, slot[i]);
+        a->kind[row + i] = (int32_t)world_body_kind(b, slot[i]);
     for (int i = 0; a->number && i < count; i++) {
         int32_t floe = floe_of(w, slot[i]);
         a->number[row + i] = floe >= 0 ? w->floes.number[floe] : -1;
@@ -182,8 +175,6 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
     result_give(view, size, &full);
     return FRAM_OK;
 }
-
-static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 static fram_body_id id_of(const body_table *b, int32_t slot)
 {

@@ -90,6 +90,14 @@ void recording_abandon(fram_world *w, const char *message);
 const double *world_row(const fram_world *w);
 /* What follows from the state is to be found again. */
 void world_changed(fram_world *w);
-fram_body_kind world_body_kind(const body_table *b, int32_t slot);
+/* What a body is for callers; inline, as whole arrays of bodies are told. */
+static inline fram_body_kind world_body_kind(const body_table *b, int32_t slot)
+{
+    static const fram_body_kind kinds[MATERIAL_COUNT] = {
+        [MATERIAL_ICE] = FRAM_BODY_FLOE, [MATERIAL_HULL] = FRAM_BODY_VESSEL, [MATERIAL_WALL] = FRAM_BODY_WALL};
+    return b->shape[slot] >= 0 && b->material[slot] < MATERIAL_COUNT ? kinds[b->material[slot]] : FRAM_BODY_OTHER;
+}
+/* A vector into three numbers of a caller. */
+static inline void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 #endif

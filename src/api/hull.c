@@ -19,13 +19,6 @@ struct fram_hull {
     fram_hull_surface about;
 };
 
-static void copy3(double out[3], vec3 v)
-{
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
-}
-
 /* ---- making ---- */
 
 static void describe(fram_hull *h)

@@ -246,25 +246,6 @@ static fram_status no_such_body(fram_body_id id, fram_error *error)
                      (int)id.slot, (unsigned)id.generation);
 }
 
-fram_body_kind world_body_kind(const body_table *b, int32_t slot)
-{
-    if (b->shape[slot] < 0)
-        return FRAM_BODY_OTHER;
-    switch ((material)b->material[slot]) {
-    case MATERIAL_ICE:
-        return FRAM_BODY_FLOE;
-    case MATERIAL_HULL:
-        return FRAM_BODY_VESSEL;
-    case MATERIAL_WALL:
-        return FRAM_BODY_WALL;
-    case MATERIAL_COUNT:
-        break;
-    }
-    return FRAM_BODY_OTHER;
-}
-
-static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-
 fram_status(fram_body_state_get)(const fram_world *w, fram_body_id id, fram_body_state *state, fram_error *error,
                                  size_t size)
 {
