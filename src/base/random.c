@@ -78,3 +78,14 @@ double random_lognormal(random_stream *r, double mean, double deviation)
     double variance = real_log(1 + variation * variation); /* of the logarithm */
     return mean * real_exp(sqrt(variance) * random_normal(r) - variance / 2);
 }
+
+void random_order(random_stream *r, int32_t *order, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        order[i] = i;
+    for (int32_t i = count - 1; i > 0; i--) {
+        int32_t j = (int32_t)(random_unit(r) * (i + 1)), keep = order[i];
+        order[i] = order[j];
+        order[j] = keep;
+    }
+}

@@ -24,6 +24,9 @@ double random_normal(random_stream *r);                        /* mean 0, standa
 /* mean > 0 and deviation >= 0 are of the variable itself, not of its logarithm */
 double random_lognormal(random_stream *r, double mean, double deviation);
 
+/* A random order of 0 .. count - 1 (Fisher and Yates), all as probable: count - 1 draws. */
+void random_order(random_stream *r, int32_t *order, int32_t count);
+
 /* The generator itself: 128 bits from a 128-bit counter and a 64-bit key. */
 void random_philox(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]);
 

@@ -257,21 +257,6 @@ typedef struct latin_key {
     int32_array stratum; /* of each condition */
 } latin_key;
 
-/* A random order of 0 .. count - 1 (Fisher and Yates). */
-static bool shuffle(context *ctx, int32_array *order, int32_t count, random_stream *random)
-{
-    if (!array_resize(ctx, order, count))
-        return false;
-    for (int32_t i = 0; i < count; i++)
-        order->data[i] = i;
-    for (int32_t i = count - 1; i > 0; i--) {
-        int32_t j = (int32_t)(random_unit(random) * (i + 1)), keep = order->data[i];
-        order->data[i] = order->data[j];
-        order->data[j] = keep;
-    }
-    return true;
-}
-
 enum { LATIN_KEYS_MOST = 64 };
 
 static fram_status draw_latin(const study_source *r, const latin_key *keys, random_stream *places)
@@ -304,8 +289,10 @@ static fram_status fill_latin(const study_source *r, const yaml_node *node, int6
         status = study_range(r, k, &keys[n].range);
         if (status == FRAM_OK)
             status = study_add_key(r, k);
-        if (status == FRAM_OK && !shuffle(r->ctx, &keys[n].stratum, r->out->conditions, &strata))
+        if (status == FRAM_OK && !array_resize(r->ctx, &keys[n].stratum, r->out->conditions))
             status = error_memory(r->error);
+        if (status == FRAM_OK)
+            random_order(&strata, keys[n].stratum.data, r->out->conditions);
     }
     if (status == FRAM_OK)
         status = draw_latin(r, keys, places);

@@ -12,18 +12,6 @@ enum { REPLICATES = 499 };
 
 /* ---- points ---- */
 
-/* A random order of 0 .. count - 1 (Fisher and Yates). */
-static void shuffle(int32_t *order, int32_t count, random_stream *random)
-{
-    for (int32_t i = 0; i < count; i++)
-        order[i] = i;
-    for (int32_t i = count - 1; i > 0; i--) {
-        int32_t j = (int32_t)(random_unit(random) * (i + 1)), keep = order[i];
-        order[i] = order[j];
-        order[j] = keep;
-    }
-}
-
 bool sobol_points(context *ctx, int32_t n, int32_t k, int64_t seed, double *x)
 {
     int32_t *stratum = memory_array(ctx, (size_t)n, sizeof *stratum);
@@ -32,7 +20,7 @@ bool sobol_points(context *ctx, int32_t n, int32_t k, int64_t seed, double *x)
     for (int32_t column = 0; column < 2 * k; column++) {
         random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)column);
         random_stream places = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)column);
-        shuffle(stratum, n, &strata);
+        random_order(&strata, stratum, n);
         double *first = x + (column < k ? column : (int64_t)n * k + column - k);
         for (int32_t i = 0; i < n; i++)
             first[(int64_t)i * k] = (stratum[i] + random_unit(&places)) / n;
@@ -56,7 +44,7 @@ void morris_points(int32_t r, int32_t k, int32_t levels, int64_t seed, double *x
         random_stream random = random_begin((uint64_t)seed, STREAM_PATHS, (uint32_t)path);
         int32_t order[SENSITIVITY_KEYS_MOST];
         double *point = x + (int64_t)path * (k + 1) * k;
-        shuffle(order, k, &random);
+        random_order(&random, order, k);
         for (int32_t i = 0; i < k; i++)
             point[i] = floor(random_unit(&random) * levels) / (levels - 1);
         for (int32_t s = 0; s < k; s++, point += k) {
