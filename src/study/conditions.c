@@ -1,7 +1,6 @@
 #include "study/conditions.h"
 
 #include "base/random.h"
-#include "io/text_buffer.h"
 #include "study/condition_table.h"
 #include "study/words.h"
 
@@ -30,6 +29,14 @@ const char *study_key(const study_source *r, const yaml_node *node)
     while (node->key < 0 && node->parent >= 0)
         node = &r->tree->nodes.data[node->parent];
     return node->key >= 0 ? yaml_text(r->tree, node->key) : "";
+}
+
+void study_beside(const study_source *r, const char *name, text_buffer *path)
+{
+    const char *slash = strrchr(r->out->file, '/');
+    if (name[0] != '/' && slash)
+        text_add_bytes(r->ctx, path, r->out->file, (size_t)(slash + 1 - r->out->file));
+    text_add(r->ctx, path, name);
 }
 
 const yaml_node *study_child(const study_source *r, const yaml_node *node)
@@ -234,11 +241,8 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
     const char *name = node->kind == YAML_SCALAR ? yaml_text(r->tree, node->value) : "";
     if (!*name)
         return study_refuse(r, node, "expected the name of a CSV file with a column for each key");
-    const char *slash = strrchr(r->out->file, '/');
     text_buffer path = {0};
-    if (name[0] != '/' && slash)
-        text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));
-    text_add(r->ctx, &path, name);
+    study_beside(r, name, &path);
     condition_table t = {0};
     fram_status status = path.failed ? error_memory(r->error) : condition_table_read(r->ctx, path.data, &t, r->error);
     if (status == FRAM_OK)

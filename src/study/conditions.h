@@ -2,6 +2,7 @@
 #ifndef STUDY_CONDITIONS_H
 #define STUDY_CONDITIONS_H
 
+#include "io/text_buffer.h"
 #include "io/yaml_tree.h"
 #include "study/study.h"
 
@@ -18,6 +19,8 @@ fram_status study_refuse(const study_source *r, const yaml_node *node, const cha
     __attribute__((format(printf, 3, 4)));
 /* The key a node stands under, of an element of a list that of the list; "" for none. */
 const char *study_key(const study_source *r, const yaml_node *node);
+/* The path of a file that the study names, which is relative to the study's own folder; path.failed: no memory. */
+void study_beside(const study_source *r, const char *name, text_buffer *path);
 /* A scalar as a number within a range. */
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The same, whole. */

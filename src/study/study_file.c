@@ -26,11 +26,8 @@ static fram_status read_scenario(const study_source *r, const yaml_node *node)
 {
     if (node->kind != YAML_SCALAR || !*yaml_text(r->tree, node->value))
         return study_refuse(r, node, "expected the name of a scenario file");
-    const char *name = yaml_text(r->tree, node->value), *slash = strrchr(r->out->file, '/');
     text_buffer path = {0};
-    if (name[0] != '/' && slash)
-        text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));
-    text_add(r->ctx, &path, name);
+    study_beside(r, yaml_text(r->tree, node->value), &path);
     bool good = !path.failed && set_text(r->ctx, &r->out->scenario, path.data);
     text_free(r->ctx, &path);
     return good ? FRAM_OK : error_memory(r->error);
