@@ -207,6 +207,9 @@ class Package(unittest.TestCase):
         np.testing.assert_allclose(load, [world[f"ice_force_{axis}"] for axis in "xyz"], rtol=1e-9, atol=1e-3)
         with self.assertRaises(fram.UsageError):
             world.bodies("ship")
+        for read in (world.bodies, world.outlines):
+            with self.assertRaisesRegex(fram.UsageError, "found none"):
+                read([])  # not all of them
 
     def assert_arrays_tell_what_copies_tell(self, world):
         """Views and shapes equal what copies tell, to the bit, and outlines that are turned here to rounding."""

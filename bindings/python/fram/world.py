@@ -219,12 +219,15 @@ _CONTACT, _FRACTURE = _dtype("fram_contact"), _dtype("fram_fracture")
 
 
 def _selection(kind: Union[str, Sequence[str], None]) -> int:
-    kinds = [] if kind is None else [kind] if isinstance(kind, str) else list(kind)
+    if kind is None:
+        return 0  # all
     bits = 0
-    for word in kinds:
+    for word in [kind] if isinstance(kind, str) else kind:
         if word not in KINDS:
             raise UsageError("usage", f"expected one of {', '.join(KINDS)}, found {word!r}", key="kind")
         bits |= 1 << KINDS[word]
+    if bits == 0:
+        raise UsageError("usage", f"expected some of {', '.join(KINDS)}, or None for all, found none", key="kind")
     return bits
 
 
