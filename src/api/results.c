@@ -12,7 +12,6 @@
 #include "sim/capability.h"
 #include "sim/notes.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* Bounds of what a caller may ask for, far beyond every use: times [s], simulated seconds a second, metres across. */

@@ -3,7 +3,6 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
-#include "base/clock.h"
 #include "base/hash.h"
 #include "io/scenario_file.h"
 #include "sim/bench_looks.h"

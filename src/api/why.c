@@ -5,8 +5,6 @@
 #include "fram/results.h"
 #include "sim/rerun.h"
 
-#include <math.h>
-
 #define TIME_MOST 1e12
 
 static void fram_why_fill(fram_why_definition *definition)

@@ -1,8 +1,6 @@
 /* fram view: a playback page. */
 #include "cli/cli.h"
 
-#include <string.h>
-
 /* The viewer's page beside the command: in the build tree, or where it was installed. */
 bool viewer_page_find(char out[BESIDE_SIZE])
 {

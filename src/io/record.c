@@ -1,7 +1,6 @@
 /* Framed blocks: written through a buffer, read with every checksum looked at before anything is believed. */
 #include "io/record.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -6,7 +6,6 @@
 #include <string.h>
 #include <sys/random.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* NAME.0123456789abcdef.new; of a long NAME the beginning, so that the whole is a name that every file system takes. */
 enum { RANDOM_DIGITS = 16, NAME_MOST = 200, TRIES_MOST = 100 };

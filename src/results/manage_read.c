@@ -5,7 +5,6 @@
 #include "model/scenario_vessel.h"
 #include "results/replay_moment.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* Slower than this, ice comes from nowhere [m/s]. */

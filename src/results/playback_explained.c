@@ -6,7 +6,6 @@
 #include "results/why.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Digits of the curve: more than a screen shows. */

@@ -5,7 +5,6 @@
 #include "io/record_pose.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* ---- a block, read from front to back ---- */

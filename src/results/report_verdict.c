@@ -2,7 +2,6 @@
 #include "results/report_parts.h"
 
 #include "base/channel_statistics.h"
-#include "base/transcendental.h"
 #include "results/mechanism_curve.h"
 #include "results/station_results.h"
 #include "results/track_results.h"

@@ -7,7 +7,6 @@
 #include "model/scenario_vessel.h"
 #include "results/replay.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };

@@ -8,7 +8,6 @@
 #include "model/scenario_vessel.h"
 
 #include <stdio.h>
-#include <string.h>
 
 /* A limit of more than so many largest offsets is not drawn. */
 #define FAR_LIMIT 6

@@ -1,7 +1,6 @@
 #include "sim/approach_watch.h"
 
 #include <stdio.h>
-#include <string.h>
 
 fram_status approach_watch_model(context *ctx, const scenario *s, const vessel_entry *entry, const model *m,
                                  vessel_model *out, fram_error *error)

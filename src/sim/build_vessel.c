@@ -7,8 +7,6 @@
 #include "sim/vessel_check.h"
 #include "vessel/path.h"
 
-#include <stdio.h>
-
 /* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
    ships. */
 static const double GYRATION_ROLL = 0.35, GYRATION_LENGTH = 0.25;

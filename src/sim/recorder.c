@@ -5,7 +5,6 @@
 #include "io/record_pose.h"
 #include "sim/ice_loads.h"
 
-#include <stdio.h>
 #include <string.h>
 
 int64_t interval_steps(double interval, double time_step)

@@ -7,7 +7,6 @@
 #include "sim/build_level.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Memory of a run: the program itself, and what a floe takes with its shape, its contacts and the making of the field.

@@ -5,7 +5,6 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/minimise.h"
-#include "study/special.h"
 
 #include <math.h>
 #include <string.h>

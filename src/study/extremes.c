@@ -9,7 +9,6 @@
 #include "study/pivot.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Stream of random numbers of this file: draws of a sample from itself. */

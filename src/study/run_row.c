@@ -11,7 +11,6 @@
 #include "study/cells.h"
 #include "vessel/event.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,5 @@
 #include "vessel/vessel.h"
 
-#include "base/transcendental.h"
-
 #define TABLE_SELF vessel_table
 TABLE_DEFINE(vessel, VESSEL_FIELDS)
 #undef TABLE_SELF
