@@ -304,6 +304,27 @@ static int refuse_idle(const common_options *common, const fram_study_definition
     return -1;
 }
 
+/* Words and options that do not go together; -1: they do. */
+static int refuse_words(const common_options *common, const fram_study_definition *d, const char *const words[2],
+                        bool check, bool list)
+{
+    if (!words[1] && strcmp(words[0], "check") == 0 && access("check", F_OK) != 0)
+        return answer_usage(common, "check", "lacks its study: fram study check STUDY");
+    if (!words[1] && strcmp(words[0], "list") == 0 && access("list", F_OK) != 0)
+        return answer_usage(common, "list", "lacks its folder: fram study list DIR");
+    if (words[1] && !check && !list)
+        return answer_usage(common, words[0],
+                            "expected one study file, or: fram study check STUDY, or: fram study list DIR");
+    int code = check || list ? refuse_idle(common, d, check) : -1;
+    if (code >= 0)
+        return code;
+    if (!check && !list && !d->folder)
+        return answer_usage(common, "--output", "is missing: name the folder for the results, -o DIR");
+    if (d->jobs < 0 || d->jobs > 4096)
+        return answer_usage(common, "--jobs", "expected 0 to 4096 processes");
+    return d->slurm_poll > 3600 ? answer_usage(common, "--poll", "expected at most 3600 s") : -1;
+}
+
 int command_study(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -332,23 +353,9 @@ int command_study(const command_row *self, int argc, char **argv)
     d.slurm_options = sbatch.value;
     d.slurm_option_count = sbatch.count;
     bool check = words[1] && strcmp(words[0], "check") == 0, list = words[1] && strcmp(words[0], "list") == 0;
-    if (!words[1] && strcmp(words[0], "check") == 0 && access("check", F_OK) != 0)
-        return answer_usage(&common, "check", "lacks its study: fram study check STUDY");
-    if (!words[1] && strcmp(words[0], "list") == 0 && access("list", F_OK) != 0)
-        return answer_usage(&common, "list", "lacks its folder: fram study list DIR");
-    if (words[1] && !check && !list)
-        return answer_usage(&common, words[0],
-                            "expected one study file, or: fram study check STUDY, or: fram study list DIR");
-    if (check || list)
-        code = refuse_idle(&common, &d, check);
+    code = refuse_words(&common, &d, words, check, list);
     if (code >= 0)
         return code;
-    if (!check && !list && !d.folder)
-        return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
-    if (d.jobs < 0 || d.jobs > 4096)
-        return answer_usage(&common, "--jobs", "expected 0 to 4096 processes");
-    if (d.slurm_poll > 3600)
-        return answer_usage(&common, "--poll", "expected at most 3600 s");
     fram_context *context = NULL;
     work_view work;
     code = session_open_reading(&common, &work, &context);
