@@ -347,12 +347,11 @@ static void judge_solver(verdict *v)
 static double chain_part(const report *r)
 {
     mechanism_columns c;
-    const double *time = run_channel(&r->d, "time");
     double all_x = 0, all_y = 0, x = 0, y = 0;
-    if (!time || !mechanism_columns_find(&r->d, r->vessel, &c))
+    if (!mechanism_columns_find(&r->d, r->vessel, &c))
         return 0;
-    for (int32_t i = 0; i < r->d.series.rows; i++)
-        for (int m = 0; m < MECHANISM_COUNT && time[i] > r->d.s.run.transient; m++) {
+    for (int32_t i = run_first_row(&r->d); i < r->d.series.rows; i++)
+        for (int m = 0; m < MECHANISM_COUNT; m++) {
             all_x += c.x[m][i], all_y += c.y[m][i];
             x += m == MECHANISM_CHAIN ? c.x[m][i] : 0, y += m == MECHANISM_CHAIN ? c.y[m][i] : 0;
         }

@@ -141,6 +141,13 @@ verdict edge
 says "comes through chains of floes that end at the driven edge of the domain." verdict.txt
 says "Enlarge the domain" verdict.txt
 grep -q 'towing carriage' edge/report.html && fail "a moored vessel has a towing carriage"
+# The row at the end of the transient counts, as in all other figures: here it is the only one, in which a chain pushes.
+cp -r edge brim
+sed -i 's/transient: 60/transient: 110/' brim/scenario.yaml
+expect 0 "$FRAM" report brim
+verdict brim
+says "1 of 220 rows of the run are after the transient of 110 s" verdict.txt
+says "comes through chains of floes that end at the driven edge of the domain." verdict.txt
 for run in held tow; do
     grep -q 'driven edge' $run/report.html && fail "a run without a driven edge is told of one: $run"
 done
