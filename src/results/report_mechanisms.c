@@ -1,6 +1,7 @@
 /* The report's section on what makes the load: mechanisms over time, stacked, and the ten largest peaks in words. */
 #include "results/report_parts.h"
 
+#include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/peaks.h"
 
@@ -106,76 +107,49 @@ static fram_status draw_stack(report *r, const stacked *s, load_unit unit, fram_
     return html_chart(&r->page, &c, true, error);
 }
 
-static void share_table(report *r, const stacked *s)
+/* Parts of the mean load, which are nothing where it is 0. */
+static void share_table(report *r, const char *what, const char *const *name, const double *const *x,
+                        const double *const *y, int32_t parts)
 {
-    const char *const heads[] = {"mechanism", "part of the mean load after the transient [%]"};
-    double sum[MECHANISM_COUNT] = {0}, all = 0;
-    for (int m = 0; m < MECHANISM_COUNT; m++) {
-        for (int32_t b = 0; b < s->bins; b++)
-            sum[m] += s->time[b] >= r->d.s.run.transient ? s->part[m][b] : 0;
-        all += sum[m];
-    }
-    if (!(all > 0))
+    const char *const heads[] = {what, "part of the mean load after the transient [%]"};
+    double share[LOAD_PARTS_MOST];
+    if (!load_shares(&r->d, x, y, parts, share))
         return;
     html_table_begin(&r->page, heads, 2);
-    for (int m = 0; m < MECHANISM_COUNT; m++) {
+    for (int32_t k = 0; k < parts; k++) {
         html_row_begin(&r->page);
-        html_cell(&r->page, mechanism_text((ice_mechanism)m));
-        html_number(&r->page, 100 * sum[m] / all);
+        html_cell(&r->page, name[k]);
+        html_number(&r->page, 100 * share[k]);
         html_row_end(&r->page);
     }
     html_table_end(&r->page);
 }
 
-/* The same parts by zone of the hull: along the load of each stretch of time. */
-static bool zone_parts(const report *r, const stacked *s, int32_t every, double part[PEAK_ZONES])
+static void mechanism_table(report *r)
 {
+    const char *name[MECHANISM_COUNT];
+    mechanism_columns c;
+    for (int m = 0; m < MECHANISM_COUNT; m++)
+        name[m] = mechanism_text((ice_mechanism)m);
+    if (mechanism_columns_find(&r->d, r->vessel, &c))
+        share_table(r, "mechanism", name, c.x, c.y, MECHANISM_COUNT);
+}
+
+static void zone_table(report *r)
+{
+    const char *zone[PEAK_ZONES];
     const double *x[PEAK_ZONES], *y[PEAK_ZONES];
     for (int32_t z = 0; z < PEAK_ZONES; z++) {
         char name[64];
-        snprintf(name, sizeof name, "ice_force_%s_x", peak_zone_name(z));
+        zone[z] = peak_zone_name(z);
+        snprintf(name, sizeof name, "ice_force_%s_x", zone[z]);
         x[z] = run_vessel_channel(&r->d, r->vessel, name);
         name[strlen(name) - 1] = 'y';
         y[z] = run_vessel_channel(&r->d, r->vessel, name);
-        part[z] = 0;
         if (!x[z] || !y[z])
-            return false;
+            return;
     }
-    for (int32_t b = 0; b < s->bins; b++) {
-        double fx[PEAK_ZONES] = {0}, fy[PEAK_ZONES] = {0}, all_x = 0, all_y = 0;
-        int32_t first = b * every, end = first + every < r->d.series.rows ? first + every : r->d.series.rows;
-        for (int32_t z = 0; z < PEAK_ZONES; z++) {
-            for (int32_t i = first; i < end; i++) {
-                fx[z] += x[z][i] / (end - first);
-                fy[z] += y[z][i] / (end - first);
-            }
-            all_x += fx[z];
-            all_y += fy[z];
-        }
-        double load = sqrt(all_x * all_x + all_y * all_y);
-        for (int32_t z = 0; z < PEAK_ZONES && load > 0 && s->time[b] >= r->d.s.run.transient; z++)
-            part[z] += (fx[z] * all_x + fy[z] * all_y) / load;
-    }
-    return true;
-}
-
-static void zone_table(report *r, const stacked *s, int32_t every)
-{
-    const char *const heads[] = {"zone of the hull", "part of the mean load after the transient [%]"};
-    double part[PEAK_ZONES] = {0}, all = 0;
-    bool there = zone_parts(r, s, every, part);
-    for (int32_t z = 0; z < PEAK_ZONES && there; z++)
-        all += part[z];
-    if (!(all > 0))
-        return;
-    html_table_begin(&r->page, heads, 2);
-    for (int32_t z = 0; z < PEAK_ZONES; z++) {
-        html_row_begin(&r->page);
-        html_cell(&r->page, peak_zone_name(z));
-        html_number(&r->page, 100 * part[z] / all);
-        html_row_end(&r->page);
-    }
-    html_table_end(&r->page);
+    share_table(r, "zone of the hull", zone, x, y, PEAK_ZONES);
 }
 
 static fram_status peak_table(report *r, fram_error *error)
@@ -229,7 +203,7 @@ fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
     fram_status status = draw_stack(r, &s, unit, error);
     if (status != FRAM_OK)
         return status;
-    share_table(r, &s);
-    zone_table(r, &s, size);
+    mechanism_table(r);
+    zone_table(r);
     return peak_table(r, error);
 }

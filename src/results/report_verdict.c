@@ -2,6 +2,7 @@
 #include "results/report_parts.h"
 
 #include "base/channel_statistics.h"
+#include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/station_results.h"
 #include "results/track_results.h"
@@ -342,21 +343,14 @@ static void judge_solver(verdict *v)
 /* Part of the mean load from which on the edge of the domain takes part in it. */
 #define EDGE_PART 0.1
 
-/* Part of the mean horizontal load after the transient that comes through chains to bodies that do not give way; 0
-   where the run does not say. */
+/* Part of the mean load that comes through chains to bodies that do not give way; 0 where the run does not say. */
 static double chain_part(const report *r)
 {
     mechanism_columns c;
-    double all_x = 0, all_y = 0, x = 0, y = 0;
-    if (!mechanism_columns_find(&r->d, r->vessel, &c))
-        return 0;
-    for (int32_t i = run_first_row(&r->d); i < r->d.series.rows; i++)
-        for (int m = 0; m < MECHANISM_COUNT; m++) {
-            all_x += c.x[m][i], all_y += c.y[m][i];
-            x += m == MECHANISM_CHAIN ? c.x[m][i] : 0, y += m == MECHANISM_CHAIN ? c.y[m][i] : 0;
-        }
-    double square = all_x * all_x + all_y * all_y;
-    return square > 0 ? (x * all_x + y * all_y) / square : 0;
+    double share[MECHANISM_COUNT] = {0};
+    if (mechanism_columns_find(&r->d, r->vessel, &c))
+        load_shares(&r->d, c.x, c.y, MECHANISM_COUNT, share);
+    return share[MECHANISM_CHAIN];
 }
 
 /* Floes in an endless field are driven at its edge, whatever pushes: a chain from the hull to there is a load of the

@@ -7,10 +7,12 @@
 #include "results/load_statistics.h"
 #include "results/station_results.h"
 
+#include <math.h>
 #include <stdio.h>
 
 enum { CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
 
+/* NAN without a row from there on. */
 static double mean_after(const double_array *time, const double_array *value, double transient)
 {
     double sum = 0;
@@ -21,7 +23,7 @@ static double mean_after(const double_array *time, const double_array *value, do
         sum += value->data[i];
         n++;
     }
-    return n > 0 ? sum / n : 0;
+    return n > 0 ? sum / n : (double)NAN;
 }
 
 enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, CHANNELS };
@@ -84,12 +86,16 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
             chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
             chart_line_make("along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true),
         };
-        char title[80], subtitle[256];
+        char title[80], of_mean[96], subtitle[256];
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
-        snprintf(subtitle, sizeof subtitle,
-                 "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s, negative: it resists; "
-                 "single steps reach %.4g kN%s",
-                 s->output.averaging_window, mean * 1e-3, s->run.transient, spike, cut ? ", beyond the picture" : "");
+        if (isfinite(mean))
+            snprintf(of_mean, sizeof of_mean,
+                     "mean along the vessel (x forward) %.4g kN after %g s, negative: it resists", mean * 1e-3,
+                     s->run.transient);
+        else
+            snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);
+        snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g kN%s",
+                 s->output.averaging_window, of_mean, spike, cut ? ", beyond the picture" : "");
         chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }

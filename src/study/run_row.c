@@ -3,8 +3,9 @@
 #include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
-#include "model/mechanism.h"
 #include "model/scenario_vessel.h"
+#include "results/load_shares.h"
+#include "results/mechanism_curve.h"
 #include "results/rainflow.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
@@ -139,28 +140,13 @@ static double mean_of(const run_data *d, int32_t vessel, const char *channel)
     return time && value ? channel_statistics_of(time, value, d->series.rows, d->s.run.transient).mean : (double)NAN;
 }
 
-/* Of the mean load after the transient; stays empty without a load, and for runs that did not split theirs. */
+/* Stay empty without a load, and for runs that did not split theirs. */
 static void add_shares(const run_data *d, int32_t vessel, run_row *out)
 {
-    static const char *const names[MECHANISM_COUNT] = {
-#define SHARE_NAME(id, name, text) [MECHANISM_##id] = (name),
-        ICE_MECHANISMS(SHARE_NAME)
-#undef SHARE_NAME
-    };
-    double x[MECHANISM_COUNT], y[MECHANISM_COUNT], all_x = 0, all_y = 0;
-    for (int m = 0; m < MECHANISM_COUNT; m++) {
-        char channel[64];
-        snprintf(channel, sizeof channel, "mechanism_%s_x", names[m]);
-        x[m] = mean_of(d, vessel, channel);
-        channel[strlen(channel) - 1] = 'y';
-        y[m] = mean_of(d, vessel, channel);
-        all_x += x[m];
-        all_y += y[m];
-    }
-    double square = all_x * all_x + all_y * all_y;
-    /* Nothing of a load that points backwards is 0, not -0. */
-    for (int m = 0; m < MECHANISM_COUNT && square > 0; m++)
-        out->figure[ROW_share_splitting + m] = (x[m] * all_x + y[m] * all_y) / square + 0.0;
+    mechanism_columns c;
+    double share[MECHANISM_COUNT];
+    if (mechanism_columns_find(d, vessel, &c) && load_shares(d, c.x, c.y, MECHANISM_COUNT, share))
+        memcpy(&out->figure[ROW_share_splitting], share, sizeof share);
 }
 
 _Static_assert(ROW_share_friction - ROW_share_splitting == (int)MECHANISM_FRICTION - (int)MECHANISM_SPLITTING &&

@@ -35,6 +35,7 @@ ice:
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
+TRANSIENT = {"feeding": 2, "level": 1}
 # Under tow, and no ice to meet.
 WATER = f"""
 run: {{duration: 2, time_step: 0.02}}
@@ -51,6 +52,7 @@ MECHANISMS = ("splitting of a floe", "bending of ice that has not broken", "crus
               "sliding friction along the hull")
 
 
+COLUMNS = ("splitting", "bending", "crushing", "chain", "accumulation", "submersion", "impact", "friction")
 ZONES = ("bow", "shoulder", "midbody", "stern", "bottom")
 
 
@@ -101,7 +103,8 @@ def check(name, run, pictures):
     tables = Tables()
     tables.feed(page)
     with open(run / "series.csv", newline="") as file:
-        last = list(csv.DictReader(file))[-1]
+        series = list(csv.DictReader(file))
+    last = series[-1]
     rows = tables.rows
     for section in SECTIONS:
         assert section in tables.heads, (name, section, tables.heads)
@@ -128,7 +131,9 @@ def check(name, run, pictures):
     shares = [number(rows[m][0]) for m in MECHANISMS]
     assert abs(sum(shares) - 100) < 0.1 and max(shares) > 10, shares
     assert re.search(r"[0-9.]+ k?N, \d+ % of it by .*, from \d+ bod(y|ies).*\.$", rows["1"][1]), rows["1"]
+    check_shares(series, TRANSIENT[name], shares, [f"mechanism_{m}" for m in COLUMNS])
     zones = [number(rows[z][0]) for z in ZONES]
+    check_shares(series, TRANSIENT[name], zones, [f"ice_force_{z}" for z in ZONES])
     assert abs(sum(zones) - 100) < 0.1 and zones[0] > 10, zones
     check_heads(page)
     assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
@@ -148,6 +153,17 @@ def check(name, run, pictures):
     for row in ("Fram", "scenario", "state at the end"):
         assert row in rows, (name, row)
     return number(rows["of the mass at the start"][0])
+
+
+def check_shares(series, transient, told, parts):
+    """Shares in percent are those of the mean load, along it: not of the loads of stretches, each along its own."""
+    counted = [row for row in series if float(row["time[s]"]) >= transient]
+    mean = [[sum(float(row[f"{part}_{axis}[N]"]) for row in counted) / len(counted) for axis in "xy"]
+            for part in parts]
+    load = [sum(axis) for axis in zip(*mean)]
+    for part, told_share, (x, y) in zip(parts, told, mean):
+        share = 100 * (x * load[0] + y * load[1]) / (load[0] ** 2 + load[1] ** 2)
+        assert abs(told_share - share) <= 1e-3 * abs(share) + 1e-6, (part, told_share, share)
 
 
 def check_stack(page):
