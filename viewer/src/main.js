@@ -266,8 +266,8 @@ class Player {
         const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
         const mode = $('camera').value, camera = this.scene.camera;
         // A ship is seen whole, however small the domain is beside it and however narrow the window.
-        const foot = document.querySelector('footer').offsetHeight;
-        const upright = Math.max(1, (window.innerHeight - foot) / window.innerWidth);
+        const { width, height } = this.room();
+        const upright = Math.max(1, height / width);
         const near = Math.max(wide, 3.5 * this.length()) * upright;
         this.poses.show(this.frameAt(this.time));
         const target = mode === 'follow' || mode === 'below' ? this.centre()
@@ -424,9 +424,15 @@ class Player {
 
     // ---- the loop ----
 
+    /** Size of the scene: of the page's root, since a phone's window grows with what sticks out of the screen. */
+    room() {
+        const { clientWidth, clientHeight } = document.documentElement;
+        return { width: clientWidth, height: clientHeight - document.querySelector('footer').offsetHeight };
+    }
+
     resize() {
-        const height = window.innerHeight - document.querySelector('footer').offsetHeight;
-        this.scene.resize(window.innerWidth, height);
+        const { width, height } = this.room();
+        this.scene.resize(width, height);
         $('peak').style.maxHeight = `${Math.max(60, height - this.legend.height - 56)}px`;
         this.dirty = true;
     }
