@@ -201,6 +201,15 @@ static bool fill_series(const manage_run *m, bool alarm, double_array *time, dou
     return good;
 }
 
+static bool any_known(const double_array *value)
+{
+    for (int32_t i = 0; i < value->count; i++)
+        if (isfinite(value->data[i]))
+            return true;
+    return false;
+}
+
+/* No chart where no run has a value: no ice came, or none was unmanaged. */
 static fram_status series_chart(page *p, bool alarm, const char *title, const char *label, fram_error *error)
 {
     chart_line lines[2];
@@ -210,9 +219,13 @@ static fram_status series_chart(page *p, bool alarm, const char *title, const ch
         const manage_run *m = k ? p->other : p->m;
         if (!fill_series(m, alarm, time, value))
             return error_memory(error);
+        if (!any_known(value))
+            continue;
         lines[n] = chart_line_make(k ? "comparison run" : "this run", time->data, value->data, time->count, k == 0);
         lines[n++].colour = k + 2;
     }
+    if (n == 0)
+        return FRAM_OK;
     chart c = chart_make(title, "", "time [s]", label, lines, n);
     return html_chart(&p->html, &c, false, error);
 }
@@ -227,7 +240,7 @@ static fram_status size_chart(page *p, fram_error *error)
         double so_far = 0;
         for (int i = 0; i < MANAGE_CLASSES; i++)
             sum[k][i] = so_far += 100 * p->s->place[k].share[i];
-        if (!(p->s->place[k].windows > 0))
+        if (!(p->s->place[k].windows > 0 && isfinite(sum[k][0])))
             continue;
         lines[n] = chart_line_make(place_name[k], manage_class_size, sum[k], MANAGE_CLASSES, k == MANAGE_AT);
         lines[n++].colour = k + 1;

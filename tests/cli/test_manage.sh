@@ -145,6 +145,13 @@ expect 0 "$FRAM" run sheet.yaml -o sheet -q
 expect 0 "$FRAM" manage sheet -q
 grep -q "No loose floe reached it" sheet/manage.html || fail "the page does not say that no floe came"
 grep -qw "nan" sheet/manage.html && fail "the page tells a time of nothing"
+grep -q "Managed ice at the vessel" sheet/manage.html || fail "the page does not draw what reached the vessel"
+# In open water there is nothing to draw: no charts with made-up axes.
+expect 0 "$FRAM" run sheet.yaml -o clear -q --set run.duration=1 --set 'ice.level.openings[0].length=50' \
+    --set 'ice.level.openings[0].width=20'
+expect 0 "$FRAM" manage clear -q
+grep -q "No ice came to the vessel" clear/manage.html || fail "the page does not say that no ice came"
+grep -qE 'Floe sizes|Managed ice at the vessel' clear/manage.html && fail "the page has charts of nothing"
 
 # What cannot be told is refused.
 expect 2 "$FRAM" manage
