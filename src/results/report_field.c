@@ -39,6 +39,19 @@ static void field_table(report *r)
     html_table_end(&r->page);
 }
 
+/* What of the domain was kept free of ice, in words. */
+static void kept_free(const scenario *s, char out[96])
+{
+    int32_t vessels = scenario_vessel_count(s);
+    bool water = s->ice.open_water.count > 0 || s->ice.open_water_file[0];
+    char round[64] = "";
+    if (vessels > 0)
+        snprintf(round, sizeof round, "%s and %g m around %s", vessels > 1 ? "the vessels" : "the vessel",
+                 s->ice.keep_out_margin, vessels > 1 ? "them" : "it");
+    snprintf(out, 96, "%s%s%s%s", vessels > 0 || water ? " without " : "", round, vessels > 0 && water ? " and " : "",
+             water ? "the open water" : "");
+}
+
 /* Why the cover of the window is not the concentration that was asked for. */
 static void tell_cover(report *r)
 {
@@ -46,12 +59,13 @@ static void tell_cover(report *r)
     const scenario_domain *d = &s->domain;
     if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_PACKED)
         return;
+    char kept[96];
+    kept_free(s, kept);
     html_paragraph(
         &r->page,
-        "%g %% was requested of the area free for ice: the domain without the vessel and %g m around it%s. "
+        "%g %% was requested of the area free for ice: the domain%s. "
         "The table counts all ice of the run, including what extends beyond the edge, over the whole domain%s.",
-        100 * s->ice.concentration, s->ice.keep_out_margin,
-        s->ice.open_water.count > 0 || s->ice.open_water_file[0] ? " and the open water" : "",
+        100 * s->ice.concentration, kept,
         d->boundary == DOMAIN_FEEDING
             ? "; it is a window on an unbounded field, whose content varies about that of the whole tile"
             : "");

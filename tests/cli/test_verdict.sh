@@ -171,4 +171,21 @@ grep -q "met no ice" met.txt && fail "a ship that met ice is told that it met no
 sed -i "s|source: floes.*|source: none}|" far.yaml
 met
 grep -q "met no ice" met.txt && fail "a ship in open water is told that it met no ice: $(cat met.txt)"
+
+# What was kept free of ice is told of the vessels that there are.
+cat >bare.yaml <<'YAML'
+run: {duration: 0.01, time_step: 0.01}
+vessel: {present: false}
+ice: {mean_floe_area: 400}
+domain: {x_min: -50, x_max: 50, y_min: -50, y_max: 50}
+YAML
+sed 's|^vessel: .*|vessels: [{name: a, hull: {length: 20, beam: 6, draught: 2}, x: -20}, {name: b, x: 20,|
+     s|^ice: .*|  hull: {length: 20, beam: 6, draught: 2}}]\nice: {mean_floe_area: 400, open_water: [{length: 9, width: 9}]}|' \
+    bare.yaml >pair.yaml
+for run in bare pair; do
+    expect 0 "$FRAM" run $run.yaml -o $run -q
+    expect 0 "$FRAM" report $run -q
+done
+says "free for ice: the domain. The table" bare/report.html
+says "the domain without the vessels and 1 m around them and the open water. The table" pair/report.html
 finish "a report begins with its verdict"
