@@ -172,7 +172,7 @@ sed -i "s|source: floes.*|source: none}|" far.yaml
 met
 grep -q "met no ice" met.txt && fail "a ship in open water is told that it met no ice: $(cat met.txt)"
 
-# What was kept free of ice is told of the vessels that there are.
+# What was kept free of ice is told of the vessels that there are.  One frame is one.
 cat >bare.yaml <<'YAML'
 run: {duration: 0.01, time_step: 0.01}
 vessel: {present: false}
@@ -188,4 +188,7 @@ for run in bare pair; do
 done
 says "free for ice: the domain. The table" bare/report.html
 says "the domain without the vessels and 1 m around them and the open water. The table" pair/report.html
+echo "<!--BESIDE--><!--RECORD-->" >page.html
+expect 0 "$FRAM" view bare --page page.html
+says "playback.html: 1 frame; open it" err
 finish "a report begins with its verdict"
