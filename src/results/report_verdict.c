@@ -4,6 +4,7 @@
 #include "base/channel_statistics.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
+#include "results/peaks.h"
 #include "results/station_results.h"
 #include "results/track_results.h"
 
@@ -255,6 +256,28 @@ static void judge_transient(verdict *v)
 #define ENOUGH 0.2
 #define VALUES_ENOUGH 10.0
 
+/* No load in any row after the transient: rows that leave out steps may have missed one, the peaks have not. */
+static fram_status judge_no_load(verdict *v, const char *name, fram_error *error)
+{
+    const report *r = v->r;
+    peak_list list;
+    fram_status status = peak_list_read(r->ctx, r->d.folder, r->vessel, &list, error);
+    if (status != FRAM_OK)
+        return status;
+    if (list.count > 0) {
+        const peak_detail *most = list.peak[0];
+        char load[40];
+        force(most->load, load);
+        find(v, VERDICT_CAUTION, "Make output.csv_interval shorter: figures here are those of the series.",
+             "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name, load,
+             most->time);
+    } else
+        find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?", "%sno ice load occurred.",
+             name);
+    peak_list_free(r->ctx, &list);
+    return FRAM_OK;
+}
+
 static fram_status judge_load(verdict *v, fram_error *error)
 {
     const report *r = v->r;
@@ -270,11 +293,8 @@ static fram_status judge_load(verdict *v, fram_error *error)
     force(s.greatest, most);
     if (!scenario_names_vessels(&r->d.s))
         snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean, most);
-    if (!(s.greatest > 0)) {
-        find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?", "%sno ice load occurred.",
-             name);
-        return FRAM_OK;
-    }
+    if (!(s.greatest > 0))
+        return judge_no_load(v, name, error);
     load_distribution d;
     if (!load_distribution_of(r->ctx, r->load.data + first, rows, span / (rows - 1), &d)) {
         load_distribution_free(r->ctx, &d);

@@ -5,6 +5,7 @@
 #include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/load_statistics.h"
+#include "results/peaks.h"
 #include "results/station_results.h"
 
 #include <math.h>
@@ -48,18 +49,29 @@ static fram_status read_loads(context *ctx, const scenario *s, int32_t vessel, c
     return status == FRAM_OK ? csv_read(ctx, path, names, CHANNELS, column, error) : status;
 }
 
+/* Peaks are those of every step after the transient, rows may leave out steps.  A file that cannot be read proves
+   nothing. */
+static bool may_have_peak(context *ctx, const char *folder, int32_t vessel)
+{
+    peak_list list;
+    bool may = peak_list_read(ctx, folder, vessel, &list, NULL) != FRAM_OK || list.count > 0;
+    peak_list_free(ctx, &list);
+    return may;
+}
+
 /* Loads that stay 0 are told where somebody may look for them. */
-static void tell_without_ice(context *ctx, const scenario *s, const vessel_entry *entry,
+static void tell_without_ice(context *ctx, const scenario *s, int32_t vessel, const char *folder,
                              const double_array column[CHANNELS])
 {
+    vessel_entry entry = scenario_vessel_entry(s, vessel);
     int32_t rows = column[TIME].count;
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < rows; i++)
             if (column[k].data[i] != 0)
                 return;
-    if (rows > 0 && s->ice.source != ICE_NONE)
-        log_write(ctx, LOG_WARNING, "%s met no ice until t = %.4g s: plan.png shows where both are",
-                  vessel_title_of(entry).text, column[TIME].data[rows - 1]);
+    if (rows > 0 && s->ice.source != ICE_NONE && !may_have_peak(ctx, folder, vessel))
+        log_write(ctx, LOG_WARNING, "%s met no ice until t = %.10g s: plan.png shows where both are",
+                  vessel_title_of(&entry).text, column[TIME].data[rows - 1]);
 }
 
 static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder, fram_error *error)
@@ -71,7 +83,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
     double_array column[CHANNELS] = {0};
     fram_status status = read_loads(ctx, s, vessel, folder, column, error);
     if (status == FRAM_OK) {
-        tell_without_ice(ctx, s, &entry, column);
+        tell_without_ice(ctx, s, vessel, folder, column);
         double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
         for (int k = RAW_X; k < CHANNELS; k++) {
             for (int32_t i = 0; i < column[k].count; i++)

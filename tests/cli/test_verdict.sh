@@ -168,6 +168,14 @@ met
 grep -q "the vessel met no ice until t = 3 s" met.txt || fail "a ship that met no ice is not told of it: $(cat met.txt)"
 met --set vessel.x=16
 grep -q "met no ice" met.txt && fail "a ship that met ice is told that it met none: $(cat met.txt)"
+# A touch between two rows of the series is told of too.
+sed 's|x: -60, speed: 2, ramp: 0.5|path: [{time: 0, x: 8}, {time: 1, x: 16}, {time: 3, x: 0}]|; s|csv_interval: .*|csv_interval: 1.5}|' \
+    far.yaml >touch.yaml
+expect 0 "$FRAM" run touch.yaml -o touch
+grep -q "met no ice" err && fail "a ship that met ice between rows is told that it met none: $(cat err)"
+verdict touch
+says "but one of" verdict.txt
+grep -q "no ice load occurred" verdict.txt && fail "the report knows nothing of a load between rows"
 sed -i "s|source: floes.*|source: none}|" far.yaml
 met
 grep -q "met no ice" met.txt && fail "a ship in open water is told that it met no ice: $(cat met.txt)"
