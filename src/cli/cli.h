@@ -150,6 +150,8 @@ int session_open_reading(const common_options *common, work_view *view, fram_con
 double wall_clock(void);
 /* "3 min 20 s" to standard error, "not known yet" for a NaN. */
 void print_duration(double seconds);
+/* The s of a plural: 1 run, 2 runs. */
+const char *plural(int64_t count);
 /* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
    the process.  From now on a pipe that closes is an error of the write, and does not end it. */
 const volatile int *session_stop_flag(void);

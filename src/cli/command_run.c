@@ -9,9 +9,9 @@
 static void print_result(const common_options *common, const char *folder, const fram_run_result *r)
 {
     if (!common->quiet) {
-        fprintf(stderr, "%s at t = %g s after %lld steps: %d floes, wall-clock %.1f s, real-time factor %.2f\n",
-                r->finished ? "finished" : "stopped", r->time, (long long)r->steps, r->floes, r->wall,
-                r->real_time_factor);
+        fprintf(stderr, "%s at t = %g s after %lld step%s: %d floe%s, wall-clock %.1f s, real-time factor %.2f\n",
+                r->finished ? "finished" : "stopped", r->time, (long long)r->steps, plural(r->steps), r->floes,
+                plural(r->floes), r->wall, r->real_time_factor);
         fprintf(stderr, "results are in %s\n", folder);
     }
     if (!common->json)

@@ -119,8 +119,6 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     return EXIT_GOOD;
 }
 
-static const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
-
 /* ---- fram study list ---- */
 
 typedef struct list_view {

@@ -128,6 +128,8 @@ void progress_begin(progress_view *view)
     *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1, .shown = wall_clock()};
 }
 
+const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
+
 void print_duration(double seconds)
 {
     if (isnan(seconds)) {

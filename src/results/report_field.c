@@ -223,7 +223,8 @@ fram_status report_fractures(report *r, fram_error *error)
         bent += cell(r, "kind", i) > 1.5;
     }
     const report_line kinds[] = {{"bendings", "broken in bending"}, {"splits", "split"}};
-    html_paragraph(&r->page, "%d floes broke: %.0f in bending, %.0f by splitting.", (int)rows, bent, rows - bent);
+    html_paragraph(&r->page, "%d floe%s broke: %.0f in bending, %.0f by splitting.", (int)rows, rows == 1 ? "" : "s",
+                   bent, rows - bent);
     html_grid_begin(&r->page);
     fram_status status = report_series(r, "Broken floes", "floes, cumulative", 1, kinds, 2, true, error);
     html_grid_end(&r->page);

@@ -199,4 +199,11 @@ says "the domain without the vessels and 1 m around them and the open water. The
 echo "<!--BESIDE--><!--RECORD-->" >page.html
 expect 0 "$FRAM" view bare --page page.html
 says "playback.html: 1 frame; open it" err
+# One step, one floe, one break.
+sed 's|^ice: .*|ice: {source: floes, breakable: true, floes: [{length: 9, width: 9}]}|' bare.yaml >alone.yaml
+expect 0 "$FRAM" run alone.yaml -o alone
+says "after 1 step: 1 floe," err
+printf '0.01,2,1,2,5%s\n' "$(printf ',0%.0s' {1..19})" >>alone/fractures.csv
+expect 0 "$FRAM" report alone -q
+says "1 floe broke: 1 in bending" alone/report.html
 finish "a report begins with its verdict"
