@@ -112,11 +112,32 @@ typedef struct limit_use {
 } limit_use;
 
 /* Of the size of one channel, or of a vector of two, after the transient. */
+/* When the run's own events of every step tell that something began (kind) from a time on, or that it went on then and
+   was not yet over; HUGE_VAL without.  The series may have left those steps out. */
+static double begun_from(const report *r, const char *kind, const char *over, double from)
+{
+    const run_note *n = &r->d.note;
+    const char *name = scenario_vessel_name(&r->d.s, r->vessel);
+    double since = HUGE_VAL;
+    for (int32_t i = 0; i < n->events.count; i++) {
+        const run_event *e = &n->events.data[i];
+        if (strcmp(e->vessel, name ? name : "") != 0)
+            continue;
+        if (strcmp(e->kind, kind) == 0)
+            since = fmin(since, fmax(e->time, from));
+        else if (strcmp(e->kind, over) == 0 && e->time <= from)
+            since = HUGE_VAL;
+    }
+    return since;
+}
+
 static limit_use limit_of(const report *r, const char *x_name, const char *y_name, double limit)
 {
     const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, x_name);
     const double *y = y_name ? run_vessel_channel(&r->d, r->vessel, y_name) : NULL;
-    limit_use u = {.first = HUGE_VAL};
+    limit_use u = {0};
+    u.first = begun_from(r, y_name ? "position_lost" : "heading_lost",
+                         y_name ? "position_regained" : "heading_regained", r->d.s.run.transient);
     int32_t first = run_first_row(&r->d), rows = r->d.series.rows, beyond = 0;
     for (int32_t i = first; time && x && i < rows; i++) {
         double size = y ? sqrt(x[i] * x[i] + y[i] * y[i]) : fabs(x[i]);
@@ -140,11 +161,15 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
         return;
     }
     v->kept = true;
-    v->lost |= u.most > limit;
-    if (u.most > limit)
+    v->lost |= isfinite(u.first);
+    if (isfinite(u.first) && !(u.most > limit))
+        find(v, VERDICT_BAD, "Make output.csv_interval shorter to see by how much.",
+             "%sthe %s passed its limit of %.4g %s at %.6g s, between two rows of the series, which reaches %s %s.",
+             name, what, limit, unit, u.first, most, unit);
+    else if (u.most > limit)
         find(v, VERDICT_BAD,
              "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
-             "%sthe %s passed its limit of %.4g %s, first at %.4g s: largest %s %s, exceeded for %.3g %% of the time.",
+             "%sthe %s passed its limit of %.4g %s, first at %.6g s: largest %s %s, exceeded for %.3g %% of the time.",
              name, what, limit, unit, u.first, most, unit, 100 * u.part);
     else
         find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what, most, unit,
@@ -186,10 +211,11 @@ static void judge_lines(verdict *v)
     whose(r, name);
     v->lines += number;
     v->parted += gone;
+    double when = fmin(begun_from(r, "line_break", "", 0), begun_from(r, "line_release", "", 0));
     if (gone > 0)
         find(v, VERDICT_BAD, "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
-             "%s%d of %d lines parted or were released, the first at %.4g s.", name, (int)gone, (int)number,
-             time ? time[at] : 0);
+             "%s%d of %d lines parted or were released, the first at %.6g s.", name, (int)gone, (int)number,
+             fmin(when, time ? time[at] : 0));
     if (number > 0 && use > 0)
         find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
              use > LINE_USE ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."

@@ -75,6 +75,15 @@ assert gone[0]["utilisation"] >= 1 and gone[0]["tension_then"] >= 9e4 and 4 < go
 assert all(l["parted_at_s"] is None and 0 < l["utilisation"] < 1 for l in lines if not l["parted"])
 PY
 
+# Steps that the series leaves out count: a limit that is passed between two rows, and when a line parted.
+# It is 0.07 m off at 4 s, 0.04 m at 8 s, and comes nearer.
+expect 0 "$FRAM" run ship.yaml -o between --quiet --set output.csv_interval=8 --set vessel.station.offset_limit=0.05 \
+    --set "vessel.mooring.lines[1].release_time=15"
+verdict between
+says "The vessel did not hold its station. 1 of 5 lines parted or were released." verdict.txt
+says "passed its limit of 0.05 m at 4 s, between two rows of the series" verdict.txt
+says "the first at 15 s" verdict.txt
+
 # Of a fleet each vessel is judged, the last as the first, and what is said of the run comes behind them all.
 {
     echo "run: {duration: 1, time_step: 0.05}"
