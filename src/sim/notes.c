@@ -188,8 +188,8 @@ static void take_notes(const note_taker *n, const scenario *s)
 {
     note_fact(n, "run: %.0f steps of %g s", floor(s->run.duration / s->run.time_step + 0.5), s->run.time_step);
     scene_size size = scene_size_of(s);
-    note_fact(n, "memory: about %.2g GB for about %.0f floes; run.memory_limit is %g GB", size.bytes * 1e-9, size.floes,
-              s->run.memory_limit);
+    note_fact(n, "memory: about %.2g GB for about %.0f floe%s; run.memory_limit is %g GB", size.bytes * 1e-9,
+              size.floes, size.floes > 0.5 && size.floes < 1.5 ? "" : "s", s->run.memory_limit);
     note_fact(n, "disk: about %.2g MB for what the run leaves", size.disk * 1e-6);
     if (n->out)
         effective_tell(n->ctx, s, tell_fact, n);

@@ -122,9 +122,10 @@ static void run_free(run *r)
 static void log_start(const run *r, const field_report *report)
 {
     if (report->floes > 0 && report->concentration <= 0)
-        log_write(r->ctx, LOG_INFO, "%d floes", (int)report->floes);
+        log_write(r->ctx, LOG_INFO, "%d floe%s", (int)report->floes, report->floes == 1 ? "" : "s");
     else if (report->floes > 0)
-        log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->floes, report->concentration);
+        log_write(r->ctx, LOG_INFO, "%d floe%s, concentration %.4f", (int)report->floes, report->floes == 1 ? "" : "s",
+                  report->concentration);
     for (int32_t i = 0; i < r->model.vessels.count; i++) {
         const vessel_model *v = &r->model.vessels.data[i];
         log_write(r->ctx, LOG_INFO, "%s%s displaces %.6g t", v->name[0] ? "vessel " : "the hull", v->name,

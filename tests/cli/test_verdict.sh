@@ -178,8 +178,8 @@ grep -q "the vessel met no ice until t = 3 s" met.txt || fail "a ship that met n
 met --set vessel.x=16
 grep -q "met no ice" met.txt && fail "a ship that met ice is told that it met none: $(cat met.txt)"
 # A touch between two rows of the series is told of too.
-sed 's|x: -60, speed: 2, ramp: 0.5|path: [{time: 0, x: 8}, {time: 1, x: 16}, {time: 3, x: 0}]|; s|csv_interval: .*|csv_interval: 1.5}|' \
-    far.yaml >touch.yaml
+sed 's|x: -60, speed: 2, ramp: 0.5|path: [{time: 0, x: 8}, {time: 1, x: 16}, {time: 3, x: 0}]|
+     s|csv_interval: .*|csv_interval: 1.5}|' far.yaml >touch.yaml
 expect 0 "$FRAM" run touch.yaml -o touch
 grep -q "met no ice" err && fail "a ship that met ice between rows is told that it met none: $(cat err)"
 verdict touch
@@ -197,7 +197,7 @@ ice: {mean_floe_area: 400}
 domain: {x_min: -50, x_max: 50, y_min: -50, y_max: 50}
 YAML
 sed 's|^vessel: .*|vessels: [{name: a, hull: {length: 20, beam: 6, draught: 2}, x: -20}, {name: b, x: 20,|
-     s|^ice: .*|  hull: {length: 20, beam: 6, draught: 2}}]\nice: {mean_floe_area: 400, open_water: [{length: 9, width: 9}]}|' \
+     s|^ice: {|  hull: {length: 20, beam: 6, draught: 2}}]\nice: {open_water: [{length: 9, width: 9}], |' \
     bare.yaml >pair.yaml
 for run in bare pair; do
     expect 0 "$FRAM" run $run.yaml -o $run -q
@@ -212,6 +212,7 @@ says "playback.html: 1 frame; open it" err
 sed 's|^ice: .*|ice: {source: floes, breakable: true, floes: [{length: 9, width: 9}]}|' bare.yaml >alone.yaml
 expect 0 "$FRAM" run alone.yaml -o alone
 says "after 1 step: 1 floe," err
+grep -q "1 floes" err && fail "one floe is told in the plural: $(cat err)"
 printf '0.01,2,1,2,5%s\n' "$(printf ',0%.0s' {1..19})" >>alone/fractures.csv
 expect 0 "$FRAM" report alone -q
 says "1 floe broke: 1 in bending" alone/report.html
