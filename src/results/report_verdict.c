@@ -211,7 +211,9 @@ static void judge_lines(verdict *v)
     whose(r, name);
     v->lines += number;
     v->parted += gone;
-    double when = fmin(begun_from(r, "line_break", "", 0), begun_from(r, "line_release", "", 0));
+    double broke = begun_from(r, "line_break", "", 0), when = fmin(broke, begun_from(r, "line_release", "", 0));
+    /* Lines that were let go did not. */
+    bool beyond = gone > 0 && (isfinite(broke) || !isfinite(when));
     if (gone > 0)
         find(v, VERDICT_BAD, "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
              "%s%d of %d lines parted or were released, the first at %.6g s.", name, (int)gone, (int)number,
@@ -221,7 +223,7 @@ static void judge_lines(verdict *v)
              use > LINE_USE ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
                             : "",
              "%slargest tension %s in line %d, %.0f %% of its breaking load; %d lines%s.", name, force(tension, text),
-             (int)worst, 100 * use, (int)number, gone > 0 ? ", of which those that parted went beyond" : "");
+             (int)worst, 100 * use, (int)number, beyond ? ", of which those that parted went beyond" : "");
     else if (number > 0)
         find(v, VERDICT_NOTE, "",
              "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,

@@ -66,6 +66,7 @@ says "bad" verdict.txt
 says "The vessel did not hold its station. 1 of 5 lines parted" verdict.txt
 says "passed its limit of 0.01 m, first at" verdict.txt
 says "damaged mooring" verdict.txt
+says "of which those that parted went beyond" verdict.txt
 python3 - <<'PY' || fail "station.json does not tell the line that parted"
 import json
 lines = json.load(open("lost/station.json"))["lines"]
@@ -83,6 +84,7 @@ verdict between
 says "The vessel did not hold its station. 1 of 5 lines parted or were released." verdict.txt
 says "passed its limit of 0.05 m at 4 s, between two rows of the series" verdict.txt
 says "the first at 15 s" verdict.txt
+grep -q "went beyond" verdict.txt && fail "a line that was let go is told to have gone beyond its breaking load"
 
 # Of a fleet each vessel is judged, the last as the first, and what is said of the run comes behind them all.
 {
