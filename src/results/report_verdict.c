@@ -111,7 +111,6 @@ typedef struct limit_use {
     double first;      /* [s] when it was first passed */
 } limit_use;
 
-/* Of the size of one channel, or of a vector of two, after the transient. */
 /* When the run's own events of every step tell that something began (kind) from a time on, or that it went on then and
    was not yet over; HUGE_VAL without.  The series may have left those steps out. */
 static double begun_from(const report *r, const char *kind, const char *over, double from)
@@ -131,6 +130,7 @@ static double begun_from(const report *r, const char *kind, const char *over, do
     return since;
 }
 
+/* Of the size of one channel, or of a vector of two, after the transient. */
 static limit_use limit_of(const report *r, const char *x_name, const char *y_name, double limit)
 {
     const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, x_name);
