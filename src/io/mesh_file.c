@@ -25,6 +25,16 @@ word_reader word_reader_begin(const char *data, size_t size)
     return (word_reader){.at = first, .end = data + size, .line = 1, .word = first, .word_line = 1};
 }
 
+/* A line feed, or a carriage return that none follows: files of old Macs, and mixtures. */
+static bool ends_line(const word_reader *r)
+{
+    const char *c = r->at;
+    if (*c != '\r')
+        return *c == '\n';
+    bool feeds = r->end - c > 1 && (c[1] == '\n' || (c[1] == '\r' && r->end - c > 2 && c[2] == '\n'));
+    return !feeds;
+}
+
 static bool continues(const word_reader *r)
 {
     if (*r->at != '\\')
@@ -41,14 +51,14 @@ bool word_next_in_line(word_reader *r)
         if (continues(r)) {
             r->at = memchr(r->at, '\n', (size_t)(r->end - r->at));
             r->line++;
-        } else if (!is_blank(*r->at)) {
+        } else if (!is_blank(*r->at) || ends_line(r)) {
             break;
         }
         r->at++;
     }
     r->word = r->at;
     r->word_line = r->line;
-    while (r->at < r->end && !is_blank(*r->at) && *r->at != '\n' && !continues(r))
+    while (r->at < r->end && !is_blank(*r->at) && !ends_line(r) && !continues(r))
         r->at++;
     r->length = (size_t)(r->at - r->word);
     return r->length > 0;

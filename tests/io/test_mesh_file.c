@@ -39,6 +39,9 @@ START_TEST(tetrahedra)
          "# all forms of a corner\nmtllib a.mtl\no t\nvt 0 0\nvn 0 0 1\n" OBJ_POINTS
          "usemtl m\ng a b\ns off\nf 1/1 3/1 2/1\nf 1//1 2//1 4//1\nf 1/1/1 4/1/1 \\\n3/1/1\nf -3 -2 -1 # back\n",
          MESH_OBJ},
+        /* Carriage returns alone, and in between. */
+        {"t.obj", "# of a Mac\rv 0 0 0\rv 1 0 0\r\rv 0 1 0\nv 0 0 1\r\r\nf 1 3 2\rf 1 2 4 # side\rf 1 4 3\rf 2 3 4\r",
+         MESH_OBJ},
         {"mesh", STL_TETRAHEDRON, MESH_STL_TEXT},
         {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
         {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
