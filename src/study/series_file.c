@@ -7,6 +7,7 @@
 #include "io/utf8.h"
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
+#include "study/csv_cell.h"
 #include "study/words.h"
 
 #include <math.h>
@@ -17,34 +18,7 @@
 /* Times may miss their places by this part of a step: files have few digits. */
 #define STEP_TOLERANCE 0.05
 
-/* ---- cells of a CSV file, some of them texts ---- */
-
-/* The next cell of a line, without quotation marks, into text; returns where the cell after it begins, NULL at the end
-   of the line. */
-static const char *next_cell(const char *c, char *text, size_t room)
-{
-    size_t n = 0;
-    bool quoted = *c == '"';
-    if (quoted)
-        c++;
-    while (*c && *c != '\n' && (quoted || *c != ',')) {
-        if (quoted && *c == '"') {
-            quoted = c[1] == '"';
-            c += quoted ? 1 : 0;
-            if (!quoted) {
-                c++;
-                continue;
-            }
-        }
-        if (n + 1 < room && *c != '\r')
-            text[n++] = *c;
-        c++;
-    }
-    text[n] = '\0';
-    return *c == ',' ? c + 1 : NULL;
-}
-
-enum { CELL_ROOM = 128 };
+/* ---- a CSV file, in which some cells are texts ---- */
 
 /* Name and unit of "name[unit]" or "name [unit]". */
 static void split_head(char *head, char unit[UNIT_SIZE])
@@ -65,29 +39,34 @@ enum { NO_HEAD = -1, TWO_HEADS = -2 };
 static int find_head(const char *path, const char *line, const char *name, bool must, char unit[UNIT_SIZE],
                      fram_error *error)
 {
-    char head[CELL_ROOM], near[CELL_ROOM] = "", own[UNIT_SIZE];
+    char near[CSV_CELL_ROOM] = "", own[UNIT_SIZE];
+    csv_cell head;
     int least = WORD_ROOM, at = 0, found = NO_HEAD;
     unit[0] = '\0';
     for (const char *c = line + utf8_mark(line, strlen(line)); c; at++) {
-        c = next_cell(c, head, sizeof head);
-        split_head(head, own);
-        if (strcmp(head, name) == 0 && found >= 0) {
+        c = csv_cell_next(c, &head);
+        split_head(head.text, own);
+        if (strcmp(head.text, name) == 0 && found >= 0) {
             csv_refuse_twice(path, name, found, at, error);
             return TWO_HEADS;
         }
-        if (strcmp(head, name) == 0) {
+        if (strcmp(head.text, name) == 0) {
             found = at;
             memcpy(unit, own, sizeof own);
         }
-        int distance = word_distance(head, name);
+        int distance = word_distance(head.text, name);
         if (distance < least) {
             least = distance;
-            memcpy(near, head, sizeof near);
+            memcpy(near, head.text, sizeof near);
         }
     }
+    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n");
     if (must && found < 0)
         error_set(error, FRAM_ERROR_INPUT, path, 1, name, "the file has no column of this name%s%s%s",
-                  *near ? "; did you mean " : "", near, *near ? "?" : "");
+                  other_marks ? "; columns are divided by commas"
+                  : *near     ? "; did you mean "
+                              : "",
+                  other_marks ? "" : near, *near && !other_marks ? "?" : "");
     return found;
 }
 
@@ -100,10 +79,10 @@ typedef struct csv_want {
 
 static int count_heads(const char *line)
 {
-    char head[CELL_ROOM];
+    csv_cell head;
     int n = 0;
     for (const char *c = line; c; n++)
-        c = next_cell(c, head, sizeof head);
+        c = csv_cell_next(c, &head);
     return n;
 }
 
@@ -111,31 +90,34 @@ static int count_heads(const char *line)
 static fram_status read_line(const csv_want *want, const char *line, int number, double *time, double *value,
                              bool *found, fram_error *error)
 {
-    char cell[CELL_ROOM];
+    csv_cell own;
     int column = 0, seen = 0;
     *found = true;
     for (const char *c = line; c; column++) {
-        c = next_cell(c, cell, sizeof cell);
-        if (column >= want->width && *cell)
+        c = csv_cell_next(c, &own);
+        fram_status status = csv_cell_check(want->path, number, column, &own, error);
+        if (status != FRAM_OK)
+            return status;
+        if (column >= want->width && *own.text)
             return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
                              "the row has more cells than the header has columns, %d: is one of the commas a decimal "
                              "or a thousands mark?",
                              want->width);
         if (column != want->time && column != want->value)
             continue;
-        if (!*cell && want->maxima) {
+        if (!*own.text && want->maxima) {
             *found = false;
             seen++;
             continue;
         }
         double x = 0;
-        char *end = cell + strlen(cell);
-        while (end > cell && end[-1] == ' ')
+        char *end = own.text + own.length;
+        while (end > own.text && end[-1] == ' ')
             *--end = '\0';
-        const char *begin = cell + strspn(cell, " ");
-        if (real_from_text(begin, &x) != NUMBER_GOOD)
+        const char *begin = own.text + strspn(own.text, " ");
+        if (own.flaw == CSV_CELL_CUT || real_from_text(begin, &x) != NUMBER_GOOD)
             return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
-                             "column %d: expected a number, found \"%.40s\"", column + 1, cell);
+                             "column %d: expected a number, found \"%.40s\"", column + 1, own.text);
         seen++;
         if (column == want->time)
             *time = x;
@@ -204,6 +186,7 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
     if (status == FRAM_OK && strlen(text) != size)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "expected text, found a NUL byte");
     if (status == FRAM_OK) {
+        csv_end_lines(text);
         want.width = count_heads(text);
         want.value = find_head(path, text, source->channel, true, unit, error);
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;

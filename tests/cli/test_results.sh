@@ -78,6 +78,25 @@ says "expected the unit [s], found [ms]" err
 printf '\357\273\277T,time\n1,0\n2,1\n3,2\n1,3\n' >marked.csv
 "$FRAM" extremes marked.csv --channel T >out 2>err
 grep -q "no column" err && fail "a byte order mark hides a column: $(cat err)"
+# What a spreadsheet writes is read for what it is, or refused.
+printf 'time,T\r0,1\r20,"2"\r40,"3" \r60,1\r80,4' >mac.csv
+expect 0 "$FRAM" fatigue mac.csv --channel T
+says "5 values" out
+printf 'T\n1\r2\r\n3\r\r\n1\n4\n' >mixed.csv
+expect 0 "$FRAM" fatigue mixed.csv --channel T --step 20
+says "5 values" out
+printf 'time;T\n0;1\n20;2\n' >history.csv
+expect 2 "$FRAM" fatigue history.csv --channel T
+says "columns are divided by commas" err
+for cell in '"3' '"3"1' '"3"1"'; do
+    printf 'time,T\n0,1\n20,%s\n40,1\n' "$cell" >history.csv
+    expect 2 "$FRAM" fatigue history.csv --channel T
+    says "history.csv:3: column 2: " err
+    says "quotation mark" err
+done
+printf 'time,T\n0,1\n20,%0200d1\n40,1\n' 0 >history.csv
+expect 2 "$FRAM" fatigue history.csv --channel T
+says "history.csv:3: column 2: expected a number" err
 # A picture's kind is that of its name.
 for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
     option=-o
