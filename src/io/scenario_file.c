@@ -479,8 +479,8 @@ fram_status scenario_find_files(context *ctx, scenario *s, fram_error *error)
     return status;
 }
 
-fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
-                          fram_error *error)
+fram_status scenario_read_alone(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
+                                fram_error *error)
 {
     char *text;
     size_t size;
@@ -489,5 +489,12 @@ fram_status scenario_read(context *ctx, const char *path, const scenario_overrid
         return status;
     status = scenario_parse(ctx, path, text, size, overrides, s, error);
     memory_free(ctx, text);
+    return status;
+}
+
+fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
+                          fram_error *error)
+{
+    fram_status status = scenario_read_alone(ctx, path, overrides, s, error);
     return status == FRAM_OK ? scenario_find_files(ctx, s, error) : status;
 }

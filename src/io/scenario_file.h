@@ -24,6 +24,9 @@ typedef struct scenario_overrides {
    scenario_free; on failure nothing is left to free. */
 fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
                           fram_error *error);
+/* The same without looking for the files that it names: of a run that is over they may be gone. */
+fram_status scenario_read_alone(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
+                                fram_error *error);
 /* The same from memory; `name` stands for the file in errors and for relative paths. */
 fram_status scenario_parse(context *ctx, const char *name, const char *text, size_t size,
                            const scenario_overrides *overrides, scenario *s, fram_error *error);

@@ -215,7 +215,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
     if (status == FRAM_OK)
         status = path_join(folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
-        status = scenario_read(ctx, path, NULL, &d->s, error);
+        status = scenario_read_alone(ctx, path, NULL, &d->s, error);
     if (status != FRAM_OK) {
         array_free(ctx, &d->note.events);
         array_free(ctx, &d->note.tracks);

@@ -314,7 +314,7 @@ fram_status video_write(context *ctx, const char *folder, const video_options *o
         path_join(folder, "scenario.yaml", scene, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
     *frames = 0;
-    fram_status status = scenario_read(ctx, scene, NULL, &v.s, error);
+    fram_status status = scenario_read_alone(ctx, scene, NULL, &v.s, error);
     if (status != FRAM_OK)
         return status;
     status = look_ahead(&v, folder, error);

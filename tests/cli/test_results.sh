@@ -78,6 +78,16 @@ says "expected the unit [s], found [ms]" err
 printf '\357\273\277T,time\n1,0\n2,1\n3,2\n1,3\n' >marked.csv
 "$FRAM" extremes marked.csv --channel T >out 2>err
 grep -q "no column" err && fail "a byte order mark hides a column: $(cat err)"
+# What a run found out is there without the files that it was made of.
+printf 'time,x,y\n0,0.1,0\n' >flow.csv
+expect 0 "$FRAM" run scene.yaml -o gone --quiet --until 1.5 --set environment.current_file=flow.csv
+rm flow.csv
+for words in "report gone" "compare run gone" "fatigue gone" "plot gone" "why gone --peak 1 --no-rerun"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $words
+done
+expect 2 "$FRAM" resume gone
+says "environment.current_file: expected a file that can be read" err
 # What a spreadsheet writes is read for what it is, or refused.
 printf 'time,T\r0,1\r20,"2"\r40,"3" \r60,1\r80,4' >mac.csv
 expect 0 "$FRAM" fatigue mac.csv --channel T
