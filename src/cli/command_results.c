@@ -108,6 +108,8 @@ int command_plot(const command_row *self, int argc, char **argv)
         count++;
     if (count > 0 && !output)
         return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");
+    if (count == 0 && output)
+        return answer_usage(&common, "CHANNEL", "is missing: name what to draw; without -o the channels are listed");
     const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, PICTURE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)

@@ -1,6 +1,6 @@
 /* Cells of a CSV file that other programs wrote, some of them texts. */
-#ifndef FRAM_STUDY_CSV_CELL_H
-#define FRAM_STUDY_CSV_CELL_H
+#ifndef STUDY_CSV_CELL_H
+#define STUDY_CSV_CELL_H
 
 #include "base/context.h"
 

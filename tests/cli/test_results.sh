@@ -244,6 +244,8 @@ assert not n.stack
 PY
 
 # Plots.
+expect 2 "$FRAM" plot run -o none.png
+says "CHANNEL: is missing: name what to draw" err
 expect 0 "$FRAM" plot run
 holds '^position_x \[m\]$' out
 if [ $pictures = yes ]; then
