@@ -131,11 +131,14 @@ int command_plot(const command_row *self, int argc, char **argv)
 
 /* ---- compare ---- */
 
+/* What is less is rounding, in whatever unit the table has: a place of 4e-17 m is 0. */
+#define NUMBER_LEAST 1e-12
+
 /* A dash where a run has no such number. */
 static void print_number(double x, int digits)
 {
     if (isfinite(x))
-        printf(" %14.*g", digits, x);
+        printf(" %14.*g", digits, fabs(x) < NUMBER_LEAST ? 0 : x);
     else
         printf(" %14s", "-");
 }

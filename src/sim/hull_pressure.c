@@ -72,6 +72,9 @@ static fram_status find_end(pressure_map *p, fram_error *error)
     double until;
     fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
     p->end = until > 0 ? fmin(until, p->s.run.duration) : p->s.run.duration;
+    if (status == FRAM_OK && p->o->to > p->end + 1e-6 * p->s.run.time_step)
+        log_write(p->ctx, LOG_WARNING, "the run has gone to %.10g s: pressures are up to there, not to %.10g s", p->end,
+                  p->o->to);
     if (p->o->to > 0)
         p->end = fmin(p->end, p->o->to);
     return status;

@@ -159,7 +159,8 @@ assert any(p["pressure_largest"] > 0 for p in twin) and any(p["pressure_largest"
 PYTHON
 # A run that was stopped, one that was cut short, and one whose end nothing tells but its rows.
 expect 0 "$FRAM" run plate.yaml -o part --until 2.8 --quiet
-expect 0 "$FRAM" pressure part -o half --panel 2 --quiet
+expect 0 "$FRAM" pressure part -o half --panel 2 --to 9
+says "the run has gone to 2.8 s: pressures are up to there, not to 9 s" err
 python3 -c '
 from tables import balance, loads, table
 balance(table("half/panels.csv"), loads("part", "", 0)[0])

@@ -71,6 +71,7 @@ expect 0 "$FRAM" run scene.yaml -o old --force --quiet --set run.duration=0.2 --
 expect 0 "$FRAM" run scene.yaml -o brief --quiet --set output.csv_interval=1 --until 0.5
 expect 0 "$FRAM" compare run brief
 grep -q nan out && fail "a comparison tells nan: $(grep nan out)"
+grep -E "e-(1[3-9]|[2-9][0-9])" out && fail "a comparison tells rounding"
 # Times are seconds, and say so.
 printf 'time[ms],T[kN]\n0,1\n20,2\n40,3\n60,1\n80,4\n' >history.csv
 expect 2 "$FRAM" extremes history.csv --channel T
