@@ -107,7 +107,7 @@ START_TEST(moments_and_points)
     context ctx;
     context_init(&ctx);
     mesh coarse = fine_box(&ctx, vec3_make(3, 2, 1), 1), middle = fine_box(&ctx, vec3_make(3, 2, 1), 12),
-         fine = fine_box(&ctx, vec3_make(3, 2, 1), 150);
+         fine = fine_box(&ctx, vec3_make(3, 2, 1), getenv("FRAM_TEST_SHORT") ? 60 : 150);
     check_mesh(&coarse, true, true);
     check_mesh(&middle, false, false);
     check_mesh(&fine, true, false);

@@ -104,7 +104,8 @@ static history history_of(scene *k, int steps)
    so that pieces part in time: the mean over 10 s is then the same to a few per cent. */
 START_TEST(whichever_moves)
 {
-    for (int fine = 0; fine < 2; fine++) {
+    int halvings = getenv("FRAM_TEST_SHORT") ? 1 : 2;
+    for (int fine = 0; fine < halvings; fine++) {
         const char *step = fine ? "run.time_step=0.01" : "run.time_step=0.02";
         const char *towed[6];
         memcpy(towed, MOVING_SHIP, sizeof towed);
@@ -284,7 +285,8 @@ static const char *const PIER =
 
 START_TEST(a_floe_stops_after_the_distance_of_its_energy)
 {
-    for (int fine = 0; fine < 2; fine++) {
+    int halvings = getenv("FRAM_TEST_SHORT") ? 1 : 2;
+    for (int fine = 0; fine < halvings; fine++) {
         const char *step = fine ? "run.time_step=0.01" : "run.time_step=0.02";
         scene k;
         scene_open_with(&k, PIER, &step, 1);
