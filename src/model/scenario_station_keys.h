@@ -49,7 +49,8 @@
     X(turn_rate_deg, SCALED(12, 30, -0.5, 1e-9, 1e6), "deg/s", "fastest turn of an azimuth or a rudder")        \
     X(rudder_deg, REAL(0, 0, 60), "deg", "main: largest deflection of the thrust ahead by the rudder; 0: none") \
     X(forbidden_deg, REAL(0, -360, 360), "deg", "azimuth: middle of the forbidden sector, from the bow")        \
-    X(forbidden_width_deg, REAL(0, 0, 179), "deg", "azimuth: width of the forbidden sector; 0: none")           \
+    X(forbidden_width_deg, REAL(0, 0, 179), "deg",                                                              \
+      "azimuth: width of the forbidden sector, which it may turn across; 0: none")                              \
     X(cost, REAL(1, 1e-9, 1e9), "1", "weight of its thrust in the allocation")                                  \
     X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust; auto: 6.25 W/N * sqrt(scale / 30)")               \
     X(diameter, AUTOMATIC(1e-3, 100), "m",                                                                      \
