@@ -175,7 +175,9 @@ static fram_status draw_extremes(context *ctx, const fram_extremes_definition *d
 {
     char quantity[200];
     snprintf(quantity, sizeof quantity, "%.100s [%s]", d->source.channel ? d->source.channel : "load", unit);
-    return extremes_chart_write(ctx, results, count, quantity, d->duration, d->draw, error);
+    fram_status status = work_continue(ctx, "drawing", 1, 1, error);
+    return status == FRAM_OK ? extremes_chart_write(ctx, results, count, quantity, d->duration, d->draw, error)
+                             : status;
 }
 
 fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition *definition, fram_extremes *result,
@@ -274,7 +276,9 @@ static fram_status write_cycles(context *ctx, const char *path, const rain_cycle
         const rain_cycle *of = &all->list.data[i];
         text_format(ctx, &b, "%.9g,%.9g,%.1f\n", of->range, of->mean, of->count);
     }
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    fram_status status = b.failed ? error_memory(error) : work_continue(ctx, "counting cycles", 1, 1, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;
 }

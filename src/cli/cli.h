@@ -146,6 +146,8 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
 /* For commands that read long runs or compute parts of them again: how far it is is shown, and Ctrl-C ends the process.
  */
 int session_open_reading(const common_options *common, work_view *view, fram_context **context);
+/* The one or the other: with a file to write, or NULL. */
+int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context);
 /* Of no beginning in particular, never turned back [s]. */
 double wall_clock(void);
 /* "3 min 20 s" to standard error, "not known yet" for a NaN. */

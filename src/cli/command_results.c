@@ -116,7 +116,7 @@ int command_plot(const command_row *self, int argc, char **argv)
         return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_for(output, &common, &work, &context);
     if (code >= 0)
         return code;
     fram_error error = {0};
@@ -213,7 +213,7 @@ int command_compare(const command_row *self, int argc, char **argv)
         return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_for(output, &common, &work, &context);
     if (code >= 0)
         return code;
     fram_comparison comparison;

@@ -398,7 +398,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     fram_context *context = NULL;
     work_view work;
     if (code < 0)
-        code = session_open_reading(&common, &work, &context);
+        code = session_open_for(d.cycles, &common, &work, &context);
     if (code >= 0)
         return code;
     fram_fatigue f;

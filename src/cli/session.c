@@ -96,6 +96,11 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
     return create(common, &definition, context);
 }
 
+int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context)
+{
+    return file ? session_open_making(common, view, context) : session_open_reading(common, view, context);
+}
+
 /* The only mutable global of Fram: a signal handler can reach nothing else. */
 static volatile sig_atomic_t stop_asked;
 static volatile int stop_flag;

@@ -137,7 +137,8 @@ static fram_status draw(context *ctx, const run_data *d, plot *p, const char *ou
             chart_make(i == 0 ? title : "", "", i + 1 == p->count ? "time [s]" : "", at->label, at->lines, at->count);
         charts[i].free_y = true;
     }
-    return chart_stack_write(ctx, charts, p->count, output, WIDTH, HEIGHT, error);
+    fram_status status = work_continue(ctx, "drawing", 1, 1, error);
+    return status == FRAM_OK ? chart_stack_write(ctx, charts, p->count, output, WIDTH, HEIGHT, error) : status;
 }
 
 fram_status plot_channels(context *ctx, const char *folder, const char *const *channels, int32_t count, double from,

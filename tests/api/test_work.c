@@ -94,6 +94,57 @@ static void check_told(told *t, fram_status status, const fram_error *e, const c
 }
 #define TOLD(call) check_told(&t, (call), &e, #call)
 
+/* ---- asked to stop ---- */
+
+static fram_context *context_stopped(void)
+{
+    static const int stop = 1;
+    fram_context_definition d;
+    fram_context_default(&d);
+    d.stop = &stop;
+    fram_context *c = NULL;
+    ck_assert_int_eq(fram_context_create(&d, &c, NULL), FRAM_OK);
+    return c;
+}
+
+static void check_stopped(fram_status status, const char *call)
+{
+    if (status == FRAM_ERROR_UNSUPPORTED)
+        return;
+    ck_assert_msg(status == FRAM_INTERRUPTED, "%s is not interrupted", call);
+    ck_assert_msg(access(output, F_OK) != 0, "%s has written %s", call, output);
+}
+#define STOPPED(call) check_stopped((call), #call)
+
+START_TEST(what_is_stopped_writes_no_file)
+{
+    told t = {.good = true};
+    fram_context *whole = context_telling(&t), *c = context_stopped();
+    begin(whole);
+    fram_error e = {0};
+    snprintf(output, sizeof output, "%s/stopped.svg", folder);
+    const char *const channels[] = {"still.ice_force_x"};
+    STOPPED(fram_plot(c, run, channels, 1, (double)NAN, (double)NAN, output, &e));
+    snprintf(output, sizeof output, "%s/stopped.html", folder);
+    STOPPED(fram_report(c, run, output, false, NULL, &e));
+    fram_comparison *comparison = calloc(1, sizeof *comparison);
+    STOPPED(fram_compare(c, run, other, output, comparison, &e));
+    free(comparison);
+    snprintf(output, sizeof output, "%s/stopped.csv", folder);
+    const char *const runs[] = {run};
+    fram_fatigue_definition f;
+    fram_fatigue cycles;
+    fram_fatigue_default(&f);
+    f.source =
+        (fram_series_source){.files = runs, .file_count = 1, .channel = "still.ice_force_x", .from = (double)NAN};
+    f.cycles = output;
+    STOPPED(fram_fatigue_find(c, &f, &cycles, &e));
+    fram_context_destroy(c);
+    fram_context_destroy(whole);
+    end();
+}
+END_TEST
+
 START_TEST(what_reads_a_run_tells_how_far_it_is)
 {
     told t = {.good = true};
@@ -206,4 +257,4 @@ START_TEST(statistics_tell_how_far_they_are)
 END_TEST
 
 TEST_MAIN("work", what_reads_a_run_tells_how_far_it_is, what_computes_a_run_again_tells_how_far_it_is,
-          statistics_tell_how_far_they_are)
+          statistics_tell_how_far_they_are, what_is_stopped_writes_no_file)
