@@ -9,6 +9,10 @@
 enum { COEFFICIENT_MOST = 100 };
 /* Of the name of a section of coefficients. */
 enum { FLOW_KEY_SIZE = 64 };
+/* What flows past a hull gives it energy at no angle.  Against the motion may stand this part of a force, as scatter,
+   and forces that are so small a part of the largest one. */
+#define AGAINST_MOST 0.1
+#define FORCE_LEAST 1e-3
 
 /* Rows as they are given. */
 typedef struct flow_rows {
@@ -101,11 +105,40 @@ static fram_status check_rows(context *ctx, const scenario *s, const scenario_fl
     return check_ends(ctx, s, from, key, rows, count, error);
 }
 
+/* ---- slips ---- */
+
+/* Forward and to port, over the pressure of the medium [m2]. */
+static vec2 force_area(const flow_table *t, int32_t i)
+{
+    return vec2_make(t->coefficient[i].x * t->frontal, t->coefficient[i].y * t->lateral);
+}
+
+/* Angles that are counted from ahead, or forces of other signs: such a hull swims against the current, ever faster. */
+static void warn_of_signs(context *ctx, const char *key, const char *medium, const flow_table *t)
+{
+    double largest = 0;
+    for (int32_t i = 0; i < t->count; i++)
+        largest = fmax(largest, vec2_length(force_area(t, i)));
+    for (int32_t i = 0; i < t->count; i++) {
+        vec2 force = force_area(t, i);
+        double size = vec2_length(force);
+        double along = force.x * real_cos(t->angle[i]) + force.y * real_sin(t->angle[i]);
+        if (size < FORCE_LEAST * largest || along >= -AGAINST_MOST * size)
+            continue;
+        log_write(ctx, LOG_WARNING,
+                  "%s: at %.4g degrees cx and cy push the vessel against the motion of the %s: angles are of where it "
+                  "goes, 0 from astern and 180 from ahead, cx is forward and cy to port",
+                  key, t->angle[i] * (180 / PI), medium);
+        return;
+    }
+}
+
 /* ---- a table ---- */
 
 /* height: of the part of the hull that the medium meets; middle: of that part over the design waterline [m]. */
 static fram_status build_one(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
-                             const vessel_model *hull, double height, double middle, flow_table *out, fram_error *error)
+                             const char *medium, const vessel_model *hull, double height, double middle,
+                             flow_table *out, fram_error *error)
 {
     flow_rows rows = {0};
     *out = (flow_table){0};
@@ -128,6 +161,8 @@ static fram_status build_one(context *ctx, const scenario *s, const scenario_flo
         out->count = i + 1;
     }
     rows_free(ctx, &rows);
+    if (status == FRAM_OK)
+        warn_of_signs(ctx, key, medium, out);
     return status;
 }
 
@@ -140,10 +175,10 @@ fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *ent
     snprintf(water, sizeof water, "%s.current_coefficients", entry->path);
     snprintf(air, sizeof air, "%s.wind_coefficients", entry->path);
     vessel->flows.depth = 0.5 * draught;
-    fram_status status = build_one(ctx, s, &v->current_coefficients, water, vessel, draught, -0.5 * draught,
+    fram_status status = build_one(ctx, s, &v->current_coefficients, water, "current", vessel, draught, -0.5 * draught,
                                    &vessel->flows.water, error);
     if (status == FRAM_OK)
-        status = build_one(ctx, s, &v->wind_coefficients, air, vessel, freeboard, 0.5 * freeboard, &vessel->flows.air,
-                           error);
+        status = build_one(ctx, s, &v->wind_coefficients, air, "wind", vessel, freeboard, 0.5 * freeboard,
+                           &vessel->flows.air, error);
     return status;
 }

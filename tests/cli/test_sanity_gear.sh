@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Thirty-three more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
+# Thirty-five more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
 # remedy.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
 
@@ -56,6 +56,18 @@ for way in "$across=160" "$across=120 --set environment.hull_drag.water_form=1" 
     expect 0 "$FRAM" check ship.yaml --set $way
     grep 'comes across' err && fail "told of $way"
 done
+# Tables whose angles are counted from ahead, or whose cy is to starboard.
+flow() {
+    local rows="[{angle_deg: 0, cx: $2}, {angle_deg: 90, cy: $3}, {angle_deg: 180, cx: $4}]"
+    sed "s/^  thrusters.*/&\n  $1: {table: $rows}/" ship.yaml >flow.yaml
+}
+flow wind_coefficients 0.8 0.9 -0.9
+expect 0 "$FRAM" check flow.yaml
+grep '^warning' err && fail "told of a table that is right"
+flow wind_coefficients -0.9 0.9 0.8
+told flow.yaml "wind_coefficients: at 0 degrees cx and cy push the vessel against the motion of the wind|from astern"
+flow current_coefficients 0.02 -0.7 -0.03
+told flow.yaml "vessel.current_coefficients: at 90 degrees cx and cy push the vessel against|cy to port"
 refused ship.yaml "hull.block_coefficient: expected 1, that of a box, or none" --set vessel.hull.form=box \
     --set vessel.hull.block_coefficient=0.6
 refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
