@@ -31,6 +31,24 @@ void unit_free_states(unit *u)
     }
 }
 
+static fram_status copy_world(const fram_world *w, fram_world **out, fram_error *error)
+{
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    fram_status status = fram_world_copy(w, out, error);
+    unit_arithmetic_end(&of_importer);
+    return status;
+}
+
+static fram_status load_world(fram_world *w, const char *data, size_t size, fram_error *error)
+{
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    fram_status status = fram_world_load_memory(w, data, size, error);
+    unit_arithmetic_end(&of_importer);
+    return status;
+}
+
 static size_t variables_size(const unit *u) { return (size_t)u->count * sizeof(variable); }
 
 static kept_state *keep(unit *u)
@@ -41,7 +59,7 @@ static kept_state *keep(unit *u)
         unit_fail(u, "there is no memory left for a state");
         return NULL;
     }
-    if (fram_world_copy(u->world, &s->world, &e) != FRAM_OK) {
+    if (copy_world(u->world, &s->world, &e) != FRAM_OK) {
         unit_fail_by(u, &e);
         free(s);
         return NULL;
@@ -139,7 +157,7 @@ unit_status unit_state_set(unit *u, const void *state)
     fram_error e;
     if (!s)
         return refuse_state(u);
-    if (fram_world_copy(s->world, &copy, &e) != FRAM_OK)
+    if (copy_world(s->world, &copy, &e) != FRAM_OK)
         return unit_fail_by(u, &e);
     fram_world_destroy(u->world);
     u->world = copy;
@@ -218,7 +236,11 @@ static unit_status save(unit *u, const void *state, void *out, size_t room, size
     fram_error e;
     if (!s)
         return refuse_state(u);
-    if (fram_world_save_memory(s->world, &data, &bytes, &e) != FRAM_OK)
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    fram_status status = fram_world_save_memory(s->world, &data, &bytes, &e);
+    unit_arithmetic_end(&of_importer);
+    if (status != FRAM_OK)
         return unit_fail_by(u, &e);
     *size = head_size(u) + bytes;
     bool fits = !out || room >= *size;
@@ -262,7 +284,7 @@ unit_status unit_state_read(unit *u, const void *in, size_t size, void **state)
         return UNIT_ERROR;
     if (!read_head(u, in, s))
         status = unit_fail(u, "the serialized state is none of this unit");
-    else if (fram_world_load_memory(s->world, (const char *)in + head_size(u), size - head_size(u), &e) != FRAM_OK)
+    else if (load_world(s->world, (const char *)in + head_size(u), size - head_size(u), &e) != FRAM_OK)
         status = unit_fail_by(u, &e);
     if (status == UNIT_OK)
         hand_out(u, s, state);

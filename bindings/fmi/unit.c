@@ -97,6 +97,16 @@ unit_status unit_log_categories(unit *u, size_t count, const char *const names[]
     return UNIT_OK;
 }
 
+/* ---- arithmetic ---- */
+
+void unit_arithmetic_begin(fenv_t *of_importer)
+{
+    fegetenv(of_importer);
+    fesetenv(FE_DFL_ENV);
+}
+
+void unit_arithmetic_end(const fenv_t *of_importer) { fesetenv(of_importer); }
+
 /* ---- life ---- */
 
 unit *unit_new(int version)
@@ -149,8 +159,8 @@ static unit_status look_at(unit *u, const uint32_t references[], size_t count)
     return UNIT_OK;
 }
 
-unit *unit_open(unit *u, const char *name, const char *token, const char *folder, const uint32_t references[],
-                size_t count)
+static unit *open_unit(unit *u, const char *name, const char *token, const char *folder, const uint32_t references[],
+                       size_t count)
 {
     unsigned log = u->log;
     u->log |= UNIT_LOG_ERROR; /* why there is no instance is told in any case */
@@ -174,6 +184,16 @@ unit *unit_open(unit *u, const char *name, const char *token, const char *folder
         return u;
     unit_free(u);
     return NULL;
+}
+
+unit *unit_open(unit *u, const char *name, const char *token, const char *folder, const uint32_t references[],
+                size_t count)
+{
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    unit *opened = open_unit(u, name, token, folder, references, count);
+    unit_arithmetic_end(&of_importer);
+    return opened;
 }
 
 unit_status unit_allow(unit *u, unsigned phases, const char *call)
@@ -230,8 +250,11 @@ static unit_status tell_inputs(unit *u)
 unit_status unit_exit_initialization(unit *u)
 {
     unit_status status = unit_allow(u, 1U << UNIT_INITIALIZING, "ExitInitializationMode");
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
     if (status == UNIT_OK)
         status = tell_inputs(u);
+    unit_arithmetic_end(&of_importer);
     if (status == UNIT_OK)
         u->phase = UNIT_STEPPING;
     return status;
@@ -282,7 +305,12 @@ unit_status unit_make_world(unit *u)
 unit_status unit_reset(unit *u)
 {
     unit_status status = unit_allow(u, ~(1U << UNIT_INTERMEDIATE), "Reset");
-    return status == UNIT_OK ? unit_make_world(u) : status;
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    if (status == UNIT_OK)
+        status = unit_make_world(u);
+    unit_arithmetic_end(&of_importer);
+    return status;
 }
 
 /* ---- variables ---- */
@@ -372,7 +400,9 @@ static unit_status step_inside(unit *u, bool is_last, double *return_at, bool *e
     if (u->look) {
         u->phase = UNIT_INTERMEDIATE;
         u->is_looked_on = true;
+        unit_arithmetic_end(&u->of_importer);
         u->look(u, unit_time(u), u->may_return_early && !is_last, return_at);
+        unit_arithmetic_begin(&u->of_importer);
         u->is_looked_on = false;
         if (u->phase != UNIT_INTERMEDIATE)
             return unit_fail(u, "the step is given up after a call that is not to be made during one");
@@ -382,14 +412,10 @@ static unit_status step_inside(unit *u, bool is_last, double *return_at, bool *e
     return UNIT_OK;
 }
 
-unit_status unit_step(unit *u, double now, double step, bool *early)
+static unit_status make_step(unit *u, double now, double step, bool *early)
 {
-    *early = false;
-    unit_status status = unit_allow(u, 1U << UNIT_STEPPING, "DoStep");
-    if (status != UNIT_OK)
-        return status;
     double count = floor(step / fram_scenario_time_step(u->scenario) + 0.5), return_at = (double)INFINITY;
-    status = check_step(u, now, step, count);
+    unit_status status = check_step(u, now, step, count);
     if (status == UNIT_OK)
         status = tell_inputs(u);
     bool end = false;
@@ -400,5 +426,17 @@ unit_status unit_step(unit *u, double now, double step, bool *early)
     }
     if (status != UNIT_OK)
         read_outputs(u);
+    return status;
+}
+
+unit_status unit_step(unit *u, double now, double step, bool *early)
+{
+    *early = false;
+    unit_status status = unit_allow(u, 1U << UNIT_STEPPING, "DoStep");
+    if (status != UNIT_OK)
+        return status;
+    unit_arithmetic_begin(&u->of_importer);
+    status = make_step(u, now, step, early);
+    unit_arithmetic_end(&u->of_importer);
     return status;
 }

@@ -9,6 +9,7 @@
 
 #include "fram/live.h"
 
+#include <fenv.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -58,7 +59,8 @@ struct unit {
     void (*look)(unit *u, double time, bool may_return, double *return_at);
     unsigned log;
     bool may_return_early;
-    bool is_looked_on; /* the importer's function runs within a step, whatever the phase became in it */
+    fenv_t of_importer; /* its arithmetic, during a step */
+    bool is_looked_on;  /* the importer's function runs within a step, whatever the phase became in it */
     unit_phase phase;
     fram_context *context;
     fram_scenario *scenario;
@@ -81,6 +83,13 @@ FMI_HIDDEN unit_status unit_fail_by(unit *u, const fram_error *e);
 FMI_HIDDEN unit_status unit_not_offered(unit *u, const char *call);
 /* The sum of the named categories; all for none. */
 FMI_HIDDEN unit_status unit_log_categories(unit *u, size_t count, const char *const names[], unsigned *sum);
+
+/* ---- arithmetic ---- */
+
+/* The library rounds to the nearest, and compares with what is not a number where nothing was given: importers that
+   trap such exceptions, or round elsewhere, find both as they were.  About all that the library computes. */
+FMI_HIDDEN void unit_arithmetic_begin(fenv_t *of_importer);
+FMI_HIDDEN void unit_arithmetic_end(const fenv_t *of_importer);
 
 /* ---- life ---- */
 

@@ -1,6 +1,8 @@
 /* bindings/fmi: instances of both versions from one binary are the world that they carry, one call after another, in
    any order and with any arguments, and in threads.  The scripts beside this try whole units; here sanitizers see it.
  */
+/* feenableexcept is of GNU */
+#define _GNU_SOURCE
 #include "../../bindings/fmi/fmi2.h"
 #include "../../bindings/fmi/fmi3.h"
 #include "base/random.h"
@@ -8,6 +10,7 @@
 #include "testing.h"
 
 #include <dlfcn.h>
+#include <fenv.h>
 #include <pthread.h>
 
 enum { THREADS = 4, STEPS = 40, KEPT = 3, REFERENCES = 7 };
@@ -181,6 +184,62 @@ START_TEST(both_versions_are_the_world)
     ck_assert_int_eq(errors, 0);
     CALL(fmi3FreeInstance)(three);
     CALL(fmi2FreeInstance)(two);
+    remove_resources();
+}
+END_TEST
+
+/* ---- an importer that computes in its own way ---- */
+
+enum { TRAPPED = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): the standard has this signature */
+static void look_upward(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean may_set, fmi3Boolean may_get,
+                        fmi3Boolean is_done, fmi3Boolean may_return, fmi3Boolean *wanted, fmi3Float64 *wanted_time)
+{
+    (void)environment, (void)time, (void)may_set, (void)may_get, (void)is_done, (void)may_return;
+    (void)wanted, (void)wanted_time;
+    ck_assert_int_eq(fegetround(), FE_UPWARD);
+    ck_assert_int_eq(fegetexcept(), TRAPPED);
+}
+
+/* A state through bytes, and back to it. */
+static void there_and_back(fmi3Instance c)
+{
+    fmi3FMUState state = NULL, again = NULL;
+    size_t size;
+    ck_assert_int_eq(CALL(fmi3GetFMUState)(c, &state), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3SerializedFMUStateSize)(c, state, &size), fmi3OK);
+    unsigned char *bytes = malloc(size);
+    ck_assert_ptr_nonnull(bytes);
+    ck_assert_int_eq(CALL(fmi3SerializeFMUState)(c, state, bytes, size), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3DeserializeFMUState)(c, bytes, size, &again), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3SetFMUState)(c, again), fmi3OK);
+    free(bytes);
+}
+
+/* Importers that trap exceptions of floating point or round upwards neither end by a signal nor get other numbers. */
+START_TEST(an_importer_has_its_own_arithmetic)
+{
+    make_resources();
+    int errors = 0;
+    double expected[3 * STEPS], found[3 * STEPS];
+    run_world(STEPS, expected);
+    fesetround(FE_UPWARD);
+    feenableexcept(TRAPPED);
+    fmi3Instance c = make_3(&errors, look_upward);
+    ck_assert_ptr_nonnull(c);
+    for (int time = 0; time < 2; time++) {
+        memset(found, 0, sizeof found);
+        run_3(c, STEPS, found);
+        ck_assert_mem_eq(found, expected, sizeof found);
+        there_and_back(c);
+        ck_assert_int_eq(CALL(fmi3Reset)(c), fmi3OK);
+    }
+    CALL(fmi3FreeInstance)(c);
+    ck_assert_int_eq(fegetround(), FE_UPWARD);
+    ck_assert_int_eq(fegetexcept(), TRAPPED);
+    fesetenv(FE_DFL_ENV);
+    ck_assert_int_eq(errors, 0);
     remove_resources();
 }
 END_TEST
@@ -477,6 +536,6 @@ START_TEST(instances_in_threads_are_as_alone)
 }
 END_TEST
 
-TEST_MAIN("instances", both_versions_are_the_world, any_call_in_any_order_has_a_status,
-          an_instance_is_not_freed_in_its_step, a_state_holds_the_stop_time,
+TEST_MAIN("instances", both_versions_are_the_world, an_importer_has_its_own_arithmetic,
+          any_call_in_any_order_has_a_status, an_instance_is_not_freed_in_its_step, a_state_holds_the_stop_time,
           why_there_is_no_instance_is_told_to_a_silent_log, instances_in_threads_are_as_alone)
