@@ -10,7 +10,7 @@
    CURRENT_LEVELS rows, depths from 0 on ascending.  FRAM_ERROR_INPUT with file, and line or what is wrong. */
 fram_status build_media(context *ctx, const scenario *s, media_history *out, fram_error *error);
 
-/* Times and speeds of the histories that are likely in another unit, to the log. */
+/* Times and speeds of the histories and of the profile that are likely in another unit, to the log. */
 void history_warnings(context *ctx, const scenario *s, const media_history *h);
 
 #endif

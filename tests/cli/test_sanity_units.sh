@@ -164,7 +164,10 @@ all_told ship.yaml output.averaging_window=0.001 output.picture_interval=5000 ou
 printf 'time [s],x [m/s],y [m/s]\n0,-0.4,0\n10,-0.3,0.3\n' >minutes.csv
 printf 'time [s],x [m/s],y [m/s]\n0,-80,0\n600,-5,0.2\n' >knots.csv
 printf 'time [s],x [m/s],y [m/s]\n100000,-0.4,0\n100600,-0.4,0.2\n' >date.csv
-all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv environment.current_file=date.csv -- \
+printf 'depth [m],x [m/s],y [m/s]\n0,-30,40\n20,-12,3\n' >adcp.csv
+all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv environment.current_file=date.csv \
+    environment.current_profile_file=adcp.csv -- \
+    "environment.current_profile_file: adcp.csv goes up to 50 m/s, more than 4|cm/s" \
     "domain.drift_file: the last row of minutes.csv is of 10 s|not minutes" \
     "environment.wind_file: knots.csv goes up to 80 m/s|not knots" \
     "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run" \
