@@ -77,6 +77,22 @@ static fram_status find_curve(context *ctx, const scenario *s, const scenario_mo
     return FRAM_OK;
 }
 
+/* Lines of full size carry 50 kN or more (sanity.c); a table that goes up to less than this is one of kN [N]. */
+#define TENSION_LEAST 1e4
+
+static void warn_of_curve(context *ctx, const scenario *s, const vessel_entry *entry, int32_t item,
+                          const line_definition *d)
+{
+    double least = TENSION_LEAST * real_pow(scenario_size(s), 3);
+    if (d->kind == LINE_TABLE && d->curve.tension[d->points - 1] < least)
+        log_write(
+            ctx, LOG_WARNING,
+            "%s.mooring.lines[%d].table%s: the tension goes up to %.4g N, less than %.4g: give newtons, not kN or "
+            "tonnes",
+            entry->path, (int)item, entry->keys->mooring.lines.data[item].table_file[0] ? "_file" : "",
+            d->curve.tension[d->points - 1], least);
+}
+
 /* The k-th line of an item of the list. */
 static line_definition line_of(const scenario_mooring *m, const scenario_mooring_line *l, int64_t k, int32_t vessel)
 {
@@ -112,6 +128,8 @@ static fram_status add_lines(context *ctx, const scenario *s, const vessel_entry
             status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
             if (status != FRAM_OK)
                 return name_line(ctx, s, entry, status, i, error);
+            if (k == 0)
+                warn_of_curve(ctx, s, entry, i, &d);
         }
     }
     return FRAM_OK;

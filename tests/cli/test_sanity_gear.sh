@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Thirty-five more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
+# Thirty-six more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
 # remedy.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
 
@@ -38,6 +38,14 @@ told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.moo
 no_end="vessel.mooring.lines[0].breaking_load=auto"
 told ship.yaml "lines[0].length: 870 m|is stretched by 4.36 % from the start" --set "$no_end" \
     --set "vessel.mooring.lines[0].length=870"
+printf 'offset[m],tension[N]\n-10,300\n0,800\n10,1900\n' >kilo.csv
+printf 'offset[m],tension[N]\n-10,300000\n0,800000\n10,1900000\n' >newtons.csv
+table="vessel.mooring.lines[0].kind=table"
+file="vessel.mooring.lines[0].table_file"
+told ship.yaml "lines[0].table_file: the tension goes up to 1900 N, less than 1e+04|not kN" --set "$table" \
+    --set "$file=kilo.csv"
+expect 0 "$FRAM" check ship.yaml --set "$table" --set "$file=newtons.csv"
+grep 'the tension goes up' err && fail "told of a table in newtons"
 spring="vessel.mooring.lines[0].kind=spring"
 told ship.yaml "lines[0].pretension: 8e+05 N is over the breaking load of 7e+05 N" --set "$spring" \
     --set "vessel.mooring.lines[0].stiffness=5e4" --set "vessel.mooring.lines[0].breaking_load=7e5"
