@@ -135,6 +135,14 @@ static void warn_of_signs(context *ctx, const char *key, const char *medium, con
 
 /* ---- a table ---- */
 
+/* Ends that go for 0, 180 and 360 degrees are these: between the last angle and a full turn the other side would be
+   meant. */
+static void set_ends(flow_table *t)
+{
+    t->angle[0] = 0;
+    t->angle[t->count - 1] = t->angle[t->count - 1] < 1.5 * PI ? PI : 2 * PI;
+}
+
 /* height: of the part of the hull that the medium meets; middle: of that part over the design waterline [m]. */
 static fram_status build_one(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
                              const char *medium, const vessel_model *hull, double height, double middle,
@@ -161,8 +169,10 @@ static fram_status build_one(context *ctx, const scenario *s, const scenario_flo
         out->count = i + 1;
     }
     rows_free(ctx, &rows);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
+        set_ends(out);
         warn_of_signs(ctx, key, medium, out);
+    }
     return status;
 }
 

@@ -39,6 +39,22 @@ START_TEST(the_hull_meets_the_tables)
 }
 END_TEST
 
+/* A table of a whole turn whose last angle lacks what a conversion rounds off, in a current a hair past its end: that
+   is the angle 0, not the other side of a ship with equal sides. */
+START_TEST(a_turn_that_was_rounded_is_whole)
+{
+    scene k;
+    scene_open(&k, BOX "  current_coefficients:\n    table:\n      - {angle_deg: 0, cx: 0.1, cy: 0.05}\n"
+                       "      - {angle_deg: 90, cy: 0.7}\n      - {angle_deg: 270, cy: -0.6}\n"
+                       "      - {angle_deg: 359.9999999999, cx: 0.1, cy: 0.05}\n"
+                       "ice: {source: none}\ndomain: {boundary: open}\n"
+                       "environment: {current_speed: 0.8, current_direction_deg: -1e-12}\n");
+    scene_steps(&k, 1);
+    assert_relative(k.w.scratch.fluid.data[0].water_drag.force.y, 0.5 * 1025 * 0.64 * 0.05 * 60 * 4, 1e-6);
+    scene_close(&k);
+}
+END_TEST
+
 /* Of a hull from a file the wind meets what the mesh has over the water, whatever the key of other hulls says. */
 START_TEST(the_wind_meets_the_mesh)
 {
@@ -129,5 +145,5 @@ START_TEST(faulty_tables)
 }
 END_TEST
 
-TEST_MAIN("flows", the_hull_meets_the_tables, the_wind_meets_the_mesh, turning_is_damped, munk_is_in_a_table,
-          faulty_tables)
+TEST_MAIN("flows", the_hull_meets_the_tables, the_wind_meets_the_mesh, a_turn_that_was_rounded_is_whole,
+          turning_is_damped, munk_is_in_a_table, faulty_tables)
