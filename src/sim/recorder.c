@@ -73,6 +73,11 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
         record_part part = {text, strlen(text)};
         status = record_append(&r->record, BLOCK_SCENARIO, &part, 1, error);
     }
+    /* Whoever looks on from the start finds tables without rows, not empty files. */
+    if (status == FRAM_OK)
+        status = csv_flush(&r->series, false, error);
+    if (status == FRAM_OK)
+        status = csv_flush(&r->fractures, false, error);
     if (status != FRAM_OK)
         recorder_close(r, NULL);
     return status;

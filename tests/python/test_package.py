@@ -357,6 +357,8 @@ class Package(unittest.TestCase):
         world = towed().world()
         with world.record(self.folder / "live") as recording:
             self.assertTrue(world.recorded)
+            begun = fram.open(self.folder / "live")  # tables of no row, not files without heads
+            self.assertEqual((len(begun.columns()["time"]), len(begun.fractures["time"])), (0, 0))
             world.step(50)
             recording.checkpoint()
             world.step(50)
