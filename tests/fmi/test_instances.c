@@ -192,7 +192,7 @@ END_TEST
 
 enum { TRAPPED = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): the standard has this signature */
+/* NOLINTBEGIN(readability-non-const-parameter): of the standard's type */
 static void look_upward(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean may_set, fmi3Boolean may_get,
                         fmi3Boolean is_done, fmi3Boolean may_return, fmi3Boolean *wanted, fmi3Float64 *wanted_time)
 {
@@ -201,6 +201,7 @@ static void look_upward(fmi3InstanceEnvironment environment, fmi3Float64 time, f
     ck_assert_int_eq(fegetround(), FE_UPWARD);
     ck_assert_int_eq(fegetexcept(), TRAPPED);
 }
+/* NOLINTEND(readability-non-const-parameter) */
 
 /* A state through bytes, and back to it. */
 static void there_and_back(fmi3Instance c)
