@@ -48,6 +48,14 @@ vessel:
 ice: {concentration: 0.5, mean_floe_area: 64, thickness: 0.3}
 domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 """
+# Vessels that nothing keeps on station.
+PASSING = """
+run: {duration: 0.2, time_step: 0.05}
+vessels:
+  - {name: tug, mode: towed, speed: 3, hull: {length: 30, beam: 8, draught: 3}, approach: {limit: 40, look_ahead: 30}}
+  - {name: ship, mode: towed, x: 80, y: 20, hull: {length: 30, beam: 8, draught: 3}}
+ice: {source: none}
+"""
 
 
 def towed(**more):
@@ -414,6 +422,10 @@ class Package(unittest.TestCase):
         self.assertIsNotNone(station.station)
         self.assertEqual(station.stations, {"": station.station})
         self.assertEqual(len(station.events), 4)
+        passing = fram.Scenario.from_text(PASSING).run(self.folder / "passing")
+        self.assertEqual(passing.stations, {})
+        self.assertEqual([(event["kind"], event["vessel"], event["other"]) for event in passing.events],
+                         [("approach", "tug", "ship")])
         (self.folder / "bad").mkdir()
         (self.folder / "bad/run.json").write_text("{}")
         (self.folder / "bad/series.csv").write_text("time[s],x[m]\n1,2\nthree,4\n5,6\n7,")

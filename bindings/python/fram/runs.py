@@ -190,10 +190,14 @@ class Run:
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """What befell vessels on station: lines that parted, thrusters that failed, position lost; of a list of vessels
-        each with the name of its ``vessel``."""
-        return [{**event, "vessel": name} if name else event
-                for name, station in self.stations.items() for event in station.get("events", [])]
+        """What befell the vessels, in order of time: lines that parted, thrusters that failed, position lost, ships that
+        were beset or left their track, approaches; of a list of vessels each with the name of its ``vessel``."""
+        stations = self.stations
+        found = [{**event, "vessel": name} if name else event
+                 for name, station in stations.items() for event in station.get("events", [])]
+        # Vessels that nothing keeps on station have theirs in run.json alone.
+        found += [event for event in self.info.get("events", []) if event.get("vessel", "") not in stations]
+        return sorted(found, key=lambda event: event.get("time_s", 0))
 
     def floes(self, time: float) -> list[Floe]:
         """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation."""
