@@ -19,6 +19,7 @@ TYPE = """(() => {
     field.dispatchEvent(new Event("input"));
     return [...document.querySelectorAll("#found a")].map((link) => link.href);
 })()"""
+FITS = "document.documentElement.scrollWidth <= document.documentElement.clientWidth"
 
 
 def skip(reason):
@@ -44,11 +45,16 @@ def main():
                 go_to(browser, site / "docs/theory.html")
                 hits = browser.run(TYPE % "catenary breaking_load turret")
                 assert any(hit.split("#")[0].endswith("docs/station.html") for hit in hits), hits
+                for key, section in (("ice.fracture.brash", "icefracture"), ("vessels[1].hull.length", "vesselhull")):
+                    hits = browser.run(TYPE % key)
+                    assert hits[:1] and hits[0].endswith("docs/input-reference.html#" + section), (key, hits)
                 assert browser.run(TYPE % "xyzzyplugh") == []
                 assert browser.run("document.getElementById('found').textContent") == "Nothing found."
                 assert browser.run(TYPE % "") == []
                 assert browser.run("document.getElementById('menu').hidden") is False
-                assert browser.run("document.documentElement.scrollWidth <= window.innerWidth"), f"wider than {width}"
+                for page in ("theory", "input-reference"):
+                    go_to(browser, site / f"docs/{page}.html")
+                    assert browser.run(FITS), f"{page} is wider than {width}"
                 go_to(browser, site / "index.html")
                 assert browser.run("[...document.images].every((image) => image.naturalWidth > 0)"), "no picture"
     print("search and pictures at two widths")

@@ -1,13 +1,24 @@
-// Search in the texts of all pages (index.js): every word must be in a section; headings and titles count more.
+// Search in the texts of all pages (index.js): every word must be in a section; headings, titles and keys count more.
 (function () {
     const field = document.getElementById("search");
     const list = document.getElementById("found");
     const menu = document.getElementById("menu");
     const base = document.body.dataset.base;
 
+    // A key by its whole name: ice.fracture.brash is a row of the section ice.fracture of the input reference.
+    function isKeyOf(word, heading, text) {
+        const name = word.replace(/\[\w*\]/g, "").replace(/^vessels\./, "vessel.");
+        const [, section, key] = name.match(/^(.+)\.(\w+)$/) ?? [];
+        return Boolean(key) && heading.replaceAll("[]", "") === section && text.split(" ").includes(key);
+    }
+
     function score(words, title, heading, text) {
         let sum = 0;
         for (const word of words) {
+            if (isKeyOf(word, heading, text)) {
+                sum += 20;
+                continue;
+            }
             if (!text.includes(word) && !title.includes(word)) return 0;
             sum += 1 + (heading.includes(word) ? 10 : 0) + (title.includes(word) ? 5 : 0);
             sum += Math.min(5, text.split(word).length - 1) / 5;
