@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# docs/channels.md names every column of series.csv and fractures.csv.
+# docs/channels.md names every column of series.csv and fractures.csv, docs/station.md every member of station.json,
+# docs/results.md every kind of event.
 . "$FRAM_SOURCE/tests/cli/common.sh"
 page=$FRAM_SOURCE/docs/channels.md
 "$FRAM" run "$FRAM_SOURCE/scenes/turret_ship.yaml" -o moored --quiet --set=run.duration=0.1 --set=run.transient=0 \
@@ -18,5 +19,17 @@ for file in moored/series.csv level/series.csv level/fractures.csv; do
         count=$((count + 1))
     done
 done
-echo "$count columns"
-[ "$count" -ge 150 ]
+[ "$count" -ge 150 ] || fail "only $count columns"
+python3 - moored/station.json "$FRAM_SOURCE/docs/station.md" <<'END' || fail "docs/station.md: a member of station.json"
+import json, sys
+page = open(sys.argv[2]).read()
+station = json.load(open(sys.argv[1]))
+for name in [*station, *station["lines"][0], *station["offset_m"], "energy_J", "failed", "largest_use"]:
+    assert f"`{name}`" in page, name
+END
+kinds=$(sed -n '/names\[EVENT_COUNT\]/,/};/s/^ *"\(.*\)",$/\1/p' "$FRAM_SOURCE/src/vessel/event.c")
+[ "$(wc -w <<<"$kinds")" -ge 14 ] || fail "the names of events are not found"
+for kind in $kinds; do
+    grep -qF "\`$kind\`" "$FRAM_SOURCE/docs/results.md" || fail "docs/results.md does not name $kind"
+done
+finish "$count columns, $(wc -w <<<"$kinds") kinds of events"
