@@ -107,7 +107,7 @@
     X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone ship"), "",                                 \
       "box; icebreaker: wedge bow, flared midbody and raked stern; file: a mesh, which has its own length, beam, "   \
       "draught and angles; cone: inverted, of 24 facets, length and beam its diameter, sides at the flare angle; "   \
-      "ship: tanker, FPSO or drillship, flat of side and bottom, without bulb, block coefficient up to 0.9")         \
+      "ship: tanker, FPSO or drillship, flat of side and bottom, without bulb, block coefficient 0.64 to some 0.93") \
     X(file, PATH(""), "",                                                                                            \
       "form file: mesh (STL, OBJ, GDF) in ship coordinates, x forward, z = 0 in the design waterline")               \
     X(file_scale, REAL(1, 1e-6, 1e6), "1", "form file: lengths of the file times this are metres")                   \

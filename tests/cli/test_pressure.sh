@@ -17,6 +17,9 @@ YAML
 expect 0 "$FRAM" run plate.yaml -o run --quiet
 find run -type f -exec cksum {} + | sort >before
 expect 0 "$FRAM" pressure run -o map --panel 2 --from 2.5
+for file in map/*; do
+    says "${file#map/}" err
+done
 find run -type f -exec cksum {} + | sort >after
 cmp -s before after || fail "fram pressure changes the run's folder"
 cat >tables.py <<'PYTHON'
