@@ -142,9 +142,8 @@ def check_opening(browser, page):
     # A phone's window grows with what sticks out of its screen: the view takes the screen, also after a turn and back.
     for width, height in ((720, 420), (420, 720)):
         browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True)
-        browser.run("new Promise((done) => setTimeout(done, 300))")
-        wide = browser.run("[innerWidth, document.getElementById('view').clientWidth]")
-        assert wide == [width, width], f"on a phone of {width} pixels window and view are {wide} wide"
+        browser.until(f"innerWidth === {width} && document.getElementById('view').clientWidth === {width}",
+                      f"on a phone of {width} pixels window or view are not as wide")
     browser.call("Emulation.clearDeviceMetricsOverride")
 
 
