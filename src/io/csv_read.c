@@ -8,10 +8,24 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 /* What may stand about a number, and alone in a line that counts for none. */
 #define BLANKS " \t"
+
+/* Whether a cell of the header is the name in other letters, "CX" for "cx". */
+static bool has_other_letters(const char *header, const char *name)
+{
+    size_t length = strcspn(name, "[");
+    for (const char *c = header; *c; c += *c == ',') {
+        c += strspn(c, BLANKS);
+        if (strncasecmp(c, name, length) == 0 && strchr(",[ ", c[length]))
+            return true;
+        c += strcspn(c, ",");
+    }
+    return false;
+}
 
 /* What a header that lacks a name may have instead. */
 static const char *header_hint(const char *header)
@@ -72,7 +86,8 @@ static fram_status find_columns(const char *path, const char *header, const char
         *width = column + 1;
         if (at[k] < 0)
             return error_set(error, FRAM_ERROR_INPUT, path, 1, names[k], "the file has no column of this name%s",
-                             header_hint(header));
+                             has_other_letters(header, names[k]) ? "; capital and small letters are not the same"
+                                                                 : header_hint(header));
     }
     return FRAM_OK;
 }

@@ -103,6 +103,9 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
     ASSERT_REFUSED("time[s],force[N]\n1,000,2\n", 2, "the row has 3 values, the header 2 columns");
     ASSERT_REFUSED("time[s],x[m],force[N]\n0,0,7,2\n0,25,7,2\n", 2, "is one of the commas a decimal");
     ASSERT_REFUSED("\"time[s]\",\"force[N]\"\n1,2\n", 1, "no column of this name; names stand without quotation marks");
+    ASSERT_REFUSED("time[s],Force[N]\n1,2\n", 1, "no column of this name; capital and small letters");
+    ASSERT_REFUSED("FORCE,time\n1,2\n", 1, "no column of this name; capital and small letters");
+    ASSERT_REFUSED("time[s],forces[N]\n1,2\n", 1, "no column of this name");
     ASSERT_REFUSED("time[s];force[N]\n1;2\n", 1, "columns are divided by commas");
     ASSERT_REFUSED("# of a tank\ntime[s],force[N]\n1,2\n", 1, "comments are not read");
 }
