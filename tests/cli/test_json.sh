@@ -127,10 +127,12 @@ expect 2 "$FRAM" check -- --json
 [ ! -s out ] || fail "a file of the name --json is taken for the option"
 says '--json: cannot read' err
 
-# Each is one object; that of bad input names its place.
-python3 - <<'END' || fail "the answers above"
+# Each is one object; that of bad input names its place, in members that the README tells.
+python3 - "$FRAM_SOURCE/README.md" <<'END' || fail "the answers above"
 import json
+import sys
 
+told = open(sys.argv[1], encoding="utf-8").read()
 wrong = 0
 for line in open("answers", encoding="utf-8"):
     wanted, words, answer = line.rstrip("\n").split("\t")
@@ -142,6 +144,7 @@ for line in open("answers", encoding="utf-8"):
         error = answer["error"]
         assert error["status"] and error["message"]
         assert wanted != "2" or error["key"] or error["file"]
+        assert all(f"`{name}`" in told for name in error)
     except (ValueError, AssertionError, KeyError, TypeError):
         print(f"{words}: {answer}")
         wrong += 1
