@@ -190,8 +190,8 @@ class Run:
 
     @property
     def events(self) -> list[dict[str, Any]]:
-        """What befell the vessels, in order of time: lines that parted, thrusters that failed, position lost, ships that
-        were beset or left their track, approaches; of a list of vessels each with the name of its ``vessel``."""
+        """What befell the vessels, in order of time: lines that parted, thrusters that failed, position lost, ships
+        that were beset or left their track, approaches; of a list of vessels each with the name of its ``vessel``."""
         stations = self.stations
         found = [{**event, "vessel": name} if name else event
                  for name, station in stations.items() for event in station.get("events", [])]
