@@ -32,6 +32,7 @@ static const char *header_hint(const char *header)
 {
     return strchr(header, '"')      ? "; names stand without quotation marks"
            : strpbrk(header, ";\t") ? "; columns are divided by commas"
+           : strchr(header, '\r')   ? "; lines end with line feeds, not with carriage returns alone"
            : header[0] == '#'       ? "; comments are not read"
                                     : "";
 }

@@ -107,6 +107,7 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
     ASSERT_REFUSED("FORCE,time\n1,2\n", 1, "no column of this name; capital and small letters");
     ASSERT_REFUSED("time[s],forces[N]\n1,2\n", 1, "no column of this name");
     ASSERT_REFUSED("time[s];force[N]\n1;2\n", 1, "columns are divided by commas");
+    ASSERT_REFUSED("time[s],force[N]\r1,2\r", 1, "not with carriage returns alone");
     ASSERT_REFUSED("# of a tank\ntime[s],force[N]\n1,2\n", 1, "comments are not read");
 }
 END_TEST
