@@ -6,11 +6,6 @@
 #include "base/wide.h"
 #include <math.h>
 
-/* log 2 = LN2_HI + LN2_LO to 97 bits; LN2_HI has 42 bits, so that its product with an exponent is exact. */
-#define LN2_HI 0x1.62e42fefa38p-1
-#define LN2_LO 0x1.ef35793c7673p-45
-#define LN2_INVERSE 0x1.71547652b82fep+0
-
 /* exp overflows above and is zero below (log of the largest double is 709.78, of half the smallest -745.13). */
 #define EXP_MOST 710.0
 #define EXP_LEAST (-746.0)

@@ -5,10 +5,7 @@
 
 #include <math.h>
 
-/* As in exponential.c: log 2 in two parts, of which the first has 42 bits; and the bits of sqrt(1/2). */
-#define LN2_HI 0x1.62e42fefa38p-1
-#define LN2_LO 0x1.ef35793c7673p-45
-#define LN2_INVERSE 0x1.71547652b82fep+0
+/* The bits of sqrt(1/2). */
 #define SQRT_HALF UINT64_C(0x3fe6a09e667f3bcd)
 
 double near_exp(double x)

@@ -28,6 +28,11 @@ static inline double double_from_bits(uint64_t bits)
     return x;
 }
 
+/* log 2 = LN2_HI + LN2_LO to 97 bits; LN2_HI has 42 bits, so that its product with an exponent is exact. */
+#define LN2_HI 0x1.62e42fefa38p-1
+#define LN2_LO 0x1.ef35793c7673p-45
+#define LN2_INVERSE 0x1.71547652b82fep+0
+
 /* 2^n, -1022 <= n <= 1023 */
 static inline double power_of_two(int n) { return double_from_bits((uint64_t)(n + 1023) << 52); }
 
