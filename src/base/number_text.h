@@ -6,6 +6,8 @@
 #include <stdint.h>
 
 enum { NUMBER_TEXT_SIZE = 32 };
+/* A longer number in a file is no number that anybody wrote. */
+enum { NUMBER_LENGTH_MOST = 400 };
 
 /* The shortest decimal text that reads back as the same double, "0.1", "1e+300", "-0" (below 2^-1022 it may have more
    digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */

@@ -1,7 +1,7 @@
 #include "io/base64.h"
 
 /* Bytes encoded at a time. */
-enum { PART = 3072 };
+enum { ENCODED_AT_ONCE = 3072 };
 
 base64_writer base64_begin(file_writer *file)
 {
@@ -13,10 +13,10 @@ base64_writer base64_begin(file_writer *file)
 fram_status base64_write(base64_writer *b, const void *data, size_t size, fram_error *error)
 {
     const uint8_t *bytes = data;
-    char text[BASE64_ENCODE_LENGTH(PART)];
+    char text[BASE64_ENCODE_LENGTH(ENCODED_AT_ONCE)];
     fram_status status = FRAM_OK;
-    for (size_t i = 0; i < size && status == FRAM_OK; i += PART) {
-        size_t part = size - i < PART ? size - i : PART;
+    for (size_t i = 0; i < size && status == FRAM_OK; i += ENCODED_AT_ONCE) {
+        size_t part = size - i < ENCODED_AT_ONCE ? size - i : ENCODED_AT_ONCE;
         status = file_write(b->file, text, base64_encode_update(&b->state, text, part, bytes + i), error);
     }
     return status;
@@ -31,9 +31,9 @@ fram_status base64_end(base64_writer *b, fram_error *error)
 void base64_text(context *ctx, text_buffer *out, const void *data, size_t size)
 {
     const uint8_t *bytes = data;
-    char text[BASE64_ENCODE_RAW_LENGTH(PART)];
-    for (size_t i = 0; i < size; i += PART) {
-        size_t part = size - i < PART ? size - i : PART; /* a multiple of 3 but for the last */
+    char text[BASE64_ENCODE_RAW_LENGTH(ENCODED_AT_ONCE)];
+    for (size_t i = 0; i < size; i += ENCODED_AT_ONCE) {
+        size_t part = size - i < ENCODED_AT_ONCE ? size - i : ENCODED_AT_ONCE; /* a multiple of 3 but for the last */
         base64_encode_raw(text, part, bytes + i);
         text_add_bytes(ctx, out, text, BASE64_ENCODE_RAW_LENGTH(part));
     }

@@ -11,20 +11,21 @@
 #ifdef FRAM_HAVE_CAIRO
 
 /* Colour-blind safe (Okabe and Ito 2008). */
-static const image_colour palette[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00}, {0.00, 0.62, 0.45},
-                                       {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
-enum { PALETTE_SIZE = sizeof palette / sizeof *palette };
+static const image_colour line_colours[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
+                                            {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00},
+                                            {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
+enum { LINE_COLOURS = sizeof line_colours / sizeof *line_colours };
 /* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
 enum { MOST_TICKS = 50 };
-static const image_colour ink = {0.2, 0.2, 0.2}, grid = {0.90, 0.91, 0.92};
+static const image_colour chart_ink = {0.2, 0.2, 0.2}, chart_grid = {0.90, 0.91, 0.92};
 static const double log_of_ten = 2.302585092994045684;
 
-typedef struct frame {
+typedef struct chart_frame {
     double left, right, top, bottom; /* pixels */
     double x0, x1, y0, y1;           /* data; decades on a logarithmic axis */
     double step;                     /* of the ticks of both axes, where they have one scale; 0: each has its own */
     bool log_x, log_y;
-} frame;
+} chart_frame;
 
 /* A value as its axis counts it; a NaN cannot be shown. */
 static double on_axis(double value, bool logarithmic)
@@ -34,18 +35,18 @@ static double on_axis(double value, bool logarithmic)
     return value > 0 && value <= DBL_MAX ? real_log(value) / log_of_ten : (double)NAN;
 }
 
-static double axis_to_px(const frame *f, double x)
+static double axis_to_px(const chart_frame *f, double x)
 {
     return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left);
 }
-static double axis_to_py(const frame *f, double y)
+static double axis_to_py(const chart_frame *f, double y)
 {
     return f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - f->top);
 }
-static double to_px(const frame *f, double x) { return axis_to_px(f, on_axis(x, f->log_x)); }
-static double to_py(const frame *f, double y) { return axis_to_py(f, on_axis(y, f->log_y)); }
+static double to_px(const chart_frame *f, double x) { return axis_to_px(f, on_axis(x, f->log_x)); }
+static double to_py(const chart_frame *f, double y) { return axis_to_py(f, on_axis(y, f->log_y)); }
 
-static bool can_show(const frame *f, double x, double y)
+static bool can_show(const chart_frame *f, double x, double y)
 {
     double a = on_axis(x, f->log_x), b = on_axis(y, f->log_y);
     return a == a && b == b;
@@ -81,7 +82,7 @@ static bool has_points(const chart *c)
     return false;
 }
 
-static void find_range(const chart *c, frame *f)
+static void find_range(const chart *c, chart_frame *f)
 {
     f->log_x = c->log_x, f->log_y = c->log_y;
     f->x0 = f->y0 = DBL_MAX, f->x1 = f->y1 = -DBL_MAX;
@@ -137,33 +138,33 @@ static void tick_text(const tick_row *t, double at, char text[32])
         snprintf(text, 32, "%.6g", fabs(at) < t->step * 1e-6 ? 0.0 : at);
 }
 
-static void draw_y_axis(cairo_t *page, const frame *f)
+static void draw_y_axis(cairo_t *page, const chart_frame *f)
 {
     char text[32];
     tick_row t = ticks_of(f->y0, f->y1, 6, f->step, f->log_y);
     for (int i = 0; i < t.count; i++) {
         double y = t.first + i * t.step, py = floor(axis_to_py(f, y)) + 0.5;
-        image_set_colour(page, grid);
+        image_set_colour(page, chart_grid);
         cairo_move_to(page, f->left, py);
         cairo_line_to(page, f->right, py);
         cairo_stroke(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, chart_ink);
         tick_text(&t, y, text);
         image_text(page, f->left - 7, py + 4, 12, ALIGN_RIGHT, false, text);
     }
 }
 
-static void draw_x_axis(cairo_t *page, const frame *f)
+static void draw_x_axis(cairo_t *page, const chart_frame *f)
 {
     char text[32];
     tick_row t = ticks_of(f->x0, f->x1, 10, f->step, f->log_x);
     for (int i = 0; i < t.count; i++) {
         double x = t.first + i * t.step, px = floor(axis_to_px(f, x)) + 0.5;
-        image_set_colour(page, grid);
+        image_set_colour(page, chart_grid);
         cairo_move_to(page, px, f->top);
         cairo_line_to(page, px, f->bottom);
         cairo_stroke(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, chart_ink);
         cairo_move_to(page, px, f->bottom);
         cairo_line_to(page, px, f->bottom + 5);
         cairo_stroke(page);
@@ -172,7 +173,7 @@ static void draw_x_axis(cairo_t *page, const frame *f)
     }
 }
 
-static void draw_axes(cairo_t *page, const chart *c, const frame *f)
+static void draw_axes(cairo_t *page, const chart *c, const chart_frame *f)
 {
     cairo_set_line_width(page, 1);
     draw_y_axis(page, f);
@@ -182,7 +183,7 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
     cairo_line_to(page, floor(f->left) + 0.5, floor(f->bottom) + 0.5);
     cairo_line_to(page, f->right, floor(f->bottom) + 0.5);
     cairo_stroke(page);
-    image_set_colour(page, ink);
+    image_set_colour(page, chart_ink);
     image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
     cairo_save(page);
     cairo_translate(page, 18, (f->top + f->bottom) / 2);
@@ -194,7 +195,7 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
 /* ---- lines ---- */
 
 /* Each pixel column gets the first, least, greatest and last value in it. */
-static void draw_line(cairo_t *page, const frame *f, const chart_line *line)
+static void draw_line(cairo_t *page, const chart_frame *f, const chart_line *line)
 {
     cairo_set_line_width(page, line->thick ? 2 : 1);
     bool pen_down = false;
@@ -225,7 +226,7 @@ static void draw_line(cairo_t *page, const frame *f, const chart_line *line)
 }
 
 /* Rows that stand alone between such as have no value: a line of one point is not seen. */
-static void draw_lone(cairo_t *page, const frame *f, const chart_line *line)
+static void draw_lone(cairo_t *page, const chart_frame *f, const chart_line *line)
 {
     for (int32_t i = 0; i < line->count; i++) {
         bool before = i > 0 && can_show(f, line->x[i - 1], line->y[i - 1]);
@@ -238,7 +239,7 @@ static void draw_lone(cairo_t *page, const frame *f, const chart_line *line)
 }
 
 /* A track turns back: it is drawn point by point. */
-static void draw_track(cairo_t *page, const frame *f, const chart_line *line)
+static void draw_track(cairo_t *page, const chart_frame *f, const chart_line *line)
 {
     cairo_set_line_width(page, line->thick ? 2 : 1);
     for (int32_t i = 0; i < line->count; i++) {
@@ -249,7 +250,7 @@ static void draw_track(cairo_t *page, const frame *f, const chart_line *line)
 }
 
 /* A bound that a logarithmic axis cannot show lies at its end. */
-static double bound_py(const frame *f, double y)
+static double bound_py(const chart_frame *f, double y)
 {
     double at = on_axis(y, f->log_y);
     return at == at ? axis_to_py(f, at) : f->bottom;
@@ -260,7 +261,7 @@ static double bound_py(const frame *f, double y)
 /* Rows without a value (NaN) part it; one that stands alone is as wide [pixels]. */
 #define LONE_BAND 6.0
 
-static void draw_band(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
+static void draw_band(cairo_t *page, const chart_frame *f, const chart_line *line, image_colour colour)
 {
     for (int32_t first = 0, end; first < line->count; first = end + 1) {
         for (end = first; end < line->count && !isnan(line->y[end]) && !isnan(line->y2[end]);)
@@ -283,7 +284,7 @@ static void draw_band(cairo_t *page, const frame *f, const chart_line *line, ima
     cairo_fill(page);
 }
 
-static void draw_bars(cairo_t *page, const frame *f, const chart_line *line)
+static void draw_bars(cairo_t *page, const chart_frame *f, const chart_line *line)
 {
     double base = f->log_y ? f->bottom : axis_to_py(f, fmax(f->y0, fmin(0, f->y1)));
     for (int32_t i = 0; i + 1 < line->count; i++) {
@@ -295,7 +296,7 @@ static void draw_bars(cairo_t *page, const frame *f, const chart_line *line)
     cairo_fill(page);
 }
 
-static void draw_points(cairo_t *page, const frame *f, const chart_line *line)
+static void draw_points(cairo_t *page, const chart_frame *f, const chart_line *line)
 {
     for (int32_t i = 0; i < line->count; i++) {
         if (!can_show(f, line->x[i], line->y[i]))
@@ -308,10 +309,10 @@ static void draw_points(cairo_t *page, const frame *f, const chart_line *line)
 
 static image_colour colour_of(const chart_line *line, int32_t place)
 {
-    return palette[(line->colour > 0 ? line->colour - 1 : place) % PALETTE_SIZE];
+    return line_colours[(line->colour > 0 ? line->colour - 1 : place) % LINE_COLOURS];
 }
 
-static void draw_one(cairo_t *page, const frame *f, const chart_line *line, image_colour colour, bool track)
+static void draw_one(cairo_t *page, const chart_frame *f, const chart_line *line, image_colour colour, bool track)
 {
     image_set_colour(page, colour);
     switch (line->style) {
@@ -331,14 +332,14 @@ static void draw_one(cairo_t *page, const frame *f, const chart_line *line, imag
     }
 }
 
-static void draw_legend(cairo_t *page, const chart *c, const frame *f)
+static void draw_legend(cairo_t *page, const chart *c, const chart_frame *f)
 {
     double x = f->right;
     for (int32_t k = c->line_count - 1; k >= 0; k--) {
         if (!c->lines[k].name[0])
             continue;
         x -= image_text_width(page, 12, false, c->lines[k].name);
-        image_set_colour(page, ink);
+        image_set_colour(page, chart_ink);
         image_text(page, x, f->top - 8, 12, ALIGN_LEFT, false, c->lines[k].name);
         bool band = c->lines[k].style == CHART_BAND;
         image_colour colour = colour_of(&c->lines[k], k);
@@ -357,7 +358,7 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
 }
 
 /* Widen one axis so that both have the same scale, about the middle, and the same ticks, so that it shows. */
-static void equalise(frame *f)
+static void equalise(chart_frame *f)
 {
     double across = (f->x1 - f->x0) / (f->right - f->left), upwards = (f->y1 - f->y0) / (f->bottom - f->top);
     double scale = fmax(across, upwards);
@@ -371,7 +372,7 @@ static void equalise(frame *f)
 void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)
 {
     bool has_subtitle = c->subtitle[0] != '\0';
-    frame f = {.left = 86, .right = width - 22, .top = has_subtitle ? 78 : 58, .bottom = height - 58};
+    chart_frame f = {.left = 86, .right = width - 22, .top = has_subtitle ? 78 : 58, .bottom = height - 58};
     find_range(c, &f);
     if (equal)
         equalise(&f);

@@ -202,7 +202,7 @@ typedef struct line_buffer {
     char *text;
     size_t at, end;
 } line_buffer;
-enum { PART = 1 << 16, BUFFER_ROOM = CSV_LINE_MOST + PART };
+enum { READ_AT_ONCE = 1 << 16, BUFFER_ROOM = CSV_LINE_MOST + READ_AT_ONCE };
 
 /* More of the file behind what is there, which moves to the front: at most a line.  False at the file's end. */
 static bool read_part(line_buffer *b)
@@ -210,7 +210,7 @@ static bool read_part(line_buffer *b)
     b->end -= b->at;
     memmove(b->text, b->text + b->at, b->end);
     b->at = 0;
-    size_t got = fread(b->text + b->end, 1, PART, b->file);
+    size_t got = fread(b->text + b->end, 1, READ_AT_ONCE, b->file);
     b->end += got;
     return got > 0;
 }

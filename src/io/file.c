@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 enum { BUFFER_SIZE = 1 << 16 };
 
@@ -18,6 +19,11 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
     bool name = number == ENOENT || number == ENOTDIR || number == EISDIR || number == EACCES || number == ELOOP ||
                 number == ENAMETOOLONG;
     return error_set(error, name ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
+}
+
+uint32_t file_crc(uint32_t crc, const void *data, size_t size)
+{
+    return size > 0 ? (uint32_t)crc32_z(crc, data, size) : crc; /* crc32_z begins anew at NULL */
 }
 
 /* open() again when a signal came between. */
@@ -182,7 +188,7 @@ fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error
 }
 
 /* Bytes to the system; remembers the first failure. */
-static fram_status put(file_writer *w, const char *data, size_t size, fram_error *error)
+static fram_status write_out(file_writer *w, const char *data, size_t size, fram_error *error)
 {
     for (size_t done = 0; done < size && !w->failed;) {
         ssize_t put_now = write(w->descriptor, data + done, size - done);
@@ -230,7 +236,7 @@ fram_status file_write(file_writer *w, const void *data, size_t size, fram_error
     }
     w->length += size;
     if (size > BUFFER_SIZE)
-        return put(w, data, size, error);
+        return write_out(w, data, size, error);
     memcpy(w->buffer + w->filled, data, size);
     w->filled += size;
     return FRAM_OK;
@@ -240,7 +246,7 @@ fram_status file_flush(file_writer *w, bool sync, fram_error *error)
 {
     size_t filled = w->filled;
     w->filled = 0;
-    fram_status status = put(w, w->buffer, filled, error);
+    fram_status status = write_out(w, w->buffer, filled, error);
     if (status != FRAM_OK || !sync)
         return status;
     /* A device or a pipe has no disk below it. */

@@ -26,6 +26,13 @@ fram_status file_read(context *ctx, const char *path, uint64_t limit, char **dat
 /* `size` bytes at `offset` of an open file; FRAM_ERROR_INPUT when it ends before. */
 fram_status file_read_at(int descriptor, const char *path, uint64_t offset, void *data, size_t size, fram_error *error);
 
+/* What the heads of binary files hold as their byte order, and what a machine of the other one reads there. */
+#define FILE_BYTE_ORDER 0x01020304u
+#define FILE_BYTE_ORDER_SWAPPED 0x04030201u
+/* The checksum of what `crc` is that of (0: nothing) and these bytes behind it: zlib's CRC-32.  data may be NULL for no
+   bytes. */
+uint32_t file_crc(uint32_t crc, const void *data, size_t size);
+
 /* A buffered writer of one open file.  After a failed write every later call fails too. */
 typedef struct file_writer {
     context *ctx;

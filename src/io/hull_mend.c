@@ -282,7 +282,7 @@ static fram_status fill_holes(hull_reading *r)
     return status;
 }
 
-static fram_status finish(hull_reading *r)
+static fram_status finish_hull(hull_reading *r)
 {
     scale_surface(r);
     r->longest = hull_longest_side(&r->file->surface);
@@ -339,7 +339,7 @@ fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_
                       .seal_width = seal_width,
                       .fill = fill,
                       .out = out};
-    fram_status status = copy_file(q->ctx, q->file, &file) ? finish(&r) : error_memory(&out->error);
+    fram_status status = copy_file(q->ctx, q->file, &file) ? finish_hull(&r) : error_memory(&out->error);
     if (status == FRAM_OK) {
         out->surface = file.surface;
         file.surface = (mesh){0};

@@ -27,18 +27,18 @@ enum {
 /* Sections begin and end this part of the length inside the ends, where there is something to cut. */
 #define END_MARGIN 0.004
 
-static const image_colour ink = {0.13, 0.14, 0.16}, faint = {0.70, 0.72, 0.75}, hull_fill = {0.955, 0.955, 0.945},
+static const image_colour hull_ink = {0.13, 0.14, 0.16}, faint = {0.70, 0.72, 0.75}, hull_fill = {0.955, 0.955, 0.945},
                           wet_fill = {0.80, 0.89, 0.96}, water_line = {0.05, 0.36, 0.68},
                           fore_line = {0.72, 0.25, 0.12}, aft_line = {0.16, 0.38, 0.30}, mark = {0.75, 0.10, 0.10};
 
 /* A drawing in a plane: u to the right, v up. */
-typedef struct frame {
+typedef struct plane_frame {
     double left, base; /* pixels of the origin of u and v */
     double scale;      /* pixels per metre */
-} frame;
+} plane_frame;
 
-static double at_u(const frame *f, double u) { return f->left + u * f->scale; }
-static double at_v(const frame *f, double v) { return f->base - v * f->scale; }
+static double at_u(const plane_frame *f, double u) { return f->left + u * f->scale; }
+static double at_v(const plane_frame *f, double v) { return f->base - v * f->scale; }
 
 typedef struct drawing {
     context *ctx;
@@ -49,7 +49,7 @@ typedef struct drawing {
     fram_error *error;
 } drawing;
 
-static void trace(cairo_t *page, const frame *f, polygon p)
+static void trace(cairo_t *page, const plane_frame *f, polygon p)
 {
     cairo_new_sub_path(page); /* closing one leaves the pen at its start */
     for (int32_t i = 0; i < p.count; i++)
@@ -71,7 +71,7 @@ static vec2 seen(vec3 p, int axis)
     return axis == 0 ? vec2_make(p.y, p.z) : axis == 1 ? vec2_make(p.x, p.z) : vec2_make(p.x, p.y);
 }
 
-static void trace_silhouette(const drawing *d, const frame *f, int axis)
+static void trace_silhouette(const drawing *d, const plane_frame *f, int axis)
 {
     const mesh *m = d->view->surface;
     for (int32_t i = 0; i < m->face.count; i++) {
@@ -87,7 +87,7 @@ static void trace_silhouette(const drawing *d, const frame *f, int axis)
 
 /* Fill the silhouette, wet on the side of the line through (u, level of u) where the water is: over it in the hull's
    frame where she floats keel up. */
-static void draw_silhouette(const drawing *d, const frame *f, int axis, box2 window)
+static void draw_silhouette(const drawing *d, const plane_frame *f, int axis, box2 window)
 {
     cairo_t *page = d->page;
     cairo_set_antialias(page, CAIRO_ANTIALIAS_GOOD);
@@ -112,7 +112,7 @@ static void draw_silhouette(const drawing *d, const frame *f, int axis, box2 win
     cairo_restore(page);
 }
 
-static void draw_water(const drawing *d, const frame *f, int axis, double u0, double u1)
+static void draw_water(const drawing *d, const plane_frame *f, int axis, double u0, double u1)
 {
     double along = axis == 0 ? d->up.y : d->up.x, level = d->view->attitude.level;
     cairo_move_to(d->page, at_u(f, u0), at_v(f, (level - along * u0) / d->up.z));
@@ -129,7 +129,7 @@ typedef struct family {
     double half; /* +1, -1: only that side of the first coordinate; 0: all */
 } family;
 
-static fram_status draw_section(const drawing *d, family *s, const frame *f, double at, image_colour colour,
+static fram_status draw_section(const drawing *d, family *s, const plane_frame *f, double at, image_colour colour,
                                 double width)
 {
     polygon_list rings = {0};
@@ -156,12 +156,12 @@ static double lerp(double a, double b, double t) { return a + (b - a) * t; }
 
 static void label(const drawing *d, double x, double y, const char *text)
 {
-    image_set_colour(d->page, ink);
+    image_set_colour(d->page, hull_ink);
     image_text(d->page, x, y, 13, ALIGN_LEFT, true, text);
 }
 
 /* With its name `below` it [pixels]: two names near each other stand over and under. */
-static void dot(const drawing *d, const frame *f, vec2 p, double below, const char *name)
+static void dot(const drawing *d, const plane_frame *f, vec2 p, double below, const char *name)
 {
     double x = at_u(f, p.x), y = at_v(f, p.y);
     cairo_arc(d->page, x, y, 3.2, 0, 2 * PI);
@@ -171,18 +171,18 @@ static void dot(const drawing *d, const frame *f, vec2 p, double below, const ch
     cairo_new_path(d->page);
 }
 
-static void draw_scale(const drawing *d, double x, double y, double scale, double span)
+static void draw_length_scale(const drawing *d, double x, double y, double scale, double span)
 {
     double length = image_round_step(span, 12);
     char text[40];
     snprintf(text, sizeof text, "%g m", length);
-    image_set_colour(d->page, ink);
+    image_set_colour(d->page, hull_ink);
     cairo_rectangle(d->page, x, y - 5, length * scale, 5);
     cairo_fill(d->page);
     image_text(d->page, x + length * scale + 7, y, 12, ALIGN_LEFT, false, text);
 }
 
-static fram_status draw_profile(const drawing *d, const frame *f)
+static fram_status draw_profile(const drawing *d, const plane_frame *f)
 {
     const hull_stability *s = d->view->stability;
     box2 window = {{d->box.lo.x, d->box.lo.z}, {d->box.hi.x, d->box.hi.z}};
@@ -191,7 +191,8 @@ static fram_status draw_profile(const drawing *d, const frame *f)
     family buttocks = {.exchange = true};
     fram_status status = hull_slicer_make(d->ctx, d->view->surface, 1, &buttocks.slicer, d->error);
     for (int i = 0; i < BUTTOCKS && status == FRAM_OK; i++)
-        status = draw_section(d, &buttocks, f, middle + 0.5 * breadth * i / BUTTOCKS, i ? faint : ink, i ? 0.8 : 1.5);
+        status =
+            draw_section(d, &buttocks, f, middle + 0.5 * breadth * i / BUTTOCKS, i ? faint : hull_ink, i ? 0.8 : 1.5);
     hull_slicer_free(d->ctx, &buttocks.slicer);
     double past = 0.02 * (d->box.hi.x - d->box.lo.x);
     draw_water(d, f, 1, d->box.lo.x - past, d->box.hi.x + past);
@@ -204,7 +205,7 @@ static fram_status draw_profile(const drawing *d, const frame *f)
     return status;
 }
 
-static fram_status draw_waterlines(const drawing *d, const frame *f)
+static fram_status draw_waterlines(const drawing *d, const plane_frame *f)
 {
     box2 window = {{d->box.lo.x, d->box.lo.y}, {d->box.hi.x, d->box.hi.y}};
     draw_silhouette(d, f, 2, window);
@@ -215,7 +216,7 @@ static fram_status draw_waterlines(const drawing *d, const frame *f)
     for (int i = 1; i < WATERLINES && status == FRAM_OK; i++)
         status = draw_section(d, &lines, f, lerp(keel, level, (double)i / WATERLINES), faint, 0.9);
     for (int i = 1; i <= 2 && status == FRAM_OK; i++)
-        status = draw_section(d, &lines, f, lerp(level, d->box.hi.z, 0.5 * i), ink, i == 2 ? 1.3 : 0.6);
+        status = draw_section(d, &lines, f, lerp(level, d->box.hi.z, 0.5 * i), hull_ink, i == 2 ? 1.3 : 0.6);
     if (status == FRAM_OK && upright)
         status = draw_section(d, &lines, f, level, water_line, 1.8);
     hull_slicer_free(d->ctx, &lines.slicer);
@@ -236,7 +237,7 @@ static fram_status draw_body_plan(const drawing *d, double left, double top)
     double breadth = d->box.hi.y - d->box.lo.y, depth = d->box.hi.z - d->box.lo.z, length = d->box.hi.x - d->box.lo.x;
     double scale = fmin(BODY_WIDTH / (1.1 * breadth), (LOW_ROW - 60) / depth),
            middle = 0.5 * (d->box.lo.y + d->box.hi.y);
-    frame f = {left + BODY_WIDTH / 2.0 - middle * scale, top + 40 + d->box.hi.z * scale, scale};
+    plane_frame f = {left + BODY_WIDTH / 2.0 - middle * scale, top + 40 + d->box.hi.z * scale, scale};
     box2 window = {{d->box.lo.y, d->box.lo.z}, {d->box.hi.y, d->box.hi.z}};
     draw_silhouette(d, &f, 0, window);
     family stations = {0};
@@ -259,7 +260,7 @@ static fram_status draw_body_plan(const drawing *d, double left, double top)
     draw_water(d, &f, 0, d->box.lo.y - 0.05 * breadth, d->box.hi.y + 0.05 * breadth);
     label(d, left, top + 12, "Body plan");
     image_text(d->page, left + 78, top + 12, 12, ALIGN_LEFT, false, "after stations left, fore stations right");
-    draw_scale(d, left, fmin(at_v(&f, d->box.lo.z) + 34, top + LOW_ROW), scale, breadth);
+    draw_length_scale(d, left, fmin(at_v(&f, d->box.lo.z) + 34, top + LOW_ROW), scale, breadth);
     return status;
 }
 
@@ -272,10 +273,10 @@ typedef struct facet {
     int32_t piece;        /* -1: the surface */
 } facet;
 
-typedef struct solid_view {
+typedef struct facet_view {
     ARRAY(vec3) corner;
     ARRAY(facet) facet;
-} solid_view;
+} facet_view;
 
 static int compare_facets(const void *left, const void *right)
 {
@@ -289,7 +290,7 @@ static int compare_facets(const void *left, const void *right)
 static const vec3 eye_right = {-0.57357644, 0.81915204, 0}, eye_up = {0.24520, 0.17169, 0.95419},
                   eye = {0.78163, 0.54730, -0.29930};
 
-static bool add_facet(const drawing *d, solid_view *v, const vec3 *p, int32_t n, vec3 normal, vec3 shift, int32_t piece)
+static bool add_facet(const drawing *d, facet_view *v, const vec3 *p, int32_t n, vec3 normal, vec3 shift, int32_t piece)
 {
     if (vec3_dot(normal, eye) <= 0)
         return true;
@@ -305,7 +306,7 @@ static bool add_facet(const drawing *d, solid_view *v, const vec3 *p, int32_t n,
     return array_push(d->ctx, &v->facet, f);
 }
 
-static bool add_surface(const drawing *d, solid_view *v)
+static bool add_surface(const drawing *d, facet_view *v)
 {
     const mesh *m = d->view->surface;
     for (int32_t i = 0; i < m->face.count; i++) {
@@ -318,7 +319,7 @@ static bool add_surface(const drawing *d, solid_view *v)
 }
 
 /* Pieces move apart from the middle, so that each can be seen. */
-static bool add_pieces(const drawing *d, solid_view *v)
+static bool add_pieces(const drawing *d, facet_view *v)
 {
     const polyhedron_array *pieces = d->view->pieces;
     vec3 middle = vec3_scale(vec3_add(d->box.lo, d->box.hi), 0.5);
@@ -355,7 +356,7 @@ static image_colour piece_colour(int32_t piece, vec3 normal)
     return (image_colour){fmin(c.r * light, 1), fmin(c.g * light, 1), fmin(c.b * light, 1)};
 }
 
-static void paint(const drawing *d, const solid_view *v, double left, double top, double width, double height)
+static void paint_solid(const drawing *d, const facet_view *v, double left, double top, double width, double height)
 {
     box2 box = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (int32_t i = 0; i < v->corner.count; i++) {
@@ -367,8 +368,8 @@ static void paint(const drawing *d, const solid_view *v, double left, double top
     if (!(w > 0 && h > 0))
         return;
     double scale = fmin(width / w, height / h);
-    frame f = {left + 0.5 * (width - w * scale) - box.lo.x * scale, top + 0.5 * (height + h * scale) + box.lo.y * scale,
-               scale};
+    plane_frame f = {left + 0.5 * (width - w * scale) - box.lo.x * scale,
+                     top + 0.5 * (height + h * scale) + box.lo.y * scale, scale};
     cairo_set_line_join(d->page, CAIRO_LINE_JOIN_ROUND);
     for (int32_t i = 0; i < v->facet.count; i++) {
         const facet *t = &v->facet.data[i];
@@ -389,12 +390,12 @@ static void paint(const drawing *d, const solid_view *v, double left, double top
 
 static fram_status draw_solid(const drawing *d, bool pieces, double left, double top, double width, double height)
 {
-    solid_view v = {0};
+    facet_view v = {0};
     bool done = pieces ? add_pieces(d, &v) : add_surface(d, &v);
     if (done && v.facet.count)
         qsort(v.facet.data, (size_t)v.facet.count, sizeof *v.facet.data, compare_facets);
     if (done)
-        paint(d, &v, left, top, width, height);
+        paint_solid(d, &v, left, top, width, height);
     array_free(d->ctx, &v.corner);
     array_free(d->ctx, &v.facet);
     return done ? FRAM_OK : error_memory(d->error);
@@ -418,7 +419,7 @@ static void draw_table(const drawing *d, double left, double top)
 {
     for (int i = 0; i < d->view->lines; i++) {
         double y = top + 12 + 17.5 * i;
-        image_set_colour(d->page, ink);
+        image_set_colour(d->page, hull_ink);
         image_text(d->page, left, y, 12.5, ALIGN_LEFT, false, d->view->names[i]);
         image_text(d->page, left + TABLE_WIDTH, y, 12.5, ALIGN_RIGHT, true, d->view->values[i]);
     }
@@ -429,15 +430,15 @@ static void draw_table(const drawing *d, double left, double top)
 static fram_status draw_page(drawing *d, double scale, double profile, double plan)
 {
     double length = d->box.hi.x - d->box.lo.x, left = (PAGE_WIDTH - length * scale) / 2 - d->box.lo.x * scale;
-    image_set_colour(d->page, ink);
+    image_set_colour(d->page, hull_ink);
     double bar = PAGE_WIDTH - MARGIN - 70 - image_round_step(length, 12) * scale;
     image_text_fitted(d->page, MARGIN, 34, 19, true, bar - 20 - MARGIN, d->view->title);
     image_text_fitted(d->page, MARGIN, 56, 13, false, PAGE_WIDTH - 2 * MARGIN, d->view->caption);
-    frame side = {left, HEAD + 20 + d->box.hi.z * scale, scale};
+    plane_frame side = {left, HEAD + 20 + d->box.hi.z * scale, scale};
     double below = HEAD + 20 + profile + GAP;
-    frame above = {left, below + d->box.hi.y * scale, scale};
+    plane_frame above = {left, below + d->box.hi.y * scale, scale};
     double low = below + plan + GAP;
-    draw_scale(d, bar, 38, scale, length);
+    draw_length_scale(d, bar, 38, scale, length);
     fram_status status = draw_profile(d, &side);
     if (status == FRAM_OK)
         status = draw_waterlines(d, &above);

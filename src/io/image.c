@@ -268,6 +268,20 @@ void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold
     }
 }
 
+/* [pixels] */
+enum { LINE_HEIGHT = 19 };
+
+void image_text_lines(cairo_t *page, double x, double y, double size, const char *text)
+{
+    for (const char *line = text; *line; y += LINE_HEIGHT) {
+        char one[256];
+        size_t length = strcspn(line, "\n");
+        snprintf(one, sizeof one, "%.*s", (int)length, line);
+        image_text(page, x, y, size, ALIGN_LEFT, false, one);
+        line += length + (line[length] == '\n');
+    }
+}
+
 #else
 
 bool image_available(void) { return false; }

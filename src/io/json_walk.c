@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A longer number is no number that anybody wrote. */
-enum { NUMBER_LENGTH_MOST = 400 };
-
 json_walk json_walk_begin(const char *name, const char *data, size_t size, int32_t depth_limit)
 {
     json_walk w = {name, data, data + size, data, 1, 0, depth_limit};

@@ -18,7 +18,7 @@ static bool sync_one(late_commit *c, int descriptor, const char *path)
 }
 
 /* Calls of the system only: the context's memory and log belong to the thread of the run. */
-static void commit(void *user)
+static void commit_in_background(void *user)
 {
     late_commit *c = user;
     for (int i = 0; i < c->stream_count; i++) {
@@ -66,7 +66,7 @@ fram_status late_commit_start(late_commit *c, atomic_file *file, file_writer *co
         return status;
     }
     c->pending = true;
-    background_start(&c->thread, commit, c);
+    background_start(&c->thread, commit_in_background, c);
     return FRAM_OK;
 }
 

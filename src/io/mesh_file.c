@@ -17,7 +17,7 @@
 /* Characters of a word that a message repeats. */
 enum { SHOWN = 40 };
 
-static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+static bool is_space_in_line(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 word_reader word_reader_begin(const char *data, size_t size)
 {
@@ -51,14 +51,14 @@ bool word_next_in_line(word_reader *r)
         if (continues(r)) {
             r->at = memchr(r->at, '\n', (size_t)(r->end - r->at));
             r->line++;
-        } else if (!is_blank(*r->at) || ends_line(r)) {
+        } else if (!is_space_in_line(*r->at) || ends_line(r)) {
             break;
         }
         r->at++;
     }
     r->word = r->at;
     r->word_line = r->line;
-    while (r->at < r->end && !is_blank(*r->at) && !ends_line(r) && !continues(r))
+    while (r->at < r->end && !is_space_in_line(*r->at) && !ends_line(r) && !continues(r))
         r->at++;
     r->length = (size_t)(r->at - r->word);
     return r->length > 0;
@@ -296,7 +296,7 @@ static double rounding_of(const mesh *m)
 }
 
 /* Equal points become one.  No triangle names equal points, so none goes. */
-static fram_status finish(const mesh_reading *r)
+static fram_status finish_mesh(const mesh_reading *r)
 {
     mesh *m = &r->out->surface;
     if (m->face.count == 0)
@@ -316,7 +316,7 @@ fram_status mesh_file_parse_as(context *ctx, const char *name, mesh_format forma
                          : format == MESH_GDF ? mesh_read_gdf(&r, data, size)
                                               : mesh_read_stl(&r, data, size);
     if (status == FRAM_OK)
-        status = finish(&r);
+        status = finish_mesh(&r);
     if (status != FRAM_OK) {
         mesh_file_free(ctx, out);
         *out = (mesh_file){0};

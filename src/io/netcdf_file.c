@@ -72,7 +72,7 @@ static void keep(netcdf_file *f, int code)
         f->failed = code;
 }
 
-static void forget(netcdf_file *f)
+static void forget_netcdf(netcdf_file *f)
 {
     memory_free(f->ctx, f->nc);
     memory_free(f->ctx, f->path);
@@ -91,7 +91,7 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
     f->path = memory_string(ctx, path);
     fram_status made = f->path ? temporary_file(ctx, path, &f->temporary, &descriptor, error) : error_memory(error);
     if (made != FRAM_OK) {
-        forget(f);
+        forget_netcdf(f);
         return made;
     }
     close(descriptor); /* NetCDF takes a name */
@@ -102,7 +102,7 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
             error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s",
                       code == EACCES ? "no room for the beginning of the file" : f->nc->strerror(code));
         unlink(f->temporary);
-        forget(f);
+        forget_netcdf(f);
         return status;
     }
     f->open = true;
@@ -186,7 +186,7 @@ fram_status netcdf_end(netcdf_file *f, fram_error *error)
         status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s", f->nc->strerror(f->failed));
     if (f->failed != NC_NOERR)
         unlink(f->temporary);
-    forget(f);
+    forget_netcdf(f);
     return status;
 }
 
@@ -196,7 +196,7 @@ void netcdf_abandon(netcdf_file *f)
         return;
     f->nc->close(f->id);
     unlink(f->temporary);
-    forget(f);
+    forget_netcdf(f);
 }
 
 #else

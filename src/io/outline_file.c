@@ -12,8 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NUMBER_LENGTH_MOST = 400 };
-
 /* ---- the walk ---- */
 
 fram_status outline_refuse(const outline_walk *w, const char *format, ...)

@@ -44,7 +44,7 @@ static bool take_word(outline_walk *w, const char *word)
     return true;
 }
 
-static bool take(outline_walk *w, char c)
+static bool take_character(outline_walk *w, char c)
 {
     skip_space(w);
     if (w->at == w->end || *w->at != c)
@@ -53,13 +53,13 @@ static bool take(outline_walk *w, char c)
     return true;
 }
 
-static fram_status expect(outline_walk *w, char c)
+static fram_status expect_character(outline_walk *w, char c)
 {
-    return take(w, c) ? FRAM_OK : outline_refuse(w, "expected %c here", c);
+    return take_character(w, c) ? FRAM_OK : outline_refuse(w, "expected %c here", c);
 }
 
 /* x, y and up to two more numbers, which are passed over. */
-static fram_status read_position(outline_walk *w)
+static fram_status read_wkt_position(outline_walk *w)
 {
     double value[COORDINATES_MOST];
     int count = 0;
@@ -75,51 +75,51 @@ static fram_status read_position(outline_walk *w)
     return outline_ring_add(w, vec2_make(value[0], value[1]));
 }
 
-static fram_status read_ring(outline_walk *w, int32_t number)
+static fram_status read_wkt_ring(outline_walk *w, int32_t number)
 {
     skip_space(w);
     fram_status status = outline_ring_begin(w, number);
     if (status == FRAM_OK)
-        status = expect(w, '(');
+        status = expect_character(w, '(');
     bool more = true;
     while (status == FRAM_OK && more) {
-        status = read_position(w);
-        more = take(w, ',');
+        status = read_wkt_position(w);
+        more = take_character(w, ',');
     }
     if (status == FRAM_OK)
-        status = expect(w, ')');
+        status = expect_character(w, ')');
     return status == FRAM_OK ? outline_ring_end(w, false) : status;
 }
 
 /* The outline, then its holes. */
-static fram_status read_polygon(outline_walk *w)
+static fram_status read_wkt_polygon(outline_walk *w)
 {
     w->place.polygon++;
     if (take_word(w, "EMPTY"))
         return FRAM_OK;
-    fram_status status = expect(w, '(');
+    fram_status status = expect_character(w, '(');
     bool more = true;
     for (int32_t ring = 1; status == FRAM_OK && more; ring++) {
-        status = read_ring(w, ring);
-        more = status == FRAM_OK && take(w, ',');
+        status = read_wkt_ring(w, ring);
+        more = status == FRAM_OK && take_character(w, ',');
     }
-    return status == FRAM_OK ? expect(w, ')') : status;
+    return status == FRAM_OK ? expect_character(w, ')') : status;
 }
 
-static fram_status read_polygons(outline_walk *w)
+static fram_status read_wkt_polygons(outline_walk *w)
 {
     if (take_word(w, "EMPTY"))
         return FRAM_OK;
-    fram_status status = expect(w, '(');
+    fram_status status = expect_character(w, '(');
     bool more = true;
     while (status == FRAM_OK && more) {
-        status = read_polygon(w);
-        more = status == FRAM_OK && take(w, ',');
+        status = read_wkt_polygon(w);
+        more = status == FRAM_OK && take_character(w, ',');
     }
-    return status == FRAM_OK ? expect(w, ')') : status;
+    return status == FRAM_OK ? expect_character(w, ')') : status;
 }
 
-static fram_status read_geometry(outline_walk *w)
+static fram_status read_wkt_geometry(outline_walk *w)
 {
     if (w->place.feature == GEOJSON_FEATURES_MOST)
         return outline_refuse(w, "the file has more than %d geometries", (int)GEOJSON_FEATURES_MOST);
@@ -134,13 +134,13 @@ static fram_status read_geometry(outline_walk *w)
     }
     if (!take_word(w, "ZM") && !take_word(w, "Z"))
         (void)take_word(w, "M");
-    return many ? read_polygons(w) : read_polygon(w);
+    return many ? read_wkt_polygons(w) : read_wkt_polygon(w);
 }
 
 fram_status outline_read_wkt(outline_walk *w)
 {
     fram_status status = FRAM_OK;
     for (skip_space(w); status == FRAM_OK && w->at < w->end; skip_space(w))
-        status = read_geometry(w);
+        status = read_wkt_geometry(w);
     return status;
 }

@@ -2,25 +2,9 @@
 
 #include "io/image.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #ifdef FRAM_HAVE_CAIRO
 
-enum { LINE_HEIGHT = 19, EDGE = 40 };
-
-static void draw_text(cairo_t *paper, const page *p)
-{
-    int y = p->text_y;
-    for (const char *line = p->text; *line;) {
-        char one[256];
-        size_t length = strcspn(line, "\n");
-        snprintf(one, sizeof one, "%.*s", (int)length, line);
-        image_text(paper, p->text_x, y, 13, ALIGN_LEFT, false, one);
-        y += LINE_HEIGHT;
-        line += length + (line[length] == '\n');
-    }
-}
+enum { EDGE = 40 };
 
 fram_status page_write(context *ctx, const page *p, const char *path, fram_error *error)
 {
@@ -30,7 +14,7 @@ fram_status page_write(context *ctx, const page *p, const char *path, fram_error
         return status;
     image_set_colour(paper, (image_colour){0.1, 0.1, 0.1});
     image_text_fitted(paper, EDGE, 38, 20, true, p->width - 2 * EDGE, p->title);
-    draw_text(paper, p);
+    image_text_lines(paper, p->text_x, p->text_y, 13, p->text);
     for (int32_t i = 0; i < p->panel_count; i++) {
         const page_panel *panel = &p->panels[i];
         cairo_save(paper);

@@ -52,7 +52,7 @@ static void floe(cursor *c, peak_floe *f)
         real(c, &f->part[i]);
 }
 
-static void link(cursor *c, peak_link *l)
+static void link_of_chain(cursor *c, peak_link *l)
 {
     bytes(c, &l->slot, sizeof l->slot);
     bytes(c, &l->number, sizeof l->number);
@@ -85,7 +85,7 @@ static void detail(cursor *c, peak_detail *d)
     for (int32_t i = 0; i < d->floe_count; i++)
         floe(c, &d->floe[i]);
     for (int32_t i = 0; i < d->link_count; i++)
-        link(c, &d->link[i]);
+        link_of_chain(c, &d->link[i]);
 }
 
 size_t peak_block_pack(const peak_detail *d, unsigned char out[PEAK_BLOCK_ROOM])

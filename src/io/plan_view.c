@@ -21,7 +21,7 @@ static const plan_look looks[PLAN_STYLE_COUNT] = {
     [PLAN_DECK] = {{0.80, 0.28, 0.18}, {0.35, 0.08, 0.05}, "vessel"},
     [PLAN_WATERLINE] = {{0.93, 0.55, 0.42}, {0.35, 0.08, 0.05}, "vessel at the waterline"},
 };
-static const image_colour water = {0.16, 0.36, 0.52}, ink = {0.1, 0.1, 0.1};
+static const image_colour water = {0.16, 0.36, 0.52}, plan_ink = {0.1, 0.1, 0.1};
 
 typedef struct map {
     double left, top, scale; /* pixels; pixels per metre */
@@ -45,7 +45,7 @@ static image_colour fill_of(const plan_shape *s)
 /* Width of lines but those of a hull [pixels]. */
 #define FLOE_LINE 0.7
 
-static void paint(cairo_t *page, const plan_shape *s)
+static void paint_shape(cairo_t *page, const plan_shape *s)
 {
     cairo_close_path(page);
     image_set_colour(page, fill_of(s));
@@ -95,7 +95,7 @@ static void paint_floe(cairo_t *page, const map *m, const plan_shape *s, vec2 or
 
 /* Floes of a few pixels get no lines, which cost most of a picture's time, but a gap: that much smaller [pixels]. */
 #define SMALL_FLOE 8
-#define GAP 0.3
+#define SMALL_FLOE_GAP 0.3
 
 /* Draws a floe of a few pixels, about the middle of its corners; false for any other shape. */
 static bool draw_small(cairo_t *page, const map *m, const plan_shape *s)
@@ -107,10 +107,10 @@ static bool draw_small(cairo_t *page, const map *m, const plan_shape *s)
         middle = vec2_add(middle, vec2_scale(p.vertex[i], 1.0 / p.count));
     for (int32_t i = 0; i < p.count; i++)
         farthest = fmax(farthest, vec2_length(vec2_sub(p.vertex[i], middle)) * m->scale);
-    if (s->style != PLAN_FLOE || farthest > SMALL_FLOE || farthest <= GAP)
+    if (s->style != PLAN_FLOE || farthest > SMALL_FLOE || farthest <= SMALL_FLOE_GAP)
         return false;
     for (int32_t i = 0; i < p.count; i++) {
-        vec2 at = vec2_add(middle, vec2_scale(vec2_sub(p.vertex[i], middle), 1 - GAP / farthest));
+        vec2 at = vec2_add(middle, vec2_scale(vec2_sub(p.vertex[i], middle), 1 - SMALL_FLOE_GAP / farthest));
         line_to(page, m, at);
     }
     cairo_close_path(page);
@@ -138,7 +138,7 @@ static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
         line_to(page, m, vec2_add(b, up));
         line_to(page, m, vec2_sub(b, up));
         line_to(page, m, vec2_sub(a, up));
-        paint(page, s);
+        paint_shape(page, s);
     }
     if (s->outline.count > 0 && (s->style == PLAN_FLOE || s->style == PLAN_FIXED_ICE)) {
         paint_floe(page, m, s, up);
@@ -146,7 +146,7 @@ static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
     }
     for (int32_t i = 0; i < s->outline.count; i++)
         line_to(page, m, vec2_add(s->outline.vertex[i], up));
-    paint(page, s);
+    paint_shape(page, s);
 }
 
 static bool same_colour(const plan_shape *a, const plan_shape *b)
@@ -243,7 +243,7 @@ static double draw_flows(cairo_t *page, const plan_view *view, double right, dou
         vec2 way = vec2_scale(f->velocity, half / speed);
         cairo_set_source_rgb(page, 0.10, 0.35, 0.60);
         image_arrow(page, x - way.x, y - 4 + way.y, x + way.x, y - 4 - way.y, 2.2, 9);
-        image_set_colour(page, ink);
+        image_set_colour(page, plan_ink);
         image_text(page, right - 2 * half - 6, y, 12, ALIGN_RIGHT, false, text);
         right -= 2 * half + 24 + image_text_width(page, 12, false, text);
     }
@@ -291,7 +291,7 @@ static void draw_labels(cairo_t *page, const map *m, const plan_view *view)
         cairo_arc(page, map_x(m, l->at), map_y(m, l->at), LABEL_RADIUS, 0, 2 * PI);
         cairo_set_source_rgb(page, rgb[0], rgb[1], rgb[2]);
         cairo_fill_preserve(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, plan_ink);
         cairo_set_line_width(page, 1.5);
         cairo_stroke(page);
     }
@@ -302,7 +302,7 @@ static void draw_labels(cairo_t *page, const map *m, const plan_view *view)
         cairo_rectangle(page, box.lo.x, box.lo.y, box.hi.x - box.lo.x, box.hi.y - box.lo.y);
         cairo_set_source_rgba(page, 1, 1, 1, 0.85);
         cairo_fill(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, plan_ink);
         image_text(page, box.lo.x + 3, box.hi.y - 3, LABEL_SIZE, ALIGN_LEFT, true, view->labels[i].text);
     }
     cairo_new_path(page);
@@ -314,7 +314,7 @@ void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double h
     char low[32], high[32];
     snprintf(low, sizeof low, "%.3g", lo);
     snprintf(high, sizeof high, "%.3g", hi);
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     double title = image_text_width(page, 12, false, name) + GAP_BAR, end = right;
     double room =
         right - left - image_text_width(page, 12, false, low) - image_text_width(page, 12, false, high) - 2 * GAP_BAR;
@@ -330,7 +330,7 @@ void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double h
         cairo_rectangle(page, right + i * bar / STEPS, y - 11, bar / STEPS + 0.5, 12);
         cairo_fill(page);
     }
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     image_text(page, right - GAP_BAR, y, 12, ALIGN_RIGHT, false, low);
     double before = right - 2 * GAP_BAR - image_text_width(page, 12, false, low);
     image_text(page, beside ? before : end, beside ? y : y + NEXT_LINE, 12, ALIGN_RIGHT, false, name);
@@ -342,13 +342,13 @@ static double draw_scale_bar(cairo_t *page, const map *m, double arrow, double x
     double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
     char text[48], force[IMAGE_FORCE_TEXT];
     snprintf(text, sizeof text, "%g m", length);
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
     image_set_colour(page, (image_colour){1, 1, 1});
     cairo_rectangle(page, x + px / 2, y - 5, px / 2 - 1, 4);
     cairo_fill(page);
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     image_text(page, x + px + 8, y, 12, ALIGN_LEFT, false, text);
     double end = x + px + 8 + image_text_width(page, 12, false, text);
     if (!(arrow > 0))
@@ -360,9 +360,9 @@ static double draw_scale_bar(cairo_t *page, const map *m, double arrow, double x
 }
 
 /* The axes of the global frame, for there is no north in a scenario. */
-static void draw_axes(cairo_t *page, double x, double y)
+static void draw_global_axes(cairo_t *page, double x, double y)
 {
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     cairo_set_line_width(page, 1.5);
     cairo_move_to(page, x, y - 26);
     cairo_line_to(page, x, y);
@@ -372,12 +372,13 @@ static void draw_axes(cairo_t *page, double x, double y)
     image_text(page, x - 4, y - 29, 12, ALIGN_LEFT, true, "Y");
 }
 
-static void draw_legend(cairo_t *page, const plan_view *view, const bool used[PLAN_STYLE_COUNT], double right, double y)
+static void draw_plan_legend(cairo_t *page, const plan_view *view, const bool used[PLAN_STYLE_COUNT], double right,
+                             double y)
 {
     if (view->line_count > 0) {
         static const char name[] = "mooring line";
         right -= image_text_width(page, 12, false, name);
-        image_set_colour(page, ink);
+        image_set_colour(page, plan_ink);
         image_text(page, right, y, 12, ALIGN_LEFT, false, name);
         image_set_colour(page, chain);
         cairo_set_line_width(page, 1.6);
@@ -390,7 +391,7 @@ static void draw_legend(cairo_t *page, const plan_view *view, const bool used[PL
         if (!used[s])
             continue;
         right -= image_text_width(page, 12, false, looks[s].name);
-        image_set_colour(page, ink);
+        image_set_colour(page, plan_ink);
         image_text(page, right, y, 12, ALIGN_LEFT, false, looks[s].name);
         cairo_rectangle(page, right - 20, y - 11, 14, 12);
         image_set_colour(page, looks[s].fill);
@@ -403,13 +404,13 @@ static void draw_legend(cairo_t *page, const plan_view *view, const bool used[PL
 }
 
 /* AXES: from the right end of a page to their origin. */
-enum { MARGIN = 14, ABOVE = 64, BELOW = 44, LEAST_WIDTH = 720, TEXTS = LEAST_WIDTH - 2 * MARGIN, AXES = 60 };
+enum { PLAN_MARGIN = 14, ABOVE = 64, BELOW = 44, LEAST_WIDTH = 720, TEXTS = LEAST_WIDTH - 2 * PLAN_MARGIN, AXES = 60 };
 
 void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
 {
     double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
     map m = {.top = ABOVE, .window = view->window};
-    m.scale = fmin((width - 2 * MARGIN) / w, (height - ABOVE - BELOW) / h);
+    m.scale = fmin((width - 2 * PLAN_MARGIN) / w, (height - ABOVE - BELOW) / h);
     m.left = (width - w * m.scale) / 2;
     bool used[PLAN_STYLE_COUNT] = {false};
     cairo_save(page);
@@ -426,11 +427,11 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     cairo_restore(page);
 
     /* What is written needs its room beside a narrow plan too. */
-    double beside = fmax(0, fmin(TEXTS, width - 2 * MARGIN) - w * m.scale) / 2;
+    double beside = fmax(0, fmin(TEXTS, width - 2 * PLAN_MARGIN) - w * m.scale) / 2;
     double left = m.left - beside, right = m.left + w * m.scale + beside, below = m.top + h * m.scale + 28;
-    image_set_colour(page, ink);
+    image_set_colour(page, plan_ink);
     if (!view->no_axes)
-        draw_axes(page, width - AXES, 44);
+        draw_global_axes(page, width - AXES, 44);
     double end = draw_flows(page, view, width - AXES - 24, 50);
     image_text_fitted(page, left, 26, 17, true, width - AXES - 16 - left, view->title);
     image_text_fitted(page, left, 48, 12.5, false, end - 12 - left, view->caption);
@@ -438,7 +439,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     if (view->scale_name)
         plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, end + 16, right, below);
     else
-        draw_legend(page, view, used, right, below);
+        draw_plan_legend(page, view, used, right, below);
 }
 
 /* How large a page is whose plan has `longest` pixels along its longer side. */
@@ -448,7 +449,7 @@ static fram_status size_page(const plan_view *view, int longest, int *width, int
     if (!(w > 0 && h > 0))
         return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the plan view's window is empty");
     double scale = longest / fmax(w, h);
-    *width = (int)fmax(w * scale + 2 * MARGIN, LEAST_WIDTH);
+    *width = (int)fmax(w * scale + 2 * PLAN_MARGIN, LEAST_WIDTH);
     *height = (int)(h * scale + ABOVE + BELOW);
     return FRAM_OK;
 }

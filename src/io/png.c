@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Of zlib: pictures are a tenth larger than by level 3, and take two thirds of the time.  Range 1 to 9. */
-enum { COMPRESSION = 1, COLOURS = 3 };
+enum { PICTURE_COMPRESSION = 1, COLOURS = 3 };
 
 /* What a file is made of. */
 typedef struct encoding {
@@ -59,7 +59,7 @@ static bool write_file(png_structp png, png_infop info, encoding *e)
     png_set_IHDR(png, info, (png_uint_32)e->pixels->width, (png_uint_32)e->pixels->height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-    png_set_compression_level(png, COMPRESSION);
+    png_set_compression_level(png, PICTURE_COMPRESSION);
     png_write_info(png, info);
     for (int32_t y = 0; y < e->pixels->height; y++) {
         fill_row(e->pixels, y, e->row);

@@ -6,15 +6,14 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { PAGE_WIDTH = 1300, PAGE_HEIGHT = 860, MIDDLE_X = 470, MIDDLE_Y = 470, RADIUS = 330, TEXT_X = 950, LINE = 19 };
+enum { POLAR_WIDTH = 1300, POLAR_HEIGHT = 860, MIDDLE_X = 470, MIDDLE_Y = 470, RADIUS = 330, TEXT_X = 950 };
 
-static const image_colour ink = {0.2, 0.2, 0.2}, grid = {0.55, 0.57, 0.60}, beyond = {0.62, 0.62, 0.64};
+static const image_colour polar_ink = {0.2, 0.2, 0.2}, polar_grid = {0.55, 0.57, 0.60}, beyond = {0.62, 0.62, 0.64};
 /* Colour-blind safe (Okabe and Ito 2008). */
-static const image_colour palette[] = {{0.00, 0.00, 0.00}, {0.00, 0.45, 0.10}, {0.84, 0.37, 0.00}};
+static const image_colour curve_colours[] = {{0.00, 0.00, 0.00}, {0.00, 0.45, 0.10}, {0.84, 0.37, 0.00}};
 
 static double reach_of(const polar_chart *p) { return p->rings * p->ring_step; }
 
@@ -64,11 +63,11 @@ static void draw_rings(cairo_t *page, const polar_chart *p)
     int rings = (int)floor(reach_of(p) / step + 1e-9);
     for (int i = 1; i <= rings; i++) {
         double r = i * step, pixels = r / reach_of(p) * RADIUS;
-        image_set_colour(page, grid);
+        image_set_colour(page, polar_grid);
         cairo_new_path(page);
         cairo_arc(page, MIDDLE_X, MIDDLE_Y, pixels, 0, 2 * PI);
         cairo_stroke(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, polar_ink);
         snprintf(text, sizeof text, "%.3g", r);
         image_text(page, MIDDLE_X + 3, MIDDLE_Y - pixels + 13, 11, ALIGN_LEFT, false, text);
     }
@@ -79,11 +78,11 @@ static void draw_spokes(cairo_t *page)
     char text[32];
     for (int degrees = 0; degrees < 360; degrees += 30) {
         double a = degrees * PI / 180 - PI / 2, c = real_cos(a), s = real_sin(a);
-        image_set_colour(page, grid);
+        image_set_colour(page, polar_grid);
         cairo_move_to(page, MIDDLE_X, MIDDLE_Y);
         cairo_line_to(page, MIDDLE_X + RADIUS * c, MIDDLE_Y + RADIUS * s);
         cairo_stroke(page);
-        image_set_colour(page, ink);
+        image_set_colour(page, polar_ink);
         snprintf(text, sizeof text, degrees == 0 ? "0 (bow)" : "%d", degrees);
         image_text(page, MIDDLE_X + (RADIUS + 18) * c, MIDDLE_Y + (RADIUS + 18) * s + 4, 12, ALIGN_CENTRE, true, text);
     }
@@ -107,7 +106,7 @@ static void draw_curve(cairo_t *page, const polar_chart *p, int32_t number)
 {
     const double dash[2] = {9, 6};
     const polar_curve *curve = &p->curves[number];
-    image_set_colour(page, palette[number % 3]);
+    image_set_colour(page, curve_colours[number % 3]);
     cairo_set_line_width(page, 2.6);
     cairo_set_dash(page, dash, curve->dashed ? 2 : 0, 0);
     cairo_new_path(page);
@@ -123,14 +122,14 @@ static void draw_curve(cairo_t *page, const polar_chart *p, int32_t number)
     cairo_line_to(page, TEXT_X + 40, y);
     cairo_stroke(page);
     cairo_set_dash(page, dash, 0, 0);
-    image_set_colour(page, ink);
+    image_set_colour(page, polar_ink);
     image_text(page, TEXT_X + 50, y + 4, 13, ALIGN_LEFT, false, curve->name);
 }
 
-static void draw_scale(cairo_t *page, const polar_chart *p)
+static void draw_value_scale(cairo_t *page, const polar_chart *p)
 {
     enum { STEPS = 50, LEFT = TEXT_X, TOP = 200, WIDTH = 200, HEIGHT = 14 };
-    image_set_colour(page, ink);
+    image_set_colour(page, polar_ink);
     image_text(page, LEFT, TOP - 8, 12, ALIGN_LEFT, false, p->value_label);
     for (int i = 0; i < STEPS; i++) {
         set_value_colour(page, (i + 0.5) / STEPS);
@@ -140,27 +139,15 @@ static void draw_scale(cairo_t *page, const polar_chart *p)
     image_set_colour(page, beyond);
     cairo_rectangle(page, LEFT + WIDTH + 8, TOP, 30, HEIGHT);
     cairo_fill(page);
-    image_set_colour(page, ink);
+    image_set_colour(page, polar_ink);
     image_text(page, LEFT, TOP + 28, 11, ALIGN_LEFT, false, "0");
     image_text(page, LEFT + WIDTH, TOP + 28, 11, ALIGN_RIGHT, false, "1");
     image_text(page, LEFT + WIDTH + 8, TOP + 28, 11, ALIGN_LEFT, false, "not held");
 }
 
-static void draw_text(cairo_t *page, const polar_chart *p)
-{
-    int y = 262;
-    for (const char *line = p->text; *line; y += LINE) {
-        char one[256];
-        size_t length = strcspn(line, "\n");
-        snprintf(one, sizeof one, "%.*s", (int)length, line);
-        image_text(page, TEXT_X, y, 12, ALIGN_LEFT, false, one);
-        line += length + (line[length] == '\n');
-    }
-}
-
 static void draw(cairo_t *page, const polar_chart *p)
 {
-    image_set_colour(page, ink);
+    image_set_colour(page, polar_ink);
     image_text(page, 40, 38, 20, ALIGN_LEFT, true, p->title);
     image_text(page, 40, 60, 13, ALIGN_LEFT, false, p->subtitle);
     draw_cells(page, p);
@@ -170,14 +157,14 @@ static void draw(cairo_t *page, const polar_chart *p)
     draw_outer(page, p);
     for (int32_t i = 0; i < p->curve_count; i++)
         draw_curve(page, p, i);
-    draw_scale(page, p);
-    draw_text(page, p);
+    draw_value_scale(page, p);
+    image_text_lines(page, TEXT_X, 262, 12, p->text);
 }
 
 fram_status polar_write(context *ctx, const polar_chart *p, const char *path, fram_error *error)
 {
     image_page page;
-    fram_status status = image_page_begin(ctx, path, PAGE_WIDTH, PAGE_HEIGHT, &page, error);
+    fram_status status = image_page_begin(ctx, path, POLAR_WIDTH, POLAR_HEIGHT, &page, error);
     if (status != FRAM_OK)
         return status;
     draw(page.pen, p);

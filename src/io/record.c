@@ -5,10 +5,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
-
-#define BYTE_ORDER_MARK 0x01020304u
-#define BYTE_ORDER_SWAPPED 0x04030201u
 
 typedef struct record_head {
     char magic[8];
@@ -27,34 +23,32 @@ _Static_assert(sizeof(record_head) == 24 && sizeof(block_head) == 24, "the layou
 static const char record_magic[8] = {'F', 'R', 'A', 'M', 'R', 'E', 'C', '\n'};
 static const char block_magic[4] = {'B', 'L', 'K', '\n'};
 
-static uint32_t crc_of(uint32_t crc, const void *data, size_t size) { return (uint32_t)crc32_z(crc, data, size); }
+static uint32_t record_head_crc(const record_head *h) { return file_crc(0, h, offsetof(record_head, crc)); }
 
-static uint32_t record_head_crc(const record_head *h) { return crc_of(0, h, offsetof(record_head, crc)); }
-
-static uint32_t block_head_crc(const block_head *h) { return crc_of(0, h, offsetof(block_head, crc)); }
+static uint32_t block_head_crc(const block_head *h) { return file_crc(0, h, offsetof(block_head, crc)); }
 
 /* Zeros after a payload. */
 static size_t padding_of(uint64_t length) { return (size_t)((8 - length % 8) % 8); }
 
-static fram_status refuse(fram_error *error, const char *path, const char *reason)
+static fram_status refuse_record(fram_error *error, const char *path, const char *reason)
 {
     return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "%s", reason);
 }
 
-static fram_status check_head(int descriptor, const char *path, uint64_t file_size, fram_error *error)
+static fram_status check_record_head(int descriptor, const char *path, uint64_t file_size, fram_error *error)
 {
     record_head head;
     if (file_size < sizeof head)
-        return refuse(error, path, "expected a record, found a file that is too short");
+        return refuse_record(error, path, "expected a record, found a file that is too short");
     fram_status status = file_read_at(descriptor, path, 0, &head, sizeof head, error);
     if (status != FRAM_OK)
         return status;
     if (memcmp(head.magic, record_magic, sizeof record_magic) != 0)
-        return refuse(error, path, "expected a record, found another kind of file");
-    if (head.byte_order == BYTE_ORDER_SWAPPED)
-        return refuse(error, path, "expected a record of this machine's byte order, found the other");
-    if (head.byte_order != BYTE_ORDER_MARK || head.crc != record_head_crc(&head))
-        return refuse(error, path, "expected a record, found one with a damaged head");
+        return refuse_record(error, path, "expected a record, found another kind of file");
+    if (head.byte_order == FILE_BYTE_ORDER_SWAPPED)
+        return refuse_record(error, path, "expected a record of this machine's byte order, found the other");
+    if (head.byte_order != FILE_BYTE_ORDER || head.crc != record_head_crc(&head))
+        return refuse_record(error, path, "expected a record, found one with a damaged head");
     if (head.version != RECORD_VERSION)
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a record of version %d, found version %u",
                          RECORD_VERSION, head.version);
@@ -84,7 +78,7 @@ fram_status record_create(context *ctx, const char *path, record_writer *w, fram
     fram_status status = file_create(ctx, path, &w->file, error);
     if (status != FRAM_OK)
         return status;
-    record_head head = {.version = RECORD_VERSION, .byte_order = BYTE_ORDER_MARK};
+    record_head head = {.version = RECORD_VERSION, .byte_order = FILE_BYTE_ORDER};
     memcpy(head.magic, record_magic, sizeof record_magic);
     head.crc = record_head_crc(&head);
     status = file_write(&w->file, &head, sizeof head, error);
@@ -109,7 +103,7 @@ static fram_status check_length(const file_writer *file, uint64_t length, fram_e
         if (status != FRAM_OK)
             return status;
         if (!block_is_sound(&head, at, length, reason, sizeof reason))
-            return refuse(error, file->path, reason);
+            return refuse_record(error, file->path, reason);
         at += sizeof head + head.length + padding_of(head.length);
     }
     if (at == length)
@@ -124,7 +118,7 @@ fram_status record_continue(context *ctx, const char *path, uint64_t length, rec
     fram_status status = file_open(ctx, path, file, error);
     if (status != FRAM_OK)
         return status;
-    status = check_head(file->descriptor, path, file->length, error);
+    status = check_record_head(file->descriptor, path, file->length, error);
     if (status == FRAM_OK)
         status = check_length(file, length, error);
     if (status != FRAM_OK)
@@ -134,7 +128,7 @@ fram_status record_continue(context *ctx, const char *path, uint64_t length, rec
 
 void record_block_head(uint32_t type, const void *payload, size_t size, unsigned char head[RECORD_BLOCK_HEAD])
 {
-    block_head h = {.type = type, .length = size, .payload_crc = crc_of(0, payload, size)};
+    block_head h = {.type = type, .length = size, .payload_crc = file_crc(0, payload, size)};
     memcpy(h.magic, block_magic, sizeof block_magic);
     h.crc = block_head_crc(&h);
     memcpy(head, &h, sizeof h);
@@ -148,7 +142,7 @@ fram_status record_append(record_writer *w, uint32_t type, const record_part *pa
     for (int32_t i = 0; i < count; i++) {
         head.length += parts[i].size;
         if (parts[i].size > 0)
-            head.payload_crc = crc_of(head.payload_crc, parts[i].data, parts[i].size);
+            head.payload_crc = file_crc(head.payload_crc, parts[i].data, parts[i].size);
     }
     head.crc = block_head_crc(&head);
     fram_status status = file_write(&w->file, &head, sizeof head, error);
@@ -188,7 +182,7 @@ fram_status record_open(context *ctx, const char *path, record_reader *r, fram_e
         status = file_open_regular(path, RECORD_BYTES_MOST, &r->descriptor, &r->file_size, error);
     }
     if (status == FRAM_OK)
-        status = check_head(r->descriptor, path, r->file_size, error);
+        status = check_record_head(r->descriptor, path, r->file_size, error);
     if (status != FRAM_OK)
         record_reader_close(r);
     r->position = sizeof(record_head);
@@ -210,7 +204,7 @@ static fram_status read_payload(record_reader *r, const block_head *head, fram_e
     if (status != FRAM_OK)
         return status;
     static const char zeros[8] = {0};
-    bool sound = crc_of(0, r->payload, length) == head->payload_crc;
+    bool sound = file_crc(0, r->payload, length) == head->payload_crc;
     /* An empty payload may be NULL, which has no place behind it. */
     if (!sound || (padding > 0 && memcmp((const char *)r->payload + length, zeros, padding) != 0))
         snprintf(r->damage, sizeof r->damage, "damaged block at byte %llu: its checksum does not fit",

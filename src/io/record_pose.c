@@ -8,7 +8,7 @@ enum { MARKED_WORD = RECORD_POSE_SIZE - (int)sizeof(uint16_t) }; /* place of the
 static const double root_half = 0.70710678118654752440;
 
 /* 2^power, of a normal double. */
-static double power_of_two(int power)
+static double exponent_scale(int power)
 {
     uint64_t bits = (uint64_t)(power + 1023) << 52;
     double value;
@@ -26,7 +26,7 @@ uint16_t half_from_real(double value)
     memcpy(&bits, &size, sizeof bits);
     /* The scale of the last place is 2^(exponent - 24): eleven binary places, or those of the smallest scale. */
     int first = (int)(bits >> 52) - 1023, exponent = first > -14 ? first + 14 : 0;
-    double places = size * power_of_two(24 - exponent);
+    double places = size * exponent_scale(24 - exponent);
     int whole = (int)places;
     double rest = places - whole;
     whole += rest > 0.5 || (rest == 0.5 && whole % 2 == 1);

@@ -13,14 +13,14 @@
 
 enum { KEY_SIZE = sizeof((scenario_place *)0)->key };
 
-typedef struct reader {
+typedef struct scenario_reader {
     context *ctx;
     const char *file;
     const yaml_tree *tree;
     scenario *scenario;
     double scale;
     fram_error *error;
-} reader;
+} scenario_reader;
 
 /* Where a value stands. */
 typedef struct value_place {
@@ -29,10 +29,10 @@ typedef struct value_place {
     bool override;
 } value_place;
 
-static fram_status refuse(const reader *r, const value_place *place, const char *format, ...)
+static fram_status refuse(const scenario_reader *r, const value_place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-static fram_status refuse(const reader *r, const value_place *place, const char *format, ...)
+static fram_status refuse(const scenario_reader *r, const value_place *place, const char *format, ...)
 {
     char message[sizeof r->error->message];
     va_list arguments;
@@ -55,7 +55,7 @@ static void join(char out[KEY_SIZE], const char *path, const char *name)
     snprintf(out + head, KEY_SIZE - (size_t)head, "%.*s", KEY_SIZE - 1 - head, name);
 }
 
-static fram_status remember(const reader *r, const value_place *place)
+static fram_status remember(const scenario_reader *r, const value_place *place)
 {
     scenario_place given = {.line = place->line, .column = place->column, .override = place->override};
     memcpy(given.key, place->key, sizeof given.key);
@@ -79,7 +79,7 @@ static found_text shown(const char *text)
     return f;
 }
 
-static fram_status set_real(const reader *r, const scenario_key *key, double *member, const char *text,
+static fram_status set_real(const scenario_reader *r, const scenario_key *key, double *member, const char *text,
                             const value_place *place)
 {
     if (key->automatic && strcmp(text, "auto") == 0) {
@@ -95,7 +95,7 @@ static fram_status set_real(const reader *r, const scenario_key *key, double *me
                   fault == NUMBER_TOO_LARGE ? ", which is too large" : "");
 }
 
-static fram_status set_integer(const reader *r, int64_t *member, const char *text, const value_place *place)
+static fram_status set_integer(const scenario_reader *r, int64_t *member, const char *text, const value_place *place)
 {
     number_fault fault = integer_from_text(text, member);
     if (fault == NUMBER_GOOD)
@@ -104,7 +104,7 @@ static fram_status set_integer(const reader *r, int64_t *member, const char *tex
                   shown(text).text);
 }
 
-static fram_status set_boolean(const reader *r, bool *member, const char *text, const value_place *place)
+static fram_status set_boolean(const scenario_reader *r, bool *member, const char *text, const value_place *place)
 {
     *member = strcmp(text, "true") == 0;
     if (*member || strcmp(text, "false") == 0)
@@ -112,7 +112,7 @@ static fram_status set_boolean(const reader *r, bool *member, const char *text, 
     return refuse(r, place, "expected true or false, found %s", shown(text).text);
 }
 
-static fram_status set_choice(const reader *r, const scenario_key *key, void *member, const char *text,
+static fram_status set_choice(const scenario_reader *r, const scenario_key *key, void *member, const char *text,
                               const value_place *place)
 {
     int32_t value = choice_find(key, text);
@@ -123,7 +123,7 @@ static fram_status set_choice(const reader *r, const scenario_key *key, void *me
 }
 
 /* One line of printable UTF-8, so that it can be printed back between quotes. */
-static fram_status set_text(const reader *r, char *member, const char *text, const value_place *place)
+static fram_status set_text(const scenario_reader *r, char *member, const char *text, const value_place *place)
 {
     size_t size = strlen(text);
     if (size >= SCENARIO_TEXT_SIZE)
@@ -138,7 +138,7 @@ static fram_status set_text(const reader *r, char *member, const char *text, con
     return FRAM_OK;
 }
 
-static fram_status set_value(const reader *r, const scenario_key *key, void *member, const char *text,
+static fram_status set_value(const scenario_reader *r, const scenario_key *key, void *member, const char *text,
                              const value_place *place)
 {
     switch (key->kind) {
@@ -175,7 +175,7 @@ static bool is_empty(const yaml_tree *tree, int32_t index)
 }
 
 /* A scalar of the file.  Quotes say that text is meant. */
-static fram_status read_scalar(const reader *r, const scenario_key *key, void *member, int32_t index,
+static fram_status read_scalar(const scenario_reader *r, const scenario_key *key, void *member, int32_t index,
                                const value_place *place)
 {
     const yaml_node *node = &r->tree->nodes.data[index];
@@ -207,8 +207,8 @@ static bool find_anywhere(const scenario_section *section, const char *path, con
     return false;
 }
 
-static fram_status unknown_key(const reader *r, const scenario_section *section, const char *path, const char *name,
-                               const value_place *place)
+static fram_status unknown_key(const scenario_reader *r, const scenario_section *section, const char *path,
+                               const char *name, const value_place *place)
 {
     char other[KEY_SIZE];
     const char *known = key_other_name(name, 0), *nearest = NULL, *word = known;
@@ -230,7 +230,7 @@ static fram_status unknown_key(const reader *r, const scenario_section *section,
 
 /* ---- the file ---- */
 
-static fram_status read_section(const reader *r, const scenario_section *section, void *data, int32_t index,
+static fram_status read_section(const scenario_reader *r, const scenario_section *section, void *data, int32_t index,
                                 const value_place *place);
 
 static const char *kind_text(const yaml_node *node)
@@ -238,7 +238,7 @@ static const char *kind_text(const yaml_node *node)
     return node->kind == YAML_SCALAR ? "a single value" : node->kind == YAML_MAPPING ? "a mapping" : "a list";
 }
 
-static fram_status read_list(const reader *r, const scenario_key *key, void *member, const yaml_node *node,
+static fram_status read_list(const scenario_reader *r, const scenario_key *key, void *member, const yaml_node *node,
                              const value_place *place)
 {
     if (node->kind != YAML_SEQUENCE)
@@ -257,7 +257,7 @@ static fram_status read_list(const reader *r, const scenario_key *key, void *mem
     return status;
 }
 
-static fram_status read_value(const reader *r, const scenario_key *key, void *member, int32_t index,
+static fram_status read_value(const scenario_reader *r, const scenario_key *key, void *member, int32_t index,
                               const value_place *place)
 {
     const yaml_node *node = &r->tree->nodes.data[index];
@@ -273,7 +273,7 @@ static fram_status read_value(const reader *r, const scenario_key *key, void *me
     return read_scalar(r, key, member, index, place);
 }
 
-static fram_status read_section(const reader *r, const scenario_section *section, void *data, int32_t index,
+static fram_status read_section(const scenario_reader *r, const scenario_section *section, void *data, int32_t index,
                                 const value_place *place)
 {
     const yaml_node *node = &r->tree->nodes.data[index];
@@ -314,7 +314,7 @@ static int32_t find_named(const scenario_key *key, const void *member, const cha
 
 /* The item of a list that the file has: "[3]" or ".3", where items have names "[NAME]" or ".NAME"; moves *at behind
    it. */
-static fram_status step_into_list(const reader *r, const scenario_key *key, void *member, const char **at,
+static fram_status step_into_list(const scenario_reader *r, const scenario_key *key, void *member, const char **at,
                                   const value_place *place, int32_t *item)
 {
     const char *text = *at;
@@ -342,7 +342,7 @@ static fram_status step_into_list(const reader *r, const scenario_key *key, void
 
 /* Follow the dotted name of place along the schema, then set the value.  place gets the name as the file would give it:
    items of lists by number. */
-static fram_status set_path(const reader *r, value_place *place, const char *text)
+static fram_status set_path(const scenario_reader *r, value_place *place, const char *text)
 {
     const scenario_section *section = &scenario_schema;
     void *data = r->scenario;
@@ -382,7 +382,7 @@ static fram_status set_path(const reader *r, value_place *place, const char *tex
     }
 }
 
-static fram_status apply_override(const reader *r, const char *item)
+static fram_status apply_override(const scenario_reader *r, const char *item)
 {
     value_place place = {.override = true};
     const char *equals = strchr(item, '=');
@@ -399,7 +399,7 @@ static fram_status apply_override(const reader *r, const char *item)
 /* ---- the whole ---- */
 
 /* File and overrides over the defaults of a scale. */
-static fram_status read_all(reader *r, const scenario_overrides *overrides)
+static fram_status read_all(scenario_reader *r, const scenario_overrides *overrides)
 {
     scenario_defaults(r->scenario, r->scale);
     snprintf(r->scenario->file, sizeof r->scenario->file, "%s", r->file);
@@ -431,7 +431,7 @@ fram_status scenario_parse(context *ctx, const char *name, const char *text, siz
     fram_status status = yaml_tree_parse(ctx, name, text, size, SCENARIO_DEPTH_LIMIT, &tree, error);
     if (status != FRAM_OK)
         return status;
-    reader r = {ctx, name, &tree, s, scenario_default_scale(), error};
+    scenario_reader r = {ctx, name, &tree, s, scenario_default_scale(), error};
     status = read_all(&r, overrides);
     /* Defaults follow the scale, which is known only now. */
     if (status == FRAM_OK && s->run.scale > 0 && s->run.scale != r.scale) {

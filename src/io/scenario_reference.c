@@ -10,13 +10,13 @@ typedef struct reference {
     text_buffer *out;
 } reference;
 
-static void add(const reference *r, const char *text) { text_add(r->ctx, r->out, text); }
+static void add_words(const reference *r, const char *text) { text_add(r->ctx, r->out, text); }
 
 static void add_real(const reference *r, double value)
 {
     char text[NUMBER_TEXT_SIZE];
     real_to_text(value, text);
-    add(r, text);
+    add_words(r, text);
 }
 
 /* "sequential, fast or accurate" */
@@ -26,9 +26,9 @@ static void add_choices(const reference *r, const scenario_key *key)
     const char *name;
     for (int32_t i = 0; (name = choice_name(key, i, &size)) != NULL; i++) {
         bool last = !choice_name(key, i + 1, &ignored);
-        add(r, i == 0 ? "`" : last ? " or `" : ", `");
+        add_words(r, i == 0 ? "`" : last ? " or `" : ", `");
         text_add_bytes(r->ctx, r->out, name, size);
-        add(r, "`");
+        add_words(r, "`");
     }
 }
 
@@ -36,28 +36,28 @@ static void add_type(const reference *r, const scenario_key *key)
 {
     switch (key->kind) {
     case KEY_REAL:
-        add(r, key->automatic ? "number or `auto`" : "number");
+        add_words(r, key->automatic ? "number or `auto`" : "number");
         break;
     case KEY_INTEGER:
-        add(r, "integer");
+        add_words(r, "integer");
         break;
     case KEY_BOOLEAN:
-        add(r, "`true` or `false`");
+        add_words(r, "`true` or `false`");
         break;
     case KEY_CHOICE:
         add_choices(r, key);
         break;
     case KEY_TEXT:
-        add(r, "text");
+        add_words(r, "text");
         break;
     case KEY_PATH:
-        add(r, "path");
+        add_words(r, "path");
         break;
     case KEY_SECTION:
-        add(r, "section");
+        add_words(r, "section");
         break;
     case KEY_LIST:
-        add(r, "list");
+        add_words(r, "list");
         break;
     }
 }
@@ -71,20 +71,20 @@ static void add_default(const reference *r, const scenario_key *key)
         const char *name = choice_name(key, (int32_t)key->value, &size);
         text_format(r->ctx, r->out, "`%.*s`", (int)size, name);
     } else if (key->kind == KEY_BOOLEAN) {
-        add(r, key->value != 0 ? "`true`" : "`false`");
+        add_words(r, key->value != 0 ? "`true`" : "`false`");
     } else if (key->automatic) {
-        add(r, "`auto`");
+        add_words(r, "`auto`");
     } else {
         add_real(r, key->value);
         if (key->power == 0)
             return;
-        add(r, key->at == 1 ? " scale" : " (scale / ");
+        add_words(r, key->at == 1 ? " scale" : " (scale / ");
         if (key->at != 1) {
             add_real(r, key->at);
-            add(r, ")");
+            add_words(r, ")");
         }
         if (key->power != 1) {
-            add(r, "^");
+            add_words(r, "^");
             add_real(r, key->power);
         }
     }
@@ -95,7 +95,7 @@ static void add_range(const reference *r, const scenario_key *key)
     if (key->kind != KEY_REAL && key->kind != KEY_INTEGER)
         return;
     add_real(r, key->lo);
-    add(r, " to ");
+    add_words(r, " to ");
     add_real(r, key->hi);
 }
 
@@ -105,7 +105,7 @@ static void add_row(const reference *r, const scenario_key *key)
     add_type(r, key);
     text_format(r->ctx, r->out, " | %s | ", strcmp(key->unit, "1") == 0 ? "" : key->unit);
     add_default(r, key);
-    add(r, " | ");
+    add_words(r, " | ");
     add_range(r, key);
     text_format(r->ctx, r->out, " | %s |\n", key->meaning);
 }
@@ -122,7 +122,7 @@ static const scenario_key *shown_before(const scenario_section *section, int32_t
 /* The keys of a section as one table, then the sections inside it. */
 static void add_section(const reference *r, const scenario_section *section, const char *path)
 {
-    add(r, "| key | type | unit | default | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n");
+    add_words(r, "| key | type | unit | default | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n");
     for (int32_t k = 0; k < section->key_count; k++)
         if (!section->keys[k].section)
             add_row(r, &section->keys[k]);
@@ -136,7 +136,7 @@ static void add_section(const reference *r, const scenario_section *section, con
                     key->meaning + 1);
         if (key->kind == KEY_LIST)
             text_format(r->ctx, r->out, "; a list of at most %d mappings", (int)key->hi);
-        add(r, ".\n\n");
+        add_words(r, ".\n\n");
         const scenario_key *same = *path ? NULL : shown_before(section, k);
         if (same)
             text_format(r->ctx, r->out, "Each has the keys of [%s](#%s).\n", same->name, same->name);
@@ -148,7 +148,8 @@ static void add_section(const reference *r, const scenario_section *section, con
 fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error)
 {
     reference r = {ctx, out};
-    add(&r,
+    add_words(
+        &r,
         "# Input reference\n\n"
         "Every key that a scenario file may hold. This page is written from the table that the reader itself uses.\n\n"
         "A scenario is YAML, a value a line or in braces (`hull: {length: 90, beam: 20}`); JSON is YAML too. Units\n"

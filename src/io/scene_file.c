@@ -12,7 +12,7 @@
 #define CENTRE_SLACK 0.01
 
 /* The line that is being read. */
-typedef struct reader {
+typedef struct scene_reader {
     context *ctx;
     const char *name;
     int line;
@@ -20,9 +20,9 @@ typedef struct reader {
     scene_text *scene;
     unsigned seen; /* bit i: statement i of the table was met */
     fram_error *error;
-} reader;
+} scene_reader;
 
-static fram_status refuse(reader *r, const char *key, const char *message)
+static fram_status refuse_line(scene_reader *r, const char *key, const char *message)
 {
     return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, key, "%s", message);
 }
@@ -32,7 +32,7 @@ static fram_status refuse(reader *r, const char *key, const char *message)
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 /* The next word of the line, cut out; NULL at its end. */
-static char *next_word(reader *r)
+static char *next_word(scene_reader *r)
 {
     char *word = r->rest;
     while (is_blank(*word))
@@ -48,11 +48,11 @@ static char *next_word(reader *r)
 }
 
 /* One number of lo <= value <= hi. */
-static fram_status read_number(reader *r, const char *key, double lo, double hi, double *value)
+static fram_status read_number(scene_reader *r, const char *key, double lo, double hi, double *value)
 {
     const char *word = next_word(r);
     if (!word)
-        return refuse(r, key, "the line ends where a number is expected");
+        return refuse_line(r, key, "the line ends where a number is expected");
     if (real_from_text(word, value) != NUMBER_GOOD)
         return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, key, "expected a number, found '%.40s'", word);
     if (*value < lo || *value > hi)
@@ -61,7 +61,7 @@ static fram_status read_number(reader *r, const char *key, double lo, double hi,
     return FRAM_OK;
 }
 
-static fram_status read_numbers(reader *r, const char *key, double lo, double hi, double *values, int count)
+static fram_status read_numbers(scene_reader *r, const char *key, double lo, double hi, double *values, int count)
 {
     fram_status status = FRAM_OK;
     for (int i = 0; i < count && status == FRAM_OK; i++)
@@ -71,26 +71,26 @@ static fram_status read_numbers(reader *r, const char *key, double lo, double hi
 
 /* ---- statements ---- */
 
-static fram_status read_version(reader *r, const char *key)
+static fram_status read_version(scene_reader *r, const char *key)
 {
     double version = 0;
     fram_status status = read_number(r, key, -LARGEST_VALUE, LARGEST_VALUE, &version);
     if (status == FRAM_OK && version != 1)
-        return refuse(r, key, "this program reads version 1 of the format");
+        return refuse_line(r, key, "this program reads version 1 of the format");
     return status;
 }
 
-static fram_status read_gravity(reader *r, const char *key)
+static fram_status read_gravity(scene_reader *r, const char *key)
 {
     return read_number(r, key, 0, LARGEST_VALUE, &r->scene->gravity);
 }
 
-static fram_status read_water_density(reader *r, const char *key)
+static fram_status read_water_density(scene_reader *r, const char *key)
 {
     return read_number(r, key, 1e-3, LARGEST_VALUE, &r->scene->water_density);
 }
 
-static fram_status read_current(reader *r, const char *key)
+static fram_status read_current(scene_reader *r, const char *key)
 {
     double v[2] = {0};
     fram_status status = read_numbers(r, key, -LARGEST_VALUE, LARGEST_VALUE, v, 2);
@@ -99,38 +99,38 @@ static fram_status read_current(reader *r, const char *key)
     return status;
 }
 
-static fram_status read_drag(reader *r, const char *key)
+static fram_status read_drag(scene_reader *r, const char *key)
 {
     fram_status status = read_number(r, key, 0, LARGEST_VALUE, &r->scene->form_drag);
     return status == FRAM_OK ? read_number(r, key, 0, LARGEST_VALUE, &r->scene->skin_drag) : status;
 }
 
-static fram_status read_friction(reader *r, const char *key)
+static fram_status read_friction(scene_reader *r, const char *key)
 {
     return read_number(r, key, 0, LARGEST_VALUE, &r->scene->friction);
 }
 
-static fram_status read_restitution(reader *r, const char *key)
+static fram_status read_restitution(scene_reader *r, const char *key)
 {
     double restitution = 0;
     fram_status status = read_number(r, key, 0, 1, &restitution);
     if (status == FRAM_OK && restitution != 0)
-        return refuse(r, key, "ice does not rebound here: only 0 is simulated");
+        return refuse_line(r, key, "ice does not rebound here: only 0 is simulated");
     return status;
 }
 
-static fram_status read_domain(reader *r, const char *key)
+static fram_status read_domain(scene_reader *r, const char *key)
 {
     double v[4];
     fram_status status = read_numbers(r, key, -LARGEST_VALUE, LARGEST_VALUE, v, 4);
     if (status == FRAM_OK && !(v[0] < v[2] && v[1] < v[3]))
-        return refuse(r, key, "expected xmin ymin xmax ymax with xmin < xmax and ymin < ymax");
+        return refuse_line(r, key, "expected xmin ymin xmax ymax with xmin < xmax and ymin < ymax");
     if (status == FRAM_OK)
         r->scene->domain = (box2){{v[0], v[1]}, {v[2], v[3]}};
     return status;
 }
 
-static fram_status read_ship(reader *r, const char *key)
+static fram_status read_ship(scene_reader *r, const char *key)
 {
     double size[4], v[4];
     fram_status status = read_numbers(r, key, 1e-3, LARGEST_VALUE, size, 4);
@@ -149,21 +149,21 @@ static fram_status read_ship(reader *r, const char *key)
     return FRAM_OK;
 }
 
-static fram_status check_outline(reader *r, const char *key, polygon outline)
+static fram_status check_outline(scene_reader *r, const char *key, polygon outline)
 {
     polygon_moments m = polygon_moments_of(outline);
     if (!(m.area > 0) || !polygon_is_convex(outline))
-        return refuse(r, key, "expected the vertices of a convex outline, counter-clockwise");
+        return refuse_line(r, key, "expected the vertices of a convex outline, counter-clockwise");
     if (vec2_length(m.centroid) > CENTRE_SLACK * sqrt(m.area))
-        return refuse(r, key, "expected vertices relative to the floe's centroid");
+        return refuse_line(r, key, "expected vertices relative to the floe's centroid");
     return FRAM_OK;
 }
 
-static fram_status read_floe(reader *r, const char *key)
+static fram_status read_floe(scene_reader *r, const char *key)
 {
     scene_text *s = r->scene;
     if (s->floes.count == SCENE_MOST_FLOES)
-        return refuse(r, key, "too many floes");
+        return refuse_line(r, key, "too many floes");
     double v[5] = {0};
     fram_status status = read_numbers(r, key, 1e-6, LARGEST_VALUE, v, 2);
     if (status == FRAM_OK)
@@ -171,7 +171,7 @@ static fram_status read_floe(reader *r, const char *key)
     if (status == FRAM_OK)
         status = read_number(r, key, 3, SCENE_MOST_SIDES, &v[4]);
     if (status == FRAM_OK && v[4] != floor(v[4]))
-        status = refuse(r, key, "the number of vertices is no integer");
+        status = refuse_line(r, key, "the number of vertices is no integer");
     if (status != FRAM_OK)
         return status;
     scene_floe floe = {v[0], v[1], vec2_make(v[2], v[3]), s->vertices.count, (int32_t)v[4]};
@@ -191,7 +191,7 @@ static fram_status read_floe(reader *r, const char *key)
 
 typedef struct statement {
     const char *word;
-    fram_status (*read)(reader *r, const char *key);
+    fram_status (*read)(scene_reader *r, const char *key);
     bool repeats;
 } statement;
 
@@ -210,7 +210,7 @@ static const statement statements[] = {
 };
 enum { STATEMENT_COUNT = sizeof statements / sizeof *statements };
 
-static fram_status read_statement(reader *r)
+static fram_status read_statement(scene_reader *r)
 {
     const char *word = next_word(r);
     if (!word || word[0] == '#')
@@ -219,22 +219,22 @@ static fram_status read_statement(reader *r)
     while (at < STATEMENT_COUNT && strcmp(word, statements[at].word) != 0)
         at++;
     if (!(r->seen & 1u << STATEMENT_VERSION) && at != STATEMENT_VERSION)
-        return refuse(r, NULL, "a scene begins with the line 'icescene 1'");
+        return refuse_line(r, NULL, "a scene begins with the line 'icescene 1'");
     if (at == STATEMENT_COUNT)
         return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, NULL, "unknown statement '%.40s'", word);
     const statement *s = &statements[at];
     if (!s->repeats && (r->seen & 1u << at))
-        return refuse(r, s->word, "this statement was given before");
+        return refuse_line(r, s->word, "this statement was given before");
     r->seen |= 1u << at;
     fram_status status = s->read(r, s->word);
     if (status == FRAM_OK && next_word(r))
-        return refuse(r, s->word, "the line has more values than the statement takes");
+        return refuse_line(r, s->word, "the line has more values than the statement takes");
     return status;
 }
 
 /* ---- the whole ---- */
 
-static fram_status read_lines(reader *r, char *text, size_t size)
+static fram_status read_statements(scene_reader *r, char *text, size_t size)
 {
     for (char *line = text; line < text + size;) {
         char *end = memchr(line, '\n', (size_t)(text + size - line));
@@ -243,7 +243,7 @@ static fram_status read_lines(reader *r, char *text, size_t size)
         *end = '\0';
         r->line++;
         if (memchr(line, '\0', (size_t)(end - line)))
-            return refuse(r, NULL, "expected text, found a NUL byte");
+            return refuse_line(r, NULL, "expected text, found a NUL byte");
         r->rest = line;
         fram_status status = read_statement(r);
         if (status != FRAM_OK)
@@ -251,9 +251,9 @@ static fram_status read_lines(reader *r, char *text, size_t size)
         line = end + 1;
     }
     if (!(r->seen & 1u << STATEMENT_DOMAIN))
-        return refuse(r, "domain", "the scene has no walls: a 'domain' statement is missing");
+        return refuse_line(r, "domain", "the scene has no walls: a 'domain' statement is missing");
     if (r->scene->floes.count == 0)
-        return refuse(r, "floe", "the scene has no floes");
+        return refuse_line(r, "floe", "the scene has no floes");
     return FRAM_OK;
 }
 
@@ -263,8 +263,8 @@ fram_status scene_text_parse(context *ctx, const char *name, char *text, size_t 
     *out = (scene_text){.gravity = 9.81, .water_density = 1025, .form_drag = 1, .skin_drag = 0.01, .friction = 0.1};
     if (size > SCENE_MOST_BYTES)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "a scene has at most %d bytes", SCENE_MOST_BYTES);
-    reader r = {.ctx = ctx, .name = name, .scene = out, .error = error};
-    fram_status status = read_lines(&r, text, size);
+    scene_reader r = {.ctx = ctx, .name = name, .scene = out, .error = error};
+    fram_status status = read_statements(&r, text, size);
     if (status != FRAM_OK)
         scene_text_free(ctx, out);
     return status;

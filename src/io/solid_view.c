@@ -53,7 +53,7 @@ static spot spot_of(const solid_view *v, vec3 e)
     return (spot){0.5 * v->width + v->focal * e.x * w, 0.5 * v->height - v->focal * e.y * w, w};
 }
 
-static void put(solid_view *v, int x, int y, float nearness, const unsigned char rgb[3])
+static void put_pixel(solid_view *v, int x, int y, float nearness, const unsigned char rgb[3])
 {
     size_t at = (size_t)y * (size_t)v->width + (size_t)x;
     if (nearness <= v->nearness[at])
@@ -86,7 +86,7 @@ static void fill(solid_view *v, const spot p[3], const unsigned char rgb[3])
         if (!(hi >= lo))
             continue;
         for (int x = clamped(ceil(lo - 0.5), v->width), last = clamped(floor(hi - 0.5) + 1, v->width); x < last; x++)
-            put(v, x, y, (float)(p[0].w + (x + 0.5 - p[0].x) * wx + (middle - p[0].y) * wy), rgb);
+            put_pixel(v, x, y, (float)(p[0].w + (x + 0.5 - p[0].x) * wx + (middle - p[0].y) * wy), rgb);
     }
 }
 
@@ -141,7 +141,7 @@ void solid_view_line(solid_view *v, vec3 a, vec3 b, const double rgb[3])
     for (int i = 0; i <= steps; i++) {
         double part = (double)i / steps, x = s.x + part * (t.x - s.x), y = s.y + part * (t.y - s.y);
         if (x >= 0 && x < v->width && y >= 0 && y < v->height)
-            put(v, (int)x, (int)y, (float)((s.w + part * (t.w - s.w)) * 1.0004), colour);
+            put_pixel(v, (int)x, (int)y, (float)((s.w + part * (t.w - s.w)) * 1.0004), colour);
     }
 }
 

@@ -71,7 +71,7 @@ static fram_status read_binary(const mesh_reading *r, const char *data, size_t s
 
 /* ---- text ---- */
 
-static fram_status expect(const mesh_reading *r, word_reader *w, int32_t facet, const char *word)
+static fram_status expect_word(const mesh_reading *r, word_reader *w, int32_t facet, const char *word)
 {
     if (word_next(w) && word_is(w, word))
         return FRAM_OK;
@@ -80,10 +80,10 @@ static fram_status expect(const mesh_reading *r, word_reader *w, int32_t facet, 
     return mesh_refuse(r, w->word_line, facet, "expected \"%s\", found \"%.*s\"", word, word_shown(w), w->word);
 }
 
-static fram_status read_vertex(const mesh_reading *r, word_reader *w, int32_t facet)
+static fram_status read_facet_vertex(const mesh_reading *r, word_reader *w, int32_t facet)
 {
     double p[3];
-    fram_status status = expect(r, w, facet, "vertex");
+    fram_status status = expect_word(r, w, facet, "vertex");
     for (int c = 0; c < 3 && status == FRAM_OK; c++) {
         if (!word_next(w))
             return mesh_refuse(r, w->word_line, facet, "expected coordinate %d of a vertex, found the end of the file",
@@ -99,20 +99,20 @@ static fram_status read_vertex(const mesh_reading *r, word_reader *w, int32_t fa
 static fram_status read_facet(const mesh_reading *r, word_reader *w, int32_t facet)
 {
     int32_t line = w->word_line, first = r->out->surface.vertex.count;
-    fram_status status = expect(r, w, facet, "normal");
+    fram_status status = expect_word(r, w, facet, "normal");
     for (int c = 0; c < 3 && status == FRAM_OK; c++)
         if (!word_next(w) || word_is(w, "outer"))
             return mesh_refuse(r, w->word_line, facet, "expected the three numbers of the normal, found %d", c);
     if (status == FRAM_OK)
-        status = expect(r, w, facet, "outer");
+        status = expect_word(r, w, facet, "outer");
     if (status == FRAM_OK)
-        status = expect(r, w, facet, "loop");
+        status = expect_word(r, w, facet, "loop");
     for (int k = 0; k < 3 && status == FRAM_OK; k++)
-        status = read_vertex(r, w, facet);
+        status = read_facet_vertex(r, w, facet);
     if (status == FRAM_OK)
-        status = expect(r, w, facet, "endloop");
+        status = expect_word(r, w, facet, "endloop");
     if (status == FRAM_OK)
-        status = expect(r, w, facet, "endfacet");
+        status = expect_word(r, w, facet, "endfacet");
     return status == FRAM_OK ? mesh_place_triangle(r, first, first + 1, first + 2, facet, line) : status;
 }
 
@@ -174,7 +174,7 @@ void mesh_write_stl_text(context *ctx, const mesh *m, text_buffer *out)
     text_add(ctx, out, "endsolid hull\n");
 }
 
-static void put_u32(char *at, uint32_t value)
+static void store_u32(char *at, uint32_t value)
 {
     for (int i = 0; i < 4; i++)
         at[i] = (char)(unsigned char)(value >> (8 * i));
@@ -186,14 +186,14 @@ static void put_point(char *at, vec3 p)
     for (int c = 0; c < 3; c++) {
         uint32_t bits;
         memcpy(&bits, &value[c], sizeof bits);
-        put_u32(at + 4 * c, bits);
+        store_u32(at + 4 * c, bits);
     }
 }
 
 void mesh_write_stl_binary(context *ctx, const mesh *m, text_buffer *out)
 {
     char prefix[PREFIX] = "a hull, metres";
-    put_u32(prefix + HEADER, (uint32_t)m->face.count);
+    store_u32(prefix + HEADER, (uint32_t)m->face.count);
     text_add_bytes(ctx, out, prefix, sizeof prefix);
     for (int32_t f = 0; f < m->face.count; f++) {
         vec3 p[3];

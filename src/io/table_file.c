@@ -3,10 +3,6 @@
    changes nothing. */
 #include "io/table_file.h"
 #include <string.h>
-#include <zlib.h>
-
-#define BYTE_ORDER_MARK 0x01020304u
-#define BYTE_ORDER_SWAPPED 0x04030201u
 
 typedef struct table_file_head {
     char magic[8];
@@ -19,12 +15,7 @@ _Static_assert(sizeof(table_file_head) == 32, "the layout of table_file.h, witho
 
 static const char file_magic[8] = {'F', 'R', 'A', 'M', 'T', 'A', 'B', '\n'};
 
-static uint32_t crc_of(uint32_t crc, const void *data, size_t size)
-{
-    return size > 0 ? (uint32_t)crc32_z(crc, data, size) : crc;
-}
-
-static uint32_t head_crc(const table_file_head *h) { return crc_of(0, h, offsetof(table_file_head, crc)); }
+static uint32_t head_crc(const table_file_head *h) { return file_crc(0, h, offsetof(table_file_head, crc)); }
 
 /* ---- writing ---- */
 
@@ -38,7 +29,7 @@ typedef struct body_sink {
     fram_error *error;
 } body_sink;
 
-static void put(body_sink *s, const void *data, size_t size)
+static void put_data(body_sink *s, const void *data, size_t size)
 {
     s->size += size;
     if (s->memory) {
@@ -46,20 +37,20 @@ static void put(body_sink *s, const void *data, size_t size)
             memcpy(s->memory, data, size);
         s->memory += size;
     } else if (!s->file)
-        s->crc = crc_of(s->crc, data, size);
+        s->crc = file_crc(s->crc, data, size);
     else if (s->status == FRAM_OK)
         s->status = file_write(s->file, data, size, s->error);
 }
 
-static void put_u32(body_sink *s, uint32_t value) { put(s, &value, sizeof value); }
+static void put_u32(body_sink *s, uint32_t value) { put_data(s, &value, sizeof value); }
 
-static void put_u64(body_sink *s, uint64_t value) { put(s, &value, sizeof value); }
+static void put_u64(body_sink *s, uint64_t value) { put_data(s, &value, sizeof value); }
 
 static void put_name(body_sink *s, const char *name)
 {
     size_t length = strlen(name);
     put_u32(s, (uint32_t)length);
-    put(s, name, length);
+    put_data(s, name, length);
 }
 
 static void put_table(body_sink *s, const world_table *t)
@@ -72,9 +63,9 @@ static void put_table(body_sink *s, const world_table *t)
         put_u32(s, (uint32_t)t->info->fields[f].kind);
         put_u32(s, (uint32_t)t->info->fields[f].components);
     }
-    put(s, &rows->count, sizeof rows->count);
+    put_data(s, &rows->count, sizeof rows->count);
     for (int f = 0; f < t->info->field_count; f++)
-        put(s, table_field(t->table, &t->info->fields[f]), (size_t)rows->count * t->info->fields[f].size);
+        put_data(s, table_field(t->table, &t->info->fields[f]), (size_t)rows->count * t->info->fields[f].size);
 }
 
 static void put_body(body_sink *s, const table_file *content)
@@ -88,7 +79,7 @@ static void put_body(body_sink *s, const table_file *content)
     for (int32_t i = 0; i < content->bytes_count; i++) {
         put_name(s, content->bytes[i].name);
         put_u64(s, content->bytes[i].size);
-        put(s, content->bytes[i].data, content->bytes[i].size);
+        put_data(s, content->bytes[i].data, content->bytes[i].size);
     }
     put_u32(s, (uint32_t)content->table_count);
     for (int32_t i = 0; i < content->table_count; i++)
@@ -99,7 +90,7 @@ static table_file_head head_of(const table_file *content)
 {
     body_sink measure = {.status = FRAM_OK};
     put_body(&measure, content);
-    table_file_head head = {.version = TABLE_FILE_VERSION, .byte_order = BYTE_ORDER_MARK};
+    table_file_head head = {.version = TABLE_FILE_VERSION, .byte_order = FILE_BYTE_ORDER};
     memcpy(head.magic, file_magic, sizeof file_magic);
     head.size = sizeof head + measure.size;
     head.body_crc = measure.crc;
@@ -114,7 +105,7 @@ fram_status table_file_encode(context *ctx, const table_file *content, char **da
     if (!bytes)
         return error_memory(error);
     body_sink body = {.memory = bytes, .status = FRAM_OK};
-    put(&body, &head, sizeof head);
+    put_data(&body, &head, sizeof head);
     put_body(&body, content);
     *data = bytes;
     *size = (size_t)head.size;
@@ -129,7 +120,7 @@ fram_status table_file_begin(context *ctx, const char *path, const table_file *c
     if (status != FRAM_OK)
         return status;
     body_sink body = {.file = &file->writer, .status = FRAM_OK, .error = error};
-    put(&body, &head, sizeof head);
+    put_data(&body, &head, sizeof head);
     put_body(&body, content);
     if (body.status != FRAM_OK)
         atomic_file_abandon(file);
@@ -149,7 +140,7 @@ typedef struct body_source {
     fram_error *error;
 } body_source;
 
-static void refuse(body_source *s, const char *what, const char *name)
+static void refuse_difference(body_source *s, const char *what, const char *name)
 {
     if (s->status == FRAM_OK)
         s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL,
@@ -159,7 +150,7 @@ static void refuse(body_source *s, const char *what, const char *name)
 }
 
 /* Bytes of the body, NULL when there are not so many. */
-static const void *take(body_source *s, uint64_t size)
+static const void *take_data(body_source *s, uint64_t size)
 {
     if (s->status != FRAM_OK)
         return NULL;
@@ -177,7 +168,7 @@ static const void *take(body_source *s, uint64_t size)
 static uint32_t take_u32(body_source *s)
 {
     uint32_t value = 0;
-    const void *data = take(s, sizeof value);
+    const void *data = take_data(s, sizeof value);
     if (data)
         memcpy(&value, data, sizeof value);
     return value;
@@ -186,7 +177,7 @@ static uint32_t take_u32(body_source *s)
 static uint64_t take_u64(body_source *s)
 {
     uint64_t value = 0;
-    const void *data = take(s, sizeof value);
+    const void *data = take_data(s, sizeof value);
     if (data)
         memcpy(&value, data, sizeof value);
     return value;
@@ -195,22 +186,22 @@ static uint64_t take_u64(body_source *s)
 static void take_name(body_source *s, const char *what, const char *name)
 {
     uint32_t length = take_u32(s);
-    const void *data = take(s, length);
+    const void *data = take_data(s, length);
     if (data && (length != strlen(name) || memcmp(data, name, length) != 0))
-        refuse(s, what, name);
+        refuse_difference(s, what, name);
 }
 
 static void take_count(body_source *s, const char *what, int32_t count)
 {
     if (take_u32(s) != (uint32_t)count)
-        refuse(s, what, "");
+        refuse_difference(s, what, "");
 }
 
 static void take_bytes(body_source *s, table_file_bytes *bytes)
 {
     take_name(s, "the byte string", bytes->name);
     uint64_t size = take_u64(s);
-    const void *data = take(s, size);
+    const void *data = take_data(s, size);
     if (!data || !s->apply || size == 0)
         return;
     bytes->data = memory_resize(s->ctx, NULL, (size_t)size);
@@ -230,7 +221,7 @@ static void take_fields(body_source *s, const table_info *info)
         take_name(s, "the field", info->fields[f].name);
         uint32_t kind = take_u32(s), components = take_u32(s);
         if (kind != (uint32_t)info->fields[f].kind || components != (uint32_t)info->fields[f].components)
-            refuse(s, "the type of the field", info->fields[f].name);
+            refuse_difference(s, "the type of the field", info->fields[f].name);
     }
 }
 
@@ -238,17 +229,17 @@ static void take_table(body_source *s, const world_table *t)
 {
     take_fields(s, t->info);
     int32_t rows = 0;
-    const void *count = take(s, sizeof rows);
+    const void *count = take_data(s, sizeof rows);
     if (count)
         memcpy(&rows, count, sizeof rows);
     if (rows < 0)
-        refuse(s, "the number of rows of the table", t->info->name);
+        refuse_difference(s, "the number of rows of the table", t->info->name);
     /* The rows fit the file, as the first walk has seen: a hostile count cannot ask for more memory than that. */
     if (s->status == FRAM_OK && s->apply && !table_resize(s->ctx, t->table, t->info, rows))
         s->status = error_memory(s->error);
     for (int f = 0; f < t->info->field_count && s->status == FRAM_OK; f++) {
         uint64_t size = (uint64_t)rows * t->info->fields[f].size;
-        const void *data = take(s, size);
+        const void *data = take_data(s, size);
         if (data && s->apply && size > 0)
             memcpy(table_field(t->table, &t->info->fields[f]), data, (size_t)size);
     }
@@ -270,11 +261,11 @@ static fram_status take_body(body_source s, table_file *content)
     for (int32_t i = 0; i < content->table_count; i++)
         take_table(&s, &content->tables[i]);
     if (s.left > 0)
-        refuse(&s, "the end of the file", "");
+        refuse_difference(&s, "the end of the file", "");
     return s.status;
 }
 
-static fram_status check_head(const char *name, const void *data, size_t size, fram_error *error)
+static fram_status check_table_head(const char *name, const void *data, size_t size, fram_error *error)
 {
     table_file_head head;
     if (size < sizeof head)
@@ -283,10 +274,10 @@ static fram_status check_head(const char *name, const void *data, size_t size, f
     memcpy(&head, data, sizeof head);
     if (memcmp(head.magic, file_magic, sizeof file_magic) != 0)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found another kind of file");
-    if (head.byte_order == BYTE_ORDER_SWAPPED)
+    if (head.byte_order == FILE_BYTE_ORDER_SWAPPED)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "expected a checkpoint of this machine's byte order, found the other");
-    if (head.byte_order != BYTE_ORDER_MARK || head.crc != head_crc(&head))
+    if (head.byte_order != FILE_BYTE_ORDER || head.crc != head_crc(&head))
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "expected a checkpoint, found one with a damaged head");
     if (head.version != TABLE_FILE_VERSION)
@@ -295,7 +286,7 @@ static fram_status check_head(const char *name, const void *data, size_t size, f
     if (head.size != size)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of %llu bytes, found %zu",
                          (unsigned long long)head.size, size);
-    if (head.body_crc != crc_of(0, (const char *)data + sizeof head, size - sizeof head))
+    if (head.body_crc != file_crc(0, (const char *)data + sizeof head, size - sizeof head))
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "expected a checkpoint, found a damaged one: its checksum does not fit");
     return FRAM_OK;
@@ -315,7 +306,7 @@ fram_status table_file_decode(context *ctx, const char *name, const void *data, 
 {
     forget_bytes(content);
     content->differs = false;
-    fram_status status = check_head(name, data, size, error);
+    fram_status status = check_table_head(name, data, size, error);
     if (status != FRAM_OK)
         return status;
     body_source body = {.ctx = ctx,

@@ -14,7 +14,7 @@
 
 extern char **environ;
 
-static void forget(video_file *v)
+static void forget_video(video_file *v)
 {
     if (v->socket >= 0)
         close(v->socket);
@@ -74,7 +74,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     if (status == FRAM_OK)
         status = temporary_file(ctx, path, &v->temporary, &descriptor, error);
     if (status != FRAM_OK) {
-        forget(v);
+        forget_video(v);
         return status;
     }
     close(descriptor); /* ffmpeg takes a name, and as a file only with its protocol */
@@ -82,7 +82,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     char *output = memory_array(ctx, room, 1);
     if (!output) {
         unlink(v->temporary);
-        forget(v);
+        forget_video(v);
         return error_memory(error);
     }
     snprintf(output, room, "%s%s", protocol, v->temporary);
@@ -98,7 +98,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     memory_free(ctx, output);
     if (status != FRAM_OK) {
         unlink(v->temporary);
-        forget(v);
+        forget_video(v);
     }
     return status;
 }
@@ -140,7 +140,7 @@ fram_status video_end(video_file *v, fram_error *error)
         unlink(v->temporary);
         status = error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "ffmpeg could not make the video; see what it said");
     }
-    forget(v);
+    forget_video(v);
     return status;
 }
 
@@ -153,5 +153,5 @@ void video_abandon(video_file *v)
     v->socket = -1;
     (void)wait_for(v);
     unlink(v->temporary);
-    forget(v);
+    forget_video(v);
 }

@@ -10,7 +10,7 @@
 #include <zlib.h>
 
 /* Level 1 costs a third of the default's time and a tenth more of disk. */
-enum { COMPRESSION = 1 };
+enum { ARRAY_COMPRESSION = 1 };
 
 typedef struct vtk_writer {
     context *ctx;
@@ -30,7 +30,7 @@ static void append_bytes(vtk_writer *w, const void *data, size_t size)
 }
 
 /* Packs behind what is there; returns the size, 0: no memory. */
-static uint64_t pack(vtk_writer *w, const void *data, size_t size)
+static uint64_t pack_array(vtk_writer *w, const void *data, size_t size)
 {
     uLong room = compressBound((uLong)size);
     int32_t at = w->appended.count;
@@ -57,7 +57,7 @@ static void append_array(vtk_writer *w, const void *data, size_t size)
         return;
     }
     append_bytes(w, prefix, sizeof prefix);
-    prefix[3] = pack(w, data, size);
+    prefix[3] = pack_array(w, data, size);
     if (prefix[3] == 0)
         w->failed = true;
     else
@@ -130,7 +130,7 @@ fram_status vtk_write(context *ctx, const char *path, const vtk_data *data, fram
 {
     vtk_writer w = {.ctx = ctx};
     atomic_file file;
-    if (deflateInit(&w.packer, COMPRESSION) != Z_OK)
+    if (deflateInit(&w.packer, ARRAY_COMPRESSION) != Z_OK)
         return error_memory(error);
     compose(&w, data);
     deflateEnd(&w.packer);

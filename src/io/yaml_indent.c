@@ -53,7 +53,7 @@ static size_t scan(indentation *r, const char *text, size_t size, int32_t number
     return size;
 }
 
-static bool next_line(indentation *r, yaml_line *out)
+static bool next_yaml_line(indentation *r, yaml_line *out)
 {
     if (r->at >= r->end)
         return false;
@@ -135,7 +135,7 @@ bool yaml_indent_blame(const char *data, size_t size, yaml_blame *out)
     indentation r = {.at = data, .end = data + size, .out = out};
     yaml_line line;
     int32_t open = 0;
-    while (next_line(&r, &line)) {
+    while (next_yaml_line(&r, &line)) {
         bool inside = open > 0; /* of brackets, where blanks do not count */
         open = r.brackets;
         if (inside || line.size == 0)

@@ -51,7 +51,7 @@ static void current_path(const yaml_builder *b, char out[128])
     }
 }
 
-static fram_status refuse(yaml_builder *b, const char *message)
+static fram_status refuse_here(yaml_builder *b, const char *message)
 {
     char path[128];
     current_path(b, path);
@@ -107,7 +107,7 @@ static bool names_grow(yaml_builder *b)
 
 /* ---- building ---- */
 
-static fram_status append_bytes(yaml_builder *b, const char *data, size_t size)
+static fram_status keep_text(yaml_builder *b, const char *data, size_t size)
 {
     yaml_tree *tree = b->tree;
     if (size >= (size_t)(INT32_MAX - tree->text.count) ||
@@ -130,15 +130,15 @@ static fram_status add_text(yaml_builder *b, struct fy_token *token, int32_t *at
     const struct fy_iter_chunk *chunk = NULL;
     int failed = 0;
     while (iterator && status == FRAM_OK && (chunk = fy_token_iter_chunk_next(iterator, chunk, &failed)) != NULL)
-        status = memchr(chunk->str, '\0', chunk->len) ? refuse(b, "expected text, found a NUL character in it")
-                                                      : append_bytes(b, chunk->str, chunk->len);
+        status = memchr(chunk->str, '\0', chunk->len) ? refuse_here(b, "expected text, found a NUL character in it")
+                                                      : keep_text(b, chunk->str, chunk->len);
     if (iterator)
         fy_token_iter_destroy(iterator);
     /* An empty block scalar is reported as a failure too. */
     bool empty = b->tree->text.count == *at && token && fy_token_get_text0(token) && !*fy_token_get_text0(token);
     if (status == FRAM_OK && failed && !empty)
         status = error_memory(b->error);
-    return status == FRAM_OK ? append_bytes(b, "", 1) : status;
+    return status == FRAM_OK ? keep_text(b, "", 1) : status;
 }
 
 /* A new node under the innermost open one, with the key that waits there. */
@@ -162,7 +162,7 @@ static fram_status add_node(yaml_builder *b, yaml_node node, int32_t *index)
         if (b->names.data[slot] >= 0) {
             b->line = node.key_line;
             b->column = node.key_column;
-            return refuse(b, "expected each key once, found it again");
+            return refuse_here(b, "expected each key once, found it again");
         }
     }
     if (!array_push(b->ctx, &tree->nodes, node))
@@ -196,9 +196,9 @@ static bool awaits_key(const yaml_builder *b)
 static fram_status open_container(yaml_builder *b, yaml_kind kind)
 {
     if (awaits_key(b))
-        return refuse(b, "expected a name as key, found a mapping or list");
+        return refuse_here(b, "expected a name as key, found a mapping or list");
     if (b->depth >= b->depth_limit || b->depth >= STACK_SIZE)
-        return refuse(b, "expected less nesting");
+        return refuse_here(b, "expected less nesting");
     int32_t index;
     fram_status status = add_node(b, (yaml_node){.kind = kind, .value = -1}, &index);
     if (status == FRAM_OK)
@@ -209,9 +209,9 @@ static fram_status open_container(yaml_builder *b, yaml_kind kind)
 static fram_status take_key(yaml_builder *b, int32_t text, bool quoted)
 {
     if (!quoted && strcmp(yaml_text(b->tree, text), "<<") == 0)
-        return refuse(b, "expected a key, found a merge key (<<), which is not allowed");
+        return refuse_here(b, "expected a key, found a merge key (<<), which is not allowed");
     if (*yaml_text(b->tree, text) == '\0')
-        return refuse(b, "expected a name as key, found nothing");
+        return refuse_here(b, "expected a name as key, found nothing");
     open_node *open = &b->open[b->depth - 1];
     open->key = open->name = text;
     open->key_line = b->line;
@@ -243,8 +243,8 @@ static fram_status check_decoration(yaml_builder *b, struct fy_event *event)
     if (!anchor && !tag)
         return FRAM_OK;
     move_to(b, fy_token_start_mark(anchor ? anchor : tag));
-    return refuse(b, anchor ? "expected a plain value, found an anchor (&), which is not allowed"
-                            : "expected a plain value, found a tag (!), which is not allowed");
+    return refuse_here(b, anchor ? "expected a plain value, found an anchor (&), which is not allowed"
+                                 : "expected a plain value, found a tag (!), which is not allowed");
 }
 
 static fram_status take_event(yaml_builder *b, struct fy_event *event)
@@ -255,9 +255,9 @@ static fram_status take_event(yaml_builder *b, struct fy_event *event)
         return status;
     switch (event->type) {
     case FYET_DOCUMENT_START:
-        return b->documents++ == 0 ? FRAM_OK : refuse(b, "expected one document, found a second one");
+        return b->documents++ == 0 ? FRAM_OK : refuse_here(b, "expected one document, found a second one");
     case FYET_ALIAS:
-        return refuse(b, "expected a plain value, found an alias (*), which is not allowed");
+        return refuse_here(b, "expected a plain value, found an alias (*), which is not allowed");
     case FYET_SCALAR:
         return add_scalar(b, event->scalar.value);
     case FYET_MAPPING_START:
@@ -281,19 +281,19 @@ static fram_status parser_end(yaml_builder *b, struct fy_parser *parser, struct 
     void *previous = NULL;
     const struct fy_diag_error *first = fy_diag_errors_iterate(diagnosis, &previous);
     if (!first || !first->msg)
-        return refuse(b, "not valid YAML");
+        return refuse_here(b, "not valid YAML");
     yaml_blame blame;
     if (yaml_indent_blame(b->data, b->size, &blame)) {
         b->line = blame.line;
         b->column = blame.column;
         b->depth = 0; /* what was read by then is not where the fault is */
-        return refuse(b, blame.message);
+        return refuse_here(b, blame.message);
     }
     char message[200];
     snprintf(message, sizeof message, "not valid YAML: %s", first->msg);
     b->line = first->line;
     b->column = first->column;
-    return refuse(b, message);
+    return refuse_here(b, message);
 }
 
 static fram_status build(yaml_builder *b, struct fy_parser *parser, struct fy_diag *diagnosis)
@@ -320,9 +320,9 @@ static fram_status check_text(yaml_builder *b, const char *data, size_t size)
         int32_t code = utf8_next(&at, end);
         b->column = (int32_t)(here - line_start) + 1;
         if (code < 0)
-            return refuse(b, "expected UTF-8 text, found other bytes");
+            return refuse_here(b, "expected UTF-8 text, found other bytes");
         if ((code < 0x20 && code != '\t' && code != '\n' && code != '\r') || code == 0x7f)
-            return refuse(b, "expected text, found a control character");
+            return refuse_here(b, "expected text, found a control character");
         if (code == '\n') {
             b->line++;
             line_start = at;

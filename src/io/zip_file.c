@@ -76,7 +76,7 @@ static void add_entry(zip_file *zip, const zip_entry *e, const void *packed)
 }
 
 /* Raw deflate, at the end of which stands no checksum; *size becomes that of what is packed. */
-static bool pack(const void *data, size_t size, void *packed, size_t *room)
+static bool deflate_raw(const void *data, size_t size, void *packed, size_t *room)
 {
     z_stream z = {0};
     if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -97,7 +97,7 @@ fram_status zip_add(zip_file *zip, const char *name, const void *data, size_t si
     if (size > INT32_MAX / 2 || zip->count == FILES_MOST || strlen(name) > FILES_MOST)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "the file is too large for the archive");
     unsigned char *packed = memory_resize(zip->ctx, NULL, room);
-    if (!packed || !pack(data, size, packed, &room)) {
+    if (!packed || !deflate_raw(data, size, packed, &room)) {
         memory_free(zip->ctx, packed);
         return error_memory(error);
     }
