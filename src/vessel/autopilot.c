@@ -55,7 +55,7 @@ static bool has_course(const autopilot_view *v)
     return vec2_length(ground_velocity(v, v->place, v->velocity)) > NO_COURSE && v->ahead > 0;
 }
 
-static vec2 unit(double angle) { return vec2_make(real_cos(angle), real_sin(angle)); }
+static vec2 heading_vector(double angle) { return vec2_make(real_cos(angle), real_sin(angle)); }
 
 /* No more of a ship's speed through the water goes against a current aside. */
 static const double MOST_AGAINST = 0.9;
@@ -85,7 +85,8 @@ static crab crab_of(const autopilot_view *v, const turning_ability *t, vec2 over
    at this rate. */
 static double turn_over_ground(const autopilot_view *v, vec2 place, const track_place *foot, double speed, double rate)
 {
-    vec2 along = vec2_scale(unit(foot->heading), fmax(speed, NO_COURSE)), over = ground_velocity(v, place, along);
+    vec2 along = vec2_scale(heading_vector(foot->heading), fmax(speed, NO_COURSE)),
+         over = ground_velocity(v, place, along);
     return (rate + v->frame_turn) * vec2_dot(over, along) / vec2_dot(over, over);
 }
 
@@ -95,7 +96,7 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     double speed = vec2_length(v->velocity), turn = v->turn - v->frame_turn, u = speed_of(t, v->ahead);
     double course = has_course(v) ? real_atan2(v->velocity.y, v->velocity.x) : v->heading;
     /* Where the ship is going to be when it turns as it is told now. */
-    vec2 there = vec2_add(v->place, vec2_scale(unit(course + 0.5 * turn * v->lag), speed * v->lag));
+    vec2 there = vec2_add(v->place, vec2_scale(heading_vector(course + 0.5 * turn * v->lag), speed * v->lag));
     double ahead = track_foot(path, way + speed * v->lag, there);
     track_place foot = track_at(path, ahead);
     double off = track_off(&foot, there);
@@ -106,8 +107,8 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     /* Back to the track, with the frame, and askew as the ship is in a turn; in as long as in still water. */
     double least = fmax(speed, NO_COURSE);
     double reach = fmax(v->lookahead, fmax(t->reach, LEAST_LOOKAHEAD * u * COURSE_LAGS * v->lag));
-    reach *= crab_of(v, t, ground_velocity(v, there, vec2_scale(unit(foot.heading), least))).way;
-    vec2 over = ground_velocity(v, there, vec2_scale(unit(foot.heading - real_atan2(off, reach)), least));
+    reach *= crab_of(v, t, ground_velocity(v, there, vec2_scale(heading_vector(foot.heading), least))).way;
+    vec2 over = ground_velocity(v, there, vec2_scale(heading_vector(foot.heading - real_atan2(off, reach)), least));
     crab lies = crab_of(v, t, over);
     double wanted = real_atan2(over.y, over.x) + lies.angle + t->drift * lies.bends * curvature - seen->drift;
     double error = plane_angle(v->heading + turn * v->lag - wanted);

@@ -10,7 +10,7 @@
 /* The parallel body keeps at least this share of the length at keel and deck, so that no triangle degenerates. */
 #define LEAST_PARALLEL 1e-6
 
-static double cotangent(double angle) { return real_cos(angle) / real_sin(angle); }
+double hull_cotangent(double angle) { return real_cos(angle) / real_sin(angle); }
 
 /* ---- lines of the icebreaking hull; all are straight in z ---- */
 
@@ -23,13 +23,13 @@ typedef struct hull_lines {
 
 static hull_lines lines_of(const hull_particulars *p)
 {
-    double half_beam = 0.5 * p->beam, entrance = cotangent(p->entrance_angle);
+    double half_beam = 0.5 * p->beam, entrance = hull_cotangent(p->entrance_angle);
     double left = p->length * (1 - p->parallel_midbody) - half_beam * entrance;
     return (hull_lines){.half_length = 0.5 * p->length,
                         .half_beam = half_beam,
                         .flare = real_tan(p->flare_angle),
-                        .stem = cotangent(p->stem_angle),
-                        .stern = cotangent(p->stern_angle),
+                        .stem = hull_cotangent(p->stem_angle),
+                        .stern = hull_cotangent(p->stern_angle),
                         .entrance = entrance,
                         .run = fmax(left, 0) / half_beam};
 }
@@ -243,7 +243,7 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
     status = check_angles(p, error);
     if (status != FRAM_OK)
         return status;
-    double entrance = 0.5 * p->beam * cotangent(p->entrance_angle), parallel = p->length * p->parallel_midbody;
+    double entrance = 0.5 * p->beam * hull_cotangent(p->entrance_angle), parallel = p->length * p->parallel_midbody;
     if (entrance + parallel > p->length * (1 + FACE_TOLERANCE))
         return error_set(
             error, FRAM_ERROR_INPUT, NULL, 0, "entrance_angle",

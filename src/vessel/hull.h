@@ -25,6 +25,9 @@ typedef struct hull_particulars {
     double midships;          /* x of the middle of the waterline, other than 0 for a mesh only [m] */
 } hull_particulars;
 
+/* Cotangent of an angle [rad]: how far a raked line goes forward for its height. */
+double hull_cotangent(double angle);
+
 /* Replace each NaN by what is usual for the form: 30 degrees for angles, 8 for flare and 0.4 of the length for the
    parallel body, but for a ship, whose own are in hull_ship.h. */
 void hull_particulars_fill(hull_particulars *p);

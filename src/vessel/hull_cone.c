@@ -24,7 +24,7 @@ fram_status hull_cone_check(const hull_particulars *p, fram_error *error)
 }
 
 /* Corners by symmetry, so that the hull mirrors itself to the bit. */
-static bool add_ring(context *ctx, mesh *m, double radius, double z)
+static bool add_cone_ring(context *ctx, mesh *m, double radius, double z)
 {
     enum { QUARTER = CONE_FACETS / 4 };
     for (int i = 0; i < CONE_FACETS; i++) {
@@ -41,8 +41,8 @@ static bool add_ring(context *ctx, mesh *m, double radius, double z)
 
 bool hull_cone_make(context *ctx, const hull_particulars *p, mesh *m)
 {
-    if (!add_ring(ctx, m, radius_at(p, -p->draught), -p->draught) ||
-        !add_ring(ctx, m, radius_at(p, p->freeboard), p->freeboard))
+    if (!add_cone_ring(ctx, m, radius_at(p, -p->draught), -p->draught) ||
+        !add_cone_ring(ctx, m, radius_at(p, p->freeboard), p->freeboard))
         return false;
     for (int32_t i = 0; i < CONE_FACETS; i++) {
         int32_t j = (i + 1) % CONE_FACETS;

@@ -27,7 +27,7 @@ static bool index_faces(panel_work *w)
     return true;
 }
 
-static void unite(panel_work *w, int32_t i, int32_t k)
+static void join_facets(panel_work *w, int32_t i, int32_t k)
 {
     int32_t a = facet_root(w, i), b = facet_root(w, k);
     /* The least stays, so that what comes out does not depend on the order. */
@@ -86,7 +86,7 @@ fram_status panels_connect(panel_work *w, fram_error *error)
                 continue;
             int32_t other = facet_in(w, g, f->column, f->row);
             if (other >= 0 && edge_in_cell(w, f, c[k], c[(k + 1) % 3]))
-                unite(w, i, other);
+                join_facets(w, i, other);
         }
     }
     return FRAM_OK;

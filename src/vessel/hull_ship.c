@@ -6,7 +6,7 @@
 
 /* Panels of entrance and run on a side, and strips of a bilge: twice as many change the displacement by less than a
    thousandth, and the mesh has some 250 vertices. */
-enum { END_PANELS = 8, BILGE_STRIPS = 5, MOST_RINGS = BILGE_STRIPS + 2, HALVINGS = 100 };
+enum { END_PANELS = 8, SHIP_BILGE_STRIPS = 5, MOST_SHIP_RINGS = SHIP_BILGE_STRIPS + 2, HALVINGS = 100 };
 /* Entrance over run, in length: full forms have their finer end aft, and their centre of buoyancy forward. */
 #define ENTRANCE_OVER_RUN 0.6
 /* Half the waterline of an end is 1 - (1 - s)^n: a parabola where nothing else is asked. */
@@ -15,9 +15,9 @@ enum { END_PANELS = 8, BILGE_STRIPS = 5, MOST_RINGS = BILGE_STRIPS + 2, HALVINGS
 /* An entrance shorter than this times half the beam is a wall, not a bow. */
 #define LEAST_ENTRANCE 0.3
 /* What is left of the parallel body at the keel, over the length. */
-#define LEAST_PARALLEL 1e-3
+#define LEAST_SHIP_PARALLEL 1e-3
 /* A bilge, over the beam, under which there is none. */
-#define LEAST_BILGE 1e-6
+#define LEAST_SHIP_BILGE 1e-6
 /* The first panel of an end, and a transom, go this much beyond the bilge, so that the keel has a corner there. */
 #define BEYOND_BILGE 1.05
 #define BLOCK_USUAL 0.8
@@ -47,15 +47,13 @@ typedef struct ship_lines {
     double stem, stern; /* cot: length per height */
     ship_end fore, aft;
     int rings; /* from the keel to the deck */
-    double z[MOST_RINGS], inset[MOST_RINGS];
+    double z[MOST_SHIP_RINGS], inset[MOST_SHIP_RINGS];
 } ship_lines;
 
 /* What is left to choose: the length of both ends over the ship's, and the fullness of those whose angle is free. */
 typedef struct ship_shape {
     double ends, fullness;
 } ship_shape;
-
-static double cotangent(double angle) { return real_cos(angle) / real_sin(angle); }
 
 /* Breadth of the first panel over that of its end: as for a parabola of equal steps, and beyond the bilge. */
 static double first_panel(double bilge_share)
@@ -83,7 +81,7 @@ static ship_end end_of(double length, double fullness, double tip, double half_b
 
 static void set_rings(ship_lines *l, double radius, double beam)
 {
-    int strips = radius > LEAST_BILGE * beam ? BILGE_STRIPS : 0;
+    int strips = radius > LEAST_SHIP_BILGE * beam ? SHIP_BILGE_STRIPS : 0;
     for (int i = 0; i <= strips; i++) {
         double turn = strips ? 0.5 * PI * i / strips : 0.5 * PI;
         l->inset[i] = i == strips ? 0 : radius * (1 - real_sin(turn));
@@ -96,14 +94,14 @@ static void set_rings(ship_lines *l, double radius, double beam)
     l->rings = strips + 2;
 }
 
-static ship_lines lines_of(const hull_particulars *p, ship_shape shape)
+static ship_lines ship_lines_of(const hull_particulars *p, ship_shape shape)
 {
     ship_lines l = {.half_length = 0.5 * p->length,
                     .half_beam = 0.5 * p->beam,
                     .draught = p->draught,
                     .freeboard = p->freeboard,
-                    .stem = cotangent(p->stem_angle),
-                    .stern = cotangent(p->stern_angle)};
+                    .stem = hull_cotangent(p->stem_angle),
+                    .stern = hull_cotangent(p->stern_angle)};
     double run = shape.ends * p->length / (1 + ENTRANCE_OVER_RUN), entrance = ENTRANCE_OVER_RUN * run;
     double share = p->bilge_radius / l.half_beam, first = first_panel(share), full = shape.fullness;
     if (!isnan(p->entrance_angle))
@@ -114,8 +112,8 @@ static ship_lines lines_of(const hull_particulars *p, ship_shape shape)
     return l;
 }
 
-static double stem_at(const ship_lines *l, double z) { return l->half_length + l->stem * z; }
-static double stern_at(const ship_lines *l, double z) { return -l->half_length - l->stern * z; }
+static double ship_stem_at(const ship_lines *l, double z) { return l->half_length + l->stem * z; }
+static double ship_stern_at(const ship_lines *l, double z) { return -l->half_length - l->stern * z; }
 
 /* How far from its tip an end begins at this inset: where its first panel crosses the centre plane. */
 static double begin_of(const ship_end *e, double inset)
@@ -139,29 +137,30 @@ static double end_area(const ship_end *e, double inset)
     return area;
 }
 
-static double plane_area(const ship_lines *l, double z, double inset)
+static double ship_plane_area(const ship_lines *l, double z, double inset)
 {
-    double parallel = stem_at(l, z) - stern_at(l, z) - l->fore.along[END_PANELS] - l->aft.along[END_PANELS];
+    double parallel = ship_stem_at(l, z) - ship_stern_at(l, z) - l->fore.along[END_PANELS] - l->aft.along[END_PANELS];
     return 2 * (end_area(&l->fore, inset) + end_area(&l->aft, inset) + parallel * (l->half_beam - inset));
 }
 
 /* Under z = 0: corners move straight between rings, so that areas are quadratic in z and Simpson's rule is exact. */
-static double volume_of(const ship_lines *l)
+static double ship_volume(const ship_lines *l)
 {
     double volume = 0;
     for (int i = 0; i + 1 < l->rings; i++) {
         double low = l->z[i], high = fmin(l->z[i + 1], 0), middle = 0.5 * (low + high);
         double from = l->inset[i], to = l->inset[i + 1];
         volume += (high - low) / 6 *
-                  (plane_area(l, low, from) + 4 * plane_area(l, middle, 0.5 * (from + to)) + plane_area(l, high, to));
+                  (ship_plane_area(l, low, from) + 4 * ship_plane_area(l, middle, 0.5 * (from + to)) +
+                   ship_plane_area(l, high, to));
     }
     return volume;
 }
 
-static double block_of(const hull_particulars *p, ship_shape shape)
+static double ship_block(const hull_particulars *p, ship_shape shape)
 {
-    ship_lines l = lines_of(p, shape);
-    return volume_of(&l) / (p->length * p->beam * p->draught);
+    ship_lines l = ship_lines_of(p, shape);
+    return ship_volume(&l) / (p->length * p->beam * p->draught);
 }
 
 /* ---- what the block coefficient leaves open ---- */
@@ -170,15 +169,15 @@ static double block_of(const hull_particulars *p, ship_shape shape)
    wall, or a wedge has to be blunter than asked. */
 static double longest_ends(const hull_particulars *p)
 {
-    double rakes = (cotangent(p->stem_angle) + cotangent(p->stern_angle)) * p->draught / p->length;
-    return 1 - rakes - LEAST_PARALLEL;
+    double rakes = (hull_cotangent(p->stem_angle) + hull_cotangent(p->stern_angle)) * p->draught / p->length;
+    return 1 - rakes - LEAST_SHIP_PARALLEL;
 }
 
 static double shortest_ends(const hull_particulars *p)
 {
     double entrance = LEAST_ENTRANCE * 0.5 * p->beam;
     if (!isnan(p->entrance_angle))
-        entrance = fmax(entrance, 0.5 * p->beam * cotangent(p->entrance_angle));
+        entrance = fmax(entrance, 0.5 * p->beam * hull_cotangent(p->entrance_angle));
     return entrance * (1 + ENTRANCE_OVER_RUN) / (ENTRANCE_OVER_RUN * p->length);
 }
 
@@ -199,7 +198,7 @@ static ship_shape shape_of(const hull_particulars *p)
         return (ship_shape){1 - p->parallel_midbody, USUAL_FULLNESS};
     for (int i = 0; i < HALVINGS; i++) {
         double middle = 0.5 * (fine + full);
-        if (block_of(p, shape_at(p, middle)) < p->block_coefficient)
+        if (ship_block(p, shape_at(p, middle)) < p->block_coefficient)
             fine = middle;
         else
             full = middle;
@@ -209,20 +208,20 @@ static ship_shape shape_of(const hull_particulars *p)
 
 void hull_ship_block_range(const hull_particulars *p, double *least, double *most)
 {
-    *least = block_of(p, shape_at(p, 0));
-    *most = block_of(p, shape_at(p, 2));
+    *least = ship_block(p, shape_at(p, 0));
+    *most = ship_block(p, shape_at(p, 2));
 }
 
 void hull_ship_ends(const hull_particulars *p, double *entrance, double *run)
 {
-    ship_lines l = lines_of(p, shape_of(p));
+    ship_lines l = ship_lines_of(p, shape_of(p));
     *entrance = l.fore.along[END_PANELS];
     *run = l.aft.along[END_PANELS];
 }
 
 /* ---- particulars ---- */
 
-static fram_status check_angles(const hull_particulars *p, fram_error *error)
+static fram_status check_ship_angles(const hull_particulars *p, fram_error *error)
 {
     const struct {
         const char *key;
@@ -268,7 +267,7 @@ static fram_status check_room(const hull_particulars *p, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "length",
                          "no parallel body is left: the rakes of stem and stern take %.3g of the length at the keel, "
                          "entrance and run at least %.3g; enlarge length, stem_angle or stern_angle",
-                         1 - longest - LEAST_PARALLEL, shortest);
+                         1 - longest - LEAST_SHIP_PARALLEL, shortest);
     if (isnan(parallel) || (1 - parallel >= shortest && 1 - parallel <= longest))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
@@ -279,7 +278,7 @@ static fram_status check_room(const hull_particulars *p, fram_error *error)
 
 fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
 {
-    fram_status status = check_angles(p, error);
+    fram_status status = check_ship_angles(p, error);
     if (status == FRAM_OK)
         status = check_corners(p, error);
     if (status == FRAM_OK)
@@ -308,19 +307,19 @@ typedef struct ship_half {
 
 static ship_half half_ring(const ship_lines *l, double z, double inset)
 {
-    ship_half h = {1, {{stem_at(l, z) - begin_of(&l->fore, inset), 0, z}}};
+    ship_half h = {1, {{ship_stem_at(l, z) - begin_of(&l->fore, inset), 0, z}}};
     for (int i = 1; i <= END_PANELS; i++)
-        h.corner[h.count++] = (vec3){stem_at(l, z) - l->fore.along[i], l->fore.half_beam[i] - inset, z};
+        h.corner[h.count++] = (vec3){ship_stem_at(l, z) - l->fore.along[i], l->fore.half_beam[i] - inset, z};
     for (int i = END_PANELS; i >= 1; i--)
-        h.corner[h.count++] = (vec3){stern_at(l, z) + l->aft.along[i], l->aft.half_beam[i] - inset, z};
+        h.corner[h.count++] = (vec3){ship_stern_at(l, z) + l->aft.along[i], l->aft.half_beam[i] - inset, z};
     if (l->aft.half_beam[0] > 0)
-        h.corner[h.count++] = (vec3){stern_at(l, z), l->aft.half_beam[0] - inset, z};
-    h.corner[h.count++] = (vec3){stern_at(l, z) + begin_of(&l->aft, inset), 0, z};
+        h.corner[h.count++] = (vec3){ship_stern_at(l, z), l->aft.half_beam[0] - inset, z};
+    h.corner[h.count++] = (vec3){ship_stern_at(l, z) + begin_of(&l->aft, inset), 0, z};
     return h;
 }
 
 /* Corners of a ring; returns how many, 0 without memory. */
-static int32_t add_ring(context *ctx, mesh *m, const ship_lines *l, int ring)
+static int32_t add_ship_ring(context *ctx, mesh *m, const ship_lines *l, int ring)
 {
     ship_half h = half_ring(l, l->z[ring], l->inset[ring]);
     int32_t count = 2 * (h.count - 1);
@@ -342,7 +341,7 @@ static bool add_pair(context *ctx, mesh *m, int32_t count, int32_t low, const in
            mesh_add_triangle(ctx, m, low + other[0], low + other[2], low + other[1]);
 }
 
-static bool add_strip(context *ctx, mesh *m, int32_t count, int32_t low)
+static bool add_ship_strip(context *ctx, mesh *m, int32_t count, int32_t low)
 {
     for (int32_t i = 0; i < count / 2; i++)
         if (!add_pair(ctx, m, count, low, (int32_t[]){i, i + 1, count + i + 1}) ||
@@ -353,16 +352,16 @@ static bool add_strip(context *ctx, mesh *m, int32_t count, int32_t low)
 
 bool hull_ship_make(context *ctx, const hull_particulars *p, mesh *m)
 {
-    ship_lines l = lines_of(p, shape_of(p));
+    ship_lines l = ship_lines_of(p, shape_of(p));
     int32_t count = 0;
     for (int i = 0; i < l.rings; i++) {
-        count = add_ring(ctx, m, &l, i);
+        count = add_ship_ring(ctx, m, &l, i);
         if (count == 0)
             return false;
     }
     int32_t deck = count * (l.rings - 1);
     for (int32_t low = 0; low < deck; low += count)
-        if (!add_strip(ctx, m, count, low))
+        if (!add_ship_strip(ctx, m, count, low))
             return false;
     /* Keel and deck as fans from the stem. */
     for (int32_t i = 1; i + 1 < count; i++)

@@ -36,7 +36,7 @@ static fram_status check_curve(const line_definition *d, fram_error *error)
     return FRAM_OK;
 }
 
-static fram_status check_definition(const line_definition *d, double height, fram_error *error)
+static fram_status check_line(const line_definition *d, double height, fram_error *error)
 {
     if (!(height > 0))
         return error_value(error, "depth", "more than the depth of the upper end", d->depth);
@@ -97,7 +97,7 @@ fram_status mooring_add_line(context *ctx, const line_definition *d, const vesse
     vec3 fairlead = vec3_sub(d->centre, vessels->centre[d->vessel]);
     vec3 point = vec3_add(body_to_global(bodies, body, fairlead), arm);
     double height = point.z + d->depth, length;
-    fram_status status = check_definition(d, height, error);
+    fram_status status = check_line(d, height, error);
     if (status == FRAM_OK)
         status = find_length(d, height, &length, error);
     if (status != FRAM_OK)

@@ -18,7 +18,7 @@ static const double PUSHING = 0.5;
 /* A ship is on its track once it was within this part of its length of it. */
 static const double JOINED = 0.5;
 /* It is back on it within this part of the limit beyond which it is off it. */
-static const double BACK = 0.5;
+static const double BACK_ON_TRACK = 0.5;
 
 double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed)
 {
@@ -148,7 +148,7 @@ static void count_rounds(propulsion_table *t, int32_t row, double before, double
 
 /* Brings the foot of the ship on a track up to date, and its error, which counts after the transient, from when the
    ship first is near its track, and not where the track turns about. */
-static void follow(const pilot *p, const autopilot_view *v, const track *path)
+static void follow_track(const pilot *p, const autopilot_view *v, const track *path)
 {
     propulsion_table *t = p->table;
     int32_t row = p->row;
@@ -236,7 +236,7 @@ static bool look(const pilot *p, const course_table *course, double thrust, auto
         if (!leg_track(p, course, sailed))
             return false;
     }
-    follow(p, v, sailed);
+    follow_track(p, v, sailed);
     return true;
 }
 
@@ -296,7 +296,7 @@ static bool tell_track(context *ctx, const pilot *p, event_table *events)
     }
     if (most == 0)
         return true;
-    if (off > BACK * p->s->track_limit) {
+    if (off > BACK_ON_TRACK * p->s->track_limit) {
         t->astray[row] = fmax(most, off);
         return true;
     }

@@ -29,7 +29,7 @@ static fram_status check_order(const thruster_definition *d, fram_error *error)
     return FRAM_OK;
 }
 
-static fram_status check_definition(const thruster_definition *d, fram_error *error)
+static fram_status check_thruster(const thruster_definition *d, fram_error *error)
 {
     if (!(d->ahead > 0))
         return error_value(error, "thrust", "a positive number of newtons", d->ahead);
@@ -52,7 +52,7 @@ static fram_status check_definition(const thruster_definition *d, fram_error *er
 fram_status thruster_add(context *ctx, const thruster_definition *d, const vessel_table *vessels, thruster_table *t,
                          fram_error *error)
 {
-    fram_status status = check_definition(d, error);
+    fram_status status = check_thruster(d, error);
     if (status != FRAM_OK)
         return status;
     int32_t row = t->count;
@@ -104,7 +104,7 @@ static vec3 effect_along(const thruster_table *t, int32_t row, double angle)
     return vec3_make(c, s, t->place[row].x * s - t->place[row].y * c);
 }
 
-static int gather(const thruster_table *t, int32_t vessel, thruster_part *parts)
+static int gather_parts(const thruster_table *t, int32_t vessel, thruster_part *parts)
 {
     int count = 0;
     for (int32_t i = 0; i < t->count && 2 * count + 2 <= ALLOCATION_MOST; i++) {
@@ -148,7 +148,7 @@ static double allowed_angle(const thruster_table *t, int32_t row, double angle)
 }
 
 /* A turning thruster whose pair of thrusts is not allowed is held to one direction; false: it is fine as it is. */
-static bool settle(const thruster_table *t, thruster_part *p, const double *u)
+static bool hold_direction(const thruster_table *t, thruster_part *p, const double *u)
 {
     double x = u[p->column], y = u[p->column + 1], thrust = sqrt(x * x + y * y), most = t->ahead[p->row];
     if (!(thrust > 1e-9 * most))
@@ -185,7 +185,7 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
     thruster_part parts[ALLOCATION_MOST / 2] = {0};
     allocation_column columns[ALLOCATION_MOST] = {0};
     double u[ALLOCATION_MOST] = {0};
-    int count = gather(t, vessel, parts);
+    int count = gather_parts(t, vessel, parts);
     vec3 miss = tau;
     *reached = false;
     for (bool settled = false; !settled;) {
@@ -193,7 +193,7 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
         miss = allocation_solve(columns, n, lever, tau, u, reached);
         settled = true;
         for (int k = 0; k < count; k++)
-            if (parts[k].free && settle(t, &parts[k], u))
+            if (parts[k].free && hold_direction(t, &parts[k], u))
                 settled = false;
     }
     for (int k = 0; k < count; k++)
@@ -213,7 +213,7 @@ static double speed_of_thrust(double thrust, double ahead, double astern)
 }
 
 /* Shaft and angle over one step. */
-static void follow(thruster_table *t, int32_t row, double dt)
+static void follow_order(thruster_table *t, int32_t row, double dt)
 {
     double turn = plane_angle(t->order_angle[row] - t->angle[row]);
     /* While it still turns, it gives only what helps: the order times the cosine of the angle left. */
@@ -252,7 +252,7 @@ fram_status thruster_step(context *ctx, thruster_table *t, const vessel_table *v
             return error_memory(error);
         if (t->failed[i])
             continue;
-        follow(t, i, dt);
+        follow_order(t, i, dt);
         int32_t body = vessels->body[t->vessel[i]];
         double angle = thruster_push_angle(t, i);
         mat3 r = quat_matrix(bodies->orientation[body]);

@@ -7,7 +7,7 @@ static const double SHARPEST = 0.75 * PI;
 /* Steps by which a track is searched, and by which a foot is made better. */
 enum { JOIN_PLACES = 256, FOOT_STEPS = 4 };
 /* 1 - curvature times distance falls to nothing at the centre of an arc. */
-static const double LEAST_NEARNESS = 0.2;
+static const double LEAST_FOOT_NEARNESS = 0.2;
 /* A loop turns away by 60 degrees, goes straight on for 2 cot 60 radii, so that the turn of 240 degrees the other way
    ends on the line that it came from, and follows that back to where it began. */
 static const double AWAY = PI / 3, ON = 1.1547005383792517, BACK = 2.3094010767585034;
@@ -176,7 +176,7 @@ double track_foot(const track *t, double way, vec2 point)
         track_place p = track_at(t, way);
         vec2 from = vec2_sub(point, p.at);
         double ahead = vec2_dot((vec2){real_cos(p.heading), real_sin(p.heading)}, from);
-        way += ahead / fmax(1 - p.curvature * track_off(&p, point), LEAST_NEARNESS);
+        way += ahead / fmax(1 - p.curvature * track_off(&p, point), LEAST_FOOT_NEARNESS);
     }
     return t->closed ? way - t->length * floor(way / t->length) : way;
 }

@@ -7,7 +7,7 @@ TABLE_DEFINE(vessel, VESSEL_FIELDS)
 static bool is_finite(double x) { return fabs(x) < HUGE_VAL; }
 static bool is_finite_vector(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-static fram_status check_definition(const vessel_definition *d, const shape_store *shapes, fram_error *error)
+static fram_status check_vessel(const vessel_definition *d, const shape_store *shapes, fram_error *error)
 {
     if (d->solid < 0 || !shapes->solids || d->solid >= shapes->solids->count)
         return error_value(error, "solid", "a solid of the shape store", d->solid);
@@ -95,7 +95,7 @@ static bool create_bodies(context *ctx, const vessel_definition *d, body_table *
 fram_status vessel_create(context *ctx, const vessel_definition *d, body_table *bodies, shape_store *shapes,
                           joint_table *joints, vessel_table *vessels, int32_t *row, fram_error *error)
 {
-    fram_status status = check_definition(d, shapes, error);
+    fram_status status = check_vessel(d, shapes, error);
     if (status != FRAM_OK)
         return status;
     int32_t new_row = vessels->count, shape = -1;
