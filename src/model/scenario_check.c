@@ -183,7 +183,7 @@ static fram_status check_field(const scenario *s, fram_error *error)
     return status;
 }
 
-static fram_status check_floes(const scenario *s, fram_error *error)
+static fram_status check_floe_places(const scenario *s, fram_error *error)
 {
     for (int32_t i = 0; i < s->ice.floes.count; i++) {
         const scenario_floe *floe = &s->ice.floes.data[i];
@@ -355,7 +355,7 @@ static fram_status check_ice(const scenario *s, fram_error *error)
     if (status == FRAM_OK && ice->source == ICE_VORONOI)
         status = check_field(s, error);
     if (status == FRAM_OK)
-        status = check_floes(s, error);
+        status = check_floe_places(s, error);
     if (status == FRAM_OK)
         status = check_level(s, error);
     if (status != FRAM_OK || ice->source == ICE_NONE || !s->environment.water)

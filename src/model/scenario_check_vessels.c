@@ -27,8 +27,8 @@ static fram_status check_path(const scenario *s, const vessel_entry *e, fram_err
 }
 
 /* A speed that is given must lie under the one at which a run is taken to have gone wrong. */
-static fram_status check_speed(const scenario *s, const vessel_entry *e, const char *key, double speed,
-                               fram_error *error)
+static fram_status check_vessel_speed(const scenario *s, const vessel_entry *e, const char *key, double speed,
+                                      fram_error *error)
 {
     if (speed < s->run.speed_limit)
         return FRAM_OK;
@@ -37,16 +37,16 @@ static fram_status check_speed(const scenario *s, const vessel_entry *e, const c
                         s->run.speed_limit, speed);
 }
 
-static fram_status check_speeds(const scenario *s, const vessel_entry *e, fram_error *error)
+static fram_status check_vessel_speeds(const scenario *s, const vessel_entry *e, fram_error *error)
 {
     const scenario_vessel *v = e->keys;
-    fram_status status = v->path.count == 0 ? check_speed(s, e, "speed", v->speed, error) : FRAM_OK;
+    fram_status status = v->path.count == 0 ? check_vessel_speed(s, e, "speed", v->speed, error) : FRAM_OK;
     for (int32_t i = 1; i < v->path.count && status == FRAM_OK; i++) {
         const scenario_path_point *a = &v->path.data[i - 1], *b = &v->path.data[i];
         double x = b->x - a->x, y = b->y - a->y;
         char key[48];
         snprintf(key, sizeof key, "path[%d].time", (int)i);
-        status = check_speed(s, e, key, sqrt(x * x + y * y) / (b->time - a->time), error);
+        status = check_vessel_speed(s, e, key, sqrt(x * x + y * y) / (b->time - a->time), error);
     }
     return status;
 }
@@ -213,7 +213,7 @@ static fram_status check_vessel(const scenario *s, const vessel_entry *e, fram_e
         status = check_hydrodynamics(s, e, error);
     if (status == FRAM_OK)
         status = check_wash(s, e, error);
-    return status == FRAM_OK ? check_speeds(s, e, error) : status;
+    return status == FRAM_OK ? check_vessel_speeds(s, e, error) : status;
 }
 
 /* ---- the list ---- */
