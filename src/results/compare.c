@@ -181,7 +181,7 @@ static void number_table(pair *p)
     html_table_end(&p->page);
 }
 
-static fram_status compose(pair *p, fram_error *error)
+static fram_status compose_comparison(pair *p, fram_error *error)
 {
     static const struct {
         const char *channel, *title, *label;
@@ -230,7 +230,7 @@ fram_status compare_runs(context *ctx, const char *a, const char *b, const char 
     }
     find_rows(&p);
     if (output) {
-        status = compose(&p, error);
+        status = compose_comparison(&p, error);
         if (status == FRAM_OK)
             status = work_continue(ctx, "comparing", 1, 1, error);
         if (status == FRAM_OK)

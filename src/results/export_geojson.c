@@ -9,13 +9,23 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { THICKNESS, AREA, VELOCITY_X, VELOCITY_Y, CONTACT_FORCE, AGE, NUMBER, PARENT, COLUMNS };
-static const char *const names[COLUMNS] = {"thickness",     "area", "velocity_x", "velocity_y",
-                                           "contact_force", "age",  "floe",       "parent"};
+enum {
+    COLUMN_THICKNESS,
+    COLUMN_AREA,
+    COLUMN_VELOCITY_X,
+    COLUMN_VELOCITY_Y,
+    COLUMN_CONTACT_FORCE,
+    COLUMN_AGE,
+    COLUMN_NUMBER,
+    COLUMN_PARENT,
+    PLAN_COLUMNS
+};
+static const char *const column_names[PLAN_COLUMNS] = {"thickness",     "area", "velocity_x", "velocity_y",
+                                                       "contact_force", "age",  "floe",       "parent"};
 static const char *const kinds[MATERIAL_COUNT] = {"floe", "vessel", "wall"};
 
 typedef struct plan_columns {
-    ARRAY(double) value[COLUMNS];
+    ARRAY(double) value[PLAN_COLUMNS];
     ARRAY(const char *) kind, name; /* name: of a vessel of a list, otherwise NULL */
 } plan_columns;
 
@@ -27,15 +37,15 @@ static bool fill_columns(context *ctx, const replay *r, const replay_moment *m, 
         const replay_pose *p = &m->poses.data[i];
         const replay_body *b = &r->bodies.data[p->body];
         bool ice = b->material == MATERIAL_ICE;
-        const double row[COLUMNS] = {[THICKNESS] = b->solid ? none : b->thickness,
-                                     [AREA] = b->solid ? none : b->area,
-                                     [VELOCITY_X] = p->velocity.x,
-                                     [VELOCITY_Y] = p->velocity.y,
-                                     [CONTACT_FORCE] = p->contact_force,
-                                     [AGE] = ice ? m->time - b->birth : none,
-                                     [NUMBER] = ice ? b->number : none,
-                                     [PARENT] = ice && b->parent >= 0 ? b->parent : none};
-        for (int k = 0; k < COLUMNS && good; k++)
+        const double row[PLAN_COLUMNS] = {[COLUMN_THICKNESS] = b->solid ? none : b->thickness,
+                                          [COLUMN_AREA] = b->solid ? none : b->area,
+                                          [COLUMN_VELOCITY_X] = p->velocity.x,
+                                          [COLUMN_VELOCITY_Y] = p->velocity.y,
+                                          [COLUMN_CONTACT_FORCE] = p->contact_force,
+                                          [COLUMN_AGE] = ice ? m->time - b->birth : none,
+                                          [COLUMN_NUMBER] = ice ? b->number : none,
+                                          [COLUMN_PARENT] = ice && b->parent >= 0 ? b->parent : none};
+        for (int k = 0; k < PLAN_COLUMNS && good; k++)
             good = array_push(ctx, &c->value[k], row[k]);
         good = good && array_push(ctx, &c->kind, kinds[b->material]) &&
                array_push(ctx, &c->name, b->vessel >= 0 ? scenario_vessel_name(s, b->vessel) : NULL);
@@ -84,14 +94,14 @@ fram_status export_geojson(context *ctx, const char *folder, const char *output,
     if (status == FRAM_OK && !fill_columns(ctx, &r, &m, &s, &c))
         status = error_memory(error);
     if (status == FRAM_OK) {
-        geojson_property property[COLUMNS + 2] = {{.name = "kind", .text = c.kind.data},
-                                                  {.name = "name", .text = c.name.data}};
-        for (int k = 0; k < COLUMNS; k++)
-            property[k + 2] = (geojson_property){.name = names[k], .value = c.value[k].data};
+        geojson_property property[PLAN_COLUMNS + 2] = {{.name = "kind", .text = c.kind.data},
+                                                       {.name = "name", .text = c.name.data}};
+        for (int k = 0; k < PLAN_COLUMNS; k++)
+            property[k + 2] = (geojson_property){.name = column_names[k], .value = c.value[k].data};
         report->time = m.time;
-        status = geojson_write_properties(ctx, report->path, &m.outlines, property, COLUMNS + 2, m.time, error);
+        status = geojson_write_properties(ctx, report->path, &m.outlines, property, PLAN_COLUMNS + 2, m.time, error);
     }
-    for (int k = 0; k < COLUMNS; k++)
+    for (int k = 0; k < PLAN_COLUMNS; k++)
         array_free(ctx, &c.value[k]);
     array_free(ctx, &c.kind);
     array_free(ctx, &c.name);

@@ -44,10 +44,9 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
 
 /* ---- floes over frames ---- */
 
-enum { X, Y, Z, HEADING, ROLL, PITCH, VELOCITY_X, VELOCITY_Y, CONTACT_FORCE, COLUMNS };
 static const struct {
     const char *name, *unit, *meaning;
-} columns[COLUMNS] = {
+} columns[] = {
     {"floe_x", "m", "centre of mass, global frame"},
     {"floe_y", "m", "centre of mass, global frame"},
     {"floe_z", "m", "centre of mass over still water"},
@@ -58,6 +57,7 @@ static const struct {
     {"floe_velocity_y", "m/s", "way to the next frame over its time"},
     {"floe_contact_force", "N", "sum of the magnitudes at the floe's contacts in the step of the frame"},
 };
+enum { TRACK_COLUMNS = sizeof columns / sizeof *columns };
 
 typedef struct floe_tracks {
     context *ctx;
@@ -66,8 +66,8 @@ typedef struct floe_tracks {
     int32_t floes;
     int64_t frames;
     double_array time;
-    int variable[COLUMNS];
-    float *values; /* COLUMNS x floes */
+    int variable[TRACK_COLUMNS];
+    float *values; /* TRACK_COLUMNS x floes */
 } floe_tracks;
 
 static fram_status count_floes(floe_tracks *t, const char *folder, fram_error *error)
@@ -127,22 +127,23 @@ static fram_status put_constants(floe_tracks *t, netcdf_file *f, int floe, fram_
     return status;
 }
 
-static void put_frame(floe_tracks *t, netcdf_file *f)
+static void put_track_frame(floe_tracks *t, netcdf_file *f)
 {
     size_t count = (size_t)t->floes;
-    for (size_t i = 0; i < COLUMNS * count; i++)
+    for (size_t i = 0; i < TRACK_COLUMNS * count; i++)
         t->values[i] = NAN;
     for (int32_t i = 0; i < t->r.frame.poses.count; i++) {
         const replay_pose *p = &t->r.frame.poses.data[i];
         if (t->row.data[p->body] < 0)
             continue;
         vec3 rpy = quat_roll_pitch_yaw(p->orientation);
-        const double value[COLUMNS] = {p->position.x,  p->position.y, p->position.z, degrees(rpy.z),  degrees(rpy.x),
-                                       degrees(rpy.y), p->velocity.x, p->velocity.y, p->contact_force};
-        for (size_t k = 0; k < COLUMNS; k++)
+        const double value[TRACK_COLUMNS] = {p->position.x,  p->position.y,  p->position.z,
+                                             degrees(rpy.z), degrees(rpy.x), degrees(rpy.y),
+                                             p->velocity.x,  p->velocity.y,  p->contact_force};
+        for (size_t k = 0; k < TRACK_COLUMNS; k++)
             t->values[k * count + (size_t)t->row.data[p->body]] = (float)value[k];
     }
-    for (size_t k = 0; k < COLUMNS; k++)
+    for (size_t k = 0; k < TRACK_COLUMNS; k++)
         netcdf_put_row(f, t->variable[k], (size_t)t->r.frame.number, t->values + k * count, count);
 }
 
@@ -152,7 +153,7 @@ static fram_status put_frames(floe_tracks *t, netcdf_file *f, const char *folder
     int time = netcdf_variable(f, "frame", NETCDF_F64, over, 1, "s", "simulated time of the frame");
     fram_status status = put_constants(t, f, over[1], error);
     netcdf_put_f64(f, time, t->time.data);
-    for (int k = 0; k < COLUMNS; k++)
+    for (int k = 0; k < TRACK_COLUMNS; k++)
         t->variable[k] = netcdf_variable(f, columns[k].name, NETCDF_F32, over, 2, columns[k].unit, columns[k].meaning);
     replay_close(&t->r);
     if (status == FRAM_OK)
@@ -163,7 +164,7 @@ static fram_status put_frames(floe_tracks *t, netcdf_file *f, const char *folder
         /* A run that goes on has more frames by now. */
         if (status != FRAM_OK || !found || t->r.frame.number >= t->time.count)
             break;
-        put_frame(t, f);
+        put_track_frame(t, f);
     }
     return status;
 }
@@ -175,7 +176,7 @@ static fram_status put_floes(context *ctx, netcdf_file *f, const char *folder, e
     if (status == FRAM_OK) {
         report->frames = t.time.count;
         report->time = t.time.data[0];
-        t.values = memory_array(ctx, (size_t)t.floes + 1, COLUMNS * sizeof *t.values);
+        t.values = memory_array(ctx, (size_t)t.floes + 1, TRACK_COLUMNS * sizeof *t.values);
         status = t.values ? FRAM_OK : error_memory(error);
     }
     if (status == FRAM_OK && t.floes > 0)

@@ -242,7 +242,7 @@ static fram_status write_series(vtk_export *e, fram_error *error)
     return status;
 }
 
-static fram_status write_all(vtk_export *e, int64_t every, export_report *report, fram_error *error)
+static fram_status write_frames(vtk_export *e, int64_t every, export_report *report, fram_error *error)
 {
     bool found = true;
     fram_status status = FRAM_OK;
@@ -283,7 +283,7 @@ fram_status export_vtk(context *ctx, const char *folder, const char *output, int
     if (status == FRAM_OK)
         status = make_folder(data, error);
     if (status == FRAM_OK)
-        status = write_all(&e, every < 1 ? 1 : every, report, error);
+        status = write_frames(&e, every < 1 ? 1 : every, report, error);
     replay_close(&e.r);
     for (int k = 0; k < PARTS; k++)
         sheet_free(ctx, &e.part[k]);

@@ -265,7 +265,7 @@ static bool is_looked_at(live_view *v) { return clock_wall() - atomic_load(&v->a
 
 /* Loads by mechanism and the explained peaks, as a page from disk has them, for whoever looks on; without them when
    they cannot be read, of a run that failed for one. */
-static void explain(live_view *v)
+static void explain_loads(live_view *v)
 {
     if (atomic_load(&v->begun) && is_looked_at(v) &&
         playback_explain(v->ctx, v->folder, NULL, &v->loads, NULL) != FRAM_OK)
@@ -276,7 +276,7 @@ void live_view_end(live_view *v)
 {
     if (!v)
         return;
-    explain(v);
+    explain_loads(v);
     atomic_store(&v->ended, true);
     const struct timespec moment = {.tv_nsec = 20000000};
     double until = clock_wall() + WAIT_MOST;

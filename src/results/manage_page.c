@@ -16,12 +16,12 @@ enum { PLAN_PIXELS = 900 };
 
 static const char *const place_name[MANAGE_PLACES] = {"upstream", "behind the icebreakers", "at the vessel"};
 
-typedef struct page {
+typedef struct management_page {
     const manage_run *m, *other;
     const manage_summary *s, *os;
     html_page html;
     double_array column[8]; /* of charts */
-} page;
+} management_page;
 
 static void duration_text(double seconds, char out[32])
 {
@@ -35,7 +35,7 @@ static void duration_text(double seconds, char out[32])
 
 /* ---- the first words ---- */
 
-static void judge_tracks(page *p)
+static void tell_tracks(management_page *p)
 {
     const run_note *n = &p->m->d.note;
     for (int32_t i = 0; i < n->tracks.count; i++) {
@@ -46,7 +46,7 @@ static void judge_tracks(page *p)
     }
 }
 
-static void verdict(page *p)
+static void management_verdict(management_page *p)
 {
     const manage_summary *s = p->s;
     char text[240], time[32];
@@ -63,7 +63,7 @@ static void verdict(page *p)
         snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
         if (isfinite(s->alarm_least))
             html_verdict_line(&p->html, VERDICT_NOTE, text, "");
-        judge_tracks(p);
+        tell_tracks(p);
         html_verdict_end(&p->html);
         return;
     }
@@ -100,13 +100,13 @@ static void verdict(page *p)
             100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
         html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     }
-    judge_tracks(p);
+    tell_tracks(p);
     html_verdict_end(&p->html);
 }
 
 /* ---- tables ---- */
 
-static void place_table(page *p, const manage_summary *s, const char *title)
+static void place_table(management_page *p, const manage_summary *s, const char *title)
 {
     const char *const heads[] = {title,          "windows",       "concentration", "managed [%]",
                                  "unbroken [%]", "mean size [m]", "largest [m]"};
@@ -125,7 +125,7 @@ static void place_table(page *p, const manage_summary *s, const char *title)
     html_table_end(&p->html);
 }
 
-static void load_row(page *p, const char *name, double own, double beside)
+static void load_row(management_page *p, const char *name, double own, double beside)
 {
     html_row_begin(&p->html);
     html_cell(&p->html, name);
@@ -138,7 +138,7 @@ static void load_row(page *p, const char *name, double own, double beside)
 }
 
 /* What the row of fatigue in the table means, and the ratio of damages. */
-static void fatigue(page *p)
+static void fatigue(management_page *p)
 {
     const manage_summary *a = p->s, *b = p->os;
     if (isnan(a->tension_range))
@@ -154,7 +154,7 @@ static void fatigue(page *p)
                        real_pow(a->tension_range / b->tension_range, FATIGUE_CHAIN_SLOPE), (int)b->tension_line);
 }
 
-static void load_table(page *p)
+static void load_comparison(management_page *p)
 {
     const char *const heads[] = {"after the transient", "this run", "comparison run", "this / comparison"};
     const manage_summary none = {.limit = 0}, *a = p->s, *b = p->os ? p->os : &none;
@@ -168,7 +168,7 @@ static void load_table(page *p)
     fatigue(p);
 }
 
-static void alarm_table(page *p)
+static void alarm_table(management_page *p)
 {
     const double value[] = {p->s->alarm_least, p->s->alarm_median, p->s->warning_least, p->s->warning_median};
     static const char *const name[] = {"nearest unmanaged ice, least", "nearest unmanaged ice, median",
@@ -210,7 +210,7 @@ static bool any_known(const double_array *value)
 }
 
 /* No chart where no run has a value: no ice came, or none was unmanaged. */
-static fram_status series_chart(page *p, bool alarm, const char *title, const char *label, fram_error *error)
+static fram_status series_chart(management_page *p, bool alarm, const char *title, const char *label, fram_error *error)
 {
     chart_line lines[2];
     int32_t n = 0;
@@ -231,7 +231,7 @@ static fram_status series_chart(page *p, bool alarm, const char *title, const ch
 }
 
 /* Part of the ice in floes no larger than a size; what is missing at the end is larger, or unbroken. */
-static fram_status size_chart(page *p, fram_error *error)
+static fram_status size_chart(management_page *p, fram_error *error)
 {
     double sum[MANAGE_PLACES][MANAGE_CLASSES];
     chart_line lines[MANAGE_PLACES];
@@ -273,7 +273,7 @@ static double telling_time(const manage_run *m, char title[64])
 }
 
 /* The field from above then. */
-static fram_status plan(page *p, fram_error *error)
+static fram_status plan(management_page *p, fram_error *error)
 {
     const manage_run *m = p->m;
     const scenario_domain *d = &m->d.s.domain;
@@ -308,14 +308,14 @@ static fram_status plan(page *p, fram_error *error)
 
 /* ---- all ---- */
 
-static fram_status compose(page *p, fram_error *error)
+static fram_status compose_management(management_page *p, fram_error *error)
 {
     const manage_run *m = p->m;
     const char *name = scenario_vessel_name(&m->d.s, m->vessel);
     char title[120];
     snprintf(title, sizeof title, "Ice management for %s", name ? name : "the vessel");
     html_begin(&p->html, title, m->d.s.title);
-    verdict(p);
+    management_verdict(p);
     html_section(&p->html, "The field from above, and its floes");
     html_grid_begin(&p->html);
     fram_status status = plan(p, error);
@@ -333,7 +333,7 @@ static fram_status compose(page *p, fram_error *error)
     if (p->os)
         place_table(p, p->os, "comparison run");
     html_section(&p->html, "Loads");
-    load_table(p);
+    load_comparison(p);
     track_table(&p->html, &m->d.note);
     html_section(&p->html, "Warning");
     html_paragraph(&p->html, "Along the drift at each moment, assuming that it persists; within the recorded domain.");
@@ -351,8 +351,8 @@ static fram_status compose(page *p, fram_error *error)
 fram_status manage_page(const manage_run *m, const manage_summary *s, const manage_run *other,
                         const manage_summary *other_summary, fram_error *error)
 {
-    page p = {.m = m, .other = other, .s = s, .os = other_summary, .html = {.ctx = m->ctx}};
-    fram_status status = compose(&p, error);
+    management_page p = {.m = m, .other = other, .s = s, .os = other_summary, .html = {.ctx = m->ctx}};
+    fram_status status = compose_management(&p, error);
     if (status == FRAM_OK)
         status = atomic_file_write(m->ctx, s->page, p.html.text.data, (size_t)p.html.text.count, error);
     for (size_t i = 0; i < sizeof p.column / sizeof *p.column; i++)

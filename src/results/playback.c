@@ -23,7 +23,7 @@ typedef struct record_measure {
 
 static bool belongs_to_frame(uint32_t type) { return type == BLOCK_FRAME || type == BLOCK_FORCES; }
 
-static fram_status measure(record_reader *r, record_measure *m, fram_error *error)
+static fram_status measure_record(record_reader *r, record_measure *m, fram_error *error)
 {
     record_block block;
     bool found = true;
@@ -246,8 +246,8 @@ fram_status playback_live_page(context *ctx, const char *viewer, const char *add
 }
 
 /* The files first: a page that is there has all that it asks for. */
-static fram_status write_all(context *ctx, page_writer *w, const playback_options *options, const char *page,
-                             size_t size, fram_error *error)
+static fram_status write_playback(context *ctx, page_writer *w, const playback_options *options, const char *page,
+                                  size_t size, fram_error *error)
 {
     atomic_file out;
     fram_status status = chunks_begin(ctx, options->output, w->layout.chunk, &w->chunks, error);
@@ -273,7 +273,7 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
     record_measure m;
     char *page = NULL;
     size_t size = 0;
-    fram_status status = measure(r, &m, error);
+    fram_status status = measure_record(r, &m, error);
     if (status == FRAM_OK && m.frames == 0)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, RECORD_WITHOUT_FRAME);
     if (status == FRAM_OK)
@@ -285,7 +285,7 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
     w->count = (m.frames + w->layout.stride - 1) / w->layout.stride;
     w->from = fopen(path, "rb");
     record_seek(r, first);
-    status = w->from ? write_all(ctx, w, options, page, size, error) : file_error(error, path, "open", errno);
+    status = w->from ? write_playback(ctx, w, options, page, size, error) : file_error(error, path, "open", errno);
     if (w->from)
         fclose(w->from);
     memory_free(ctx, page);

@@ -121,7 +121,7 @@ static fram_status take_prefix(context *ctx, plot *p, panel *at, const char **pr
     return FRAM_OK;
 }
 
-static fram_status draw(context *ctx, const run_data *d, plot *p, const char *output, fram_error *error)
+static fram_status draw_channels(context *ctx, const run_data *d, plot *p, const char *output, fram_error *error)
 {
     chart charts[CHANNELS_MOST];
     const char *title = d->s.title[0] ? d->s.title : "Fram";
@@ -165,7 +165,7 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
     if (status == FRAM_OK && p.rows == 0)
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the run has no row between these times");
     if (status == FRAM_OK)
-        status = draw(ctx, &d, &p, output, error);
+        status = draw_channels(ctx, &d, &p, output, error);
     for (int32_t i = 0; i < p.kept.count; i++)
         memory_free(ctx, p.kept.data[i]);
     array_free(ctx, &p.kept);

@@ -255,7 +255,7 @@ static fram_status appendix(report *r, fram_error *error)
     return status;
 }
 
-static fram_status compose(report *r, fram_error *error)
+static fram_status compose_report(report *r, fram_error *error)
 {
     char subtitle[1400];
     const char *folder = r->d.folder, *slash = strrchr(folder, '/');
@@ -297,7 +297,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
         status = run_data_read(ctx, folder, true, &r.d, error);
     if (status != FRAM_OK)
         return status;
-    status = compose(&r, error);
+    status = compose_report(&r, error);
     if (status == FRAM_OK)
         status = atomic_file_write(ctx, path, r.page.text.data, (size_t)r.page.text.count, error);
     for (int32_t i = 0; i < r.kept.count; i++)

@@ -29,7 +29,7 @@ static double *kept_column(report *r, int32_t rows)
     return NULL;
 }
 
-static bool make_room(report *r, stacked *s)
+static bool make_stacked_room(report *r, stacked *s)
 {
     s->time = kept_column(r, s->bins);
     bool good = s->time != NULL;
@@ -195,7 +195,7 @@ fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
     double every = ceil(fmax(window / step, (double)rows / BINS_MOST) - 1e-9);
     int32_t size = every < 1 ? 1 : every > rows ? rows : (int32_t)every;
     stacked s = {.bins = (rows + size - 1) / size, .width = size * step};
-    if (!make_room(r, &s))
+    if (!make_stacked_room(r, &s))
         return error_memory(error);
     if (!find_parts(r, size, &s))
         return FRAM_OK;

@@ -27,7 +27,7 @@ static double mean_after(const double_array *time, const double_array *value, do
     return n > 0 ? sum / n : (double)NAN;
 }
 
-enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, CHANNELS };
+enum { TIMES, RAW_X, RAW_Y, MEAN_X, MEAN_Y, CHANNELS };
 
 static fram_status read_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder,
                               double_array column[CHANNELS], fram_error *error)
@@ -40,7 +40,7 @@ static fram_status read_loads(context *ctx, const scenario *s, int32_t vessel, c
     };
     char path[PATH_ROOM];
     vessel_channel full[CHANNELS];
-    const char *names[CHANNELS] = {[TIME] = "time"};
+    const char *names[CHANNELS] = {[TIMES] = "time"};
     for (int k = RAW_X; k < CHANNELS; k++) {
         full[k] = vessel_channel_name(s, vessel, of_vessel[k]);
         names[k] = full[k].text;
@@ -64,14 +64,14 @@ static void tell_without_ice(context *ctx, const scenario *s, int32_t vessel, co
                              const double_array column[CHANNELS])
 {
     vessel_entry entry = scenario_vessel_entry(s, vessel);
-    int32_t rows = column[TIME].count;
+    int32_t rows = column[TIMES].count;
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < rows; i++)
             if (column[k].data[i] != 0)
                 return;
     if (rows > 0 && s->ice.source != ICE_NONE && !may_have_peak(ctx, folder, vessel))
         log_write(ctx, LOG_WARNING, "%s met no ice until t = %.10g s: plan.png shows where both are",
-                  vessel_title_of(&entry).text, column[TIME].data[rows - 1]);
+                  vessel_title_of(&entry).text, column[TIMES].data[rows - 1]);
 }
 
 static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder, fram_error *error)
@@ -84,19 +84,19 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
     fram_status status = read_loads(ctx, s, vessel, folder, column, error);
     if (status == FRAM_OK) {
         tell_without_ice(ctx, s, vessel, folder, column);
-        double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
+        double mean = mean_after(&column[TIMES], &column[RAW_X], s->run.transient);
         for (int k = RAW_X; k < CHANNELS; k++) {
             for (int32_t i = 0; i < column[k].count; i++)
                 column[k].data[i] *= 1e-3;
         }
-        int32_t rows = column[TIME].count;
+        int32_t rows = column[TIMES].count;
         const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
         bool cut;
         double spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut);
         const chart_line lines[] = {
-            chart_line_make("along the vessel, each step", column[TIME].data, column[RAW_X].data, rows, false),
-            chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
-            chart_line_make("along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true),
+            chart_line_make("along the vessel, each step", column[TIMES].data, column[RAW_X].data, rows, false),
+            chart_line_make("along X, averaged", column[TIMES].data, column[MEAN_X].data, rows, true),
+            chart_line_make("along Y, averaged", column[TIMES].data, column[MEAN_Y].data, rows, true),
         };
         char title[80], of_mean[96], subtitle[256];
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);

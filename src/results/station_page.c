@@ -99,7 +99,8 @@ static chart_line over_time(const station_data *d, const char *name, int32_t col
     return line;
 }
 
-static fram_status draw(context *ctx, const station_data *d, const char *text, const char *path, fram_error *error)
+static fram_status draw_station(context *ctx, const station_data *d, const char *text, const char *path,
+                                fram_error *error)
 {
     const scenario *s = d->s;
     double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(station_limits(d)->offset_limit, 0);
@@ -168,7 +169,7 @@ fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, 
         scale(&d.column[LOAD_Y], 1e-3);
         scale(&d.column[TENSION], 1e-3);
         scale(&d.column[POWER], 1e-6);
-        status = b.failed ? error_memory(error) : draw(ctx, &d, b.data, path, error);
+        status = b.failed ? error_memory(error) : draw_station(ctx, &d, b.data, path, error);
     }
     text_free(ctx, &b);
     station_data_free(ctx, &d);

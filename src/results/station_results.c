@@ -51,8 +51,8 @@ static void add_statistics(context *ctx, text_buffer *b, const channel_statistic
     add_number(ctx, b, "peak", s->peak, end);
 }
 
-static void add_channel(context *ctx, text_buffer *b, const station_data *d, const char *key, const double_array *of,
-                        double transient, const char *end)
+static void add_channel_statistics(context *ctx, text_buffer *b, const station_data *d, const char *key,
+                                   const double_array *of, double transient, const char *end)
 {
     channel_statistics s = station_statistics(d, of, transient);
     text_format(ctx, b, "  \"%s\": {", key);
@@ -155,7 +155,7 @@ static void add_events(context *ctx, text_buffer *b, const station_data *d)
     text_add(ctx, b, "]\n}\n");
 }
 
-static void compose(context *ctx, const station_data *d, text_buffer *b)
+static void compose_station(context *ctx, const station_data *d, text_buffer *b)
 {
     const scenario *s = d->s;
     double transient = s->run.transient;
@@ -166,18 +166,18 @@ static void compose(context *ctx, const station_data *d, text_buffer *b)
     add_number(ctx, b, "time_s", d->outcome->time, ",\n  ");
     add_number(ctx, b, "transient_s", transient, ",\n  ");
     add_number(ctx, b, "averaging_window_s", s->output.averaging_window, ",\n");
-    add_channel(ctx, b, d, "offset_m", &d->offset, transient, ", ");
+    add_channel_statistics(ctx, b, d, "offset_m", &d->offset, transient, ", ");
     add_limit(ctx, b, d, &d->offset, station_limits(d)->offset_limit, transient);
     add_envelope(ctx, b, d, transient);
-    add_channel(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
-    add_channel(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
-    add_channel(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
+    add_channel_statistics(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
+    add_channel_statistics(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
+    add_channel_statistics(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
     add_limit(ctx, b, d, &c[HEADING], station_limits(d)->heading_limit_deg, transient);
-    add_channel(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
-    add_channel(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
-    add_channel(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
-    add_channel(ctx, b, d, "line_tension_largest_N", &c[TENSION], transient, "},\n");
-    add_channel(ctx, b, d, "thruster_power_W", &c[POWER], transient, ", ");
+    add_channel_statistics(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
+    add_channel_statistics(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
+    add_channel_statistics(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
+    add_channel_statistics(ctx, b, d, "line_tension_largest_N", &c[TENSION], transient, "},\n");
+    add_channel_statistics(ctx, b, d, "thruster_power_W", &c[POWER], transient, ", ");
     add_number(ctx, b, "energy_J", station_energy(d, transient), "},\n  ");
     add_number(ctx, b, "thrusters_saturated", station_statistics(d, &c[SATURATED], transient).mean, ",\n");
     add_lines(ctx, b, d, transient);
@@ -192,7 +192,7 @@ fram_status station_results_write(context *ctx, const scenario *s, int32_t vesse
     char path[PATH_ROOM];
     fram_status status = station_data_read(ctx, s, vessel, o, folder, ".json", &d, path, error);
     if (status == FRAM_OK) {
-        compose(ctx, &d, &b);
+        compose_station(ctx, &d, &b);
         status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     }
     text_free(ctx, &b);

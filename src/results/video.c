@@ -19,7 +19,7 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, FRAMES_MOST = 100000, LONGEST = 30, MARKED = 3 };
+enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, FRAMES_MOST = 100000, LONGEST_VIDEO = 30, MARKED = 3 };
 
 typedef struct video {
     context *ctx;
@@ -123,7 +123,7 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     image_text_fitted(page, left, top - 5, 12, false, right - left, text);
 }
 
-static box2 window_of(const video *v, int width, int height)
+static box2 plan_window(const video *v, int width, int height)
 {
     const scenario_domain *d = &v->s.domain;
     if (!(v->options->span > 0) || !v->plan.has_vessel)
@@ -174,7 +174,7 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
     if (status != FRAM_OK)
         return status;
     plan_flows flows = plan_flows_at(v->ctx, &v->s, time);
-    plan_view view = {.window = window_of(v, width - 28, height - 108),
+    plan_view view = {.window = plan_window(v, width - 28, height - 108),
                       .title = v->s.title[0] ? v->s.title : "Fram",
                       .caption = caption,
                       .shapes = v->plan.shapes.data,
@@ -228,7 +228,7 @@ static fram_status find_frames(video *v, fram_error *error)
 {
     double span = v->time.data[v->time.count - 1] - v->time.data[0], speed = v->options->speed;
     if (!(speed > 0))
-        speed = fmax(1, span / LONGEST);
+        speed = fmax(1, span / LONGEST_VIDEO);
     v->step = speed / v->options->frames_per_second;
     double frames = floor(span / v->step + 1e-9) + 1;
     if (!(frames <= FRAMES_MOST))

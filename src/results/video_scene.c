@@ -5,9 +5,9 @@
 
 #include <stdio.h>
 
-static const char *const names[VIDEO_CAMERA_COUNT] = {"plan", "orbit", "follow"};
+static const char *const camera_names[VIDEO_CAMERA_COUNT] = {"plan", "orbit", "follow"};
 
-const char *video_camera_name(video_camera camera) { return names[camera]; }
+const char *video_camera_name(video_camera camera) { return camera_names[camera]; }
 
 #ifdef FRAM_HAVE_CAIRO
 

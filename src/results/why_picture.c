@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-enum { LONGEST = 1400 };
+enum { LONGEST_SIDE = 1400 };
 
 /* Of the load that a floe carries [%]. */
 static double part_of(const peak_detail *d, const peak_floe *f)
@@ -61,7 +61,7 @@ static void show_under_hull(replay_plan *plan)
     plan_shapes_sort(plan->shapes.data, plan->shapes.count);
 }
 
-static bool add_lines(context *ctx, const peak_detail *d, double length, replay_plan *plan)
+static bool add_arrows(context *ctx, const peak_detail *d, double length, replay_plan *plan)
 {
     bool good = true;
     int32_t at = 0;
@@ -111,7 +111,7 @@ int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d
 }
 
 /* Around the middle of what touches the vessel, and what the chains reach. */
-static box2 window_of(const peak_detail *d, double reach)
+static box2 peak_window(const peak_detail *d, double reach)
 {
     vec2 vessel = vec2_make(0, 0);
     for (int32_t i = 0; i < d->floe_count; i++)
@@ -128,8 +128,8 @@ static box2 window_of(const peak_detail *d, double reach)
     return box;
 }
 
-static fram_status draw(const why *y, const replay *r, const replay_moment *m, const peak_detail *d, int32_t rank,
-                        const char *path, fram_error *error)
+static fram_status draw_peak(const why *y, const replay *r, const replay_moment *m, const peak_detail *d, int32_t rank,
+                             const char *path, fram_error *error)
 {
     replay_plan plan = {0};
     load_unit unit = load_unit_for(d->load);
@@ -150,7 +150,7 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
         int32_t label_count = why_labels(r, m, d, most, length, labels);
         show_under_hull(&plan);
         colour_floes(r, m, d, most, &plan);
-        if (!add_lines(y->ctx, d, length, &plan))
+        if (!add_arrows(y->ctx, d, length, &plan))
             status = error_memory(error);
         char name[24] = "Ice load";
         if (rank > 0)
@@ -162,7 +162,7 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
                  "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s%s",
                  mechanism_text(peak_main_mechanism(d->mechanism)),
                  label_count > 0 ? "; discs: floes that no frame shows" : "");
-        plan_view view = {.window = window_of(d, reach),
+        plan_view view = {.window = peak_window(d, reach),
                           .title = title,
                           .caption = caption,
                           .shapes = plan.shapes.data,
@@ -177,7 +177,7 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
                           .scale_name = "part of the load [%]",
                           .scale_hi = most};
         if (status == FRAM_OK)
-            status = plan_view_write(y->ctx, &view, path, LONGEST, error);
+            status = plan_view_write(y->ctx, &view, path, LONGEST_SIDE, error);
     }
     replay_plan_free(y->ctx, &plan);
     return status;
@@ -195,7 +195,7 @@ fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const 
     if (status == FRAM_ERROR_INPUT)
         status = replay_moment_now(&r, &m, error);
     if (status == FRAM_OK)
-        status = draw(y, &r, &m, d, rank, path, error);
+        status = draw_peak(y, &r, &m, d, rank, path, error);
     replay_moment_free(y->ctx, &m);
     replay_close(&r);
     return status;
