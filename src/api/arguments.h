@@ -48,5 +48,7 @@ void *result_row(void *rows, size_t size, int row);
 
 /* FRAM_ERROR_INPUT, with the name as key, unless the number lies between the bounds, which are in. */
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error);
+/* The latest time that a caller may ask for [s], far beyond every use. */
+#define TIME_MOST 1e12
 
 #endif

@@ -6,7 +6,6 @@
 
 #define PANEL_LEAST 1e-6
 #define PANEL_LONGEST 1e4
-#define TIME_MOST 1e12
 enum { LINES_MOST = 10000 };
 
 static void fram_pressure_fill(fram_pressure_definition *definition)
@@ -23,7 +22,7 @@ static fram_status check_lines(const char *name, const double *line, int count, 
                      (int)LINES_MOST, count, line ? "" : " at NULL");
 }
 
-static fram_status take(const fram_pressure_definition *given, fram_pressure_definition *d, fram_error *error)
+static fram_status take_pressure(const fram_pressure_definition *given, fram_pressure_definition *d, fram_error *error)
 {
     fram_pressure_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_pressure", error);
@@ -46,7 +45,7 @@ fram_status fram_pressure(fram_context *c, const char *run, const fram_pressure_
     fram_pressure_definition d;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
     if (status == FRAM_OK)
-        status = take(definition, &d, error);
+        status = take_pressure(definition, &d, error);
     if (status != FRAM_OK)
         return status;
     const pressure_options options = {.folder = run,

@@ -14,8 +14,7 @@
 
 #include <string.h>
 
-/* Bounds of what a caller may ask for, far beyond every use: times [s], simulated seconds a second, metres across. */
-#define TIME_MOST 1e12
+/* Bounds of what a caller may ask for, far beyond every use: simulated seconds a second, metres across. */
 #define SPEED_MOST 1e9
 #define SPAN_MOST 1e7
 

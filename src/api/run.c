@@ -46,7 +46,7 @@ static void forward_progress(void *user, const run_progress *p)
     bridge->function(bridge->user, &out);
 }
 
-static fram_status take_definition(const fram_run_definition *given, fram_run_definition *d, fram_error *error)
+static fram_status take_run(const fram_run_definition *given, fram_run_definition *d, fram_error *error)
 {
     fram_run_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, offsetof(fram_run_definition, force), "fram_run", error);
@@ -100,7 +100,7 @@ fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definit
     if (status == FRAM_OK)
         status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status == FRAM_OK)
-        status = take_definition(definition, &d, error);
+        status = take_run(definition, &d, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;
@@ -125,7 +125,7 @@ fram_status(fram_resume)(fram_context *c, const fram_run_definition *definition,
     if (status == FRAM_OK)
         status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status == FRAM_OK)
-        status = take_definition(definition, &d, error);
+        status = take_run(definition, &d, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;

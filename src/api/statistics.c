@@ -124,7 +124,7 @@ static extreme_request request_of(const fram_extremes_definition *d)
 
 static fram_level level_of(const level_interval *i) { return (fram_level){i->level, i->low, i->high}; }
 
-static void answer(const extreme_result *r, fram_extreme *out)
+static void give_extreme(const extreme_result *r, fram_extreme *out)
 {
     *out = (fram_extreme){.method = extreme_method_name(r->method),
                           .interval = r->interval,
@@ -216,7 +216,7 @@ fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition 
         if (status == FRAM_OK)
             extremes_doubt_parted(&r[i], data.parted, data.count, data.offset, ask.levels);
         if (status == FRAM_OK)
-            answer(&r[i], &out->method[out->methods++]);
+            give_extreme(&r[i], &out->method[out->methods++]);
     }
     if (status == FRAM_OK && d->draw)
         status = draw_extremes(&c->inner, d, data.unit, r, out->methods, error);

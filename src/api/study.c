@@ -225,7 +225,7 @@ typedef struct study_progress_bridge {
     void *user;
 } study_progress_bridge;
 
-static void forward_progress(void *user, const study_progress *p)
+static void forward_study_progress(void *user, const study_progress *p)
 {
     const study_progress_bridge *bridge = user;
     const fram_study_progress out = {p->done, p->failed,       p->planned, p->wall,
@@ -290,7 +290,7 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
     return status;
 }
 
-static fram_status take_definition(const fram_study_definition *given, fram_study_definition *d, fram_error *error)
+static fram_status take_study(const fram_study_definition *given, fram_study_definition *d, fram_error *error)
 {
     fram_study_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_study", error);
@@ -315,7 +315,7 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study is needed");
     fram_status status = RESULT_CHECK(result, size, fram_study_result, error);
     if (status == FRAM_OK)
-        status = take_definition(definition, d, error);
+        status = take_study(definition, d, error);
     if (status != FRAM_OK)
         return status;
     study_progress_bridge bridge = {d->progress, d->progress_user};
@@ -330,7 +330,7 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
                                    .program = d->program,
                                    .jobs = d->jobs,
                                    .retry = d->retry,
-                                   .progress = d->progress ? forward_progress : NULL,
+                                   .progress = d->progress ? forward_study_progress : NULL,
                                    .progress_user = &bridge,
                                    .stop = d->stop,
                                    .slurm = d->on && strcmp(d->on, "slurm") == 0 ? &slurm : NULL};

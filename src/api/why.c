@@ -5,15 +5,13 @@
 #include "fram/results.h"
 #include "sim/rerun.h"
 
-#define TIME_MOST 1e12
-
 static void fram_why_fill(fram_why_definition *definition)
 {
     *definition = (fram_why_definition){.size = sizeof *definition, .rerun = true};
 }
 DEFINITION_DEFAULT(fram_why, fram_why_definition)
 
-static fram_status take(const fram_why_definition *given, fram_why_definition *d, fram_error *error)
+static fram_status take_why(const fram_why_definition *given, fram_why_definition *d, fram_error *error)
 {
     fram_why_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_why", error);
@@ -83,7 +81,7 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     fram_why_definition taken, *d = &taken;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
     if (status == FRAM_OK)
-        status = take(definition, d, error);
+        status = take_why(definition, d, error);
     if (status != FRAM_OK)
         return status;
     why y;
