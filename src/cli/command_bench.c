@@ -129,7 +129,7 @@ static int bench_solvers(fram_context *context, const bench_words *w)
 }
 
 /* The rest of what the words must fulfil; -1: good. */
-static int check_words(const bench_words *w, const char *scene)
+static int check_bench_words(const bench_words *w, const char *scene)
 {
     if (!(w->warm == NOT_GIVEN || (w->warm >= 0 && w->warm <= 1e6)))
         return answer_usage(&w->common, "--warm", "must lie between 0 and 1e6 s");
@@ -177,7 +177,7 @@ int command_bench(const command_row *self, int argc, char **argv)
     int code = options_read_some(self, rows, sizeof rows / sizeof *rows, &w.common, argc, argv, &w.path, 0, 1);
     if (code >= 0)
         return code;
-    code = check_words(&w, scene);
+    code = check_bench_words(&w, scene);
     const command_files files = {.inputs = {scene}, .outputs = {{"--dump", w.scene.dump, "csv"}}};
     if (code < 0)
         code = refuse_outputs(&w.common, &files);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <unistd.h>
 
-static void print_result(const common_options *common, const fram_result *r, const char *advice)
+static void print_export(const common_options *common, const fram_result *r, const char *advice)
 {
     if (!common->quiet)
         fprintf(stderr, "%s: %lld frame%s; %s\n", r->path, (long long)r->frames, plural(r->frames), advice);
@@ -64,7 +64,7 @@ int command_export(const command_row *self, int argc, char **argv)
                          : netcdf ? fram_export_netcdf(context, run, output, &result, &error)
                                   : fram_export_geojson(context, run, output, time, &result, &error);
     if (status == FRAM_OK)
-        print_result(&common, &result,
+        print_export(&common, &result,
                      vtk      ? "open it in ParaView"
                      : netcdf ? "xarray.open_dataset reads it"
                               : "readable by any GIS, geopandas and fram itself");

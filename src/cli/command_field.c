@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int read_words(const command_row *self, field_words *w, common_options *common, int argc, char **argv)
+static int read_field_words(const command_row *self, field_words *w, common_options *common, int argc, char **argv)
 {
     const option_row rows[] = {
         {"--scale", NULL, OPTION_REAL, &w->field.scale, "S", "factor from the lengths of the file to metres (1)"},
@@ -107,7 +107,7 @@ static const char *misplaced_option(const field_words *w)
 /* ---- the command ---- */
 
 /* Words that contradict themselves: an exit code, -1 to go on. */
-static int check_words(const common_options *common, field_words *w)
+static int check_field_words(const common_options *common, field_words *w)
 {
     w->scenario = is_scenario(w->path);
     const char *misplaced = misplaced_option(w);
@@ -164,9 +164,9 @@ int command_field(const command_row *self, int argc, char **argv)
     common_options common;
     field_words w = {.path = NULL};
     fram_field_default(&w.field);
-    int code = read_words(self, &w, &common, argc, argv);
+    int code = read_field_words(self, &w, &common, argc, argv);
     if (code < 0)
-        code = check_words(&common, &w);
+        code = check_field_words(&common, &w);
     if (code >= 0)
         return code;
     work_view work;

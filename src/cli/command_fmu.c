@@ -13,7 +13,7 @@ static bool find_binary(char out[BESIDE_SIZE])
     return find_beside(places, sizeof places / sizeof *places, out);
 }
 
-static void print_result(const common_options *common, const char *output, const fram_fmu_result *r)
+static void print_unit(const common_options *common, const char *output, const fram_fmu_result *r)
 {
     if (!common->quiet)
         fprintf(stderr, "%s: %d inputs, %d outputs, %d files of the scenario\n", output, r->inputs, r->outputs,
@@ -51,7 +51,7 @@ static int write_unit(const common_options *common, const char *path, const opti
             snprintf(error.key, sizeof error.key, "%s", named ? "--in" : "--out");
         return answer_error(common, &error);
     }
-    print_result(common, definition->output, &result);
+    print_unit(common, definition->output, &result);
     return EXIT_GOOD;
 }
 

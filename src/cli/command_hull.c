@@ -34,7 +34,7 @@ static hull_words words_default(void)
     return w;
 }
 
-static int read_words(const command_row *self, hull_words *w, common_options *common, int argc, char **argv)
+static int read_hull_words(const command_row *self, hull_words *w, common_options *common, int argc, char **argv)
 {
     fram_hull_particulars *p = &w->particulars;
     const option_row rows[] = {
@@ -296,8 +296,8 @@ static void json_floating(json *j, const fram_hull_floating *f, const fram_hull_
     json_real(j, "prismatic_coefficient", f->prismatic);
 }
 
-static void print_json(const hull_words *w, const fram_hull_surface *s, const fram_hull_floating *f,
-                       const fram_hull_pieces *p)
+static void print_hull_json(const hull_words *w, const fram_hull_surface *s, const fram_hull_floating *f,
+                            const fram_hull_pieces *p)
 {
     json j = json_begin();
     json_text(&j, "hull", form_name(w));
@@ -357,7 +357,7 @@ int command_hull(const command_row *self, int argc, char **argv)
 {
     common_options common;
     hull_words w = words_default();
-    int code = read_words(self, &w, &common, argc, argv);
+    int code = read_hull_words(self, &w, &common, argc, argv);
     if (code >= 0)
         return code;
     const char *particular = given_particular(&w);
@@ -391,7 +391,7 @@ int command_hull(const command_row *self, int argc, char **argv)
         code = EXIT_GOOD;
         warn_of_size(&common, &w, &floating);
         if (common.json) {
-            print_json(&w, &surface, &floating, &pieces);
+            print_hull_json(&w, &surface, &floating, &pieces);
         } else {
             print_surface(&w, &surface);
             print_floating(&floating);

@@ -14,7 +14,7 @@ typedef struct ice_words {
     fram_ice_floe floe;
 } ice_words;
 
-static int read_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
+static int read_ice_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
 {
     double angle = 180;
     const option_row rows[] = {
@@ -67,7 +67,7 @@ typedef struct answer_row {
     const char *unit, *meaning;
 } answer_row;
 
-static void print_rows(const common_options *common, const answer_row *rows, int count)
+static void print_answers(const common_options *common, const answer_row *rows, int count)
 {
     json j = {0};
     if (common->json)
@@ -81,7 +81,7 @@ static void print_rows(const common_options *common, const answer_row *rows, int
     if (common->json)
         json_end(&j);
 }
-#define PRINT(common, rows) print_rows((common), (rows), (int)(sizeof(rows) / sizeof *(rows)))
+#define PRINT(common, rows) print_answers((common), (rows), (int)(sizeof(rows) / sizeof *(rows)))
 
 static int answer_wedge(const ice_words *w, const common_options *common)
 {
@@ -163,7 +163,7 @@ int command_ice(const command_row *self, int argc, char **argv)
     ice_words w = {.a_over_l = NAN};
     fram_ice_edge_default(&w.load);
     fram_ice_floe_default(&w.floe);
-    int code = read_words(self, &w, &common, argc, argv);
+    int code = read_ice_words(self, &w, &common, argc, argv);
     if (code >= 0)
         return code;
     bool wedge = strcmp(w.what, "wedge") == 0, sheet = strcmp(w.what, "sheet") == 0;

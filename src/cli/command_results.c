@@ -150,7 +150,7 @@ static int compared_name(const fram_comparison_row *row, char out[COMPARED_NAME_
     return snprintf(out, COMPARED_NAME_ROOM, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
 }
 
-static void print_rows(const fram_comparison *c)
+static void print_compared(const fram_comparison *c)
 {
     static const char heading[] = "after the transient";
     char name[COMPARED_NAME_ROOM];
@@ -176,7 +176,7 @@ static void print_rows(const fram_comparison *c)
 static void print_comparison(const common_options *common, const fram_comparison *c, const char *output)
 {
     if (!common->json) {
-        print_rows(c);
+        print_compared(c);
         if (output && !common->quiet)
             fprintf(stderr, "%s: open it in a browser\n", output);
         return;

@@ -6,7 +6,7 @@
 /* Later than any scenario ends. */
 #define TO_THE_END 1e12
 
-static void print_result(const common_options *common, const char *folder, const fram_run_result *r)
+static void print_run(const common_options *common, const char *folder, const fram_run_result *r)
 {
     if (!common->quiet) {
         fprintf(stderr, "%s at t = %g s after %lld step%s: %d floe%s, wall-clock %.1f s, real-time factor %.2f\n",
@@ -52,7 +52,7 @@ static int finish(const common_options *common, fram_status status, const fram_e
             print_resume(folder);
         return code;
     }
-    print_result(common, folder, result);
+    print_run(common, folder, result);
     return EXIT_GOOD;
 }
 

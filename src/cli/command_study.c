@@ -226,7 +226,7 @@ static void show(void *user, const fram_study_progress *p)
     fflush(stderr);
 }
 
-static void print_result(const char *folder, const fram_study_result *r, bool dry)
+static void print_study(const char *folder, const fram_study_result *r, bool dry)
 {
     fprintf(stderr, "%lld run%s of %lld condition%s, %lld failed; ", (long long)r->runs, plural(r->runs),
             (long long)r->conditions, plural(r->conditions), (long long)r->failed);
@@ -242,7 +242,7 @@ static void print_result(const char *folder, const fram_study_result *r, bool dr
 static int answer_result(const common_options *common, const char *folder, const fram_study_result *r, bool dry)
 {
     if (!common->quiet)
-        print_result(folder, r, dry);
+        print_study(folder, r, dry);
     if (r->failed > 0)
         fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s%s\n", (long long)r->failed_condition,
                 (long long)r->failed_seed, r->reason, r->made == 0 && !dry ? " (--retry repeats failed runs)" : "");

@@ -8,7 +8,7 @@ bool viewer_page_find(char out[BESIDE_SIZE])
     return find_beside(places, sizeof places / sizeof *places, out);
 }
 
-static void print_result(const common_options *common, const char *output, const fram_playback_result *r)
+static void print_page(const common_options *common, const char *output, const fram_playback_result *r)
 {
     if (!common->quiet) {
         fprintf(stderr, "%s: %lld frame%s%s", output, (long long)r->frames, plural(r->frames),
@@ -87,7 +87,7 @@ int command_view(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        print_result(&common, definition.output, &result);
+        print_page(&common, definition.output, &result);
     }
     fram_context_destroy(context);
     return code;

@@ -158,8 +158,8 @@ static void json_making(json *j, const fram_field *field)
     json_close(j);
 }
 
-static void print_json(const field_words *w, const fram_field *field, const fram_field_summary *s,
-                       const fram_field_note *notes, int count)
+static void print_field_json(const field_words *w, const fram_field *field, const fram_field_summary *s,
+                             const fram_field_note *notes, int count)
 {
     const double bounds[4] = {s->lo[0], s->lo[1], s->hi[0], s->hi[1]};
     double bins[FRAM_FIELD_BINS];
@@ -214,7 +214,7 @@ int field_answer(const field_words *w, const common_options *common, const fram_
         return answer_error(common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "out of memory"});
     fram_field_notes(field, notes, count);
     if (common->json) {
-        print_json(w, field, &summary, notes, count);
+        print_field_json(w, field, &summary, notes, count);
     } else {
         print_summary(w, &summary);
         print_windows(w, field);

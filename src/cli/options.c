@@ -38,7 +38,7 @@ static const option_row *find_row(const option_row *rows, int count, const char 
 }
 
 /* Rows without those that a command has for itself under the same name. */
-static void print_rows(const option_row *rows, int count, const option_row *own, int own_count)
+static void print_options(const option_row *rows, int count, const option_row *own, int own_count)
 {
     for (int i = 0; i < count; i++) {
         if (find_row(own, own_count, rows[i].name, strlen(rows[i].name)))
@@ -57,8 +57,8 @@ static void print_command_help(const command_row *command, const option_row *row
     printf("fram %s%s%s\n  %s\n\n", command->name, *command->arguments ? " " : "", command->arguments,
            command->summary);
     printf("Examples:\n%s\nOptions:\n", command->examples);
-    print_rows(rows, row_count, NULL, 0);
-    print_rows(common, COMMON_ROWS, rows, row_count);
+    print_options(rows, row_count, NULL, 0);
+    print_options(common, COMMON_ROWS, rows, row_count);
 }
 
 static bool store_real(const char *text, double *out)
