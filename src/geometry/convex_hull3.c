@@ -171,7 +171,7 @@ static bool find_visible(context *ctx, hull *h, int32_t eye, int32_t first)
     return true;
 }
 
-static int edge_from(const hull_triangle *t, int32_t v) { return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2; }
+static int hull_edge_from(const hull_triangle *t, int32_t v) { return t->v[0] == v ? 0 : t->v[1] == v ? 1 : 2; }
 
 /* One new face over every edge of the rim, with the eye as tip. */
 static bool add_cone(context *ctx, hull *h, int32_t eye)
@@ -184,7 +184,7 @@ static bool add_cone(context *ctx, hull *h, int32_t eye)
         h->rim_face[e.from] = first + i;
         h->face.data[first + i].t.neighbour[0] = e.beyond;
         hull_triangle *beyond = &h->face.data[e.beyond].t;
-        beyond->neighbour[edge_from(beyond, e.to)] = first + i;
+        beyond->neighbour[hull_edge_from(beyond, e.to)] = first + i;
     }
     for (int32_t i = first; i < h->face.count; i++) {
         int32_t after = h->rim_face[h->face.data[i].t.v[1]];

@@ -6,7 +6,7 @@
 #include "geometry/predicate.h"
 
 /* Relative error of the plain determinant, (10 + 96 u) u with u = 2^-53 (Shewchuk 1997, section 4.3). */
-#define FILTER 1.1102230246251577e-15
+#define CIRCLE_FILTER 1.1102230246251577e-15
 
 bool triangles_find_twins(context *ctx, const index_array *t, int32_t vertex_count, int32_array *twin)
 {
@@ -42,7 +42,7 @@ static bool surely_in_circle(vec2 a, vec2 b, vec2 c, vec2 d)
     double det = p_lift * vec2_cross(q, r) + q_lift * vec2_cross(r, p) + r_lift * vec2_cross(p, q);
     double size = p_lift * (fabs(q.x * r.y) + fabs(q.y * r.x)) + q_lift * (fabs(r.x * p.y) + fabs(r.y * p.x)) +
                   r_lift * (fabs(p.x * q.y) + fabs(p.y * q.x));
-    return det > FILTER * size;
+    return det > CIRCLE_FILTER * size;
 }
 
 typedef struct flipping {
@@ -73,7 +73,7 @@ static bool should_flip(const flipping *f, int32_t h)
 
 /* Replace the edge of h by the other diagonal: the triangles (a, b, left) and (b, a, right) become (right, b, left) and
    (left, a, right).  False when there is no memory for what is to be looked at again. */
-static bool flip(flipping *f, int32_t h)
+static bool flip_edge(flipping *f, int32_t h)
 {
     int32_t twin = f->twin.data[h], h_previous = previous_half(h), twin_previous = previous_half(twin);
     f->corner[h] = f->corner[twin_previous];
@@ -93,7 +93,7 @@ bool triangles_make_delaunay(context *ctx, const vec2 *vertex, int32_t vertex_co
         f.todo.data[h] = h;
     while (done && f.todo.count > 0) {
         int32_t h = f.todo.data[--f.todo.count];
-        done = !should_flip(&f, h) || flip(&f, h);
+        done = !should_flip(&f, h) || flip_edge(&f, h);
     }
     array_free(ctx, &f.twin);
     array_free(ctx, &f.todo);

@@ -10,7 +10,7 @@
 #include "geometry/ring_tree.h"
 
 /* Rings under this many vertices are not worth a tree. */
-enum { TREE_FROM = 32 };
+enum { EAR_TREE_FROM = 32 };
 
 typedef struct ring_node {
     int32_t previous, next;
@@ -134,7 +134,7 @@ static void ring_cut(ring *r, int32_t i)
 /* A long ring has a tree, if there is memory for it. */
 static void plant(context *ctx, ring *r)
 {
-    if (r->left < TREE_FROM || !ring_tree_init(ctx, &r->tree, r->count))
+    if (r->left < EAR_TREE_FROM || !ring_tree_init(ctx, &r->tree, r->count))
         return;
     r->barred = memory_array(ctx, (size_t)r->count / RING_RUN + 1, sizeof *r->barred);
     r->has_tree = r->barred != NULL;

@@ -76,7 +76,7 @@ static bool add_point(point_maker *p, vec3 place, vec3 normal, double area)
 
 /* The points of a triangle, or of a part of it, halved across its longest edge until that is short enough: slivers are
    cut along their length only.  What is beyond `most` points is left out; returns how many there would be, at least. */
-static int32_t add_parts(point_maker *p, const vec3 v[3], vec3 normal, int32_t most, bool *ok)
+static int32_t add_part_points(point_maker *p, const vec3 v[3], vec3 normal, int32_t most, bool *ok)
 {
     int longest = 0;
     double square = 0;
@@ -96,8 +96,8 @@ static int32_t add_parts(point_maker *p, const vec3 v[3], vec3 normal, int32_t m
     vec3 a = v[longest], b = v[(longest + 1) % 3], c = v[(longest + 2) % 3];
     vec3 middle = vec3_scale(vec3_add(a, b), 0.5);
     const vec3 left[3] = {a, middle, c}, right[3] = {middle, b, c};
-    int32_t count = add_parts(p, left, normal, most, ok);
-    return count + add_parts(p, right, normal, most - count, ok);
+    int32_t count = add_part_points(p, left, normal, most, ok);
+    return count + add_part_points(p, right, normal, most - count, ok);
 }
 
 static void drop_points(mesh_integrals *o, int32_t count)
@@ -105,21 +105,21 @@ static void drop_points(mesh_integrals *o, int32_t count)
     o->x.count = o->y.count = o->z.count = o->nx.count = o->ny.count = o->nz.count = o->area.count = count;
 }
 
-static bool add_face(point_maker *p, int32_t place)
+static bool add_face_points(point_maker *p, int32_t place)
 {
     vec3 v[3];
     bool ok = true;
     mesh_face_points(p->mesh, p->tree->face.data[place], v);
     vec3 normal = vec3_unit(vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0])));
     int32_t before = p->out->x.count;
-    if (add_parts(p, v, normal, MESH_MOST_PARTS, &ok) <= MESH_MOST_PARTS)
+    if (add_part_points(p, v, normal, MESH_MOST_PARTS, &ok) <= MESH_MOST_PARTS)
         return ok;
     drop_points(p->out, before);
     return ok && array_push(p->ctx, &p->out->large, place);
 }
 
 /* One point for a small and nearly flat node.  Its place is the centre of its area, its area that of the faces. */
-static bool join(point_maker *p, int32_t n, bool *joined)
+static bool join_node(point_maker *p, int32_t n, bool *joined)
 {
     const mesh_bvh_node *node = &p->tree->node.data[n];
     const surface_moments *m = &p->out->moments.data[n];
@@ -158,14 +158,14 @@ static bool find_points(point_maker *p)
         if (node->first < settled)
             continue;
         bool joined;
-        if (!join(p, n, &joined))
+        if (!join_node(p, n, &joined))
             return false;
         if (joined) {
             close_places(p, node->first, end);
             settled = end;
         } else if (node->next < 0) {
             for (int32_t i = node->first; i < end; i++) {
-                if (!add_face(p, i))
+                if (!add_face_points(p, i))
                     return false;
                 close_places(p, i, i + 1);
             }

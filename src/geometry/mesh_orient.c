@@ -2,7 +2,7 @@
 #include "geometry/mesh_parts.h"
 #include "geometry/mesh_repair.h"
 
-static void flip(mesh *m, mesh_adjacency *adjacency, int32_t face)
+static void turn_face(mesh *m, mesh_adjacency *adjacency, int32_t face)
 {
     int32_t *v = m->face.data[face].v, *n = &adjacency->neighbour.data[3 * face];
     int32_t swap = v[1];
@@ -42,7 +42,7 @@ static bool spread(mesh *m, mesh_adjacency *adjacency, int32_t seed, uint8_t *se
             if (seen[g])
                 continue;
             if (turned) {
-                flip(m, adjacency, g);
+                turn_face(m, adjacency, g);
                 ++*flipped;
             }
             seen[g] = 1;
@@ -69,7 +69,7 @@ static void flip_part(mesh *m, mesh_adjacency *adjacency, mesh_parts *parts, int
 {
     for (int32_t f = 0; f < m->face.count; f++)
         if (parts->of_face.data[f] == part)
-            flip(m, adjacency, f);
+            turn_face(m, adjacency, f);
     *flipped += parts->part.data[part].face_count;
     parts->part.data[part].volume = -parts->part.data[part].volume;
 }

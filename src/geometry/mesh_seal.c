@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 /* Passes after which what is left open stays open: real cracks take two or three. */
-enum { MOST_PASSES = 16 };
+enum { MOST_SEAL_PASSES = 16 };
 /* Two vertices that the rim joins by a way of at most this many times their distance are not the two sides of a crack,
    but neighbours on one side of it: a rim finer than the seal is wide stays as it is.  Over a square hole the ways are
    1.41 times as long. */
@@ -351,7 +351,7 @@ fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, 
     report->open_before = s.open.count;
     bool changed = width > 0;
     vec3 area = area_sum(m), volume = mesh_volume_integrals(m);
-    for (int pass = 0; pass < MOST_PASSES && changed && status == FRAM_OK; pass++)
+    for (int pass = 0; pass < MOST_SEAL_PASSES && changed && status == FRAM_OK; pass++)
         status = seal_once(ctx, &s, &changed);
     report->open_after = s.open.count;
     report->area_vector = vec3_sub(area_sum(m), area);

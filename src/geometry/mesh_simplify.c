@@ -8,11 +8,11 @@
 #include <string.h>
 
 enum {
-    MOST_RING = 32,  /* neighbours of a vertex that may go: the tip of a finer fan stays */
-    MOST_PASSES = 64 /* a pass takes a sixth of the vertices of a fine mesh */
+    MOST_RING = 32,           /* neighbours of a vertex that may go: the tip of a finer fan stays */
+    MOST_SIMPLIFY_PASSES = 64 /* a pass takes a sixth of the vertices of a fine mesh */
 };
 /* A pass that takes less than this part of the vertices is the last one. */
-#define LEAST_PART 0.01
+#define LEAST_TAKEN 0.01
 /* Cosine of the largest turn of a triangle against the slab that it lies in. */
 #define LEAST_COSINE 0.5
 
@@ -206,7 +206,7 @@ static void drop_gone(simplifying *s)
 static fram_status simplify(context *ctx, simplifying *s)
 {
     mesh *m = s->m;
-    for (int pass = 0; pass < MOST_PASSES; pass++) {
+    for (int pass = 0; pass < MOST_SIMPLIFY_PASSES; pass++) {
         index_faces(s);
         memset(s->locked, 0, (size_t)m->vertex.count);
         s->taken = 0;
@@ -216,7 +216,7 @@ static fram_status simplify(context *ctx, simplifying *s)
         int32_t before = m->vertex.count;
         if (!mesh_drop_unused_vertices(ctx, m))
             return FRAM_ERROR_MEMORY;
-        if (s->taken < LEAST_PART * before)
+        if (s->taken < LEAST_TAKEN * before)
             break;
     }
     return FRAM_OK;

@@ -14,7 +14,7 @@ static box3 finite_bounds(const mesh *m)
 
 /* new_index[i]: the vertex that vertex i becomes; grid_index: the vertex that a point of the grid is; both have room
    for all. Vertices that are not finite stay alone. */
-static bool join(context *ctx, const mesh *m, point_grid *grid, int32_t *grid_index, int32_t *new_index)
+static bool join_vertices(context *ctx, const mesh *m, point_grid *grid, int32_t *grid_index, int32_t *new_index)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < m->vertex.count; i++) {
@@ -59,7 +59,7 @@ fram_status mesh_weld(context *ctx, mesh *m, double distance, int32_t *joined)
     int32_t *grid_index = memory_array(ctx, (size_t)m->vertex.count, sizeof *grid_index);
     int32_t *new_index = memory_array(ctx, (size_t)m->vertex.count, sizeof *new_index);
     bool done = point_grid_init(ctx, &grid, finite_bounds(m), distance, m->vertex.count);
-    done = done && grid_index && new_index && join(ctx, m, &grid, grid_index, new_index);
+    done = done && grid_index && new_index && join_vertices(ctx, m, &grid, grid_index, new_index);
     if (done)
         renumber(m, new_index, joined);
     point_grid_free(ctx, &grid);

@@ -114,7 +114,7 @@ bool polygon_convex_hull(context *ctx, polygon p, vec2_array *out)
 }
 
 /* The box of the hull along one of its edges. */
-static oriented_box edge_box(polygon hull, int32_t i)
+static oriented_box box_along_edge(polygon hull, int32_t i)
 {
     vec2 origin = hull.vertex[i], edge = vec2_sub(hull.vertex[(i + 1) % hull.count], origin);
     double length = vec2_length(edge);
@@ -145,7 +145,7 @@ fram_status polygon_oriented_box(context *ctx, polygon p, oriented_box *box)
     }
     polygon ring = {hull.data, hull.count};
     for (int32_t i = 0; i < ring.count; i++) {
-        oriented_box other = edge_box(ring, i);
+        oriented_box other = box_along_edge(ring, i);
         if (i == 0 || other.sides[0] * other.sides[1] < box->sides[0] * box->sides[1])
             *box = other;
     }

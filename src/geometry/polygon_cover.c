@@ -105,7 +105,7 @@ static void simplify_at(cover_ring *r, int32_t i)
     }
 }
 
-static void simplify(cover_ring *r, double budget)
+static void simplify_ring(cover_ring *r, double budget)
 {
     while (r->left > 3) {
         int32_t best = -1;
@@ -136,7 +136,7 @@ bool polygon_cover(context *ctx, polygon p, double part, vec2_array *out)
             .at = p.vertex[i], .before = i > 0 ? i - 1 : p.count - 1, .after = i + 1 < p.count ? i + 1 : 0};
     for (int32_t i = 0; i < p.count; i++)
         price(&r, i);
-    simplify(&r, part * polygon_area(p));
+    simplify_ring(&r, part * polygon_area(p));
     for (int32_t k = 0, i = r.some; k < r.left; k++, i = r.v[i].after)
         out->data[out->count++] = r.v[i].at;
     memory_free(ctx, r.v);

@@ -97,7 +97,7 @@ bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *
 
 /* ---- clearance ---- */
 
-static bool is_near(polygon p, int32_t edge, int32_t vertex, double reach)
+static bool edge_is_near(polygon p, int32_t edge, int32_t vertex, double reach)
 {
     vec2 a = p.vertex[edge], b = edge_end(p, edge), v = p.vertex[vertex];
     if (vertex == edge || vertex == (edge + 1 < p.count ? edge + 1 : 0) || real_min(a.x, b.x) - v.x > reach ||
@@ -110,7 +110,7 @@ static bool near_by_pairs(polygon p, double reach)
 {
     for (int32_t i = 0; i < p.count; i++)
         for (int32_t k = 0; k < p.count; k++)
-            if (is_near(p, i, k, reach))
+            if (edge_is_near(p, i, k, reach))
                 return true;
     return false;
 }
@@ -127,7 +127,7 @@ static bool near_by_tree(polygon p, double reach, ring_tree *corners)
         box = (box2){vec2_sub(box.lo, wide), vec2_add(box.hi, wide)};
         for (int32_t run = ring_tree_find(corners, box, 0); run >= 0; run = ring_tree_find(corners, box, run + 1))
             for (int32_t k = run * RING_RUN; k < (run + 1) * RING_RUN && k < p.count; k++)
-                if (is_near(p, i, k, reach))
+                if (edge_is_near(p, i, k, reach))
                     return true;
     }
     return false;

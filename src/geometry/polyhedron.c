@@ -69,7 +69,7 @@ static vec3 corner(const polyhedron *p, const polyhedron_face *f, int32_t i)
 }
 
 /* Twice the area vector of a face (Newell 1972), about its first vertex. */
-static vec3 twice_area(const polyhedron *p, const polyhedron_face *f)
+static vec3 twice_face_area(const polyhedron *p, const polyhedron_face *f)
 {
     vec3 origin = corner(p, f, 0), sum = {0, 0, 0};
     for (int32_t i = 2; i < f->count; i++)
@@ -110,7 +110,7 @@ bool polyhedron_contains(const polyhedron *p, vec3 point, double margin)
 /* The plane through a face's loop; no vertex of the loop is outside it. */
 static void set_plane(const polyhedron *p, polyhedron_face *f)
 {
-    f->normal = vec3_unit(twice_area(p, f));
+    f->normal = vec3_unit(twice_face_area(p, f));
     f->offset = vec3_dot(f->normal, corner(p, f, 0));
     for (int32_t i = 1; i < f->count; i++)
         f->offset = fmax(f->offset, vec3_dot(f->normal, corner(p, f, i)));

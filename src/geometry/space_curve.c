@@ -40,7 +40,7 @@ static int compare_ordered(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-static uint32_t cell_of(double x, double lo, double size)
+static uint32_t cell_at(double x, double lo, double size)
 {
     double most = (double)((1u << LEVELS) - 1), cell = size > 0 ? floor((x - lo) / size * most) : 0;
     return (uint32_t)(cell < 0 ? 0 : cell > most ? most : cell);
@@ -58,7 +58,7 @@ bool space_curve_order(context *ctx, const vec2 *points, int32_t count, int32_t 
     }
     double size = real_max(hi.x - lo.x, hi.y - lo.y);
     for (int32_t i = 0; i < count; i++)
-        list[i] = (ordered){curve_distance(cell_of(points[i].x, lo.x, size), cell_of(points[i].y, lo.y, size)), i};
+        list[i] = (ordered){curve_distance(cell_at(points[i].x, lo.x, size), cell_at(points[i].y, lo.y, size)), i};
     qsort(list, (size_t)count, sizeof *list, compare_ordered);
     for (int32_t i = 0; i < count; i++)
         order[i] = list[i].index;

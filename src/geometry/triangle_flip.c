@@ -6,7 +6,7 @@
 #include "geometry/predicate.h"
 
 /* Passes at most: thin ears along a straight run of n vertices take about log n. */
-enum { MOST_PASSES = 64 };
+enum { MOST_FLIP_PASSES = 64 };
 /* An exchange must better the shape by this part. */
 #define LEAST_GAIN 1e-6
 
@@ -63,7 +63,7 @@ bool polygon_flip_diagonals(context *ctx, polygon p, index_array *triangles)
     for (int32_t f = 0; done && f < count; f++)
         for (int k = 0; k < 3; k++)
             m.face.data[f].v[k] = triangles->data[3 * f + k];
-    for (int i = 0; done && i < MOST_PASSES; i++) {
+    for (int i = 0; done && i < MOST_FLIP_PASSES; i++) {
         done = mesh_adjacency_build(ctx, &m, &adjacency) == FRAM_OK;
         if (!done || !pass(&m, p.vertex, &adjacency, moved))
             break;

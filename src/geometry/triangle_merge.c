@@ -57,13 +57,14 @@ static bool make_edges(merging *m, const index_array *t, int32_t vertex_count)
     return done;
 }
 
-static vec2 at(const merging *m, int32_t half) { return m->vertex[m->half[half].vertex]; }
+static vec2 vertex_at(const merging *m, int32_t half) { return m->vertex[m->half[half].vertex]; }
 
 /* The turn where the ring of `half` goes over into that of `other` when their common edge is taken out. */
 static int joint_turn(const merging *m, int32_t half, int32_t other)
 {
     const half_edge *h = m->half;
-    return turn_sign(at(m, h[half].previous), at(m, half), at(m, h[h[other].next].next), m->rounding);
+    return turn_sign(vertex_at(m, h[half].previous), vertex_at(m, half), vertex_at(m, h[h[other].next].next),
+                     m->rounding);
 }
 
 static bool gather(merging *m, int32_t half, int32_t most)
@@ -71,7 +72,7 @@ static bool gather(merging *m, int32_t half, int32_t most)
     for (int32_t i = m->half[half].next; i != half; i = m->half[i].next) {
         if (m->ring_count == most)
             return false;
-        m->ring[m->ring_count++] = at(m, i);
+        m->ring[m->ring_count++] = vertex_at(m, i);
     }
     return true;
 }
@@ -123,7 +124,7 @@ static bool push_pieces(merging *m, polygon_list *out)
         m->ring_count = 0;
         for (int32_t k = i; !m->half[k].removed; k = m->half[k].next) {
             m->half[k].removed = true;
-            m->ring[m->ring_count++] = at(m, k);
+            m->ring[m->ring_count++] = vertex_at(m, k);
         }
         int32_t n = ring_normal_form(m->ring, m->ring_count);
         if (n >= 3 && !polygon_list_push(m->ctx, out, (polygon){m->ring, n}))

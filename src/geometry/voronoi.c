@@ -30,7 +30,7 @@ typedef struct diagram {
 
 static double weight_of(const diagram *d, int32_t i) { return d->weight ? d->weight[i] : 0; }
 
-static fram_status refuse(fram_error *error, int32_t site, const char *why)
+static fram_status refuse_site(fram_error *error, int32_t site, const char *why)
 {
     char key[32];
     snprintf(key, sizeof key, "site %d", (int)site);
@@ -46,9 +46,9 @@ static fram_status check_sites(diagram *d, fram_error *error)
     for (int32_t i = 0; i < d->count; i++) {
         vec2 s = d->site[i];
         if (!(s.x >= box.lo.x && s.x <= box.hi.x && s.y >= box.lo.y && s.y <= box.hi.y))
-            return refuse(error, i, "outside the box");
+            return refuse_site(error, i, "outside the box");
         if (!isfinite(weight_of(d, i)))
-            return refuse(error, i, "the weight is not finite");
+            return refuse_site(error, i, "the weight is not finite");
         d->top_weight = real_max(d->top_weight, weight_of(d, i));
     }
     const vec2 corners[2] = {box.lo, box.hi};
@@ -131,7 +131,7 @@ static fram_status cut_by_grid_cell(diagram *d, int32_t i, int32_t column, int32
         if (j == i)
             continue;
         if (vec2_equal(d->site[i], d->site[j]))
-            return refuse(error, i > j ? i : j, "at the same place as another site");
+            return refuse_site(error, i > j ? i : j, "at the same place as another site");
         if (!cut_by_bisector(d, i, j, reach))
             return error_memory(error);
     }
