@@ -11,7 +11,7 @@
 /* Pairs a block: the most make about a thousand contacts in a packed field. */
 enum { LEAST_PAIRS = 32, MOST_PAIRS = 512 };
 /* Bounds are taken smaller by this share, far more than what rounding can take from them. */
-#define SURE (1 - 1e-9)
+#define SURE_OF_GAP (1 - 1e-9)
 
 /* Pairs are contacts a little before they touch, and open points of touching faces stay in the manifold: the solver
    lets a gap close within the step but not be crossed.  So a body at rest on four points neither rocks nor loses its
@@ -286,7 +286,7 @@ static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow
         double travel = w->boxes->travel[c->a.slot] + w->boxes->travel[c->b.slot];
         w->pairs->axis[c->row] = c->axis;
         w->pairs->clear[c->row] = patch                    ? PAIR_HAS_PATCH
-                                  : c->gap > c->near.slack ? travel + SURE * (c->gap - c->near.slack)
+                                  : c->gap > c->near.slack ? travel + SURE_OF_GAP * (c->gap - c->near.slack)
                                                            : 0;
     }
     return true;

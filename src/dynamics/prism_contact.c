@@ -220,7 +220,7 @@ static int contact_at_side(const prism *holder, const prism *other, const prism_
     return deepest > -near.slack ? manifold_reduce(point, count, *outward, out) : 0;
 }
 
-static int32_t most_opposed(const prism *p, vec3 direction)
+static int32_t opposed_side(const prism *p, vec3 direction)
 {
     vec3 seen = mat3_tmul_vec(p->rotation, direction);
     int32_t opposed = 0;
@@ -339,7 +339,7 @@ static prism_meeting prism_meet(const prism *a, const prism *b, nearness near)
     const prism *holder = m.swapped ? b : a;
     m.side = best->side;
     m.normal = holder->side[best->side];
-    m.opposed = most_opposed(m.swapped ? a : b, global_normal(holder, best->side));
+    m.opposed = opposed_side(m.swapped ? a : b, global_normal(holder, best->side));
     return m;
 }
 

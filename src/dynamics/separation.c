@@ -1,13 +1,13 @@
 /* The general narrow phase: separating axes of two convex polyhedra over face normals and edge pairs. */
 #include "dynamics/manifold.h"
 
-typedef struct span {
+typedef struct axis_span {
     double low, high;
-} span;
+} axis_span;
 
-static span project(const polyhedron *p, vec3 axis)
+static axis_span project(const polyhedron *p, vec3 axis)
 {
-    span s = {HUGE_VAL, -HUGE_VAL};
+    axis_span s = {HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < p->vertex.count; i++) {
         double d = vec3_dot(axis, p->vertex.data[i]);
         s.low = d < s.low ? d : s.low;
@@ -99,7 +99,7 @@ static void take_face(const polyhedron *p, int32_t face, flat_face *out)
     out->name = (uint32_t)face;
 }
 
-static int32_t most_opposed(const polyhedron *p, vec3 normal)
+static int32_t most_opposed_face(const polyhedron *p, vec3 normal)
 {
     int32_t best = 0;
     double least = HUGE_VAL;
@@ -118,7 +118,7 @@ static int contact_at_face(const polyhedron *holder, int32_t face, const polyhed
 {
     flat_face reference, incident;
     take_face(holder, face, &reference);
-    take_face(other, most_opposed(other, reference.normal), &incident);
+    take_face(other, most_opposed_face(other, reference.normal), &incident);
     return face_manifold(&reference, &incident, near, swapped, out);
 }
 

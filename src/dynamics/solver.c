@@ -63,7 +63,7 @@ static void write_velocities(const solver *s, body_table *bodies)
     }
 }
 
-static double largest_residual(const solver *s)
+static double largest_contact_residual(const solver *s)
 {
     double largest = 0;
     for (int32_t i = 0; i < s->contacts.count; i++)
@@ -112,7 +112,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
         return status;
     write_velocities(s, bodies);
     report->iterations = iterations;
-    report->residual = largest_residual(s);
+    report->residual = largest_contact_residual(s);
     status = contact_rows_finish(s, bodies, contacts, memory, error);
     if (status == FRAM_OK && !guided_bodies_load(s, bodies, contacts))
         return error_memory(error);

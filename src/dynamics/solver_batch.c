@@ -348,10 +348,10 @@ static bool open_batch(context *ctx, batch_plan *plan, open_batches *o, int32_t 
     return array_push(ctx, &plan->batches, fresh);
 }
 
-static bool is_movable(const batch_plan *plan, int32_t row) { return row < plan->movable; }
+static bool row_is_movable(const batch_plan *plan, int32_t row) { return row < plan->movable; }
 
 /* Puts a group into a lane of the batch at `place`, and closes that when it is full. */
-static void fill_lane(batch_plan *plan, open_batches *o, int32_t place, const contact_group *group, int32_t a,
+static void put_group(batch_plan *plan, open_batches *o, int32_t place, const contact_group *group, int32_t a,
                       int32_t b)
 {
     contact_batch *batch = &plan->batches.data[o->batch[place]];
@@ -360,9 +360,9 @@ static void fill_lane(batch_plan *plan, open_batches *o, int32_t place, const co
     batch->b[lane] = b == batch->hub ? batch->copies + lane : b;
     for (int32_t k = 0; k < group->count; k++)
         batch->contact[k][lane] = group->first + k;
-    if (is_movable(plan, batch->a[lane]))
+    if (row_is_movable(plan, batch->a[lane]))
         plan->within.data[a] |= (uint64_t)1 << place;
-    if (is_movable(plan, batch->b[lane]))
+    if (row_is_movable(plan, batch->b[lane]))
         plan->within.data[b] |= (uint64_t)1 << place;
     if (o->lanes[place] == BATCH_LANES)
         close_batch(plan, o, place);
@@ -400,7 +400,7 @@ static bool make_batches(context *ctx, batch_plan *plan, const body_table *bodie
             place = oldest(&o, candidates);
         else if (!open_batch(ctx, plan, &o, group->count, t->hub, idle, &place))
             return false;
-        fill_lane(plan, &o, place, group, a, b);
+        put_group(plan, &o, place, group, a, b);
     }
     while (o.open)
         close_batch(plan, &o, lowest_bit(o.open));
@@ -417,7 +417,7 @@ static void assert_lanes_share_nothing(const batch_plan *plan, const contact_bat
         assert(row >= 0 && row < plan->slot.count);
         for (int32_t k = 0; k < i; k++) {
             int32_t other = k < BATCH_LANES ? batch->a[k] : batch->b[k - BATCH_LANES];
-            assert(row != other || !is_movable(plan, row));
+            assert(row != other || !row_is_movable(plan, row));
         }
     }
 }

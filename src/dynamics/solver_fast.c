@@ -138,8 +138,8 @@ static double negligible_energy(const stage *st)
 }
 
 /* At most so many sweeps; fewer when nothing is left to do.  x: multipliers of contacts, `rows` of them. */
-static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows, int32_t most,
-                    int32_t *iterations)
+static bool sweep_until_settled(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows,
+                                int32_t most, int32_t *iterations)
 {
     sweep_sums sums = {.energy = HUGE_VAL};
     acceleration *a = &st->s->fast->acceleration;
@@ -237,7 +237,7 @@ static void finish_task(const stage *st, batch_task *task)
     }
 }
 
-static double largest_residual(stage *st)
+static double largest_task_residual(stage *st)
 {
     double largest = 0;
     stage_run(st, residual_task);
@@ -279,8 +279,8 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         if (!fast_warm_start(&st))
             return error_memory(error);
     }
-    if (!iterate(&st, sweep_task, &f->impulse, (int64_t)IMPULSE_ROWS * f->plan.points, settings->iterations,
-                 &report->iterations))
+    if (!sweep_until_settled(&st, sweep_task, &f->impulse, (int64_t)IMPULSE_ROWS * f->plan.points, settings->iterations,
+                             &report->iterations))
         return error_memory(error);
     fast_velocities_of_impulses(&st);
     fast_velocities_store(&st);
@@ -288,7 +288,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
     if (!guided_bodies_load(s, bodies, contacts))
         return error_memory(error);
     joint_rows_finish(s, dt, joints);
-    report->residual = largest_residual(&st);
+    report->residual = largest_task_residual(&st);
     f->planned = contacts->count;
     return contacts_remember(s, bodies, contacts, memory, error);
 }
@@ -420,7 +420,8 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     bool needed = s->joints.count > 0;
     for (int32_t t = 0; t < f->plan.tasks.count; t++)
         needed = needed || f->plan.tasks.data[t].energy > 0;
-    if (needed && !iterate(&st, correct_task, &f->correction, f->plan.points, settings->position_iterations, &sweeps))
+    if (needed &&
+        !sweep_until_settled(&st, correct_task, &f->correction, f->plan.points, settings->position_iterations, &sweeps))
         return error_memory(error);
     if (needed)
         pool_run(s->ctx, move_block, &st, pool_blocks(f->plan.slot.count, FIND_BLOCK));

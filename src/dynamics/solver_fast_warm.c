@@ -31,7 +31,7 @@ static void shrink_task(const stage *st, batch_task *task)
     }
 }
 
-static bool is_movable(const fast_rows *f, const body_table *bodies, int32_t row)
+static bool has_movable_body(const fast_rows *f, const body_table *bodies, int32_t row)
 {
     int32_t slot = f->plan.slot.data[row];
     return slot >= 0 && body_is_dynamic(bodies, slot);
@@ -42,7 +42,7 @@ static int32_t member(const fast_rows *f, const body_table *bodies, const contac
 {
     if (batch && batch->hub >= 0 && row >= batch->copies && row < batch->copies + BATCH_LANES)
         return batch->hub;
-    return is_movable(f, bodies, row) ? row : -1;
+    return has_movable_body(f, bodies, row) ? row : -1;
 }
 
 static void island_task(const stage *st, batch_task *task)
@@ -65,7 +65,7 @@ static int32_t joint_island(const solver *s, const body_table *bodies, const joi
     return f->island.data[a >= 0 ? a : b];
 }
 
-static bool find_islands(stage *st)
+static bool find_row_islands(stage *st)
 {
     solver *s = st->s;
     fast_rows *f = s->fast;
@@ -149,7 +149,7 @@ bool fast_warm_start(stage *st)
     solver *s = st->s;
     fast_rows *f = s->fast;
     int32_t batches = f->plan.batches.count;
-    if (!find_islands(st) || !rows_reserve(s->ctx, &f->work, batches) || !rows_reserve(s->ctx, &f->share, batches))
+    if (!find_row_islands(st) || !rows_reserve(s->ctx, &f->work, batches) || !rows_reserve(s->ctx, &f->share, batches))
         return false;
     stage_run(st, recall_task);
     weigh(st, false);
