@@ -13,7 +13,7 @@ enum { BLOCK_GROUPS = 16 };
 
 static int32_t groups_of(int32_t slots) { return slots / V8_LANES + (slots % V8_LANES != 0); }
 
-static int32_t sides_of(const body_table *bodies, const shape_store *shapes, int32_t slot)
+static int32_t side_count(const body_table *bodies, const shape_store *shapes, int32_t slot)
 {
     return slot < bodies->count && body_is_dynamic(bodies, slot) ? shape_outline(shapes, bodies->shape[slot]).count : 0;
 }
@@ -40,7 +40,7 @@ static bool count_rows(context *ctx, const body_table *bodies, const shape_store
     for (int32_t g = 0; g < groups; g++) {
         int32_t most = 0;
         for (int32_t i = V8_LANES * g; i < V8_LANES * (g + 1); i++) {
-            int32_t sides = sides_of(bodies, shapes, i);
+            int32_t sides = side_count(bodies, shapes, i);
             most = sides > most ? sides : most;
         }
         w->first.data[g + 1] = w->first.data[g] + most;
@@ -113,7 +113,7 @@ typedef struct column_work {
     wrench *loads;
 } column_work;
 
-static void apply_block(void *arg, int32_t block, int32_t thread)
+static void apply_groups(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const column_work *w = arg;
@@ -126,5 +126,5 @@ void column_water_apply(context *ctx, const column_water *w, const body_table *b
     column_work work = {ctx, w, bodies, loads};
     int32_t groups = w->first.count - 1;
     if (groups > 0)
-        pool_run(ctx, apply_block, &work, pool_blocks(groups, BLOCK_GROUPS));
+        pool_run(ctx, apply_groups, &work, pool_blocks(groups, BLOCK_GROUPS));
 }

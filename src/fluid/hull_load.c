@@ -177,7 +177,7 @@ static void add_cut_drag(const hull_walk *w, int32_t place, branch_sums *sums)
 }
 
 /* Whether all of a triangle is in one medium, by the heights that the kernel finds. */
-static void sides_of(const hull_walk *w, int32_t place, bool *under, bool *over)
+static void media_of(const hull_walk *w, int32_t place, bool *under, bool *over)
 {
     const solid *b = w->body;
     const int32_t *v = b->surface.face.data[b->tree.face.data[place]].v;
@@ -195,7 +195,7 @@ static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
     const mesh_integrals *all = &w->body->integrals;
     int32_t first = all->point_first.data[place], end = all->point_first.data[place + 1];
     bool under, over, one_point = end - first == 1;
-    sides_of(w, place, &under, &over);
+    media_of(w, place, &under, &over);
     if (!over)
         add_cut(w, place, one_point && !under, sums);
     if (under && w->wet) {
@@ -357,7 +357,7 @@ static void find_branches(hull_walk *w, int32_t n, int depth)
 
 /* ---- results ---- */
 
-static void add_wrench(wrench *to, vec3 force, vec3 moment)
+static void add_force_and_moment(wrench *to, vec3 force, vec3 moment)
 {
     to->force = vec3_add(to->force, force);
     to->moment = vec3_add(to->moment, moment);
@@ -394,8 +394,8 @@ static void sum_branches(const hull_walk *w, fluid_load *load)
         pressure.force = vec3_add(pressure.force, whole.force);
         pressure.moment = vec3_add(pressure.moment, whole.moment);
         add_lanes(w, &b->pressure, &pressure.force, &pressure.moment);
-        add_wrench(&load->water_drag, b->water.force, b->water.moment);
-        add_wrench(&load->wind_drag, b->air.force, b->air.moment);
+        add_force_and_moment(&load->water_drag, b->water.force, b->water.moment);
+        add_force_and_moment(&load->wind_drag, b->air.force, b->air.moment);
         add_lanes(w, &b->water_points, &load->water_drag.force, &load->water_drag.moment);
         add_lanes(w, &b->air_points, &load->wind_drag.force, &load->wind_drag.moment);
     }

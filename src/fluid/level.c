@@ -208,8 +208,8 @@ static void pack_batch(const prism_work *w, const level_list *list, int32_t from
         pack(w, b, lane, list->slot[from + lane < end ? from + lane : end - 1]);
 }
 
-static void run_batch(context *ctx, const prism_work *w, const level_list *list, int32_t from, int32_t end,
-                      level_batch *b, int32_t first, const prism_output *out)
+static void run_level_batch(context *ctx, const prism_work *w, const level_list *list, int32_t from, int32_t end,
+                            level_batch *b, int32_t first, const prism_output *out)
 {
     KERNEL_PICK(ctx, level_loads)(b);
     for (int32_t k = from; k < end; k++) {
@@ -232,7 +232,7 @@ static void run_list(context *ctx, const prism_work *w, const level_list *list, 
     for (int32_t i = lie > 0 ? list->end[lie - 1] : 0; i < list->end[lie]; i += PRISM_LANES) {
         int32_t end = i + PRISM_LANES < list->end[lie] ? i + PRISM_LANES : list->end[lie];
         pack_batch(w, list, i, end, &batch);
-        run_batch(ctx, w, list, i, end, &batch, first, out);
+        run_level_batch(ctx, w, list, i, end, &batch, first, out);
     }
 }
 

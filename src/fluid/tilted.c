@@ -187,8 +187,8 @@ static void pad_lanes(tilted_batch *b, const tilted_lanes *l)
     }
 }
 
-static void run_batch(context *ctx, const prism_work *w, int32_t first, tilted_batch *b, tilted_lanes *l,
-                      const prism_output *out)
+static void run_tilted_batch(context *ctx, const prism_work *w, int32_t first, tilted_batch *b, tilted_lanes *l,
+                             const prism_output *out)
 {
     clear_lanes(w, b, l);
     pad_lanes(b, l);
@@ -211,9 +211,9 @@ int32_t tilted_block(context *ctx, const prism_work *w, int32_t first, const int
         if (!is_prism(w, slots[i]) || !add_floe(w, slots[i], &batch, &lanes))
             rest[left++] = slots[i];
         else if (lanes.count == PRISM_LANES)
-            run_batch(ctx, w, first, &batch, &lanes, out);
+            run_tilted_batch(ctx, w, first, &batch, &lanes, out);
     }
     if (lanes.count > 0)
-        run_batch(ctx, w, first, &batch, &lanes, out);
+        run_tilted_batch(ctx, w, first, &batch, &lanes, out);
     return left;
 }
