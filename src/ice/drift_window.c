@@ -206,7 +206,7 @@ typedef struct shift {
 } shift;
 
 /* The column or row of cells that leaves, of the grid before, or that enters, of the grid after. */
-static tile_range strip(const tile_grid *g, shift s, bool enters)
+static tile_range strip_cells(const tile_grid *g, shift s, bool enters)
 {
     tile_range r = {0, g->columns - 1, 0, g->rows - 1};
     if (s.columns != 0)
@@ -219,7 +219,7 @@ static tile_range strip(const tile_grid *g, shift s, bool enters)
 static fram_status leave_strip(context *ctx, const drift_world *w, const tile_grid *g, shift s, fram_error *error)
 {
     tile_index index = {0};
-    tile_range r = strip(g, s, false);
+    tile_range r = strip_cells(g, s, false);
     bool good = tile_index_build(ctx, &index, g, w->floes);
     for (int32_t k = r.row_first; k <= r.row_last && good; k++)
         for (int32_t i = r.column_first; i <= r.column_last && good; i++)
@@ -241,7 +241,7 @@ static void renumber(const drift_world *w, const tile_grid *g, shift s)
 static fram_status enter_strip(context *ctx, overlay *plane, const drift_world *w, const tile_grid *g, shift s,
                                fram_error *error)
 {
-    tile_range r = strip(g, s, true);
+    tile_range r = strip_cells(g, s, true);
     fram_status status = FRAM_OK;
     for (int32_t k = r.row_first; k <= r.row_last && status == FRAM_OK; k++)
         for (int32_t i = r.column_first; i <= r.column_last && status == FRAM_OK; i++)

@@ -7,7 +7,7 @@ static const double LATENT_HEAT = 334e3;
 /* The end of an even patch over the arm of its contacts, which have its second moments. */
 static const double END_OVER_ARM = 1.7320508075688772;
 
-static const contact *first_of(const crushing_patch *p, const contact_array *contacts)
+static const contact *first_contact_of(const crushing_patch *p, const contact_array *contacts)
 {
     return &contacts->data[p->contact_first];
 }
@@ -23,7 +23,7 @@ static double closing_speed(const body_table *bodies, const crushing_patch *p, c
 {
     double middle = vec3_dot(past_at(bodies, p, p->centre), p->normal), most = 0;
     for (int32_t i = 0; i < p->contact_count; i++) {
-        vec3 place = first_of(p, contacts)[i].point;
+        vec3 place = first_contact_of(p, contacts)[i].point;
         most = fmax(most, vec3_dot(past_at(bodies, p, place), p->normal) - middle);
     }
     return middle + END_OVER_ARM * most;
@@ -71,7 +71,7 @@ static double melted(const body_table *bodies, double density, double time_step,
 double edge_gap_after(edge_gap_rules rules, const body_table *bodies, double density, double time_step,
                       const crushing_patch *p, const contact_array *contacts)
 {
-    const contact *first = first_of(p, contacts);
+    const contact *first = first_contact_of(p, contacts);
     double pressed = edge_gap_pressed(p, contacts);
     if (pressed > 0)
         return rules.melts ? melted(bodies, density, time_step, p, first, pressed) : 0;

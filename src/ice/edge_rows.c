@@ -137,7 +137,7 @@ static void add_neighbour(edge_piece *x, edge_piece *y)
     y->influence += alike * of_y * (y->length == x->length ? influence : sheet_edge_influence(apart / y->length));
 }
 
-static void find_neighbours(edge_piece_array *work)
+static void find_piece_neighbours(edge_piece_array *work)
 {
     double reach = 0;
     for (int32_t i = 0; i < work->count; i++)
@@ -210,7 +210,7 @@ static bool set_pieces(context *ctx, const edge_job *j, edge_rows_work *w, conta
 {
     if (!find_pieces(ctx, j, w, contacts))
         return false;
-    find_neighbours(&w->pieces);
+    find_piece_neighbours(&w->pieces);
     for (int32_t i = 0; i < w->pieces.count; i++) {
         const edge_piece *p = &w->pieces.data[i];
         set_rows(j, p->first, p->end, p->groups, p->influence / p->stiffness, p->load, p->most, contacts);

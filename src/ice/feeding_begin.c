@@ -9,7 +9,7 @@
    out of the window, where others enter; half as much again lets the band hold together while its floes come and go. */
 #define BAND_RADII 1.5
 /* Pieces cut off by a zone under this part of their floe are slivers, and left as open water. */
-#define SMALLEST_PIECE 0.02
+#define SMALLEST_CUT_PIECE 0.02
 
 /* What the tile has to be larger than the window on each side, over what a floe takes up there. */
 #define TILE_ROOM 1.01
@@ -129,7 +129,7 @@ static fram_status cut_floe(context *ctx, overlay *o, const feeding_definition *
     if (!polygon_is_convex(p))
         return FRAM_OK;
     vec2 place = feeding_place(w, row);
-    double least = fmax(d->smallest_area, SMALLEST_PIECE * w->pattern->area[row]);
+    double least = fmax(d->smallest_area, SMALLEST_CUT_PIECE * w->pattern->area[row]);
     polygon_list_clear(&v->one);
     polygon_list_clear(&v->parts);
     if (!polygon_list_push(ctx, &v->one, p))

@@ -105,7 +105,7 @@ typedef struct field_work {
     cells_scratch scratch;
 } field_work;
 
-static void work_free(context *ctx, field_work *w)
+static void field_work_free(context *ctx, field_work *w)
 {
     array_free(ctx, &w->sites);
     polygon_list_free(ctx, &w->zones);
@@ -248,6 +248,6 @@ fram_status field_voronoi(context *ctx, const field_request *request, polygon_li
             polygon_list_push(ctx, outlines, polygon_list_get(&work.floes, i));
         *report = found;
     }
-    work_free(ctx, &work);
+    field_work_free(ctx, &work);
     return status;
 }

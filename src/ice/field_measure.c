@@ -3,7 +3,7 @@
 
 #include "geometry/box_pairs.h"
 
-enum { PIECE_VERTICES = 24 };
+enum { MEASURED_VERTICES = 24 };
 
 /* Convex pieces, and the outline that each is of; outlines of the second list are counted from -1 down. */
 typedef struct measured_pieces {
@@ -22,7 +22,7 @@ static fram_status add_pieces(context *ctx, overlay *o, const polygon_list *list
         if (status == FRAM_OK && (!o || polygon_is_convex(p)))
             status = polygon_list_push(ctx, &m->pieces, p) ? FRAM_OK : error_memory(error);
         else if (status == FRAM_OK)
-            status = overlay_convex_pieces(o, p, 0, PIECE_VERTICES, &m->pieces, NULL, error);
+            status = overlay_convex_pieces(o, p, 0, MEASURED_VERTICES, &m->pieces, NULL, error);
         if (status != FRAM_OK)
             return status;
         for (int32_t k = m->box.count; k < polygon_list_count(&m->pieces); k++)

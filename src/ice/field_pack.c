@@ -12,7 +12,7 @@
 enum { STREAM_SIZE = 0x1cf000, STREAM_SHAPE = 0x1d0000, MOST_POPULATIONS = 1000 };
 
 /* Vertices of a piece of a floe that is present: as the packing takes them. */
-enum { PIECE_VERTICES = 24 };
+enum { OBSTACLE_VERTICES = 24 };
 
 /* A floe wider than this part of the domain leaves more water along its walls than the floes around can fill. */
 static const double LARGE_FLOE = 0.1;
@@ -114,7 +114,7 @@ static fram_status find_obstacles(context *ctx, overlay *o, const field_packed_r
         polygon p = polygon_list_get(r->present, i);
         s->present_area += polygon_overlap_area(p, (polygon){corner, 4});
         if (!polygon_is_convex(p)) {
-            fram_status status = overlay_convex_pieces(o, p, 0, PIECE_VERTICES, &s->obstacles, NULL, error);
+            fram_status status = overlay_convex_pieces(o, p, 0, OBSTACLE_VERTICES, &s->obstacles, NULL, error);
             if (status != FRAM_OK)
                 return status;
         } else if (!polygon_list_push(ctx, &s->obstacles, p)) {

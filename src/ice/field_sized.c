@@ -34,7 +34,7 @@ typedef struct sized_work {
     double largest;
 } sized_work;
 
-static void work_free(context *ctx, sized_work *w)
+static void sized_work_free(context *ctx, sized_work *w)
 {
     array_free(ctx, &w->diameter);
     array_free(ctx, &w->weight);
@@ -149,7 +149,7 @@ static bool list_sites(context *ctx, const sized_request *r, sized_work *w, box2
     return true;
 }
 
-static fram_status make_cells(context *ctx, const sized_request *r, sized_work *w, fram_error *error)
+static fram_status make_weighted_cells(context *ctx, const sized_request *r, sized_work *w, fram_error *error)
 {
     box2 box;
     if (!list_sites(ctx, r, w, &box))
@@ -209,7 +209,7 @@ static fram_status improve_cells(context *ctx, const sized_request *r, sized_wor
             return status;
         if (k < SITE_ROUNDS)
             move_sites(r, w);
-        status = make_cells(ctx, r, w, error);
+        status = make_weighted_cells(ctx, r, w, error);
         if (status != FRAM_OK)
             return status;
     }
@@ -229,12 +229,12 @@ fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cell
     if (status == FRAM_OK)
         status = find_sites(ctx, r, &w, error);
     if (status == FRAM_OK)
-        status = make_cells(ctx, r, &w, error);
+        status = make_weighted_cells(ctx, r, &w, error);
     if (status == FRAM_OK)
         status = improve_cells(ctx, r, &w, error);
     for (int32_t i = 0; status == FRAM_OK && i < w.site.count; i++)
         if (!polygon_list_push(ctx, cells, polygon_list_get(&w.cells, i)))
             status = error_memory(error);
-    work_free(ctx, &w);
+    sized_work_free(ctx, &w);
     return status;
 }

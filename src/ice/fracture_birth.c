@@ -283,7 +283,7 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
 /* Area of what was cut out is that of the floes made of it and what is booked, but for this part of the parents':
    rounding of areas far from the origin.  What tiles lost as they became one floe is booked before, and what was
    trimmed away as crushed elsewhere. */
-static const double SAME_AREA = 1e-8;
+static const double AREA_ROUNDING = 1e-8;
 #endif
 
 /* Ice that breaks off what is held or carried keeps the velocity that it had: lost is only what the lost ice took. */
@@ -314,7 +314,7 @@ static fram_status make_pieces(birth *b)
         book(b, c->area, made ? polygon_area(outline) : 0);
     }
     assert(status != FRAM_OK || fabs(cut - b->event->piece_area - b->event->area_lost + b->event->area_gained) <=
-                                    SAME_AREA * b->event->parent_area);
+                                    AREA_ROUNDING * b->event->parent_area);
     (void)cut;
     double line = b->from.definition.material.density * b->from.definition.thickness;
     b->event->mass_lost = line * b->event->area_lost;

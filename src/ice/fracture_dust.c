@@ -46,7 +46,7 @@ static double shared_length(const fracture_scratch *s, int32_t i, int32_t k)
 }
 
 /* A tile stays inside its cell. */
-static bool may_join(const fracture_scratch *s, int32_t i, int32_t k)
+static bool pieces_may_join(const fracture_scratch *s, int32_t i, int32_t k)
 {
     const cut_piece *a = &s->piece.rows.data[i], *b = &s->piece.rows.data[k];
     return b->motion == MOTION_DYNAMIC || b->tile == a->tile;
@@ -58,7 +58,7 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
     int32_t best = -1;
     double longest = 0;
     for (int32_t k = 0; k < s->piece.rows.count; k++) {
-        double length = k == i || !may_join(s, i, k) ? 0 : shared_length(s, i, k);
+        double length = k == i || !pieces_may_join(s, i, k) ? 0 : shared_length(s, i, k);
         if (length > longest && length < *under) {
             longest = length;
             best = k;
@@ -122,7 +122,8 @@ void fracture_drop_piece(fracture_scratch *s, int32_t i)
 }
 
 /* Piece i joined to the first neighbour that takes it; -1 when none does. */
-static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t *to, fram_error *error)
+static fram_status join_piece(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t *to,
+                              fram_error *error)
 {
     double under = HUGE_VAL;
     for (int32_t k = neighbour_of(s, i, &under); k >= 0; k = neighbour_of(s, i, &under)) {
@@ -138,7 +139,7 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
 
 /* Too small, or what cleaning leaves is no floe: less than half of it, a sliver of three vertices, or a ring that
    crosses itself. */
-static fram_status judge(const fracture_job *j, int32_t i, bool *dust)
+static fram_status judge_piece(const fracture_job *j, int32_t i, bool *dust)
 {
     piece_work *w = &j->scratch->piece;
     const fracture_settings *f = j->settings;
@@ -161,9 +162,9 @@ fram_status fracture_join_dust(const fracture_job *j)
     for (int32_t i = 0; i < s->piece.rows.count;) {
         int32_t to = -1;
         bool dust;
-        fram_status status = judge(j, i, &dust);
+        fram_status status = judge_piece(j, i, &dust);
         if (status == FRAM_OK && dust)
-            status = join(j->ctx, s, j->plane, i, &to, j->error);
+            status = join_piece(j->ctx, s, j->plane, i, &to, j->error);
         if (status != FRAM_OK)
             return status;
         if (to < 0) {

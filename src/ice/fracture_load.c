@@ -100,7 +100,7 @@ static double aside_of(const crushing_patch *p)
 
 /* Bounds of a patch in the plan of a sheet whose tile is one of its bodies; where the other one is the floe they are
    those of its own frame, turned, as far as they lie in the tile's cell. */
-static box2 plan_of(const tile_grid *g, const crushing_patch *p, const fracture_state *state, int32_t tile, bool own)
+static box2 patch_plan(const tile_grid *g, const crushing_patch *p, const fracture_state *state, int32_t tile, bool own)
 {
     vec3 at = state->bodies->position[p->floe_body];
     box2 in = p->plan, out = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
@@ -140,7 +140,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
                        .normal = vec3_scale(mat3_tmul_vec(rotation, p->normal), onto),
                        .aside = aside_of(p),
                        .place = {place.x, place.y},
-                       .plan = plan_of(&settings->tiles, p, state, tile, own),
+                       .plan = patch_plan(&settings->tiles, p, state, tile, own),
                        .area = p->area,
                        .horizontal_area =
                            own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
@@ -321,14 +321,14 @@ static void find_stress(const fracture_job *j, int32_t i)
 
 /* Whether the edge may break under a load with those that are near: none makes more of its force than the wedges there
    bear. */
-static bool may_join(const fracture_load *l)
+static bool load_may_join(const fracture_load *l)
 {
     double wedges = l->stress.wedge_capacity - l->stress.strip_capacity;
     return l->near > 0 && l->start.distance >= 0 && l->wedge_ratio * wedges + l->near >= wedges;
 }
 
 /* A load whose ice is known: its stresses, and whether it fails by itself. */
-static void judge(const fracture_job *j, int32_t i, edge_ice edge)
+static void judge_load(const fracture_job *j, int32_t i, edge_ice edge)
 {
     fracture_load *l = &j->scratch->load.all.data[i];
     edge.rise = j->scratch->load.rises.data[i].time;
@@ -339,7 +339,7 @@ static void judge(const fracture_job *j, int32_t i, edge_ice edge)
     if (l->split_ratio < 1 && !fails(j->settings, l, edge))
         return;
     find_stress(j, i);
-    l->fate = may_join(l) ? LOAD_JOINT : is_over(l) ? LOAD_FAILS : LOAD_HOLDS;
+    l->fate = load_may_join(l) ? LOAD_JOINT : is_over(l) ? LOAD_FAILS : LOAD_HOLDS;
 }
 
 /* Loads of a block: an overlap of a floe and sectors takes some microseconds. */
@@ -375,7 +375,7 @@ static void weigh_block(void *arg, int32_t block, int32_t thread)
         if (l->tile)
             l->fate = LOAD_OPEN;
         else
-            judge(j, i, fracture_floe_ice(j, l));
+            judge_load(j, i, fracture_floe_ice(j, l));
     }
 }
 
@@ -389,7 +389,7 @@ static fram_status judge_open(const fracture_job *j)
             continue;
         status = fracture_sheet_ice(j, &all->data[i], &edge);
         if (status == FRAM_OK)
-            judge(j, i, edge);
+            judge_load(j, i, edge);
     }
     return status;
 }

@@ -64,7 +64,7 @@ static bool start_marks(const fracture_job *j)
     return true;
 }
 
-static int32_t first_of(const tile_sheet_view *v, int32_t column, int32_t row)
+static int32_t first_in_cell(const tile_sheet_view *v, int32_t column, int32_t row)
 {
     return v->index->first.data[column + row * v->grid->columns];
 }
@@ -90,7 +90,7 @@ static bool hangs_together(const fracture_job *j, bool *together)
         return false;
     for (int32_t k = around.row_first; k <= around.row_last; k++)
         for (int32_t i = around.column_first; i <= around.column_last; i++) {
-            int32_t row = first_of(&v, i, k);
+            int32_t row = first_in_cell(&v, i, k);
             if (row >= 0 && s->sheet.front.count == 0) {
                 s->sheet.mark.data[row] = MARK_HELD;
                 if (!array_push(j->ctx, &s->sheet.front, row))
@@ -101,7 +101,7 @@ static bool hangs_together(const fracture_job *j, bool *together)
         return false;
     for (int32_t k = around.row_first; k <= around.row_last; k++)
         for (int32_t i = around.column_first; i <= around.column_last; i++)
-            for (int32_t row = first_of(&v, i, k); row >= 0; row = v.index->next.data[row])
+            for (int32_t row = first_in_cell(&v, i, k); row >= 0; row = v.index->next.data[row])
                 *together = *together && s->sheet.mark.data[row] == MARK_HELD;
     return true;
 }

@@ -124,7 +124,7 @@ double fracture_splitting_force(double thickness, double toughness, double lengt
 }
 
 /* How far the outline reaches to both sides of the crack. */
-static void sides_of(polygon p, const crack_start *start, double side[2])
+static void crack_sides(polygon p, const crack_start *start, double side[2])
 {
     side[0] = side[1] = 0;
     for (int32_t i = 0; i < p.count; i++) {
@@ -139,7 +139,7 @@ double fracture_split_ratio(const fracture_settings *settings, polygon outline, 
     int32_t edge;
     double side[2];
     *length = crack_length(outline, start, &edge);
-    sides_of(outline, start, side);
+    crack_sides(outline, start, side);
     if (edge < 0 || !(fmin(side[0], side[1]) > 0))
         return 0;
     return load->opening_force / fracture_splitting_force(thickness, settings->toughness, *length, side[0], side[1]);
@@ -198,7 +198,7 @@ static bool child_is_sound(context *ctx, const fracture_settings *settings, poly
 /* A crack end so near to a corner that the edge between would be rounding becomes the corner. */
 static const double SNAP = 1e-9;
 
-static vec2 snapped(polygon p, int32_t edge, vec2 end, double reach)
+static vec2 snapped_end(polygon p, int32_t edge, vec2 end, double reach)
 {
     for (int k = 0; k < 2; k++) {
         vec2 v = p.vertex[(edge + k) % p.count];
@@ -215,7 +215,7 @@ bool fracture_split(context *ctx, const fracture_settings *settings, polygon out
     double length = crack_length(outline, start, &edge);
     if (edge < 0)
         return false;
-    vec2 end = snapped(outline, edge, vec2_add(start->point, vec2_scale(start->direction, length)), SNAP * length);
+    vec2 end = snapped_end(outline, edge, vec2_add(start->point, vec2_scale(start->direction, length)), SNAP * length);
     vec2_array side = {0};
     bool sound = true;
     for (int child = 0; child < 2 && sound; child++) {

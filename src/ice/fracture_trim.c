@@ -27,7 +27,7 @@ typedef struct trim_pair {
 } trim_pair;
 
 /* The hull as it last pressed on, in the floe's frame; a tile's is the global plan at its own height. */
-static trim_place place_of(const fracture_job *j, const trim_pair *p)
+static trim_place trim_place_of(const fracture_job *j, const trim_pair *p)
 {
     const body_table *b = j->state->bodies;
     int32_t body = j->state->floes->body[p->floe];
@@ -147,7 +147,7 @@ static fram_status take_common(const fracture_job *j, double rim)
 static fram_status find_gone(const fracture_job *j, const trim_pair *p)
 {
     trim_work *t = &j->scratch->trim;
-    const trim_place at = place_of(j, p);
+    const trim_place at = trim_place_of(j, p);
     if (is_same_place(&at, &t->place))
         return FRAM_OK;
     t->place.surface = -1;
@@ -197,7 +197,7 @@ static fram_status take_off(const fracture_job *j, polygon gone)
 static const double MOST_CLEANED = 0.1;
 
 /* What is left becomes floes again, which move as before; the rest is crushed. */
-static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
+static fram_status commit_trim(const fracture_job *j, int32_t floe, bool *trimmed)
 {
     fracture_scratch *s = j->scratch;
     const floe_table *f = j->state->floes;
@@ -280,7 +280,7 @@ static fram_status trim_floe(const fracture_job *j, trim_pair *p, bool *trimmed)
         return error_memory(j->error);
     for (int32_t i = 0; i < polygon_list_count(&s->trim.gone) && status == FRAM_OK; i++)
         status = take_off(j, polygon_list_get(&s->trim.gone, i));
-    return status == FRAM_OK ? commit(j, p->floe, trimmed) : status;
+    return status == FRAM_OK ? commit_trim(j, p->floe, trimmed) : status;
 }
 
 static bool floats(const fracture_job *j, const crushing_patch *p)

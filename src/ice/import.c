@@ -78,7 +78,7 @@ static fram_status refuse(const importing *m, const char *what, vec2 at)
 }
 
 /* A fault of a ring: refused, or noted as dropped or mended. */
-static fram_status fault(importing *m, import_event event, bool can_mend, vec2 at, bool *mended)
+static fram_status note_fault(importing *m, import_event event, bool can_mend, vec2 at, bool *mended)
 {
     import_bad bad = m->options->bad;
     *mended = can_mend && bad == IMPORT_REPAIR;
@@ -138,14 +138,14 @@ static fram_status sound_pieces(importing *m)
     polygon p = {m->vertex.data, m->vertex.count};
     vec2 at = p.count > 0 ? p.vertex[0] : vec2_make(0, 0);
     bool mended = true, flat = false;
-    fram_status status = place->open && p.count >= 3 ? fault(m, IMPORT_NOTE_OPEN, true, at, &mended) : FRAM_OK;
+    fram_status status = place->open && p.count >= 3 ? note_fault(m, IMPORT_NOTE_OPEN, true, at, &mended) : FRAM_OK;
     if (status != FRAM_OK || !mended)
         return status;
     if (p.count < 3)
-        return fault(m, IMPORT_NOTE_FEW, false, at, &mended);
+        return note_fault(m, IMPORT_NOTE_FEW, false, at, &mended);
     status = is_flat(m, p, &flat);
     if (status != FRAM_OK || flat)
-        return status == FRAM_OK ? fault(m, IMPORT_NOTE_FLAT, false, at, &mended) : status;
+        return status == FRAM_OK ? note_fault(m, IMPORT_NOTE_FLAT, false, at, &mended) : status;
     if (!polygon_self_intersects(m->ctx, p, NULL, NULL)) {
         if (polygon_orientation(p) < 0)
             reverse(m->vertex.data, m->vertex.count);
@@ -153,7 +153,7 @@ static fram_status sound_pieces(importing *m)
     }
     char reason[OVERLAY_REASON_SIZE];
     overlay_is_valid(m->plane, p, reason, &at);
-    status = fault(m, IMPORT_NOTE_CROSSED, true, at, &mended);
+    status = note_fault(m, IMPORT_NOTE_CROSSED, true, at, &mended);
     return status == FRAM_OK && mended ? overlay_make_valid(m->plane, p, &m->pieces, m->error) : status;
 }
 
@@ -252,7 +252,7 @@ static fram_status import_ring(importing *m)
     fram_status status = place_ring(m, polygon_list_get(&m->rings->rings, m->ring));
     if (status == FRAM_OK && m->rings->place.data[m->ring].ring > 1) {
         /* The water inside a floe is left out: no mended ring comes of a hole, and nothing is lost but the hole. */
-        return fault(m, IMPORT_NOTE_HOLE, true, m->vertex.count ? m->vertex.data[0] : vec2_make(0, 0), &mended);
+        return note_fault(m, IMPORT_NOTE_HOLE, true, m->vertex.count ? m->vertex.data[0] : vec2_make(0, 0), &mended);
     }
     if (status == FRAM_OK)
         status = sound_pieces(m);

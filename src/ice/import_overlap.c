@@ -77,7 +77,7 @@ typedef struct cutting {
     fram_error *error;
 } cutting;
 
-static fram_status add_note(cutting *c, int32_t floe, import_event event, bool dropped, vec2 at)
+static fram_status add_floe_note(cutting *c, int32_t floe, import_event event, bool dropped, vec2 at)
 {
     const import_note note = {c->was->ring.data[floe], event, dropped, at};
     return array_push(c->ctx, &c->was->notes, note) ? FRAM_OK : error_memory(c->error);
@@ -103,7 +103,7 @@ static fram_status subtract(cutting *c, polygon p)
     return status;
 }
 
-static fram_status cut_floe(cutting *c, int32_t floe, bool *touched)
+static fram_status cut_overlaps(cutting *c, int32_t floe, bool *touched)
 {
     polygon whole = polygon_list_get(&c->was->outlines, floe);
     fram_status status = FRAM_OK;
@@ -122,15 +122,15 @@ static fram_status replace_floe(cutting *c, int32_t floe)
 {
     polygon whole = polygon_list_get(&c->was->outlines, floe);
     bool touched;
-    fram_status status = cut_floe(c, floe, &touched);
+    fram_status status = cut_overlaps(c, floe, &touched);
     if (status != FRAM_OK || !touched)
         return status != FRAM_OK ? status : keep(c, floe, whole) ? FRAM_OK : error_memory(c->error);
     double least = fmax(c->options->smallest_area, SLIVER * polygon_area(whole));
-    status = add_note(c, floe, IMPORT_NOTE_OVERLAP, polygon_list_count(&c->pieces) == 0, whole.vertex[0]);
+    status = add_floe_note(c, floe, IMPORT_NOTE_OVERLAP, polygon_list_count(&c->pieces) == 0, whole.vertex[0]);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++) {
         polygon p = polygon_list_get(&c->pieces, i);
         if (polygon_area(p) < least)
-            status = add_note(c, floe, IMPORT_NOTE_SMALL, true, p.vertex[0]);
+            status = add_floe_note(c, floe, IMPORT_NOTE_SMALL, true, p.vertex[0]);
         else if (!keep(c, floe, p))
             status = error_memory(c->error);
     }

@@ -12,7 +12,7 @@ enum { PIECE_VERTICES = 24 };
 
 static int32_t next_of(int32_t i, int32_t count) { return i + 1 < count ? i + 1 : 0; }
 
-static bool add_piece(context *ctx, pack_layout *l, int32_t body, polygon p)
+static bool add_body_piece(context *ctx, pack_layout *l, int32_t body, polygon p)
 {
     pack_piece piece = {.body = body, .first = l->local.count};
     for (int32_t i = 0; i < p.count; i++) {
@@ -65,7 +65,7 @@ static bool add_shape(pack_work *w, polygon shape, polygon_list *pieces)
     b.spin_weight = b.weight / inertia;
     polygon_list_clear(pieces);
     if (polygon_is_convex(shape) && shape.count <= PIECE_VERTICES) {
-        if (!add_piece(w->ctx, &w->layout, body, shape))
+        if (!add_body_piece(w->ctx, &w->layout, body, shape))
             return false;
     } else {
         if (!w->overlay) {
@@ -77,7 +77,7 @@ static bool add_shape(pack_work *w, polygon shape, polygon_list *pieces)
         if (w->status != FRAM_OK)
             return false;
         for (int32_t i = 0; i < polygon_list_count(pieces); i++)
-            if (!add_piece(w->ctx, &w->layout, body, polygon_list_get(pieces, i)))
+            if (!add_body_piece(w->ctx, &w->layout, body, polygon_list_get(pieces, i)))
                 return false;
     }
     b.piece_count = w->layout.pieces.count - b.piece;
@@ -95,7 +95,7 @@ static bool add_obstacle(pack_work *w, polygon zone)
                    .size = sqrt(polygon_area(zone)),
                    .piece = w->layout.pieces.count,
                    .piece_count = 1};
-    return add_piece(w->ctx, &w->layout, w->layout.bodies.count, zone) && array_push(w->ctx, &w->layout.bodies, b);
+    return add_body_piece(w->ctx, &w->layout, w->layout.bodies.count, zone) && array_push(w->ctx, &w->layout.bodies, b);
 }
 
 static bool add_bodies(pack_work *w, const polygon_list *shapes)

@@ -27,7 +27,7 @@ static double edge_gap(const pack_layout *l, const pack_piece *p, int32_t edge, 
 }
 
 /* The gap along one edge of either; seams part too, but nothing is pushed along them. */
-static double axis_gap(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, int32_t edge)
+static double gap_along(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, int32_t edge)
 {
     if (edge < a->count)
         return edge_gap(l, a, edge, b, shift);
@@ -52,7 +52,7 @@ static axis widest_axis(const pack_layout *l, const pack_piece *a, const pack_pi
                                      : -vec2_dot(l->normal.data[b->first + e - a->count], way);
         if (facing < 0 && !l->concave)
             continue;
-        double gap = axis_gap(l, a, b, shift, e);
+        double gap = gap_along(l, a, b, shift, e);
         if (gap > far) {
             *kept = (int16_t)e;
             return (axis){gap, -1};
@@ -88,7 +88,7 @@ static bool push_row(pack_work *w, int32_t body_a, int32_t body_b, vec2 n, vec2 
     return array_push(w->ctx, &w->contacts.rows, row);
 }
 
-static int32_t next_of(int32_t i, int32_t count) { return i + 1 < count ? i + 1 : 0; }
+static int32_t edge_after(int32_t i, int32_t count) { return i + 1 < count ? i + 1 : 0; }
 
 /* Points of the incident piece over the reference edge: its edge that faces the reference one, cut to its length. */
 static int incident_points(const pack_layout *l, const pack_piece *ref, int32_t edge, const pack_piece *inc, vec2 shift,
@@ -108,10 +108,10 @@ static int incident_points(const pack_layout *l, const pack_piece *ref, int32_t 
     int32_t before = deepest > 0 ? deepest - 1 : inc->count - 1;
     int32_t face = vec2_dot(n, m[before]) < vec2_dot(n, m[deepest]) ? before : deepest;
     vec2 from = l->vertex.data[ref->first + edge];
-    vec2 to = l->vertex.data[ref->first + next_of(edge, ref->count)];
+    vec2 to = l->vertex.data[ref->first + edge_after(edge, ref->count)];
     vec2 along = {-n.y, n.x};
     double lo = vec2_dot(along, from), hi = vec2_dot(along, to);
-    vec2 p = vec2_add(v[face], shift), q = vec2_add(v[next_of(face, inc->count)], shift);
+    vec2 p = vec2_add(v[face], shift), q = vec2_add(v[edge_after(face, inc->count)], shift);
     double tp = vec2_dot(along, p), tq = vec2_dot(along, q);
     if (lo > hi) {
         double swap = lo;
@@ -168,7 +168,7 @@ static bool find_pair_rows(pack_work *w, double far)
         vec2 shift = {pair->shift_x * w->period.x, pair->shift_y * w->period.y};
         if (pack_boxes_far(a->box, b->box, shift, far))
             continue;
-        if (pair->axis >= 0 && axis_gap(&w->layout, a, b, shift, pair->axis) > far)
+        if (pair->axis >= 0 && gap_along(&w->layout, a, b, shift, pair->axis) > far)
             continue;
         axis best = widest_axis(&w->layout, a, b, shift, far, &pair->axis);
         if (best.edge >= 0 && !add_pair_rows(w, a, b, shift, best, far))

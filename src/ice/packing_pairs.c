@@ -6,9 +6,9 @@
 /* Margin of the search, in mean floe sizes: pairs last while nothing moves by half of it. */
 static const double MARGIN = 0.25;
 /* Width of a cell in mean floe sizes. */
-static const double CELL = 1.6;
+static const double PAIR_CELL = 1.6;
 /* More cells than this per item would be mostly empty. */
-enum { CELLS_PER_ITEM = 4, MOST_CELLS = 1 << 26 };
+enum { CELLS_PER_ITEM = 4, MOST_PAIR_CELLS = 1 << 26 };
 
 /* Turning is not watched: a piece that turns without moving comes out of its margin late at worst, and the next search
    finds it. */
@@ -93,9 +93,9 @@ static pack_grid make_grid(const pack_work *w)
         all.lo = (vec2){fmin(all.lo.x, b.lo.x), fmin(all.lo.y, b.lo.y)};
         all.hi = (vec2){fmax(all.hi.x, b.hi.x), fmax(all.hi.y, b.hi.y)};
     }
-    pack_grid g = {.origin = all.lo, .width = CELL * w->layout.mean_size};
+    pack_grid g = {.origin = all.lo, .width = PAIR_CELL * w->layout.mean_size};
     double wide = all.hi.x - all.lo.x, high = all.hi.y - all.lo.y;
-    double most = fmin((double)CELLS_PER_ITEM * w->search.items.count + 16, MOST_CELLS);
+    double most = fmin((double)CELLS_PER_ITEM * w->search.items.count + 16, MOST_PAIR_CELLS);
     while ((floor(wide / g.width) + 1) * (floor(high / g.width) + 1) > most)
         g.width *= 1.25;
     g.nx = (int32_t)floor(wide / g.width) + 1;

@@ -10,7 +10,7 @@ enum { CANDIDATES = 20 };
 /* After so many floes, some milliseconds, the caller is asked whether to go on. */
 enum { BODIES_A_WORD = 256 };
 /* Width of a search cell, and the clearance beyond which all places are equally good, in mean floe sizes. */
-static const double CELL = 1.5, ENOUGH = 3;
+static const double START_CELL = 1.5, ENOUGH = 3;
 
 /* Radius of the circle that stands for a floe: that of a disc of its area. */
 static double disc_radius(const pack_body *b) { return 0.5641895835477563 * b->size; }
@@ -159,7 +159,7 @@ static bool put_all(pack_work *w, places *p, ranked *order)
 bool pack_start(pack_work *w)
 {
     box2 d = w->request->domain;
-    double wide = d.hi.x - d.lo.x, high = d.hi.y - d.lo.y, width = CELL * w->layout.mean_size;
+    double wide = d.hi.x - d.lo.x, high = d.hi.y - d.lo.y, width = START_CELL * w->layout.mean_size;
     while ((floor(wide / width) + 1) * (floor(high / width) + 1) > 4.0 * w->layout.bodies.count + 16)
         width *= 1.25;
     places p = {.grid = {.origin = d.lo, .width = width}};

@@ -150,7 +150,7 @@ static bool take_points(context *ctx, patch_scratch *s, const patch_surface *sur
 }
 
 /* Part of the box lies farther off than `tolerance` from the other: they have nothing in common. */
-static bool boxes_part(const box2 *a, const box2 *b, double tolerance)
+static bool boxes_are_apart(const box2 *a, const box2 *b, double tolerance)
 {
     return a->lo.x > b->hi.x + tolerance || a->hi.x < b->lo.x - tolerance || a->lo.y > b->hi.y + tolerance ||
            a->hi.y < b->lo.y - tolerance;
@@ -167,7 +167,7 @@ static bool take_pieces(context *ctx, patch_scratch *s, const patch_floe *floe)
     for (int32_t p = 0; p < pieces; p++) {
         s->sides.data[p] = sides_of(floe, p);
         s->boxes.data[p] = polygon_bounds(shape_piece(floe->shapes, floe->shape, p));
-        if (!boxes_part(&s->reach, &s->boxes.data[p], tolerance) && !array_push(ctx, &s->near, p))
+        if (!boxes_are_apart(&s->reach, &s->boxes.data[p], tolerance) && !array_push(ctx, &s->near, p))
             return false;
     }
     if (points > INT32_MAX / (s->near.count + 1) || !array_resize(ctx, &s->codes, points * s->near.count))
@@ -220,9 +220,9 @@ static bool make_slab(const patch_scratch *s, point_ring v, unsigned caps, doubl
         slab->normal =
             vec3_add(slab->normal, vec3_cross(vec3_sub(corner[k], corner[0]), vec3_sub(corner[k + 1], corner[0])));
     if (!(caps & BELOW_TOP))
-        facet_cut(slab, prism_cap(half_height, 0), tolerance);
+        facet_cut(slab, prism_lid(half_height, 0), tolerance);
     if (!(caps & ABOVE_BOTTOM))
-        facet_cut(slab, prism_cap(half_height, 1), tolerance);
+        facet_cut(slab, prism_lid(half_height, 1), tolerance);
     return (caps & (BELOW_TOP | ABOVE_BOTTOM)) != (BELOW_TOP | ABOVE_BOTTOM);
 }
 
@@ -269,7 +269,7 @@ static bool clip_face(context *ctx, patch_scratch *s, const patch_floe *floe, in
         int32_t p = s->near.data[k];
         const piece_sides *piece = &s->sides.data[p];
         uint32_t code = code_of(s, k, v);
-        if ((code & PATCH_OUTSIDE_BITS) || boxes_part(&reach, &s->boxes.data[p], tolerance))
+        if ((code & PATCH_OUTSIDE_BITS) || boxes_are_apart(&reach, &s->boxes.data[p], tolerance))
             continue;
         if (is_cut)
             code = slab_code(ctx, &slab, piece, SURE_MARGIN * tolerance);

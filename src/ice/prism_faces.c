@@ -17,14 +17,14 @@ typedef struct ring {
     int32_t count;
 } ring;
 
-static vec2 plan_of(const mesh *m, int32_t vertex)
+static vec2 vertex_plan(const mesh *m, int32_t vertex)
 {
     return (vec2){m->vertex.data[vertex].x, m->vertex.data[vertex].y};
 }
 
 static bool turns_left(const mesh *m, int32_t a, int32_t b, int32_t c)
 {
-    return orientation(plan_of(m, a), plan_of(m, b), plan_of(m, c)) >= 0;
+    return orientation(vertex_plan(m, a), vertex_plan(m, b), vertex_plan(m, c)) >= 0;
 }
 
 /* Joins a triangle of the top lid to the ring, where they have an edge in common and stay convex together. */
@@ -116,7 +116,7 @@ static int32_t face_with_edge(const prism_faces *f, int32_t b, int32_t a)
     return -1;
 }
 
-static bool find_neighbours(context *ctx, prism_faces *f)
+static bool find_face_neighbours(context *ctx, prism_faces *f)
 {
     if (!array_resize(ctx, &f->neighbour, f->corner.count))
         return false;
@@ -134,5 +134,5 @@ bool prism_faces_make(context *ctx, const mesh *surface, prism_faces *out)
     array_clear(&out->first);
     array_clear(&out->corner);
     return array_push(ctx, &out->first, 0) && make_lids(ctx, surface, n, out) && make_sides(ctx, n, out) &&
-           find_neighbours(ctx, out);
+           find_face_neighbours(ctx, out);
 }

@@ -59,7 +59,7 @@ static bool make_places(context *ctx, prism_surfaces *s, int32_t rows)
 }
 
 /* The place of a row's surface, a new one where it has none; -1: no memory. */
-static int32_t place_of(context *ctx, prism_surfaces *s, int32_t row)
+static int32_t surface_place(context *ctx, prism_surfaces *s, int32_t row)
 {
     if (s->place.data[row] >= 0)
         return s->place.data[row];
@@ -81,7 +81,7 @@ void prism_surfaces_begin(prism_surfaces *s)
 fram_status prism_surfaces_get(context *ctx, prism_surfaces *s, const shape_store *shapes, int32_t row,
                                const prism_surface **out, fram_error *error)
 {
-    int32_t at = make_places(ctx, s, shapes->shapes.count) ? place_of(ctx, s, row) : -1;
+    int32_t at = make_places(ctx, s, shapes->shapes.count) ? surface_place(ctx, s, row) : -1;
     if (at < 0)
         return error_memory(error);
     prism_surface *p = &s->kept.data[at];

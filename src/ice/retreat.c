@@ -9,7 +9,7 @@ TABLE_DEFINE(hull_retreat, HULL_RETREAT_FIELDS)
 static bool is_first(const body_table *bodies, int32_t surface) { return bodies->owner[surface] <= 0; }
 
 /* The first row that is not before this floe and hull. */
-static int32_t place_of(const hull_retreat_table *t, int32_t floe, int32_t surface)
+static int32_t first_row_from(const hull_retreat_table *t, int32_t floe, int32_t surface)
 {
     int32_t low = 0, high = t->count;
     while (low < high) {
@@ -30,7 +30,7 @@ vec3 retreat_find(const hull_retreat_table *t, const body_table *bodies, const f
 {
     if (is_first(bodies, surface))
         return floes->retreat[floe];
-    int32_t row = place_of(t, floe, surface);
+    int32_t row = first_row_from(t, floe, surface);
     return is_at(t, row, floe, surface) && t->number[row] == floes->number[floe] ? t->way[row] : (vec3){0, 0, 0};
 }
 
@@ -41,7 +41,7 @@ bool retreat_keep(context *ctx, hull_retreat_table *t, const body_table *bodies,
         floes->retreat[floe] = way;
         return true;
     }
-    int32_t row = place_of(t, floe, surface);
+    int32_t row = first_row_from(t, floe, surface);
     if (!is_at(t, row, floe, surface)) {
         if (way.x == 0 && way.y == 0 && way.z == 0)
             return true;

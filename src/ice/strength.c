@@ -14,7 +14,7 @@ enum { ICE_STREAM_STRENGTH = 0x1ce40 };
 enum { REACH = 4, POINTS = 2 * REACH };
 
 /* Farther cells are no places of ice: a damaged checkpoint. */
-static const double MOST_CELLS = 1e15;
+static const double FARTHEST_CELL = 1e15;
 
 /* The kernel along one axis about `at`, in units of the lattice: weights of the points first .. first + POINTS - 1, and
    the sum of their squares. */
@@ -25,7 +25,7 @@ typedef struct kernel {
 
 static kernel kernel_about(double at)
 {
-    if (!(fabs(at) < MOST_CELLS))
+    if (!(fabs(at) < FARTHEST_CELL))
         at = 0;
     double cell = floor(at);
     kernel k = {.first = (int64_t)cell - (REACH - 1)};

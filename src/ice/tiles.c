@@ -205,7 +205,7 @@ typedef struct tile_ring {
     box2 cell;
 } tile_ring;
 
-static tile_ring ring_of(const tile_sheet_view *v, int32_t row)
+static tile_ring tile_ring_of(const tile_sheet_view *v, int32_t row)
 {
     vec3 at = v->bodies->position[v->floes->body[row]];
     return (tile_ring){outline_of(v, row), {at.x, at.y}, tile_cell(v->grid, v->floes->tile[row] - 1)};
@@ -218,7 +218,7 @@ static vec2 corner_of(const tile_ring *r, int32_t i)
 
 bool tile_outline(context *ctx, const tile_sheet_view *v, int32_t row, vec2_array *out)
 {
-    tile_ring r = ring_of(v, row);
+    tile_ring r = tile_ring_of(v, row);
     if (!array_resize(ctx, out, r.outline.count))
         return false;
     for (int32_t i = 0; i < r.outline.count; i++)
@@ -284,7 +284,7 @@ static bool next_cover(const tile_sheet_view *v, int32_t beyond, int side, doubl
     bool found = false;
     box2 cell = tile_cell(v->grid, beyond);
     for (int32_t row = v->index->first.data[beyond]; row >= 0; row = v->index->next.data[row]) {
-        tile_ring r = ring_of(v, row);
+        tile_ring r = tile_ring_of(v, row);
         vec2 a = corner_of(&r, 0);
         for (int32_t i = 0; i < r.outline.count; i++) {
             vec2 b = corner_of(&r, i + 1);
@@ -309,7 +309,7 @@ static bool push_segment(context *ctx, tile_segment_array *out, vec2 a, vec2 b)
 }
 
 /* The part of an edge on a cell's side from s to t along it, in the edge's own direction. */
-static bool push_part(context *ctx, tile_segment_array *out, int side, vec2 a, vec2 b, double s, double t)
+static bool push_side_part(context *ctx, tile_segment_array *out, int side, vec2 a, vec2 b, double s, double t)
 {
     vec2 p = a, q = a;
     if (side == SHEET_X_MIN || side == SHEET_X_MAX)
@@ -333,10 +333,10 @@ static bool push_uncovered(context *ctx, const tile_sheet_view *v, int32_t cell,
     bool good = true;
     while (good && from < whole.hi - reach && next_cover(v, beyond, side, from, whole.hi, &cover)) {
         if (cover.lo > from + reach)
-            good = push_part(ctx, out, side, a, b, from, fmin(cover.lo, whole.hi));
+            good = push_side_part(ctx, out, side, a, b, from, fmin(cover.lo, whole.hi));
         from = fmax(from, cover.hi);
     }
-    return good && (from >= whole.hi - reach || push_part(ctx, out, side, a, b, from, whole.hi));
+    return good && (from >= whole.hi - reach || push_side_part(ctx, out, side, a, b, from, whole.hi));
 }
 
 /* What of segment a runs back along segment b, from lo to hi along a [m]. */
@@ -391,7 +391,7 @@ bool tile_boundary(context *ctx, const tile_sheet_view *v, tile_range range, til
         for (int32_t i = range.column_first; i <= range.column_last; i++) {
             int32_t cell = i + k * v->grid->columns, first = out->count;
             for (int32_t row = v->index->first.data[cell]; row >= 0; row = v->index->next.data[row]) {
-                tile_ring r = ring_of(v, row);
+                tile_ring r = tile_ring_of(v, row);
                 vec2 a = corner_of(&r, 0);
                 for (int32_t m = 0; m < r.outline.count; m++) {
                     vec2 b = corner_of(&r, m + 1);
@@ -416,7 +416,7 @@ double tile_seam(const tile_sheet_view *v, int32_t row_a, int32_t row_b)
     if (side == SHEET_SIDES)
         return 0;
     double sum = 0;
-    tile_ring ring_a = ring_of(v, row_a), ring_b = ring_of(v, row_b);
+    tile_ring ring_a = tile_ring_of(v, row_a), ring_b = tile_ring_of(v, row_b);
     for (int32_t i = 0; i < ring_a.outline.count; i++) {
         vec2 a = corner_of(&ring_a, i), b = corner_of(&ring_a, i + 1);
         if (side_of(box_a, a, b) != side)
@@ -442,7 +442,7 @@ bool tile_grid_is_held(const tile_grid *g, vec2 a, vec2 b)
 bool tile_is_anchored(const tile_sheet_view *v, int32_t row)
 {
     int32_t cell = v->floes->tile[row] - 1;
-    tile_ring r = ring_of(v, row);
+    tile_ring r = tile_ring_of(v, row);
     for (int32_t i = 0; i < r.outline.count; i++) {
         vec2 a = corner_of(&r, i), b = corner_of(&r, i + 1);
         int side = side_of(r.cell, a, b);
@@ -472,10 +472,10 @@ static bool is_covered(const tile_sheet_view *v, int32_t cell, int side, vec2 a,
     return true;
 }
 
-static void mark_piece(const tile_sheet_view *v, shape_store *shapes, int32_t row, int32_t piece)
+static void mark_inner_edges(const tile_sheet_view *v, shape_store *shapes, int32_t row, int32_t piece)
 {
     int32_t cell = v->floes->tile[row] - 1, shape = v->bodies->shape[v->floes->body[row]];
-    tile_ring r = ring_of(v, row);
+    tile_ring r = tile_ring_of(v, row);
     r.outline = shape_piece(shapes, shape, piece);
     uint64_t *inner = &shapes->pieces.inner_edges[shapes->shapes.piece_first[shape] + piece];
     for (int32_t k = 0; k < r.outline.count; k++) {
@@ -494,5 +494,5 @@ void tile_mark_seams(const tile_sheet_view *v, shape_store *shapes, tile_range r
         for (int32_t i = range.column_first; i <= range.column_last; i++)
             for (int32_t row = v->index->first.data[i + k * v->grid->columns]; row >= 0; row = v->index->next.data[row])
                 for (int32_t p = 0; p < shapes->shapes.piece_count[v->bodies->shape[v->floes->body[row]]]; p++)
-                    mark_piece(v, shapes, row, p);
+                    mark_inner_edges(v, shapes, row, p);
 }
