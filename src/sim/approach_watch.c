@@ -80,7 +80,7 @@ static bool in_reach(const world *w, int32_t a, int32_t b, const approach_settin
     return off.x * off.x + off.y * off.y < reach * reach;
 }
 
-static bool look(context *ctx, const model *m, world *w, int32_t row, vec2_array plan[2])
+static bool look_at_pair(context *ctx, const model *m, world *w, int32_t row, vec2_array plan[2])
 {
     int32_t vessel = w->approaches.vessel[row], other = w->approaches.other[row];
     const approach_settings *settings = &m->vessels.data[vessel].approach;
@@ -101,7 +101,7 @@ fram_status approach_watch(context *ctx, const model *m, world *w, fram_error *e
     bool good = true;
     for (int32_t row = 0; row < w->approaches.count && good; row++) {
         if (w->clock.step[0] % interval_of(m, w->approaches.vessel[row]) == 0)
-            good = look(ctx, m, w, row, plan);
+            good = look_at_pair(ctx, m, w, row, plan);
     }
     array_free(ctx, &plan[0]);
     array_free(ctx, &plan[1]);

@@ -32,7 +32,7 @@ typedef struct last_pair {
     int32_t a, b;
 } last_pair;
 
-static bool is_new(last_pair *last, const contact *c)
+static bool is_new_pair(last_pair *last, const contact *c)
 {
     bool new = c->a != last->a || c->b != last->b;
     *last = (last_pair){c->a, c->b};
@@ -48,10 +48,10 @@ static void count_touching(const contact_array *contacts, bench_result *r)
         const contact *c = &contacts->data[i];
         if (c->depth > 0) {
             r->contact_points++;
-            r->pairs += is_new(&overlapping, c);
+            r->pairs += is_new_pair(&overlapping, c);
         }
         if (c->impulse[0] > 0)
-            r->loaded_pairs += is_new(&loaded, c);
+            r->loaded_pairs += is_new_pair(&loaded, c);
     }
 }
 

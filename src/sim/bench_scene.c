@@ -51,7 +51,7 @@ static fram_status add_box(context *ctx, world *w, motion kind, material substan
     return add_prism(ctx, w, kind, substance, (polygon){corner, 4}, size.z, position, slot, error);
 }
 
-static fram_status add_walls(context *ctx, const scene_text *s, world *w, fram_error *error)
+static fram_status add_scene_walls(context *ctx, const scene_text *s, world *w, fram_error *error)
 {
     double t = WALL_THICKNESS, long_x = s->domain.hi.x - s->domain.lo.x + 2 * t;
     double long_y = s->domain.hi.y - s->domain.lo.y + 2 * t;
@@ -133,13 +133,13 @@ static void world_release(context *ctx, bench_world *b)
     array_free(ctx, &b->slot);
 }
 
-static fram_status make_world(context *ctx, const scene_text *s, bench_world *b, fram_error *error)
+static fram_status make_scene_world(context *ctx, const scene_text *s, bench_world *b, fram_error *error)
 {
     *b = (bench_world){.ship = -1};
     fram_status status = world_init(ctx, &b->m, &b->w, error);
     if (status != FRAM_OK)
         return status;
-    status = add_walls(ctx, s, &b->w, error);
+    status = add_scene_walls(ctx, s, &b->w, error);
     if (status == FRAM_OK)
         status = add_ship(ctx, s, b, error);
     if (status == FRAM_OK)
@@ -217,7 +217,7 @@ fram_status bench_scene(context *ctx, const scene_text *scene, const bench_scene
 {
     *out = (bench_result){0};
     bench_world b;
-    fram_status status = make_world(ctx, scene, &b, error);
+    fram_status status = make_scene_world(ctx, scene, &b, error);
     if (status != FRAM_OK)
         return status;
     b.m = model_of(scene, options, &b);

@@ -59,12 +59,12 @@ static fram_status name_ice(const scenario *s, fram_status status, fram_error *e
 }
 
 /* The most steps that loads are averaged over. */
-enum { LONGEST_WINDOW = 1000000 };
+enum { LOAD_WINDOW_MOST = 1000000 };
 
 fram_status build_load_window(context *ctx, const scenario *s, int32_t vessels, world *w, fram_error *error)
 {
     double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
-    int32_t window = steps < 1 ? 1 : steps > LONGEST_WINDOW ? LONGEST_WINDOW : (int32_t)steps;
+    int32_t window = steps < 1 ? 1 : steps > LOAD_WINDOW_MOST ? LOAD_WINDOW_MOST : (int32_t)steps;
     if (!table_resize(ctx, &w->load_window, &load_window_table_info, window * vessels))
         return error_memory(error);
     return FRAM_OK;

@@ -34,7 +34,7 @@ static hull_particulars particulars_of(const scenario_hull *h)
 }
 
 /* An error of the rooms below names a member; the scenario's key is longer, and angles are in degrees there. */
-static fram_status name_key(const scenario *s, const vessel_entry *entry, fram_status status, fram_error *error)
+static fram_status name_hull_key(const scenario *s, const vessel_entry *entry, fram_status status, fram_error *error)
 {
     if (status != FRAM_ERROR_INPUT || !error || error->file[0])
         return status;
@@ -65,7 +65,7 @@ static void report_file(context *ctx, const hull_file_report *r)
 }
 
 /* Main particulars of a mesh: those of its part under z = 0. */
-static fram_status measure(const scenario_hull *keys, const new_hull *h, hull_particulars *p, fram_error *error)
+static fram_status measure_hull(const scenario_hull *keys, const new_hull *h, hull_particulars *p, fram_error *error)
 {
     box3 box = mesh_bounds(&h->surface);
     box2 line = h->floats.waterline;
@@ -182,7 +182,7 @@ static fram_status make(context *ctx, const scenario *s, const scenario_hull *ke
         from_file ? read_hull(ctx, s, keys, store, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, 0, &h->floats, error);
-    return status == FRAM_OK && from_file ? measure(keys, h, p, error) : status;
+    return status == FRAM_OK && from_file ? measure_hull(keys, h, p, error) : status;
 }
 
 fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, hull_store *store,
@@ -204,5 +204,5 @@ fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entr
     }
     mesh_free(ctx, &h.surface);
     polyhedron_array_free(ctx, &h.pieces);
-    return name_key(s, entry, status, error);
+    return name_hull_key(s, entry, status, error);
 }

@@ -64,8 +64,8 @@ fram_status build_footprint(context *ctx, const world *w, int32_t body, bool bel
 #define OPEN_PART 0.01
 
 /* Plan points of a convex piece of a hull, or of its part below still water. */
-static bool add_piece(context *ctx, const world *w, int32_t body, const polyhedron *p, bool below_water,
-                      vec2_array *points)
+static bool add_hull_piece(context *ctx, const world *w, int32_t body, const polyhedron *p, bool below_water,
+                           vec2_array *points)
 {
     bool good = true;
     for (int32_t f = 0; f < p->face.count; f++) {
@@ -89,7 +89,7 @@ static bool add_pieces(context *ctx, const world *w, int32_t body, bool below_wa
     *area = 0;
     for (int32_t i = 0; good && i < pieces->count; i++) {
         points.count = 0;
-        good = add_piece(ctx, w, body, &pieces->data[i], below_water, &points) &&
+        good = add_hull_piece(ctx, w, body, &pieces->data[i], below_water, &points) &&
                polygon_convex_hull(ctx, (polygon){points.data, points.count}, &outline);
         if (!good || outline.count < 3)
             continue;

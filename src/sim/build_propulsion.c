@@ -44,7 +44,7 @@ static rudder rudders_of(const scenario *s, const scenario_propulsion *p, const 
     return rudder_of(area, (int)p->propellers, hull->wash.diameter, block, s->environment.water_density);
 }
 
-static propulsion_settings settings_of(const scenario_propulsion *p, double length, double beam)
+static propulsion_settings propulsion_settings_of(const scenario_propulsion *p, double length, double beam)
 {
     double third = real_pow(p->power, 1.0 / 3);
     return (propulsion_settings){.bollard_pull = p->bollard_pull * third * third,
@@ -112,7 +112,7 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
         w->course.place[had + i - first] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
     }
     const vessel_model *hull = &m->vessels.data[vessel];
-    propulsion_settings settings = settings_of(p, w->vessels.length[vessel], hull->particulars.beam);
+    propulsion_settings settings = propulsion_settings_of(p, w->vessels.length[vessel], hull->particulars.beam);
     settings.transient = s->run.transient;
     settings.ship = ship_of(s, hull, w, w->vessels.body[vessel]);
     settings.rudder = rudders_of(s, p, hull);

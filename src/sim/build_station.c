@@ -261,7 +261,7 @@ static fram_status add_waypoints(context *ctx, const scenario_positioning *p, in
 #define FIRST_TURN 0.002 /* [rad/s] */
 #define FIRST_TIME 100.0 /* [s] */
 
-static plane_model model_of(const scenario *s, const scenario_positioning *p, int32_t vessel, const world *w)
+static plane_model plane_model_of(const scenario *s, const scenario_positioning *p, int32_t vessel, const world *w)
 {
     int32_t body = w->vessels.body[vessel];
     vec3 added = w->bodies.added_mass[body];
@@ -315,7 +315,7 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
         .watched = {automatic_or(limits->watch_x, m->x), automatic_or(limits->watch_y, m->y), m->z},
         .offset_limit = automatic_or(limits->offset_limit, HUGE_VAL),
         .heading_limit = radians(automatic_or(limits->heading_limit_deg, HUGE_VAL)),
-        .model = model_of(s, p, vessel, w),
+        .model = plane_model_of(s, p, vessel, w),
         .control_frequency = p->frequency,
         .control_damping = p->damping,
         .filter = {p->reference_frequency, 1, p->reference_speed, radians(p->reference_turn_rate_deg)},

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* A limit is found to this part of a step of speed: 2^-10. */
-enum { HALVINGS = 10 };
+enum { SPEED_HALVINGS = 10 };
 
 static double direction_of(const capability *c, int32_t row) { return 2 * PI * row / c->loads.directions; }
 
@@ -113,7 +113,7 @@ static capability_limit find_limit(const capability *c, const holding_case *h, d
         limit.at = hold_at(c, h, from, lost);
     }
     limit.beyond = limit.at.use <= 1;
-    for (int i = 0; i < HALVINGS && !limit.beyond; i++) {
+    for (int i = 0; i < SPEED_HALVINGS && !limit.beyond; i++) {
         double middle = 0.5 * (held + lost);
         holding at = hold_at(c, h, from, middle);
         if (at.use > 1) {

@@ -239,7 +239,8 @@ static void describe(context *ctx, const scenario *s, const capability *c, text_
     text_add(ctx, b, "Static balance: no motion, no waves, no losses\nof thrust.\n");
 }
 
-static fram_status draw(context *ctx, const scenario *s, const capability *c, const char *name, fram_error *error)
+static fram_status draw_capability(context *ctx, const scenario *s, const capability *c, const char *name,
+                                   fram_error *error)
 {
     size_t directions = (size_t)c->loads.directions, cells = directions * (size_t)c->loads.speeds;
     double *intact = memory_array(ctx, directions, sizeof *intact), *value = memory_array(ctx, cells, sizeof *value);
@@ -304,9 +305,9 @@ fram_status capability_write(context *ctx, const scenario *s, const capability_o
     if (status == FRAM_OK)
         status = write_one(ctx, &c, compose, "capability.json", error);
     if (status == FRAM_OK && image_available())
-        status = draw(ctx, s, &c, "capability.png", error);
+        status = draw_capability(ctx, s, &c, "capability.png", error);
     if (status == FRAM_OK && image_available())
-        status = draw(ctx, s, &c, "capability.svg", error);
+        status = draw_capability(ctx, s, &c, "capability.svg", error);
     if (status == FRAM_OK)
         status = path_join(o->folder, image_available() ? "capability.png" : "capability.json", path, error);
     capability_free(ctx, &c);

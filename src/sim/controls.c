@@ -51,7 +51,7 @@ static int32_t thrusters_of(const world *w, int32_t vessel)
     return count;
 }
 
-static void add_station(lister *l, const world *w, int32_t v)
+static void list_station(lister *l, const world *w, int32_t v)
 {
     if (!station_is_kept(&w->stations, &w->vessels, v))
         return;
@@ -62,7 +62,7 @@ static void add_station(lister *l, const world *w, int32_t v)
             "1: the vessel's own controller gives the orders to the thrusters; 0: whoever steps the world does");
 }
 
-static void add_vessel(lister *l, const world *w, int32_t v)
+static void list_vessel(lister *l, const world *w, int32_t v)
 {
     vessel_mode mode = (vessel_mode)w->vessels.mode[v];
     if (mode != VESSEL_FREE)
@@ -73,11 +73,11 @@ static void add_vessel(lister *l, const world *w, int32_t v)
         add_vector(l, CONTROL_MOMENT, v, 3, "outside_moment", "N m",
                    "moment about the centre of mass in every step, global frame");
     }
-    add_station(l, w, v);
+    list_station(l, w, v);
 }
 
 /* Those of each thruster and line, counted for each vessel. */
-static void add_equipment(lister *l, const world *w, int32_t v)
+static void list_equipment(lister *l, const world *w, int32_t v)
 {
     int32_t thruster = 0, line = 0;
     for (int32_t i = 0; i < w->thrusters.count; i++) {
@@ -108,8 +108,8 @@ bool controls_list(context *ctx, const scenario *s, const model *m, const world 
     if (w->feeding.count > 0)
         add_vector(&l, CONTROL_DRIFT, -1, 2, "ice_drift", "m/s", "velocity of the ice far away, global frame");
     for (int32_t v = 0; v < w->vessels.count; v++) {
-        add_vessel(&l, w, v);
-        add_equipment(&l, w, v);
+        list_vessel(&l, w, v);
+        list_equipment(&l, w, v);
     }
     return l.good;
 }

@@ -8,12 +8,12 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct teller {
+typedef struct effective_list {
     context *ctx;
     const scenario *s;
     sanity_teller tell;
     const void *to;
-} teller;
+} effective_list;
 
 enum { PART_SIZE = 96 };
 static const char *file_name(const char *path)
@@ -47,7 +47,7 @@ static const char *meets_from(double towards, double heading)
 }
 
 /* "0.4 m/s towards 180 deg ←", with where a single vessel is met. */
-static void motion_words(const teller *t, double speed, double towards, char out[PART_SIZE])
+static void motion_words(const effective_list *t, double speed, double towards, char out[PART_SIZE])
 {
     int n = snprintf(out, PART_SIZE, "%.4g m/s towards %.4g deg %s", speed, towards, arrow_of(towards));
     if (speed > 0 && scenario_vessel_count(t->s) == 1)
@@ -58,7 +58,7 @@ static void motion_words(const teller *t, double speed, double towards, char out
 }
 
 static double speed_of(vec3 v) { return sqrt(v.x * v.x + v.y * v.y); }
-static double direction_of(vec3 v) { return degrees(real_atan2(v.y, v.x)); }
+static double bearing_of(vec3 v) { return degrees(real_atan2(v.y, v.x)); }
 
 /* ---- wind, current, drift ---- */
 
@@ -68,7 +68,7 @@ typedef struct flow {
     double speed, towards;
 } flow;
 
-static void tell_history(const teller *t, const flow *f, const velocity_series *h)
+static void tell_history(const effective_list *t, const flow *f, const velocity_series *h)
 {
     char first[PART_SIZE], range[PART_SIZE];
     double end = t->s->run.duration, least = HUGE_VAL, most = 0, rows_end = h->time[h->count - 1];
@@ -77,7 +77,7 @@ static void tell_history(const teller *t, const flow *f, const velocity_series *
         most = fmax(most, speed_of(h->velocity[i]));
     }
     vec3 begins = velocity_series_at(h, 0), ends = velocity_series_at(h, end);
-    motion_words(t, speed_of(begins), direction_of(begins), first);
+    motion_words(t, speed_of(begins), bearing_of(begins), first);
     snprintf(range, sizeof range, "%.4g to %.4g m/s", least, most);
     if (most - least < 1e-3 * most)
         snprintf(range, sizeof range, "%.4g m/s", most);
@@ -85,13 +85,13 @@ static void tell_history(const teller *t, const flow *f, const velocity_series *
         t->tell, t->to,
         "%s: by %s, %s in %d row%s to %.6g s: %s at the start, %.4g m/s towards %.4g deg %s at the end of the run",
         f->name, file_name(f->file), range, (int)h->count, h->count == 1 ? "" : "s", rows_end, first, speed_of(ends),
-        direction_of(ends), arrow_of(direction_of(ends)));
+        bearing_of(ends), arrow_of(bearing_of(ends)));
     if (rows_end < end)
         sanity_say(t->tell, t->to, "%s: its last row, of %.6g s, holds until the end of the run at %.6g s", f->name,
                    rows_end, end);
 }
 
-static void tell_flow(const teller *t, const flow *f)
+static void tell_flow(const effective_list *t, const flow *f)
 {
     char words[PART_SIZE];
     if (!f->file[0]) {
@@ -110,7 +110,7 @@ static void tell_flow(const teller *t, const flow *f)
 }
 
 /* What a current has on top of it at depths. */
-static void tell_profile(const teller *t)
+static void tell_profile(const effective_list *t)
 {
     const char *file = t->s->environment.current_profile_file;
     velocity_rows rows = {0};
@@ -134,14 +134,14 @@ static void tell_profile(const teller *t)
 }
 
 /* Of two steady flows. */
-static void tell_angle_between(const teller *t, const flow *drift, const flow *wind)
+static void tell_angle_between(const effective_list *t, const flow *drift, const flow *wind)
 {
     if (!drift->file[0] && !wind->file[0] && drift->speed > 0 && wind->speed > 0)
         sanity_say(t->tell, t->to, "%s %s and wind %s are %.4g deg apart", drift->name, arrow_of(drift->towards),
                    arrow_of(wind->towards), sanity_degrees_apart(drift->towards, wind->towards));
 }
 
-static void tell_flows(const teller *t)
+static void list_flows(const effective_list *t)
 {
     const scenario_environment *e = &t->s->environment;
     const scenario_domain *d = &t->s->domain;
@@ -187,7 +187,7 @@ static void size_words(const scenario_population *p, char out[PART_SIZE])
     out[0] = '\0';
 }
 
-static void tell_populations(const teller *t)
+static void list_populations(const effective_list *t)
 {
     const scenario_ice *i = &t->s->ice;
     double shares = 0;
@@ -236,7 +236,7 @@ static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2
         snprintf(out, room, ", held by nothing");
 }
 
-static void tell_vessel(const teller *t, const vessel_entry *e)
+static void tell_vessel(const effective_list *t, const vessel_entry *e)
 {
     const scenario_vessel *v = e->keys;
     char kept[SANITY_SENTENCE / 2], name[64];
@@ -259,11 +259,11 @@ static void tell_vessel(const teller *t, const vessel_entry *e)
 
 void effective_tell(context *ctx, const scenario *s, sanity_teller tell, const void *to)
 {
-    const teller t = {ctx, s, tell, to};
+    const effective_list t = {ctx, s, tell, to};
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_vessel(&t, &e);
     }
-    tell_populations(&t);
-    tell_flows(&t);
+    list_populations(&t);
+    list_flows(&t);
 }

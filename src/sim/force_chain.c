@@ -129,7 +129,7 @@ static bool is_in(const force_chain *chain, int32_t body)
 
 /* details: what is told of the last body, and of where links act; without, only what finds the way and the first push.
  */
-static void follow(const world *w, double time_step, int32_t from, int32_t body, bool details, force_chain *chain)
+static void follow_chain(const world *w, double time_step, int32_t from, int32_t body, bool details, force_chain *chain)
 {
     chain->count = 0;
     chain->end = CHAIN_LOOP;
@@ -153,10 +153,10 @@ static void follow(const world *w, double time_step, int32_t from, int32_t body,
 
 void force_chain_follow(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)
 {
-    follow(w, time_step, from, body, true, chain);
+    follow_chain(w, time_step, from, body, true, chain);
 }
 
 void force_chain_end(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)
 {
-    follow(w, time_step, from, body, false, chain);
+    follow_chain(w, time_step, from, body, false, chain);
 }

@@ -67,7 +67,7 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose,
 }
 
 /* Where nothing tells how far the run went, as far as its scenario does. */
-static fram_status find_end(pressure_map *p, fram_error *error)
+static fram_status find_last_time(pressure_map *p, fram_error *error)
 {
     double until;
     fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
@@ -80,7 +80,7 @@ static fram_status find_end(pressure_map *p, fram_error *error)
     return status;
 }
 
-static fram_status step_once(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
+static fram_status step_checked(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
 {
     if (stop_is_asked(p->ctx->stop))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
@@ -97,7 +97,7 @@ static fram_status step_through(pressure_map *p, rerun_check *check, const model
     while (status == FRAM_OK && w->clock.step[0] < last) {
         work_tell(p->ctx, "computing again", (double)(w->clock.step[0] - first), (double)(last - first));
         hull_pose pose = pose_of(w, p->vessel);
-        status = step_once(p, check, m, w, error);
+        status = step_checked(p, check, m, w, error);
         if (status != FRAM_OK || w->clock.time[0] <= p->o->from + slack)
             continue;
         if (!add_contacts(p, w, &pose, m->time_step))
@@ -106,7 +106,7 @@ static fram_status step_through(pressure_map *p, rerun_check *check, const model
     }
     double end = (double)last * m->time_step;
     while (status == FRAM_OK && rerun_check_awaits(check, end))
-        status = step_once(p, check, m, w, error);
+        status = step_checked(p, check, m, w, error);
     return status == FRAM_OK ? rerun_check_end(check, w, end, error) : status;
 }
 
@@ -173,7 +173,7 @@ fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_er
         return status;
     status = scenario_choose_vessel(&p.s, p.o->folder, p.o->vessel, &p.vessel, error);
     if (status == FRAM_OK)
-        status = find_end(&p, error);
+        status = find_last_time(&p, error);
     if (status == FRAM_OK)
         status = check_times(&p, error);
     if (status == FRAM_OK)

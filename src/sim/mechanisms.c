@@ -79,8 +79,8 @@ typedef struct search {
     bool web; /* is made for this step */
 } search;
 
-static fram_status add_share(context *ctx, const model *m, world *w, const contact *c, int32_t hull, search *s,
-                             fram_error *error)
+static fram_status add_contact_share(context *ctx, const model *m, world *w, const contact *c, int32_t hull, search *s,
+                                     fram_error *error)
 {
     int32_t body = c->a == hull ? c->b : c->a, vessel = w->bodies.owner[hull];
     double scale = (c->a == hull ? 1 : -1) / m->time_step;
@@ -121,9 +121,9 @@ fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *
         if (none || !contact_is_of_ice(w, c))
             continue;
         if (w->bodies.material[c->a] == MATERIAL_HULL && w->bodies.owner[c->a] >= 0)
-            status = add_share(ctx, m, w, c, c->a, &s, error);
+            status = add_contact_share(ctx, m, w, c, c->a, &s, error);
         if (status == FRAM_OK && w->bodies.material[c->b] == MATERIAL_HULL && w->bodies.owner[c->b] >= 0)
-            status = add_share(ctx, m, w, c, c->b, &s, error);
+            status = add_contact_share(ctx, m, w, c, c->b, &s, error);
     }
     return status;
 }

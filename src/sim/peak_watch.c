@@ -243,7 +243,7 @@ fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
 
 /* ---- the file ---- */
 
-static fram_status append(record_writer *file, unsigned char *room, const peak_detail *d, fram_error *error)
+static fram_status append_peak(record_writer *file, unsigned char *room, const peak_detail *d, fram_error *error)
 {
     record_part part = {room, peak_block_pack(d, room)};
     return record_append(file, BLOCK_PEAK, &part, 1, error);
@@ -253,10 +253,10 @@ static fram_status append_vessel(record_writer *file, unsigned char *room, const
 {
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < v->picker.count && status == FRAM_OK; i++)
-        status = append(file, room, &v->kept[i], error);
+        status = append_peak(file, room, &v->kept[i], error);
     /* Explained when it would be kept. */
     bool large = peak_picker_keeps(&v->picker);
-    return status == FRAM_OK && large ? append(file, room, &v->candidate, error) : status;
+    return status == FRAM_OK && large ? append_peak(file, room, &v->candidate, error) : status;
 }
 
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)

@@ -28,7 +28,7 @@ static bool begin_shape(context *ctx, plan_store *p, plan_shape shape)
     return array_push(ctx, &p->start, p->vertex.count) && array_push(ctx, &p->shape, shape);
 }
 
-static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
+static bool add_prism_plan(context *ctx, plan_store *p, const world *w, int32_t body)
 {
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[body]);
     bool wall = w->bodies.material[body] == MATERIAL_WALL;
@@ -79,7 +79,7 @@ static bool is_kind(const world *w, int32_t body, shape_kind kind)
 static fram_status collect(context *ctx, plan_store *p, const world *w, fram_error *error)
 {
     for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (is_kind(w, i, SHAPE_PRISM) && !add_prism(ctx, p, w, i))
+        if (is_kind(w, i, SHAPE_PRISM) && !add_prism_plan(ctx, p, w, i))
             return error_memory(error);
     }
     for (int32_t i = 0; i < w->bodies.count; i++) {

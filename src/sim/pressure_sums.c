@@ -61,7 +61,7 @@ static void sum_up(const window_grid *g, double *table)
                 t[(row - 1) * wide + column] + t[row * wide + column - 1] - t[(row - 1) * wide + column - 1];
 }
 
-static double sum_of(const window_grid *g, const double *table, int32_t column, int32_t row, window_shape s)
+static double window_sum(const window_grid *g, const double *table, int32_t column, int32_t row, window_shape s)
 {
     int32_t wide = g->columns + 1, at = table_at(g, column, row);
     return table[at + s.rows * wide + s.columns] - table[at + s.rows * wide] - table[at + s.columns] + table[at];
@@ -110,9 +110,10 @@ static void look_around(pressure_map *p, const hull_panel *q, window_shape s, wi
             if (row < g->first_row || column < g->first_column || row + s.rows > g->first_row + g->rows ||
                 column + s.columns > g->first_column + g->columns)
                 continue;
-            if (sum_of(g, p->sum_cells, column, row, s) < s.columns * s.rows - 0.5)
+            if (window_sum(g, p->sum_cells, column, row, s) < s.columns * s.rows - 0.5)
                 continue;
-            double area = sum_of(g, p->sum_area, column, row, s), force = sum_of(g, p->sum_force, column, row, s);
+            double area = window_sum(g, p->sum_area, column, row, s),
+                   force = window_sum(g, p->sum_force, column, row, s);
             if (force > most->pressure * area)
                 *most = (window_most){force / area, area, time};
         }

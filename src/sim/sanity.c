@@ -447,7 +447,7 @@ static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
                    e->path, (int)line, l->length, straight, 100 * strain, strain * l->stiffness);
 }
 
-static void tell_station(const teller *t, const vessel_entry *e)
+static void tell_vessel_station(const teller *t, const vessel_entry *e)
 {
     const scenario_vessel *v = e->keys;
     for (int32_t i = 0; i < v->mooring.lines.count; i++) {
@@ -482,7 +482,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);
         tell_domain(&t, &e);
-        tell_station(&t, &e);
+        tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, &e, tell, to);
         sanity_tell_control(s, &e, tell, to);

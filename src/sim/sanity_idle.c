@@ -387,7 +387,7 @@ static void tell_group(idle_group *g)
 }
 
 /* The vessel of a path: of the list, or the one. */
-static const scenario_vessel *vessel_of(const scenario *s, const char *path)
+static const scenario_vessel *vessel_at(const scenario *s, const char *path)
 {
     int item = 0;
     if (sscanf(path, "vessels[%d]", &item) == 1 && item >= 0 && item < s->vessels.count)
@@ -424,7 +424,7 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
     (void)error;
     idle_group *g = user;
     const scenario *s = g->t->s;
-    question q = {.s = s, .v = vessel_of(s, path)};
+    question q = {.s = s, .v = vessel_at(s, path)};
     bool of_vessel = strncmp(path, "vessel", 6) == 0;
     const char *own = of_vessel ? strchr(path, '.') : NULL; /* the key within its vessel */
     bool absent = of_vessel && !q.v->present;
@@ -435,7 +435,7 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
     const idle_rule *rule = idle_rule_of(pattern, &q);
     if (!rule)
         return FRAM_OK;
-    if (g->rule == rule && g->rule->key[strlen(g->rule->key) - 1] == '.' && vessel_of(s, g->first) == q.v) {
+    if (g->rule == rule && g->rule->key[strlen(g->rule->key) - 1] == '.' && vessel_at(s, g->first) == q.v) {
         g->more++;
         return FRAM_OK;
     }

@@ -71,7 +71,7 @@ static void tell_legs(const teller *t)
     }
 }
 
-static void tell_propulsion(const teller *t)
+static void tell_vessel_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_propulsion *p = &v->propulsion;
@@ -324,7 +324,7 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
     const teller t = {s, tell, to, e};
     tell_inertia(&t);
     tell_thrusters(&t);
-    tell_propulsion(&t);
+    tell_vessel_propulsion(&t);
     for (int32_t i = 0; i < e->keys->mooring.lines.count; i++)
         tell_line(&t, i);
     tell_fairleads(&t);

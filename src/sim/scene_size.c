@@ -60,7 +60,7 @@ static double population_floes(const scenario *s)
 }
 
 /* How often something happens that comes every interval, 0: at the end alone. */
-static double times_of(const scenario *s, double interval)
+static double times_within(const scenario *s, double interval)
 {
     return 1 + (interval > 0 ? s->run.duration / fmax(interval, s->run.time_step) : 0);
 }
@@ -69,11 +69,11 @@ static double disk_bytes(const scenario *s, double floes)
 {
     const scenario_output *o = &s->output;
     double rows = s->run.duration / fmax(o->csv_interval, s->run.time_step);
-    double record = o->frame_interval > 0 ? times_of(s, o->frame_interval) * FRAME_BYTES * floes : 0;
+    double record = o->frame_interval > 0 ? times_within(s, o->frame_interval) * FRAME_BYTES * floes : 0;
     if (o->record_limit > 0)
         record = fmin(record, o->record_limit * 1e6);
     return FEW_BYTES + rows * ROW_BYTES * fmax(1, scenario_vessel_count(s)) + record + CHECKPOINT_BYTES * floes +
-           times_of(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES);
+           times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES);
 }
 
 scene_size scene_size_of(const scenario *s)

@@ -97,7 +97,7 @@ static void tell_period(const pattern_view *v)
 static double tidy(double metres) { return fabs(metres) < 1e-6 ? 0 : metres; }
 
 /* Whether a place is in the domain; tells if it is not. */
-static bool check_place(const pattern_view *v, double time, vec2 at)
+static bool place_is_inside(const pattern_view *v, double time, vec2 at)
 {
     const scenario_domain *d = &v->s->domain;
     if (at.x >= d->x_min && at.x <= d->x_max && at.y >= d->y_min && at.y <= d->y_max)
@@ -117,7 +117,7 @@ static double way_ahead(const pattern_view *v, const world *w, int32_t row, doub
     return begun + fmin(v->set->speed, v->set->open_water_speed) * time;
 }
 
-static void tell_domain(const pattern_view *v, const model *m, const world *w, int32_t row)
+static void tell_outside(const pattern_view *v, const model *m, const world *w, int32_t row)
 {
     track path = track_of_pattern(&v->shape, v->set->turning.corner);
     int places = v->shape.kind == PATTERN_AHEAD ? 1 : PLACES;
@@ -127,7 +127,7 @@ static void tell_domain(const pattern_view *v, const model *m, const world *w, i
         for (int k = 0; k < places; k++) {
             double time = v->s->run.duration * i / MOMENTS;
             double way = path.closed ? path.length * k / PLACES : way_ahead(v, w, row, time);
-            if (!check_place(v, time, place_at(v, m, w, row, &path, time, way)))
+            if (!place_is_inside(v, time, place_at(v, m, w, row, &path, time, way)))
                 return;
         }
 }
@@ -156,5 +156,5 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
                   vessel_title_of(entry).text);
     tell_arcs(&v);
     tell_period(&v);
-    tell_domain(&v, m, w, p->count - 1);
+    tell_outside(&v, m, w, p->count - 1);
 }

@@ -22,8 +22,8 @@
 #define LEAST_GYRATION 0.02
 #define MOST_GYRATION 1.5
 
-static fram_status fault(const scenario *s, const vessel_entry *e, const char *member, const char *expected,
-                         double found, const char *unit, fram_error *error)
+static fram_status entry_fault(const scenario *s, const vessel_entry *e, const char *member, const char *expected,
+                               double found, const char *unit, fram_error *error)
 {
     return vessel_fault(s, e, member, error, "%s, found %.6g %s", expected, found, unit);
 }
@@ -44,7 +44,7 @@ static fram_status check_mass(const scenario *s, const vessel_entry *e, const ve
     snprintf(expected, sizeof expected, "expected %.4g to %.4g kg, %s", least, most,
              mass > most ? "all that the hull can displace: it sinks"
                          : "a twentieth of what it displaces at its draught: it would be thrown out of the water");
-    return fault(s, e, "mass", expected, mass, "kg", error);
+    return entry_fault(s, e, "mass", expected, mass, "kg", error);
 }
 
 /* The centre of gravity in the box around the hull, above it by its depth at most. */
@@ -62,13 +62,13 @@ static fram_status check_centre(const scenario *s, const vessel_entry *e, const 
         snprintf(expected, sizeof expected, "expected a place %s, from %.4g to %.4g m",
                  k < 2 ? "inside the hull" : "between the bottom and the hull's depth above its top", centre[k] + lo[k],
                  centre[k] + hi[k]);
-        return fault(s, e, keys[k], expected, centre[k], "m", error);
+        return entry_fault(s, e, keys[k], expected, centre[k], "m", error);
     }
     return FRAM_OK;
 }
 
 /* Largest distances of the hull from the three axes through the centre of gravity. */
-static vec3 reach_of(const mesh *surface)
+static vec3 reach_about_axes(const mesh *surface)
 {
     vec3 most = {0, 0, 0};
     for (int32_t i = 0; i < surface->vertex.count; i++) {
@@ -88,7 +88,7 @@ static fram_status check_gyration(const scenario *s, const vessel_entry *e, cons
     const double given[3] = {v->gyration_roll, v->gyration_pitch, v->gyration_yaw};
     const vec3 radii = build_gyration(v, &hull->particulars);
     const double k[3] = {radii.x, radii.y, radii.z};
-    vec3 reach = reach_of(&body->surface);
+    vec3 reach = reach_about_axes(&body->surface);
     const double far[3] = {reach.x, reach.y, reach.z};
     if (v->mode != VESSEL_FREE)
         return FRAM_OK;
@@ -100,12 +100,12 @@ static fram_status check_gyration(const scenario *s, const vessel_entry *e, cons
         snprintf(expected, sizeof expected, "expected %.4g to %.4g m, for the hull reaches %.4g m from the axis",
                  LEAST_GYRATION * far[i], MOST_GYRATION * far[i], far[i]);
         if (!(k[i] >= LEAST_GYRATION * far[i] && k[i] <= MOST_GYRATION * far[i]))
-            return fault(s, e, keys[i], expected, k[i], "m", error);
+            return entry_fault(s, e, keys[i], expected, k[i], "m", error);
         snprintf(expected, sizeof expected,
                  "expected %.6g m at most, the root of the sum of the squares of the other two, as of every body",
                  sqrt(others));
         if (k[i] * k[i] > others * (1 + 1e-9))
-            return fault(s, e, keys[i], expected, k[i], "m", error);
+            return entry_fault(s, e, keys[i], expected, k[i], "m", error);
     }
     return FRAM_OK;
 }

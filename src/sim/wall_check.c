@@ -8,7 +8,7 @@
 /* ---- before a run ---- */
 
 /* Reach of the hull from its centre of mass along global X and Y, at a heading. */
-static box2 reach_of(const vessel_model *hull, double heading)
+static box2 plan_reach(const vessel_model *hull, double heading)
 {
     double c = real_cos(heading), d = real_sin(heading);
     box2 out = {{0, 0}, {0, 0}};
@@ -84,7 +84,7 @@ static void warn_of_course(context *ctx, const scenario *s, const vessel_entry *
     if (!vessel_keeps_course(v) || !(speed > 0))
         return;
     double course = radians(is_free ? v->heading_deg : automatic_or(v->course_deg, v->heading_deg));
-    box2 reach = reach_of(hull, radians(v->heading_deg));
+    box2 reach = plan_reach(hull, radians(v->heading_deg));
     double way = fmin(way_left(at.x + reach.lo.x, at.x + reach.hi.x, d->x_min, d->x_max, real_cos(course)),
                       way_left(at.y + reach.lo.y, at.y + reach.hi.y, d->y_min, d->y_max, real_sin(course)));
     /* A speed that grows evenly over the ramp. */
@@ -116,7 +116,7 @@ static bool is_clear_on(const scenario *s, const vessel_model *hull, const scena
     double c = real_cos(heading), r = real_sin(heading);
     vec2 centre = {from->x + share * (to->x - from->x) + c * hull->centre.x - r * hull->centre.y,
                    from->y + share * (to->y - from->y) + r * hull->centre.x + c * hull->centre.y};
-    return is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, centre, reach_of(hull, heading));
+    return is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, centre, plan_reach(hull, heading));
 }
 
 /* Share of a leg at which the hull reaches a wall; over 1: it does not. */
@@ -184,7 +184,7 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
     place_list course = {"propulsion.waypoints", v->propulsion.waypoints.count};
     for (int32_t i = 0; v->positioning.active && i < stations.count; i++) {
         const scenario_waypoint *p = &v->positioning.waypoints.data[i];
-        box2 reach = reach_of(hull, radians(p->heading_deg));
+        box2 reach = plan_reach(hull, radians(p->heading_deg));
         if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, (vec2){p->x, p->y}, reach))
             return;
     }
@@ -239,7 +239,7 @@ static bool is_driven_into_wall(const model *m, const world *w, int32_t vessel)
         return false;
     vec2 centre = {w->bodies.position[body].x, w->bodies.position[body].y};
     double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
-    return !is_clear(m->domain, centre, reach_of(&m->vessels.data[vessel], heading));
+    return !is_clear(m->domain, centre, plan_reach(&m->vessels.data[vessel], heading));
 }
 
 bool wall_watch(context *ctx, const model *m, world *w)

@@ -19,7 +19,7 @@ typedef struct propeller {
 } propeller;
 
 /* Whether any part of a floe, within its radius, may lie in a jet. */
-static bool in_reach(const jet *j, vec3 centre, double radius)
+static bool in_jet(const jet *j, vec3 centre, double radius)
 {
     vec2 off = {centre.x - j->origin.x, centre.y - j->origin.y};
     double x = vec2_dot(off, j->along), y = fabs(vec2_dot(off, vec2_perp(j->along)));
@@ -33,7 +33,7 @@ static bool push_floe(const model *m, const world *w, const media *now, const je
     const body_table *b = &w->bodies;
     int32_t shape = b->shape[body];
     if (!body_is_free(b, body) || shape < 0 || w->shapes.shapes.kind[shape] != SHAPE_PRISM ||
-        !in_reach(j, b->position[body], w->shapes.shapes.radius[shape]))
+        !in_jet(j, b->position[body], w->shapes.shapes.radius[shape]))
         return false;
     fluid_motion state = {b->position[body], quat_matrix(b->orientation[body]), b->velocity[body],
                           b->angular_velocity[body]};

@@ -156,7 +156,7 @@ static void add_point(tail_points *t, double level, int64_t exceedances, double 
 }
 
 /* For b and c that are given the best log q and a are those of a straight line (Naess and Gaidai 2009); its cost. */
-static double line_of(const tail_points *t, double b, double c, acer_tail *out)
+static double fit_line(const tail_points *t, double b, double c, acer_tail *out)
 {
     double w = 0, x = 0, y = 0, xx = 0, xy = 0, u[ACER_LEVELS] = {0};
     for (int32_t i = 0; i < t->count; i++) {
@@ -184,7 +184,7 @@ static double line_of(const tail_points *t, double b, double c, acer_tail *out)
 }
 
 /* b lies below the first level by exp(x[0]) widths of the levels. */
-static double place_of(const tail_points *t, double x)
+static double location_of(const tail_points *t, double x)
 {
     return t->level[0] - real_exp(x) * (t->level[t->count - 1] - t->level[0]);
 }
@@ -194,7 +194,7 @@ static double tail_cost(const void *of, const double *x)
     const tail_points *t = of;
     if (!(x[0] > PLACE_LEAST && x[0] < PLACE_MOST && x[1] > POWER_LEAST && x[1] < POWER_MOST))
         return (double)INFINITY;
-    return line_of(t, place_of(t, x[0]), x[1], NULL);
+    return fit_line(t, location_of(t, x[0]), x[1], NULL);
 }
 
 static bool fit_points(const tail_points *t, const double start[2], double width, double tolerance, int descents,
@@ -205,7 +205,7 @@ static bool fit_points(const tail_points *t, const double start[2], double width
     const double step[2] = {width, 0.6 * width};
     double x[2] = {start[0], start[1]};
     double cost = minimise(tail_cost, t, 2, x, step, tolerance, descents);
-    return isfinite(cost) && isfinite(line_of(t, place_of(t, x[0]), x[1], out));
+    return isfinite(cost) && isfinite(fit_line(t, location_of(t, x[0]), x[1], out));
 }
 
 static tail_points points_of(const acer_rates *r)

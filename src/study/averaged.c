@@ -44,7 +44,7 @@ static double end_between(const averaged_look *look, double larger, double small
     return smaller;
 }
 
-static double end_of(const averaged_look *look, double of_gumbel, double part)
+static double averaged_end(const averaged_look *look, double of_gumbel, double part)
 {
     double step = (look->high ? 1 : -1) * look->q->law->scale, larger = of_gumbel, smaller = of_gumbel;
     bool outwards = tail_at(look, of_gumbel) > part;
@@ -69,8 +69,8 @@ level_interval averaged_interval(const gumbel_pivot *p, level_interval exact, co
 {
     averaged_look look = {.p = p, .q = q, .least = profile_least(q), .weight = weight};
     double part = 0.5 - 0.5 * q->confidence;
-    exact.low = end_of(&look, exact.low, part);
+    exact.low = averaged_end(&look, exact.low, part);
     look.high = true;
-    exact.high = end_of(&look, exact.high, part);
+    exact.high = averaged_end(&look, exact.high, part);
     return exact;
 }

@@ -28,7 +28,7 @@ static int start(const char *const *words, const int pipe_ends[2], pid_t *id)
     return bad;
 }
 
-static void read_all(context *ctx, int from, text_buffer *out)
+static void read_output(context *ctx, int from, text_buffer *out)
 {
     char part[4096];
     for (;;) {
@@ -49,7 +49,7 @@ fram_status capture(context *ctx, const char *const *words, text_buffer *out, in
     int bad = start(words, ends, &id);
     close(ends[1]);
     if (bad == 0) {
-        read_all(ctx, ends[0], out);
+        read_output(ctx, ends[0], out);
         while (waitpid(id, &state, 0) < 0 && errno == EINTR)
             ;
     }

@@ -39,7 +39,7 @@ static void pass_blanks(table_reader *r)
         r->at++;
 }
 
-static fram_status read_quoted(table_reader *r, const char *head)
+static fram_status read_quoted_cell(table_reader *r, const char *head)
 {
     for (r->at++; !at_line_end(r); r->at++) {
         if (*r->at == '"' && (r->at + 1 == r->end || r->at[1] != '"'))
@@ -73,7 +73,7 @@ static fram_status read_cell(table_reader *r, const char *head)
     text_add(r->ctx, &r->cell, "");
     pass_blanks(r);
     if (r->at < r->end && *r->at == '"')
-        status = read_quoted(r, head);
+        status = read_quoted_cell(r, head);
     else
         read_plain(r);
     if (status == FRAM_OK && r->cell.failed)
@@ -138,7 +138,7 @@ static fram_status take_unit(table_reader *r, char *head)
                      open + 1);
 }
 
-static fram_status add_head(table_reader *r)
+static fram_status add_table_head(table_reader *r)
 {
     char *head = r->cell.data;
     if (!*head)
@@ -163,7 +163,7 @@ static fram_status read_heads(table_reader *r)
     for (;; r->at++) {
         fram_status status = read_cell(r, NULL);
         if (status == FRAM_OK)
-            status = add_head(r);
+            status = add_table_head(r);
         if (status != FRAM_OK || at_line_end(r))
             return status;
     }

@@ -217,7 +217,7 @@ static fram_status read_list(const study_source *r, const yaml_node *node)
 
 /* ---- table ---- */
 
-static fram_status add_table(const study_source *r, const yaml_node *node, condition_table *t)
+static fram_status add_condition_table(const study_source *r, const yaml_node *node, condition_table *t)
 {
     study *s = r->out;
     for (int32_t k = 0; k < t->heads.count; k++)
@@ -246,7 +246,7 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
     condition_table t = {0};
     fram_status status = path.failed ? error_memory(r->error) : condition_table_read(r->ctx, path.data, &t, r->error);
     if (status == FRAM_OK)
-        status = add_table(r, node, &t);
+        status = add_condition_table(r, node, &t);
     if (status == FRAM_OK && !(r->out->table = memory_string(r->ctx, path.data)))
         status = error_memory(r->error);
     condition_table_free(r->ctx, &t);

@@ -21,7 +21,7 @@ static int32_t keys_apart(const study *s, int32_t a, int32_t b, int32_t *key)
 }
 
 /* Whether each condition can be reached from each by pairs. */
-static bool joined(const condition_pairs *pairs, int32_t conditions)
+static bool all_joined(const condition_pairs *pairs, int32_t conditions)
 {
     int32_t group[COMPARED_ALL];
     for (int32_t c = 0; c < conditions; c++)
@@ -66,7 +66,7 @@ bool study_pairs(context *ctx, const study *s, condition_pairs *out)
             }
         }
     }
-    return s->conditions > COMPARED_ALL || joined(out, s->conditions) || pair_all(ctx, s, out);
+    return s->conditions > COMPARED_ALL || all_joined(out, s->conditions) || pair_all(ctx, s, out);
 }
 
 /* ---- how much ---- */

@@ -146,13 +146,13 @@ static bool fit_moments(law_kind kind, const double *sorted, int32_t n, double l
 
 /* Root of an increasing function between lo and hi, to neighbouring numbers or nearly: false position by the Illinois
    rule (Dowell and Jarratt 1971), with a halving every third time. */
-#define ROOT_NEAR 4e-16
+#define LAW_ROOT_NEAR 4e-16
 typedef double (*rising_function)(const double *value, int32_t n, double origin, double x);
 static double root_of(rising_function f, const double *value, int32_t n, double origin, double lo, double hi)
 {
     double below = f(value, n, origin, lo), above = f(value, n, origin, hi);
     int side = 0;
-    for (int i = 0; hi - lo > ROOT_NEAR * fabs(hi); i++) {
+    for (int i = 0; hi - lo > LAW_ROOT_NEAR * fabs(hi); i++) {
         double part = i % 3 == 2 ? 0.5 : below / (below - above), x = lo + part * (hi - lo);
         if (!(x > lo && x < hi))
             x = lo + 0.5 * (hi - lo);

@@ -12,7 +12,7 @@ typedef struct simplex {
 } simplex;
 
 /* Looks of one descent, beyond which nothing is gained any more. */
-enum { LOOKS_MOST = 2000 };
+enum { DESCENT_LOOKS_MOST = 2000 };
 
 static double look(const simplex *s, const double *x)
 {
@@ -97,7 +97,7 @@ static bool is_small(const simplex *s, double tolerance)
 static void descend(simplex *s, double tolerance)
 {
     sort(s);
-    for (int i = 0; i < LOOKS_MOST && !is_small(s, tolerance); i++) {
+    for (int i = 0; i < DESCENT_LOOKS_MOST && !is_small(s, tolerance); i++) {
         advance(s);
         sort(s);
     }

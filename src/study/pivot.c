@@ -11,7 +11,7 @@
 /* Part of a sum that is left out. */
 #define REST 1e-17
 /* Ends of intervals, in fitted scales. */
-#define END_NEAR 1e-10
+#define PIVOT_END_NEAR 1e-10
 
 /* ---- the law of the scale ---- */
 
@@ -37,7 +37,7 @@ static double log_density(const double *value, int32_t count, const extreme_law 
 }
 
 /* Where the density has fallen, from 0 on in a direction; the walk widens as it goes. */
-static double end_of(const double *value, int32_t count, const extreme_law *fit, double top, double step)
+static double density_end(const double *value, int32_t count, const extreme_law *fit, double top, double step)
 {
     double at = 0, unused;
     for (int i = 0; i < 200 && log_density(value, count, fit, at, &unused) > top - FALL; i++, step *= 1.05)
@@ -48,7 +48,7 @@ static double end_of(const double *value, int32_t count, const extreme_law *fit,
 void gumbel_pivot_make(const double *value, int32_t count, const extreme_law *fit, gumbel_pivot *out)
 {
     double unused, top = log_density(value, count, fit, 0, &unused), sum = 0;
-    double low = end_of(value, count, fit, top, -WALK), high = end_of(value, count, fit, top, WALK);
+    double low = density_end(value, count, fit, top, -WALK), high = density_end(value, count, fit, top, WALK);
     *out = (gumbel_pivot){.location = fit->location, .scale = fit->scale, .count = count};
     for (int32_t k = 2; k < count; k++)
         out->log_factorial += real_log(k);
@@ -102,7 +102,7 @@ static double quantile(const gumbel_pivot *p, double log_exponent, double part)
         lo -= step;
     for (step = 1; below(p, log_exponent, hi) < part && step < 1e12; step *= 2)
         hi += step;
-    while (hi - lo > END_NEAR * (1 + fabs(hi))) {
+    while (hi - lo > PIVOT_END_NEAR * (1 + fabs(hi))) {
         double mid = 0.5 * (lo + hi);
         if (below(p, log_exponent, mid) < part)
             lo = mid;

@@ -27,7 +27,7 @@ static double maxima_cost(const profile_look *at, double scale, double shape)
 }
 
 /* The rate of peaks, in peaks a sample, that makes the level the quantile; Poisson's likelihood of the number found. */
-static double pareto_cost(const profile_look *at, double scale, double shape)
+static double profile_pareto_cost(const profile_look *at, double scale, double shape)
 {
     const profile_question *q = at->q;
     const extreme_law law = {LAW_PARETO, q->law->location, scale, shape};
@@ -37,7 +37,7 @@ static double pareto_cost(const profile_look *at, double scale, double shape)
     return extreme_law_cost(&law, q->sorted, q->count) + rate - q->count * real_log(rate);
 }
 
-static double weibull_cost(const profile_look *at, double shape)
+static double profile_weibull_cost(const profile_look *at, double shape)
 {
     const profile_question *q = at->q;
     double peaks = q->exposure * q->count;
@@ -55,11 +55,11 @@ static double profile_cost(const void *of, const double *x)
     if (!(fabs(x[0]) < 50))
         return (double)INFINITY;
     if (law->kind == LAW_WEIBULL)
-        return weibull_cost(at, law->shape * real_exp(x[0]));
+        return profile_weibull_cost(at, law->shape * real_exp(x[0]));
     double scale = law->scale * real_exp(x[0]), shape = free_count(law->kind) > 1 ? x[1] : 0;
     if (!(fabs(shape) < PROFILE_SHAPE_MOST))
         return (double)INFINITY;
-    return law->kind == LAW_PARETO ? pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
+    return law->kind == LAW_PARETO ? profile_pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
 }
 
 static double level_of(const profile_question *q)

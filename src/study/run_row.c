@@ -134,14 +134,14 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
     return FRAM_OK;
 }
 
-static double mean_of(const run_data *d, int32_t vessel, const char *channel)
+static double channel_mean(const run_data *d, int32_t vessel, const char *channel)
 {
     const double *time = run_channel(d, "time"), *value = run_vessel_channel(d, vessel, channel);
     return time && value ? channel_statistics_of(time, value, d->series.rows, d->s.run.transient).mean : (double)NAN;
 }
 
 /* Stay empty without a load, and for runs that did not split theirs. */
-static void add_shares(const run_data *d, int32_t vessel, run_row *out)
+static void fill_shares(const run_data *d, int32_t vessel, run_row *out)
 {
     mechanism_columns c;
     double share[MECHANISM_COUNT];
@@ -167,10 +167,10 @@ static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row
     out->figure[ROW_load_deviation] = load.deviation;
     out->figure[ROW_load_significant] = load.significant;
     out->figure[ROW_load_largest] = load.greatest;
-    out->figure[ROW_force_x_mean] = mean_of(d, vessel, "ice_force_averaged_x");
-    out->figure[ROW_force_y_mean] = mean_of(d, vessel, "ice_force_averaged_y");
+    out->figure[ROW_force_x_mean] = channel_mean(d, vessel, "ice_force_averaged_x");
+    out->figure[ROW_force_y_mean] = channel_mean(d, vessel, "ice_force_averaged_y");
     out->figure[ROW_fractures] = d->fractures.rows;
-    add_shares(d, vessel, out);
+    fill_shares(d, vessel, out);
     snprintf(out->state_hash, sizeof out->state_hash, "%s", d->note.state_hash);
     if (vessel < scenario_vessel_count(&d->s))
         snprintf(out->vessel, sizeof out->vessel, "%.*s", (int)VESSEL_NAME_MOST,
@@ -214,14 +214,14 @@ static void replace_controls(char *text)
             *c = ' ';
 }
 
-enum { LOG_MOST = 1 << 20 };
+enum { RUN_LOG_MOST = 1 << 20 };
 bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON])
 {
     static const char error[] = "fram: ", conditions[] = "/conditions/";
     char *text = NULL;
     size_t size = 0;
     bool found = false;
-    if (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
+    if (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK) {
         while (size > 0 && text[size - 1] == '\n')
             text[--size] = '\0';
         const char *line = strrchr(text, '\n');
@@ -332,7 +332,7 @@ fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows,
 }
 
 /* The next line without its end; NULL after the last. */
-static char *next_line(char **rest)
+static char *cut_line(char **rest)
 {
     char *line = *rest, *end = line ? strchr(line, '\n') : NULL;
     if (!end)
@@ -345,7 +345,7 @@ static char *next_line(char **rest)
 /* Copies a line that fits. */
 static bool take_line(char **rest, char *out, size_t room)
 {
-    const char *line = next_line(rest);
+    const char *line = cut_line(rest);
     if (!line || strlen(line) >= room)
         return false;
     memcpy(out, line, strlen(line) + 1);
@@ -355,7 +355,7 @@ static bool take_line(char **rest, char *out, size_t room)
 static bool read_figures(char **rest, run_row *row)
 {
     for (int i = 0; i < ROW_FIGURES; i++) {
-        char *line = next_line(rest), *end = NULL;
+        char *line = cut_line(rest), *end = NULL;
         size_t length = strlen(figures[i].name);
         if (!line || strncmp(line, figures[i].name, length) != 0 || line[length] != ' ')
             return false;
@@ -369,12 +369,12 @@ static bool read_figures(char **rest, run_row *row)
 }
 
 /* What is there is added to rows; false, too, where it is not whole. */
-static bool read_lines(context *ctx, char *text, run_rows *rows, bool *no_memory)
+static bool read_row_lines(context *ctx, char *text, run_rows *rows, bool *no_memory)
 {
-    const char *head = next_line(&text);
+    const char *head = cut_line(&text);
     if (!head || strcmp(head, mark) != 0)
         return false;
-    for (const char *state = next_line(&text); state; state = next_line(&text)) {
+    for (const char *state = cut_line(&text); state; state = cut_line(&text)) {
         run_row row;
         begin_row(&row);
         if (strcmp(state, "end") == 0)
@@ -400,7 +400,7 @@ fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *
     if (!file_is_readable(path))
         return FRAM_OK;
     fram_status status = file_read(ctx, path, ROW_FILE_LIMIT, &text, &size, error);
-    *found = status == FRAM_OK && strlen(text) == size && read_lines(ctx, text, rows, &no_memory);
+    *found = status == FRAM_OK && strlen(text) == size && read_row_lines(ctx, text, rows, &no_memory);
     memory_free(ctx, text);
     if (!*found)
         array_free(ctx, rows);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Streams of random numbers of this file. */
-enum { STREAM_STRATA = 911, STREAM_PLACES, STREAM_PATHS, STREAM_ROWS };
+enum { STREAM_OWN_STRATA = 911, STREAM_OWN_PLACES, STREAM_PATHS, STREAM_ROWS };
 enum { REPLICATES = 499 };
 
 /* ---- points ---- */
@@ -18,8 +18,8 @@ bool sobol_points(context *ctx, int32_t n, int32_t k, int64_t seed, double *x)
     if (!stratum)
         return false;
     for (int32_t column = 0; column < 2 * k; column++) {
-        random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)column);
-        random_stream places = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)column);
+        random_stream strata = random_begin((uint64_t)seed, STREAM_OWN_STRATA, (uint32_t)column);
+        random_stream places = random_begin((uint64_t)seed, STREAM_OWN_PLACES, (uint32_t)column);
         random_order(&strata, stratum, n);
         double *first = x + (column < k ? column : (int64_t)n * k + column - k);
         for (int32_t i = 0; i < n; i++)
@@ -116,7 +116,7 @@ static void percentiles(double_array *a, double *low, double *high)
     *high = sorted_quantile(a->data, a->count, 0.975);
 }
 
-static bool bootstrap(context *ctx, const sobol_rows *s, int32_t key, sobol_index *out)
+static bool bootstrap_index(context *ctx, const sobol_rows *s, int32_t key, sobol_index *out)
 {
     double_array first = {0}, total = {0};
     int32_array row = {0};
@@ -163,7 +163,7 @@ int32_t sobol_indices(context *ctx, const double *answer, int32_t n, int32_t k, 
         if (!carries)
             continue;
         estimate(&s, key, &out[key].first, &out[key].total);
-        good = bootstrap(ctx, &s, key, &out[key]);
+        good = bootstrap_index(ctx, &s, key, &out[key]);
     }
     int32_t count = row.count;
     array_free(ctx, &row);

@@ -5,11 +5,11 @@
 #include <math.h>
 
 /* Beyond, the square of t is no number. */
-#define FAR 1e100
+#define FAR_T 1e100
 
 double student_within(double t, int freedom)
 {
-    if (t > FAR)
+    if (t > FAR_T)
         return 1;
     double root = sqrt(freedom), angle = real_atan2(t, root), length = sqrt(t * t + freedom);
     double sine = t / length, cosine = root / length, square = cosine * cosine;

@@ -13,7 +13,7 @@
 /* Figures that have extremes. */
 const run_figure study_rare[STUDY_RARE] = {ROW_load_largest, ROW_offset_largest, ROW_line_tension_largest};
 
-static void add_interval(const study_folder *f, text_buffer *b, const level_interval *i)
+static void answer_interval(const study_folder *f, text_buffer *b, const level_interval *i)
 {
     cell_end(f->ctx, b, i->level);
     cell_end(f->ctx, b, i->low);
@@ -34,8 +34,8 @@ fram_status study_values(const study_folder *f, const condition_rows *conditions
     return FRAM_OK;
 }
 
-static fram_status collect(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                           condition_maxima *out, fram_error *error)
+static fram_status collect_values(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                                  condition_maxima *out, fram_error *error)
 {
     fram_status status = FRAM_OK;
     for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++)
@@ -116,8 +116,8 @@ static void extremes_heads(const study_folder *f, text_buffer *b)
     text_add(f->ctx, b, ",note\n");
 }
 
-static fram_status add_extremes(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                                const condition_maxima *of, text_buffer *b, fram_error *error)
+static fram_status answer_extremes(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                                   const condition_maxima *of, text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
     for (int32_t c = 0; c < f->s->conditions; c++) {
@@ -129,17 +129,17 @@ static fram_status add_extremes(const study_folder *f, const condition_rows *con
                     extreme_method_name(r.method), (int)of[c].value.count);
         cell_end(f->ctx, b, of[c].block);
         cell_end(f->ctx, b, x->duration);
-        add_interval(f, b, &r.most_probable);
+        answer_interval(f, b, &r.most_probable);
         for (int i = 0; i < x->levels; i++)
-            add_interval(f, b, &r.level[i]);
+            answer_interval(f, b, &r.level[i]);
         cell_quoted(f->ctx, b, r.note);
         text_add(f->ctx, b, "\n");
     }
     return FRAM_OK;
 }
 
-static fram_status add_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                              const double *block, text_buffer *b, fram_error *error)
+static fram_status answer_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                                 const double *block, text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
     annual_answer answer[STUDY_LEVELS_MOST];
@@ -147,7 +147,7 @@ static fram_status add_annual(const study_folder *f, const condition_rows *condi
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
         text_format(f->ctx, b, "%s,%s,%s", run_figure_name(figure), run_figure_unit(figure), x->gev ? "gev" : "gumbel");
         cell_end(f->ctx, b, x->annual[i]);
-        add_interval(f, b, &answer[i].level);
+        answer_interval(f, b, &answer[i].level);
         if (answer[i].why[0])
             cell_quoted(f->ctx, b, answer[i].why);
         text_add(f->ctx, b, answer[i].why[0] ? "\n" : ",\n");
@@ -166,12 +166,12 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
     extremes_heads(f, &table);
     text_add(f->ctx, &year, "figure,unit,method,annual_probability,level,low,high,note\n");
     for (int i = 0; i < STUDY_RARE && status == FRAM_OK; i++) {
-        status = collect(f, conditions, study_rare[i], of, error);
+        status = collect_values(f, conditions, study_rare[i], of, error);
         if (status != FRAM_OK || !any_values(f, of))
             continue;
-        status = add_extremes(f, conditions, study_rare[i], of, &table, error);
+        status = answer_extremes(f, conditions, study_rare[i], of, &table, error);
         if (status == FRAM_OK && f->s->extremes.annuals > 0)
-            status = add_annual(f, conditions, study_rare[i], block, &year, error);
+            status = answer_annual(f, conditions, study_rare[i], block, &year, error);
     }
     if (status == FRAM_OK)
         status = study_table_write(f, "extremes.csv", &table, error);

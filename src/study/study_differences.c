@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static void values_of(const condition_rows *of, run_figure figure, int32_t count, double *out)
+static void figure_values(const condition_rows *of, run_figure figure, int32_t count, double *out)
 {
     for (int32_t i = 0; i < count; i++)
         out[i] = of->rows.data[i].figure[figure];
@@ -31,8 +31,8 @@ static bool take_pair(const study_folder *f, const condition_rows *conditions, c
         return false;
     out->a = room;
     out->b = room + out->a_count;
-    values_of(a, figure, out->a_count, out->a);
-    values_of(b, figure, out->b_count, out->b);
+    figure_values(a, figure, out->a_count, out->a);
+    figure_values(b, figure, out->b_count, out->b);
     return true;
 }
 
@@ -132,7 +132,7 @@ static bool add_pair(study_page *p, const condition_pair *pair, const bool *has)
     return good;
 }
 
-static bool add_table(study_page *p, const condition_pairs *pairs, const bool *has)
+static bool add_difference_table(study_page *p, const condition_pairs *pairs, const bool *has)
 {
     const char *heads[PAGE_FIGURES + 2] = {"less no.", "other key"};
     char names[PAGE_FIGURES][64];
@@ -177,7 +177,7 @@ fram_status page_add_differences(study_page *p, const bool *has, fram_error *err
     condition_pairs pairs = {0};
     bool good = study_pairs(p->f->ctx, p->f->s, &pairs);
     if (good && has_two_runs(p, &pairs))
-        good = add_table(p, &pairs, has);
+        good = add_difference_table(p, &pairs, has);
     array_free(p->f->ctx, &pairs);
     return good ? FRAM_OK : error_memory(error);
 }

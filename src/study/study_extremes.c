@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Stream of random numbers of this file: draws of runs. */
-enum { STREAM_RUNS = 921, STREAM_SAMPLES = 922, ANNUAL_REPLICATES = 999 };
+enum { STREAM_RUNS = 921, STREAM_DRAWS = 922, ANNUAL_REPLICATES = 999 };
 #define HOUR 3600.0
 #define HOURS_OF_YEAR 8784.0
 
@@ -283,7 +283,7 @@ static fram_status replicate_student(year_work *w, int32_t replicate, const doub
         const year_source *s = &w->source[c];
         if (!s->occurs)
             continue;
-        random_stream random = random_begin((uint64_t)c, STREAM_SAMPLES, (uint32_t)replicate);
+        random_stream random = random_begin((uint64_t)c, STREAM_DRAWS, (uint32_t)replicate);
         if (!array_resize(w->ctx, &w->drawn, s->count))
             return FRAM_ERROR_MEMORY;
         for (int32_t i = 0; i < s->count; i++)

@@ -250,7 +250,7 @@ static bool is_varied(const study *s, const char *key)
 
 /* "condition 3 (ice.thickness=1, vessel.speed=2): "; nothing where there is but one way to run. */
 enum { CONDITION_ROOM = 160 };
-static void name_condition(const study *s, int32_t condition, char out[CONDITION_ROOM])
+static void spell_condition(const study *s, int32_t condition, char out[CONDITION_ROOM])
 {
     size_t used = 0;
     out[0] = '\0';
@@ -291,7 +291,7 @@ void study_place_error(const study *s, int32_t condition, fram_error *error)
         }
         snprintf(file, sizeof file, "%s", s->table && !set ? s->table : s->file);
     }
-    name_condition(s, condition, name);
+    spell_condition(s, condition, name);
     error_set(error, FRAM_ERROR_INPUT, file, line, key, "%s%s", name, message);
     error->column = column;
 }

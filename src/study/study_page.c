@@ -19,7 +19,7 @@ const page_figure page_figures[PAGE_FIGURES] = {
     {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
 enum { WORST = 10 };
 /* An interval wider than this part of the mean calls for more seeds, where the study does not say what does. */
-#define WIDE 0.1
+#define WIDE_INTERVAL 0.1
 
 /* ---- numbers ---- */
 
@@ -225,7 +225,7 @@ static void add_interval(study_page *p, seed_interval i)
 static double wide_of(const study_page *p)
 {
     double within = p->f->s->seeds.mean_within;
-    return within > 0 ? within : WIDE;
+    return within > 0 ? within : WIDE_INTERVAL;
 }
 
 /* Half the interval of the mean load is a large part of it. */

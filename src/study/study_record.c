@@ -88,7 +88,7 @@ static void add_extremes(context *ctx, text_buffer *b, const study_extremes *x)
     text_add(ctx, b, "}\n");
 }
 
-static void add_value(context *ctx, text_buffer *b, const char *before, const char *key, const char *value)
+static void add_record_value(context *ctx, text_buffer *b, const char *before, const char *key, const char *value)
 {
     text_add(ctx, b, before);
     text_quoted(ctx, b, key);
@@ -107,7 +107,7 @@ static void add_conditions(context *ctx, text_buffer *b, const study *s)
     text_add(ctx, b, "vary:\n  list:\n");
     for (int32_t c = 0; c < s->conditions; c++) {
         for (int32_t k = 0; k < s->keys.count; k++)
-            add_value(ctx, b, k > 0 ? ", " : "    - {", s->keys.data[k], study_value(s, c, k));
+            add_record_value(ctx, b, k > 0 ? ", " : "    - {", s->keys.data[k], study_value(s, c, k));
         text_add(ctx, b, "}\n");
     }
 }
@@ -129,9 +129,9 @@ static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *
     text_quoted(ctx, b, whole ? whole : s->scenario);
     free(whole);
     if (s->vessel)
-        add_value(ctx, b, "\n", "vessel", s->vessel);
+        add_record_value(ctx, b, "\n", "vessel", s->vessel);
     for (int32_t i = 0; i < s->set.count; i++)
-        add_value(ctx, b, i > 0 ? ", " : "\nset: {", s->set.data[i].key, s->set.data[i].value);
+        add_record_value(ctx, b, i > 0 ? ", " : "\nset: {", s->set.data[i].key, s->set.data[i].value);
     text_add(ctx, b, s->set.count > 0 ? "}\n" : "\n");
     add_seeds(ctx, b, &s->seeds);
     if (s->worst.count > 0)

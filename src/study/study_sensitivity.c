@@ -25,7 +25,10 @@ typedef struct sensitivity_row {
 } sensitivity_row;
 typedef ARRAY(sensitivity_row) sensitivity_rows;
 
-static int values_of(const study_folder *f) { return f->s->design.kind == DESIGN_SOBOL ? SOBOL_VALUES : MORRIS_VALUES; }
+static int index_values(const study_folder *f)
+{
+    return f->s->design.kind == DESIGN_SOBOL ? SOBOL_VALUES : MORRIS_VALUES;
+}
 
 /* ---- rows ---- */
 
@@ -119,7 +122,7 @@ static fram_status find_rows(const study_folder *f, const condition_rows *condit
 static void write_row(const study_folder *f, const sensitivity_row *row, text_buffer *b)
 {
     text_format(f->ctx, b, "%s,%s,%d", run_figure_name(row->figure), f->s->keys.data[row->key], (int)row->count);
-    for (int i = 0; i < values_of(f); i++)
+    for (int i = 0; i < index_values(f); i++)
         cell_end(f->ctx, b, row->value[i]);
     if (row->note[0])
         cell_quoted(f->ctx, b, row->note);
@@ -157,7 +160,7 @@ static void add_index(study_page *p, const double *of)
     html_cell(&p->page, text);
 }
 
-static void add_row(study_page *p, const sensitivity_row *row)
+static void add_sensitivity_row(study_page *p, const sensitivity_row *row)
 {
     page_figure figure = page_figure_of(row->figure);
     html_row_begin(&p->page);
@@ -176,7 +179,7 @@ static void add_row(study_page *p, const sensitivity_row *row)
     html_row_end(&p->page);
 }
 
-static void add_table(study_page *p, const sensitivity_rows *rows)
+static void add_sensitivity_table(study_page *p, const sensitivity_rows *rows)
 {
     static const char *const of_sobol[] = {"figure", "key", "first order", "total", ""};
     static const char *const of_morris[] = {"figure", "key", "unit", "mu*", "mu", "sigma", ""};
@@ -184,7 +187,7 @@ static void add_table(study_page *p, const sensitivity_rows *rows)
     html_table_begin(&p->page, sobol ? of_sobol : of_morris,
                      sobol ? sizeof of_sobol / sizeof *of_sobol : sizeof of_morris / sizeof *of_morris);
     for (int32_t i = 0; i < rows->count; i++)
-        add_row(p, &rows->data[i]);
+        add_sensitivity_row(p, &rows->data[i]);
     html_table_end(&p->page);
     if (sobol)
         html_paragraph(&p->page,
@@ -207,7 +210,7 @@ fram_status page_add_sensitivity(study_page *p, fram_error *error)
     fram_status status = find_rows(p->f, p->conditions, &rows, error);
     if (status == FRAM_OK && rows.count > 0) {
         html_section(&p->page, "Sensitivity");
-        add_table(p, &rows);
+        add_sensitivity_table(p, &rows);
     }
     array_free(p->f->ctx, &rows);
     return status;

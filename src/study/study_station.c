@@ -125,7 +125,7 @@ static proportion kept_of(const study_folder *f, const station_count *c)
 
 /* ---- the table ---- */
 
-static void add_line(const study_folder *f, int32_t condition, const station_count *c, text_buffer *b)
+static void add_station_line(const study_folder *f, int32_t condition, const station_count *c, text_buffer *b)
 {
     proportion kept = kept_of(f, c);
     text_format(f->ctx, b, "%d", (int)condition + 1);
@@ -138,7 +138,7 @@ static void add_line(const study_folder *f, int32_t condition, const station_cou
     text_format(f->ctx, b, ",%d,%d,%d\n", (int)c->beyond_offset, (int)c->beyond_heading, (int)c->parted);
 }
 
-static fram_status write_lines(const study_folder *f, const station_counts *counts, fram_error *error)
+static fram_status write_station_lines(const study_folder *f, const station_counts *counts, fram_error *error)
 {
     text_buffer b = {0};
     text_add(f->ctx, &b,
@@ -146,7 +146,7 @@ static fram_status write_lines(const study_folder *f, const station_counts *coun
              "beyond_heading,lines_parted\n");
     for (int32_t c = 0; c < f->s->conditions; c++)
         if (counts->of[c].runs > 0)
-            add_line(f, c, &counts->of[c], &b);
+            add_station_line(f, c, &counts->of[c], &b);
     fram_status status = study_table_write(f, "station.csv", &b, error);
     text_free(f->ctx, &b);
     return status;
@@ -159,7 +159,7 @@ fram_status study_station_write(const study_folder *f, const condition_rows *con
     fram_status status = count_all(f, conditions, &counts, error);
     text_format(f->ctx, &path, "%s/station.csv", f->path);
     if (status == FRAM_OK && counts.judged)
-        status = write_lines(f, &counts, error);
+        status = write_station_lines(f, &counts, error);
     else if (status == FRAM_OK && !path.failed)
         (void)unlink(path.data); /* of the study before it was changed */
     text_free(f->ctx, &path);
@@ -169,7 +169,7 @@ fram_status study_station_write(const study_folder *f, const condition_rows *con
 
 /* ---- on the page ---- */
 
-static void add_row(study_page *p, int32_t condition, const station_count *c)
+static void add_station_row(study_page *p, int32_t condition, const station_count *c)
 {
     char text[64];
     const int32_t number[] = {c->kept, c->beyond_offset, c->beyond_heading, c->parted};
@@ -187,14 +187,14 @@ static void add_row(study_page *p, int32_t condition, const station_count *c)
     html_row_end(&p->page);
 }
 
-static void add_table(study_page *p, const station_counts *counts)
+static void add_station_table(study_page *p, const station_counts *counts)
 {
     static const char *const heads[] = {"offset limit [m]",  "heading limit [deg]", "kept [%]",     "kept",
                                         "beyond the offset", "beyond the heading",  "a line parted"};
     page_table_begin(p, heads, sizeof heads / sizeof *heads);
     for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++)
         if (counts->of[c].runs > 0)
-            add_row(p, c, &counts->of[c]);
+            add_station_row(p, c, &counts->of[c]);
     page_table_end(p);
     html_paragraph(
         &p->page,
@@ -262,7 +262,7 @@ fram_status page_add_station(study_page *p, fram_error *error)
     if (status == FRAM_OK && counts.on_station) {
         html_section(&p->page, "Station");
         if (counts.judged) {
-            add_table(p, &counts);
+            add_station_table(p, &counts);
             add_map(p, &counts);
             add_ends(p, &counts);
         } else {

@@ -5,7 +5,7 @@
 #include "study/seeds.h"
 #include "study/study_answers.h"
 
-static void add_condition(const study_folder *f, int32_t condition, text_buffer *b)
+static void add_condition_cells(const study_folder *f, int32_t condition, text_buffer *b)
 {
     text_format(f->ctx, b, "%d", (int)condition + 1);
     for (int32_t k = 0; k < f->s->keys.count; k++)
@@ -26,7 +26,7 @@ static void summarise(const study_folder *f, const condition_rows *conditions, t
     run_row_heads(f->ctx, b);
     for (int32_t c = 0; c < f->s->conditions; c++) {
         for (int32_t i = 0; i < conditions[c].rows.count; i++) {
-            add_condition(f, c, b);
+            add_condition_cells(f, c, b);
             int64_t seed = f->s->seeds.first + i;
             text_format(f->ctx, b, ",%lld", (long long)seed);
             run_row_line(f->ctx, &conditions[c].rows.data[i], b);
@@ -44,9 +44,9 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
                                     ROW_line_tension_largest,
                                     ROW_load_range_equivalent,
                                     ROW_line_tension_range_equivalent,
-#define SHARE_FIGURE(id, name, text) ROW_share_splitting + MECHANISM_##id,
-                                    ICE_MECHANISMS(SHARE_FIGURE)
-#undef SHARE_FIGURE
+#define SHARE_COLUMN(id, name, text) ROW_share_splitting + MECHANISM_##id,
+                                    ICE_MECHANISMS(SHARE_COLUMN)
+#undef SHARE_COLUMN
     };
     add_condition_heads(f, b);
     text_add(f->ctx, b, ",seeds,failed");
@@ -68,7 +68,7 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
         }
         for (int32_t i = 0; i < n; i++)
             failed += conditions[c].rows.data[i].failed;
-        add_condition(f, c, b);
+        add_condition_cells(f, c, b);
         text_format(f->ctx, b, ",%d,%d", (int)n, (int)failed);
         for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
             for (int32_t i = 0; i < n; i++)

@@ -120,7 +120,8 @@ static void tell(const worst_work *w, const char *waits)
 }
 
 /* The figures of a run as its first time left them. */
-static fram_status read_row(const study_folder *f, const worst_run *run, char **text, size_t *size, fram_error *error)
+static fram_status read_first_row(const study_folder *f, const worst_run *run, char **text, size_t *size,
+                                  fram_error *error)
 {
     char *path = study_run_path(f, run->condition, f->s->seeds.first + run->index, ".row");
     fram_status status = path ? file_read(f->ctx, path, ROW_FILE_LIMIT, text, size, error) : error_memory(error);
@@ -134,7 +135,7 @@ static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error 
     char *first = NULL, *again = NULL, *path = study_worst_path(f, &e->run, ".row");
     char *log = study_worst_path(f, &e->run, ".log");
     size_t size = 0, other = 0;
-    fram_status status = path && log ? read_row(f, &e->run, &first, &size, error) : error_memory(error);
+    fram_status status = path && log ? read_first_row(f, &e->run, &first, &size, error) : error_memory(error);
     e->stage = WORST_RUN;
     if (status == FRAM_OK && access(path, F_OK) == 0 &&
         file_read(f->ctx, path, ROW_FILE_LIMIT, &again, &other, NULL) == FRAM_OK && size == other &&
@@ -231,7 +232,7 @@ static fram_status judge(const worst_work *w, worst_entry *e, const char *folder
     fram_status status = row ? run_rows_of(ctx, folder, &rows, error) : error_memory(error);
     if (status == FRAM_OK) {
         run_rows_text(ctx, &rows, &again);
-        status = again.failed ? error_memory(error) : read_row(w->f, &e->run, &first, &size, error);
+        status = again.failed ? error_memory(error) : read_first_row(w->f, &e->run, &first, &size, error);
     }
     if (status == FRAM_OK && (size != (size_t)again.count || memcmp(first, again.data, size) != 0))
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "record_of_worst",
@@ -289,7 +290,7 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
 
 /* ---- on this machine ---- */
 
-static fram_status start(worst_work *w, int32_t at, fram_error *error)
+static fram_status start_on_core(worst_work *w, int32_t at, fram_error *error)
 {
     worst_entry *e = &w->entry[at];
     context *ctx = w->f->ctx;
@@ -315,7 +316,7 @@ static fram_status start(worst_work *w, int32_t at, fram_error *error)
 
 /* Starts what can be; *left: what cannot yet, since a program of a study that was killed still makes it, or for want of
    cores. */
-static fram_status fill(worst_work *w, int jobs, bool *left, fram_error *error)
+static fram_status fill_cores(worst_work *w, int jobs, bool *left, fram_error *error)
 {
     fram_status status = FRAM_OK;
     *left = false;
@@ -328,7 +329,7 @@ static fram_status fill(worst_work *w, int jobs, bool *left, fram_error *error)
         memory_free(w->f->ctx, folder);
         *left = *left || !free_now;
         if (free_now)
-            status = start(w, i, error);
+            status = start_on_core(w, i, error);
     }
     return status;
 }
@@ -337,7 +338,7 @@ static fram_status record_here(worst_work *w, fram_error *error)
 {
     int jobs = study_folder_jobs(w->f, w->options->jobs);
     bool left = false;
-    fram_status status = fill(w, jobs, &left, error);
+    fram_status status = fill_cores(w, jobs, &left, error);
     double told = clock_wall();
     while (status == FRAM_OK && (left || w->pool.running.count > 0) && !stop_is_asked(w->options->stop)) {
         int32_t at = 0;
@@ -353,7 +354,7 @@ static fram_status record_here(worst_work *w, fram_error *error)
             tell(w, NULL);
         }
         if (status == FRAM_OK && !stop_is_asked(w->options->stop))
-            status = fill(w, jobs, &left, error);
+            status = fill_cores(w, jobs, &left, error);
     }
     processes_stop(&w->pool);
     return status;
@@ -419,7 +420,7 @@ static fram_status find_entries(worst_work *w, const condition_rows *conditions,
     return status;
 }
 
-static fram_status make_folder(const worst_work *w, fram_error *error)
+static fram_status make_worst_folder(const worst_work *w, fram_error *error)
 {
     char *path = path_of(w->f, "", "");
     fram_status status = !path ? error_memory(error)
@@ -446,7 +447,7 @@ fram_status study_worst_record(const study_folder *f, const condition_rows *cond
     if (status == FRAM_OK)
         prune(&w);
     if (status == FRAM_OK && left_of(&w, WORST_VIEW) > 0) {
-        status = make_folder(&w, error);
+        status = make_worst_folder(&w, error);
         tell(&w, NULL);
         if (status == FRAM_OK && options->slurm && left_of(&w, WORST_RUN) > 0)
             status = record_by_slurm(&w, error);
