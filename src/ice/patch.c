@@ -117,7 +117,7 @@ static bool edge_in_piece(const patch_floe *floe, int32_t piece_index, vec3 a, v
     double lo = 0, hi = 1, half_height = half_height_of(floe);
     piece_sides piece = sides_of(floe, piece_index);
     for (int k = 0; k < 2; k++)
-        segment_cut(a, b, prism_lid(half_height, k), tolerance, &lo, &hi);
+        segment_cut(a, b, prism_cap(half_height, k), tolerance, &lo, &hi);
     for (int32_t k = 0; k < piece.count && lo < hi; k++)
         segment_cut(a, b, piece_side(&piece, k), tolerance, &lo, &hi);
     return (hi - lo) * vec3_length(vec3_sub(b, a)) > 4 * tolerance;

@@ -220,9 +220,9 @@ static bool make_slab(const patch_scratch *s, point_ring v, unsigned caps, doubl
         slab->normal =
             vec3_add(slab->normal, vec3_cross(vec3_sub(corner[k], corner[0]), vec3_sub(corner[k + 1], corner[0])));
     if (!(caps & BELOW_TOP))
-        facet_cut(slab, prism_lid(half_height, 0), tolerance);
+        facet_cut(slab, prism_cap(half_height, 0), tolerance);
     if (!(caps & ABOVE_BOTTOM))
-        facet_cut(slab, prism_lid(half_height, 1), tolerance);
+        facet_cut(slab, prism_cap(half_height, 1), tolerance);
     return (caps & (BELOW_TOP | ABOVE_BOTTOM)) != (BELOW_TOP | ABOVE_BOTTOM);
 }
 

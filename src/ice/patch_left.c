@@ -4,7 +4,7 @@
 /* The faces of the floe with the edge where it has gone to: down, it is the top that leaves the surface. */
 static half_space face_that_gives(const patch_floe *floe, double give)
 {
-    half_space face = prism_lid(half_height_of(floe), give < 0 ? 0 : 1);
+    half_space face = prism_cap(half_height_of(floe), give < 0 ? 0 : 1);
     face.d -= fabs(give);
     return face;
 }

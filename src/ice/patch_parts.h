@@ -95,7 +95,7 @@ static inline half_space piece_side(const piece_sides *piece, int32_t k)
 }
 
 /* Top (k = 0) and bottom (k = 1) of a prism. */
-static inline half_space prism_lid(double half_height, int k)
+static inline half_space prism_cap(double half_height, int k)
 {
     return (half_space){{0, 0, k == 0 ? 1 : -1}, half_height};
 }
