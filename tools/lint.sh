@@ -1,8 +1,8 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
 # 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py and check_unused.py, 4 what documents
-# cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py, 7 clang-tidy.  Given C
-# files, 1 and 7 look at those only.
+# cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py and check_together.py,
+# 7 clang-tidy.  Given C files, 1 and 7 look at those only.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/release}
@@ -33,9 +33,10 @@ python3 tools/check_documents.py || bad=1
 echo "lint: faults to be tried (tools/mutate)"
 python3 tools/mutate/mutate.py --check || bad=1
 
-echo "lint: objects (tools/check_objects.py)"
+echo "lint: objects (tools/check_objects.py, tools/check_together.py)"
 cmake --build "$build" -j"$jobs" >"$build/lint-build.log" || { cat "$build/lint-build.log"; exit 1; }
 python3 tools/check_objects.py "$build" || bad=1
+python3 tools/check_together.py "$build" || bad=1
 
 echo "lint: analysis (clang-tidy)"
 python3 tools/tidy.py "$build" "$jobs" "$@" || bad=1

@@ -63,11 +63,25 @@ def headers_by_object(build):
     return found
 
 
+@functools.lru_cache(maxsize=None)
+def commands(build):
+    """What the build compiles, file by file: files that are compiled together are in one that CMake made of them."""
+    found = []
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        path = pathlib.Path(entry["file"])
+        together = re.findall(r'^#include "(.*)"', path.read_text(), re.M) if path.parent.name == "Unity" else []
+        # Shadowing is looked at here, where each file stands alone.
+        alone = entry["command"].replace(" -Wno-shadow ", " ")
+        found += [entry | {"file": file, "command": re.sub(r" -c \S+$", f" -c {file}", alone)}
+                  for file in together] or [entry]
+    return found
+
+
 def once_each(build, folder):
     """Flags of each file once: a kernel is compiled for three instruction sets and looked at in its widest copy, the
     only one with vectors of eight, or in the only one there is."""
     found = {}
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+    for entry in commands(build):
         if entry["file"] not in found or "_kernels_avx512.dir" in entry["command"]:
             found[entry["file"]] = entry
     folder.mkdir(parents=True, exist_ok=True)
@@ -79,7 +93,7 @@ def keys(build, files):
     """File -> hash of what clang-tidy reads of it, or None where that is not known; files of the build only."""
     common = output("clang-tidy", "--version") + content_hash(ROOT / ".clang-tidy")
     entries = {}
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+    for entry in commands(build):
         path = pathlib.Path(entry["directory"], entry["file"]).resolve()
         made = re.search(r" -o (\S+)", entry["command"])
         entries.setdefault(path, []).append((made.group(1) if made else "", entry["command"]))

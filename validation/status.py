@@ -5,8 +5,8 @@ now.
   validation/status.py            names them; exit code 0 whatever it finds: a page may wait, but not in silence
   validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
 
-Told by content, not by date: the code of a part is the hash of its files without comments and white space, so that a
-page does not age by a better comment.
+Told by content, not by date: the code of a part is the hash of its files without comments and white space, and with
+numbers for names that a .c file has for itself, so that a page does not age by a better comment or name.
 """
 
 import fnmatch
@@ -35,9 +35,26 @@ ROOMS = sorted({name.split("/")[1] for names, _ in PARTS.values() for name in na
 COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|("(?:\\.|[^"\\\n])*")', re.S)
 
 
-def bare(text):
-    """Code without comments and without white space where it says nothing."""
-    return " ".join(COMMENT.sub(lambda found: found.group(1) or " ", text).split())
+# What a file calls its own at the left margin: static functions and data, macros, types, enumerators.
+OWN = re.compile(r"^static [^;{=(]*?\b(\w+)\s*[\[(=;]|^#define (\w+)|^} (\w+);|^typedef [^;{]*\b(\w+);"
+                 r"|^(?:typedef )?(?:struct|union) (\w+) {", re.M)
+ENUMERATORS = re.compile(r"^(?:typedef )?enum[^{;]*{([^}]*)}", re.M)
+
+
+def own_names(code):
+    names = {name for found in OWN.findall(code) for name in found if name}
+    return names.union(*(re.findall(r"(?:^|,)\s*(\w+)", listed) for listed in ENUMERATORS.findall(code)))
+
+
+def bare(path, text):
+    """Code without comments, without white space where it says nothing, and of a file that is not included by others
+    without the names that are its own: the n-th of them is ~n."""
+    code = COMMENT.sub(lambda found: found.group(1) or " ", text)
+    if path.endswith(".c"):
+        own, numbers = own_names(code), {}
+        code = re.sub(r"\w+", lambda found: f"~{numbers.setdefault(found.group(), len(numbers))}"
+                      if found.group() in own else found.group(), code)
+    return " ".join(code.split())
 
 
 def fingerprint(files, read):
@@ -47,7 +64,7 @@ def fingerprint(files, read):
         digest = hashlib.sha256()
         for path in sorted(files):
             if any(fnmatch.fnmatch(path, n) for n in names) and not any(fnmatch.fnmatch(path, n) for n in others):
-                digest.update(f"{path}\n{bare(read(path))}\n".encode())
+                digest.update(f"{path}\n{bare(path, read(path))}\n".encode())
         out[part] = digest.hexdigest()[:16]
     return out
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The code that a page of the validation book was made on is told by what it says, not by how it is commented."""
+"""The code that a page of the validation book was made on is told by what it says, not by how it is commented or what
+its files call their own."""
 import os
 import pathlib
 import sys
@@ -14,6 +15,8 @@ FILES = {
     "src/ice/fracture.c": 'const char *no = "/* text */";\n',
     "src/ice/packing.c": "int packed;\n",
     "src/fluid/drag.c": "double drag;\n",
+    "src/fluid/lift.c": "static double lift(double u) { return u; }\nenum { MOST = 4 };\n"
+                        "double both(double u) { return lift(u); }\n",
 }
 
 
@@ -30,8 +33,13 @@ assert parts_changed(src__dynamics__narrow_phase="int pairs, more;") == ["contac
 assert parts_changed(src__ice__fracture='const char *no = "/* other */";') == ["fracture"]
 assert parts_changed(src__ice__packing="int loose;") == []
 assert parts_changed(src__fluid__drag="double lift;") == ["water"]
+# Names of a file's own are its own affair, what stands under them is not; names that others see are no file's own.
+LIFT = FILES["src/fluid/lift.c"]
+assert parts_changed(src__fluid__lift=LIFT.replace("lift", "raise").replace("MOST", "LIFTS_MOST")) == []
+assert parts_changed(src__fluid__lift=LIFT.replace("return lift(u)", "return MOST")) == ["water"]
+assert parts_changed(src__fluid__lift=LIFT.replace("both", "all")) == ["water"]
 # Each part has files in this checkout: a pattern that matches nothing would call every page fresh.
 empty = status.fingerprint([], None)
 now = status.of_checkout()
 assert all(now[part] != empty[part] for part in status.PARTS), now
-print("comments change no fingerprint, code changes that of its part")
+print("comments and own names change no fingerprint, code changes that of its part")
