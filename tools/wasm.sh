@@ -15,7 +15,7 @@ if [ ! -e build/wasm/build.ninja ]; then
     # The compiler that emcc would call, with what emcc would tell it: without emcc's own second for each file.
     compile="clang-14 $(emcc --cflags | sed 's/-fvisibility=default//')"
     compile="$compile <DEFINES> <INCLUDES> <FLAGS> -o <OBJECT> -c <SOURCE>"
-    emcmake cmake -S . -B build/wasm -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release \
+    emcmake cmake -S . -B build/wasm -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DFRAM_UNITY=OFF \
         "-DCMAKE_C_FLAGS=-msimd128" "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DFRAM_WITHOUT=cairo;netcdf;libmicrohttpd" \
         -DFRAM_TESTS=OFF -DFRAM_CCACHE=OFF "-DCMAKE_C_COMPILE_OBJECT=$compile" \
         "-DCMAKE_FIND_ROOT_PATH=$libraries/prefix" >build/wasm/configure.log 2>&1 ||

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The checkers of tools/ find what they are for: each breach is planted in a small house and must be named."""
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -170,6 +171,38 @@ class House(unittest.TestCase):
         said = self.rooms()
         self.assertIn("src/ice/wave.c:3: sin()", said)
         self.assertIn("powf()", said)
+
+    def together(self, *texts):
+        """A build that compiles files of one room in two batches, as CMake makes it, and what is said of it."""
+        build = self.root / "build/release"
+        batches = build / "CMakeFiles/base_objects.dir/Unity"
+        entries = []
+        for i, text in enumerate(texts):
+            self.plant(f"src/base/file{i}.c", text)
+            self.plant(batches / f"unity_{i}_c.c", f'/* made */\n#include "{self.root}/src/base/file{i}.c"\n')
+            entries.append({"directory": str(build), "file": str(batches / f"unity_{i}_c.c"),
+                            "command": f"cc -Wall -Wshadow -Wno-shadow -O2 -o some.o -c {batches}/unity_{i}_c.c"})
+        self.plant(build / "compile_commands.json", json.dumps(entries))
+        return subprocess.run([sys.executable, self.root / "tools/check_together.py", build],
+                              capture_output=True, text=True)
+
+    def test_names_of_files_that_are_compiled_together(self):
+        one, other = "static int next(int i) { return i + 1; }\n", "int use{0}(int i) {{ return next(i); }}\n"
+        done = self.together(one + other.format(0), one + other.format(1))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("redefinition of", done.stderr)
+        done = self.together(one + other.format(0), "int next;\n")
+        self.assertEqual(done.returncode, 1)
+        done = self.together(one + other.format(0), (one + other.format(1)).replace("next", "after"))
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_files_that_are_compiled_together_are_analysed_alone(self):
+        self.together("int first;\n", "int second;\n")
+        sys.path.insert(0, str(TOOLS))
+        import tidy
+        found = tidy.commands(self.root / "build/release")
+        self.assertEqual([entry["command"] for entry in found],
+                         [f"cc -Wall -Wshadow -O2 -o some.o -c {self.root}/src/base/file{i}.c" for i in range(2)])
 
     def test_libm_in_the_objects(self):
         self.assertEqual(self.objects("#include <math.h>\ndouble f(double x) { return floor(x); }\n"), "")
