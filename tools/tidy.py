@@ -68,12 +68,13 @@ def commands(build):
     """What the build compiles, file by file: files that are compiled together are in one that CMake made of them."""
     found = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
+        # What clang does not know; and shadowing is looked at here, where each file stands alone.
+        command = entry["command"].replace(" -fno-ipa-modref ", " ")
         path = pathlib.Path(entry["file"])
         together = re.findall(r'^#include "(.*)"', path.read_text(), re.M) if path.parent.name == "Unity" else []
-        # Shadowing is looked at here, where each file stands alone.
-        alone = entry["command"].replace(" -Wno-shadow ", " ")
+        alone = command.replace(" -Wno-shadow ", " ")
         found += [entry | {"file": file, "command": re.sub(r" -c \S+$", f" -c {file}", alone)}
-                  for file in together] or [entry]
+                  for file in together] or [entry | {"command": command}]
     return found
 
 
