@@ -41,12 +41,13 @@ function(fram_tests_target label)
 endfunction()
 
 # Tests and fuzz targets are linked by the quickest linker that is there: two hundred programs, for which lld is half
-# started when gold is done.  What users get is linked by the compiler's own.
+# started when gold is done, which has warnings without end of clang's sanitizers.  What users get is linked by the
+# compiler's own.
 find_program(FRAM_GOLD ld.gold)
 find_program(FRAM_LLD ld.lld)
 mark_as_advanced(FRAM_GOLD FRAM_LLD)
 function(fram_link_quickly program)
-    if(FRAM_GOLD)
+    if(FRAM_GOLD AND NOT (FRAM_LLD AND CMAKE_C_COMPILER_ID MATCHES "Clang"))
         target_link_options(${program} PRIVATE -fuse-ld=gold)
     elseif(FRAM_LLD)
         target_link_options(${program} PRIVATE -fuse-ld=lld)
