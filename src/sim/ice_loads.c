@@ -11,9 +11,6 @@ static int32_t vessel_of(const world *w, int32_t body)
     return w->bodies.material[body] == MATERIAL_HULL ? w->bodies.owner[body] : -1;
 }
 
-/* A contact at its limit; the solver clamps, so equality is exact. */
-static bool is_clamped(const contact *c) { return c->impulse[0] >= c->impulse_limit; }
-
 static void add_contact(const world *w, const contact *c, int32_t vessel, double sign, double per_time, ice_load *load)
 {
     vec3 centre = w->bodies.position[w->vessels.body[vessel]];
@@ -23,7 +20,7 @@ static void add_contact(const world *w, const contact *c, int32_t vessel, double
         vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
     wrench_add(&load->total, centre, all, c->point);
     wrench_add(&load->friction, centre, vec3_sub(all, normal), c->point);
-    wrench_add(is_clamped(c) ? &load->capped : &load->below_cap, centre, normal, c->point);
+    wrench_add(contact_is_capped(c) ? &load->capped : &load->below_cap, centre, normal, c->point);
     wrench_add(&load->zone[zone], centre, all, c->point);
     load->contacts++;
 }
@@ -69,7 +66,7 @@ static int32_t pick_load_contacts(const void *arg, int32_t first, int32_t end, i
     for (int32_t i = first; i < end; i++) {
         const contact *c = &w->scratch.contacts.data[i];
         bool hull = kind[c->a] == MATERIAL_HULL || kind[c->b] == MATERIAL_HULL;
-        if (hull || (isfinite(c->impulse_limit) && is_clamped(c)))
+        if (hull || (isfinite(c->impulse_limit) && contact_is_capped(c)))
             out[found++] = i;
     }
     return found;
@@ -84,7 +81,7 @@ static void work_block(void *arg, int32_t block, int32_t thread)
     (void)thread;
     for (int32_t i = WORK_BLOCK * block; i < pool_block_end(block, WORK_BLOCK, rows->count); i++) {
         const contact *c = &w->scratch.contacts.data[rows->data[i]];
-        bool crushes = contact_is_of_ice(w, c) && isfinite(c->impulse_limit) && is_clamped(c);
+        bool crushes = contact_is_of_ice(w, c) && isfinite(c->impulse_limit) && contact_is_capped(c);
         w->scratch.contact_work.data[i] = crushes ? crushing_work(w, c) : 0;
     }
 }

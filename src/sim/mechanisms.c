@@ -13,7 +13,7 @@ static const double LEAST_SLOPE = 0.02;
    shorter than lambda L = pi/4 are rigid (Hetenyi 1946), lambda = 1 / (sqrt(2) l). */
 static const double BENDING_LENGTHS = PI / 4 * 1.4142135623730951;
 
-static bool is_capped(const contact *c) { return isfinite(c->impulse_limit) && c->impulse[0] >= c->impulse_limit; }
+bool contact_is_capped(const contact *c) { return c->impulse[0] >= c->impulse_limit; }
 
 /* A contact that pushes ice up or down although friction holds it: where level ice bends rather than only crushes. */
 static bool is_sloped(const contact *c)
@@ -98,7 +98,7 @@ static fram_status add_contact_share(context *ctx, const model *m, world *w, con
         s->last = (reaction){hull, body, MECHANISM_COUNT, ice && can_bend(m, w, body)};
     if (s->last.bends && is_sloped(c)) {
         share.mechanism = MECHANISM_BENDING;
-    } else if (is_capped(c)) {
+    } else if (isfinite(c->impulse_limit) && contact_is_capped(c)) {
         share.mechanism = MECHANISM_CRUSHING;
     } else if (body_is_dynamic(&w->bodies, body) && ice) {
         fram_status status =

@@ -5,6 +5,9 @@
 
 #include "model/world.h"
 
+/* A contact at its limit; the solver clamps, so equality is exact. */
+bool contact_is_capped(const contact *c);
+
 /* After the solve, before floes break, from scratch.load_contacts: fills scratch.shares. */
 fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *error);
 /* After floes broke: the loads on those that split are of splitting; sums the shares into scratch.ice_loads. */

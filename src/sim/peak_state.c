@@ -41,7 +41,7 @@ static void whole(byte_stream *s, int32_t *value, int32_t most)
     *value = s->bad ? 0 : *value;
 }
 
-static void real(byte_stream *s, double *value)
+static void finite_real(byte_stream *s, double *value)
 {
     bytes(s, value, sizeof *value);
     s->bad = s->bad || (!s->out && !isfinite(*value));
@@ -49,9 +49,9 @@ static void real(byte_stream *s, double *value)
 
 static void vector(byte_stream *s, vec3 *v)
 {
-    real(s, &v->x);
-    real(s, &v->y);
-    real(s, &v->z);
+    finite_real(s, &v->x);
+    finite_real(s, &v->y);
+    finite_real(s, &v->z);
 }
 
 static void detail(byte_stream *s, peak_detail *d)
@@ -68,7 +68,7 @@ static void peaks(byte_stream *s, vessel_peaks *v)
 {
     peak_picker *p = &v->picker;
     int32_t open = p->open;
-    real(s, &p->last);
+    finite_real(s, &p->last);
     whole(s, &p->count, PEAKS_KEPT);
     for (int32_t i = 0; i < p->count && goes(s); i++) {
         detail(s, &v->kept[i]);
@@ -76,8 +76,8 @@ static void peaks(byte_stream *s, vessel_peaks *v)
     }
     whole(s, &open, 1);
     p->open = open;
-    real(s, &p->candidate.time);
-    real(s, &p->candidate.value);
+    finite_real(s, &p->candidate.time);
+    finite_real(s, &p->candidate.value);
     if (open)
         detail(s, &v->candidate);
 }

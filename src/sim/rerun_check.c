@@ -159,7 +159,7 @@ static fram_status tell_difference(const rerun_check *c, int32_t column, double 
                      c->time, run, c->value.data[column], before);
 }
 
-static fram_status compare_row(rerun_check *c, const world *w, fram_error *error)
+static fram_status check_row(rerun_check *c, const world *w, fram_error *error)
 {
     series_row(c->ctx, &c->layout, w, 0, c->value.data);
     const char *cell = c->row;
@@ -181,7 +181,7 @@ fram_status rerun_check_step(rerun_check *c, const world *w, fram_error *error)
     while (status == FRAM_OK && c->row && c->time < now - slack)
         status = next_row(c, error);
     if (status == FRAM_OK && c->row && c->time <= now + slack)
-        status = compare_row(c, w, error);
+        status = check_row(c, w, error);
     return status;
 }
 
