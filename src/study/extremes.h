@@ -16,6 +16,8 @@
 
 #include "study/acer.h"
 
+#define EXTREME_HOUR 3600.0 /* [s] */
+
 typedef enum extreme_method {
     EXTREME_ACER = 0,
     EXTREME_UPCROSSING,

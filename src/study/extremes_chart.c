@@ -9,13 +9,12 @@
 /* How far the law's line goes beyond the duration that is asked. */
 #define BEYOND 3.0
 enum { CHART_WIDTH = 900, CHART_HEIGHT = 420 };
-#define CHART_HOUR 3600.0
 #define YEAR 31557600.0 /* 365.25 days */
 
 chart extremes_chart_make(const extreme_result *r, const char *quantity, double factor, double duration,
                           extremes_plot *room)
 {
-    double from = HUGE_VAL, to = BEYOND * duration, unit = duration < YEAR ? CHART_HOUR : YEAR;
+    double from = HUGE_VAL, to = BEYOND * duration, unit = duration < YEAR ? EXTREME_HOUR : YEAR;
     for (int32_t i = 0; i < r->points; i++) {
         room->period[i] = r->point[i].period / unit;
         room->level[i] = factor * r->point[i].level;

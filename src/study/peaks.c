@@ -6,7 +6,7 @@
 /* ---- nature ---- */
 
 /* Values that the time scale is told from, at most; and the longest lag, as a part of the values. */
-enum { THINNED_MOST = 20000, LAG_PART = 4 };
+enum { SCALE_VALUES_MOST = 20000, LAG_PART = 4 };
 
 static double covariance(const series_set *s, double mean, int32_t lag, int32_t stride)
 {
@@ -22,7 +22,7 @@ static double covariance(const series_set *s, double mean, int32_t lag, int32_t 
 
 static double time_scale(const series_set *s, const series_nature *n)
 {
-    int32_t stride = (int32_t)(n->values / THINNED_MOST) + 1;
+    int32_t stride = (int32_t)(n->values / SCALE_VALUES_MOST) + 1;
     int32_t lags = (int32_t)(n->values / stride / s->count / LAG_PART);
     double variance = covariance(s, n->mean, 0, stride), sum = 0.5;
     for (int32_t lag = 1; variance > 0 && lag < lags; lag++) {

@@ -214,7 +214,6 @@ static void replace_controls(char *text)
             *c = ' ';
 }
 
-enum { RUN_LOG_MOST = 1 << 20 };
 bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON])
 {
     static const char error[] = "fram: ", conditions[] = "/conditions/";

@@ -61,6 +61,8 @@ typedef ARRAY(run_row) run_rows;
 
 /* From the folder of a run that finished. */
 fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_error *error);
+/* Of a log that is looked at. */
+enum { RUN_LOG_MOST = 1 << 20 };
 /* What a program said last in its log, if that is why it ended; the folder of the study, which is no part of the
    reason, is left out.  false: it said nothing. */
 bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON]);

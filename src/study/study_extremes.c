@@ -12,7 +12,6 @@
 
 /* Stream of random numbers of this file: draws of runs. */
 enum { STREAM_RUNS = 921, STREAM_DRAWS = 922, ANNUAL_REPLICATES = 999 };
-#define HOUR 3600.0
 #define HOURS_OF_YEAR 8784.0
 
 /* ---- reading ---- */
@@ -64,8 +63,12 @@ fram_status study_extremes_read(const study_source *r, const yaml_node *node)
     static const char *const names[] = {"duration", "method", "levels", "confidence", "hours", "annual"};
     study_extremes *x = &r->out->extremes;
     array_free(r->ctx, &x->hours);
-    *x = (study_extremes){
-        .asked = true, .line = node->line, .duration = 3 * HOUR, .confidence = 0.95, .level = {0.5, 0.9}, .levels = 2};
+    *x = (study_extremes){.asked = true,
+                          .line = node->line,
+                          .duration = 3 * EXTREME_HOUR,
+                          .confidence = 0.95,
+                          .level = {0.5, 0.9},
+                          .levels = 2};
     if (node->kind != YAML_MAPPING)
         return study_refuse(r, node, "expected duration, method, levels, confidence, hours or annual");
     fram_status status = FRAM_OK;
@@ -205,7 +208,7 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
         int32_t n = of[c].value.count;
         year_source *s = &w->source[c];
         *s = (year_source){.value = of[c].value.data, .count = n};
-        w->part[c].blocks = w->ask->hours.data[c] * HOUR / of[c].block;
+        w->part[c].blocks = w->ask->hours.data[c] * EXTREME_HOUR / of[c].block;
         if (!(w->part[c].blocks > 0))
             continue;
         if (n < LAW_VALUES_LEAST)

@@ -21,9 +21,6 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Of a log that is looked at. */
-enum { LOG_MOST = 1 << 20 };
-
 /* ---- names ---- */
 
 static char *joined(context *ctx, const text_buffer *b) { return b->failed ? NULL : memory_string(ctx, b->data); }
@@ -377,7 +374,7 @@ bool study_run_met_another(context *ctx, const char *folder, const char *log)
     char *text = NULL;
     size_t size = 0;
     bool met = study_folder_is_busy(folder) ||
-               (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK && strstr(text, RUN_FOLDER_TAKEN));
+               (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK && strstr(text, RUN_FOLDER_TAKEN));
     memory_free(ctx, text);
     return met;
 }
@@ -388,7 +385,7 @@ fram_status study_log_check_disk(context *ctx, const char *log, fram_error *erro
     char *text = NULL;
     size_t size = 0;
     fram_status status = FRAM_OK;
-    if (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
+    if (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK) {
         for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++)
             if (strstr(text, strerror(faults[i])))
                 status = error_set(error, FRAM_ERROR_IO, log, 0, NULL,
