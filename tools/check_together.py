@@ -14,7 +14,7 @@ import sys
 
 
 def units(build):
-    """What CMake made of the files of a room: command of one -> all of them, by their targets."""
+    """Commands of the batches that CMake made of each room's files, by the folder in which they stand."""
     found = collections.defaultdict(list)
     for entry in json.loads((build / "compile_commands.json").read_text()):
         if pathlib.Path(entry["file"]).parent.name == "Unity":
@@ -28,7 +28,7 @@ def main():
     found = units(build)
     for folder, entries in sorted(found.items()):
         everything = "".join(f'#include "{entry["file"]}"\n' for entry in entries)
-        command = re.sub(r" -o \S+ -c \S+$", " -fsyntax-only -x c -", entries[0]["command"])
+        command = re.sub(r" -o .*$", " -fsyntax-only -x c -", entries[0]["command"])
         bad += subprocess.run(command, shell=True, cwd=build, input=everything, text=True, check=False).returncode != 0
     if not found:
         print("no files of this build are compiled together: nothing looked at")

@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -73,7 +74,7 @@ def commands(build):
         path = pathlib.Path(entry["file"])
         together = re.findall(r'^#include "(.*)"', path.read_text(), re.M) if path.parent.name == "Unity" else []
         alone = command.replace(" -Wno-shadow ", " ")
-        found += [entry | {"file": file, "command": re.sub(r" -c \S+$", f" -c {file}", alone)}
+        found += [entry | {"file": file, "command": alone.rpartition(" -c ")[0] + f" -c {shlex.quote(file)}"}
                   for file in together] or [entry | {"command": command}]
     return found
 
