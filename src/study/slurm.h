@@ -2,6 +2,7 @@
 
      DIR/slurm/N.sh     script of the N-th array, N.list its runs, "ID SEED" a line; each task takes the same number
      DIR/slurm/N.job    number that Slurm gave it
+     DIR/slurm/exit-JOB-TASK  exit code of a run that a task has just ended, until it has its name below
      DIR/runs/ID/SEED.exit    exit code of a run, put there by its task when it ended; DIR/worst/ID-SEED.exit of one
                               that is made again with a record
 

@@ -69,7 +69,8 @@ void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out)
              "        [ \"$code\" = 2 ] && [ \"$try\" != 5 ] || break\n"
              "        sleep 2\n"
              "    done\n"
-             "    mark=$run.exit.$SLURM_ARRAY_JOB_ID.$SLURM_ARRAY_TASK_ID\n"
+             "    # Beside the scripts: a task that is killed before it is renamed leaves nothing among the runs.\n"
+             "    mark=$folder/slurm/exit-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\n"
              "    echo \"$code\" >\"$mark\" && mv -f \"$mark\" \"$run.exit\"\n"
              "done\n");
 }
