@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "io/velocity_file.h"
 #include "model/scenario_vessel.h"
+#include "sim/wall_check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -252,7 +253,7 @@ static void tell_vessel(const effective_list *t, const vessel_entry *e)
         double course = automatic_or(v->course_deg, v->heading_deg);
         sanity_say(t->tell, t->to,
                    "%s: moves %.4g m in a step, %.4g m in the run, towards %.4g deg %s, bow towards %.4g deg %s", name,
-                   v->speed * t->s->run.time_step, v->speed * t->s->run.duration, course, arrow_of(course),
+                   v->speed * t->s->run.time_step, vessel_way(v, t->s->run.duration), course, arrow_of(course),
                    v->heading_deg, arrow_of(v->heading_deg));
     }
 }

@@ -172,7 +172,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
                      "patches grow in jumps. Take run.time_step under %.3g s",
                      title.text, way / s->ice.thickness, speed, THICKNESS_STEP * s->ice.thickness / speed);
-    double far = vessel_fastest(v) * s->run.duration, course = radians(course_of(v));
+    double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
     if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && !inside)

@@ -243,10 +243,11 @@ static void tell_motion(const teller *t)
                    "%s.course_deg: the vessel is moved at %.4g degrees to its bow, towards %.4g with its heading at "
                    "%.4g: both are counter-clockwise from X",
                    t->e->path, drift, automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
-    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->speed * r->duration < t->s->ice.thickness &&
+    double way = vessel_way(v, r->duration);
+    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && way < t->s->ice.thickness &&
         t->s->ice.source != ICE_NONE && t->s->domain.boundary != DOMAIN_FEEDING)
         sanity_say(t->tell, t->to, "%s.speed: the vessel moves %.3g m in the run, less than the ice is thick: give m/s",
-                   t->e->path, v->speed * r->duration);
+                   t->e->path, way);
     for (int32_t i = 1; v->mode != VESSEL_FREE && i < v->path.count; i++)
         if (tell_leg(t, i))
             break;

@@ -61,6 +61,12 @@ double vessel_fastest(const scenario_vessel *v)
     return fmax(v->speed, fmin(vessel_open_water_speed(p), automatic_or(p->speed, HUGE_VAL)));
 }
 
+double vessel_way(const scenario_vessel *v, double time)
+{
+    double ramp = v->mode == VESSEL_FREE || v->path.count > 0 ? 0 : v->ramp;
+    return vessel_fastest(v) * (time < ramp ? time * time / (2 * ramp) : time - 0.5 * ramp);
+}
+
 bool vessel_keeps_course(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;

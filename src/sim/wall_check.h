@@ -20,6 +20,8 @@ void wall_remind(context *ctx, const scenario *s, const model *m, const world *w
 /* The fastest that a vessel goes by itself, on its path or on its carriage [m/s]: an upper bound for one under its own
  * power. */
 double vessel_fastest(const scenario_vessel *v);
+/* How far it comes in a time from the start at that speed, which grows evenly over the ramp of a carriage [m]. */
+double vessel_way(const scenario_vessel *v, double time);
 /* What a ship with propulsion makes in open water at its power, whatever speed is wanted [m/s]. */
 double vessel_open_water_speed(const scenario_propulsion *p);
 /* Whether it goes on along its course: on a carriage, or under its own power where nothing says otherwise. */

@@ -88,6 +88,12 @@ YAML
 expect 0 "$FRAM" check tow.yaml
 told "vessel: moves 0.03 m in a step, 90 m in the run, towards 180 deg ←, bow towards 0 deg →"
 told "wind: none"
+# Over a ramp of 20 s it comes 15 m less far, and stays within a domain of 80 m.
+expect 0 "$FRAM" check tow.yaml --set vessel.ramp=20 --set domain.x_min=-80
+told "vessel: moves 0.03 m in a step, 75 m in the run, towards 180 deg ←, bow towards 0 deg →"
+grep -q 'leaves the domain' err && fail "a vessel that has not come to the edge is told to leave"
+expect 0 "$FRAM" check tow.yaml --set domain.x_min=-80
+told "the vessel leaves the domain before the end, at (-90, "
 
 # The report says the same, and that a history is not what it was where it is not.
 expect 0 "$FRAM" run tow.yaml -o towed --quiet --set run.duration=2 --set environment.current_file=current.csv
