@@ -364,11 +364,14 @@ static void tell_basin(const teller *t)
         bool held = e.keys->mooring.lines.count > 0 || e.keys->positioning.active;
         if (!held || !drifts || s->domain.boundary != DOMAIN_WALLS || s->ice.source == ICE_NONE)
             continue;
+        char speed[32] = "";
+        if (!s->environment.current_file[0])
+            snprintf(speed, sizeof speed, " of %.4g m/s", s->environment.current_speed);
         sanity_say(
             t->tell, t->to,
-            "domain.boundary: walls keep the ice in a basin, where the current of %.4g m/s drives it against one of "
-            "them: for ice that drifts past %s take feeding",
-            s->environment.current_speed, vessel_title_of(&e).text);
+            "domain.boundary: walls keep the ice in a basin, where the current%s drives it against one of them: for "
+            "ice that drifts past %s take feeding",
+            speed, vessel_title_of(&e).text);
         return;
     }
 }

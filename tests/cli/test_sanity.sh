@@ -88,6 +88,9 @@ grep 'no load will come' err && fail "a towed vessel is told to rest"
 
 # Walls hold the ice that a current drives, and where there is no water there is none.
 told ship.yaml "domain.boundary: walls keep the ice in a basin|take feeding" --set domain.boundary=walls
+printf 'time[s],x[m/s],y[m/s]\n0,0.3,0\n600,0.3,0.1\n' >flow.csv
+told ship.yaml "where the current drives it against" --set domain.boundary=walls \
+    --set environment.current_file=flow.csv --set environment.current_speed=0
 expect 0 "$FRAM" check ship.yaml --set domain.boundary=walls --set environment.water=false
 grep 'walls keep the ice' err && fail "a current is told that is without effect"
 
