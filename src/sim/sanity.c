@@ -427,13 +427,16 @@ static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
     const scenario_mooring_line *l = &m->lines.data[line];
     double down = m->depth + m->z, straight = sqrt(l->distance * l->distance + down * down);
     double most = automatic_or(l->breaking_load, HUGE_VAL), strain = straight / l->length - 1;
-    if (is_automatic(l->length))
+    if (is_automatic(l->length) || l->kind == LINE_TABLE)
         return;
-    if (l->length > l->distance + m->depth)
-        sanity_say(
-            t->tell, t->to,
-            "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
-            e->path, (int)line, l->length);
+    /* A hanging line pulls from where it hangs straight down to the bottom and lies straight from there to its anchor;
+       a spring from where it is straight. */
+    double reach = l->kind == LINE_SPRING ? sqrt(fmax(l->length * l->length - down * down, 0)) : l->length - down;
+    if (l->length > l->distance + down)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it does not "
+                   "pull until the vessel is %.3g m farther away",
+                   e->path, (int)line, l->length, reach - l->distance);
     else if (l->kind == LINE_SPRING)
         tell_spring(t, e, line, straight);
     else if (l->kind == LINE_CATENARY && strain * l->stiffness > 0.5 * most)

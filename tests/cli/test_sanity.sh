@@ -53,7 +53,13 @@ told ship.yaml "vessel.hull.length: 760 m|give metres" --set vessel.hull.length=
 told ship.yaml "run.time_step: 0.5 s is too long|heaves" --set run.time_step=0.5 --set ice.thickness=0.3
 told ship.yaml "pretension: 7e+06 N is more than half" --set "vessel.mooring.lines[0].pretension=7e6"
 told ship.yaml "pretension: 9e+06 N is over the breaking load" --set "vessel.mooring.lines[0].pretension=9e6"
-told ship.yaml "length: 1100 m reaches down|never pulls" --set "vessel.mooring.lines[0].length=1100"
+told ship.yaml "length: 1100 m reaches down|does not pull until the vessel is 80 m farther" \
+    --set "vessel.mooring.lines[0].length=1100"
+# From a fairlead 6 m up it is 1026 m down and along the bottom, from one 6 m under water 1014 m.
+expect 0 "$FRAM" check ship.yaml --set vessel.mooring.z=6 --set "vessel.mooring.lines[0].length=1024"
+grep 'reaches down' err && fail "a line that pulls is told to hang slack"
+told ship.yaml "length: 1024 m reaches down|until the vessel is 10 m farther" --set vessel.mooring.z=-6 \
+    --set "vessel.mooring.lines[0].length=1024"
 told ship.yaml "length: 890 m over a straight way of 907.96 m|over its breaking load" \
     --set "vessel.mooring.lines[0].length=890"
 told ship.yaml "vessel.mooring.depth: the hull of draught 6.5 m lies on the bottom" --set vessel.mooring.depth=6
