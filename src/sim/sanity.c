@@ -307,7 +307,8 @@ static void tell_hull(const teller *t, const vessel_entry *e)
     if (h->beam > h->length)
         sanity_say(t->tell, t->to, "%s.hull.beam: the hull is wider, %.4g m, than it is long, %.4g m", e->path, h->beam,
                    h->length);
-    if (h->draught > h->beam)
+    /* Legs, piles and spars stand deep. */
+    if (h->form != HULL_CONE && h->draught > h->beam)
         sanity_say(t->tell, t->to, "%s.hull.draught: %.4g m is more than the beam, %.4g m", e->path, h->draught,
                    h->beam);
     if (h->beam > MOST_BEAM * h->draught)

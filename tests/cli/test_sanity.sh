@@ -82,6 +82,12 @@ told ship.yaml "output.frame_interval: 900 s" --set output.frame_interval=900
 refused vessel.mooring.lines "vessel.mode is not free" --set vessel.mode=towed
 told ship.yaml "more than the draught of the vessel" --set ice.thickness=5 --set vessel.hull.draught=4
 told ship.yaml "vessel.hull.beam: the hull is wider" --set vessel.hull.form=box --set vessel.hull.beam=100
+told ship.yaml "vessel.hull.draught: 20 m is more than the beam, 19 m" --set vessel.hull.form=box \
+    --set vessel.hull.draught=20
+# A pile stands deep.
+expect 0 "$FRAM" check ship.yaml --set vessel.hull.form=cone --set vessel.hull.length=8 --set vessel.hull.beam=8 \
+    --set vessel.hull.draught=30 --set vessel.hull.flare_angle_deg=0
+grep 'more than the beam' err && fail "a pile is told to be deep"
 
 # Nothing moves.
 grep -v -e mooring -e depth -e lines -e count -e breaking -e thrusters ship.yaml >hull.yaml
