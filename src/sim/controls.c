@@ -206,8 +206,9 @@ static void drop_path(world *w, int32_t vessel)
 static void move_home(world *w, int32_t v, vec3 home)
 {
     station_table *s = &w->stations;
-    s->watched_home[v].x += home.x - s->home[v].x;
-    s->watched_home[v].y += home.y - s->home[v].y;
+    vec2 place = station_watched_place(s, v, &w->vessels, home);
+    s->watched_home[v].x = place.x;
+    s->watched_home[v].y = place.y;
     s->home[v] = home;
 }
 

@@ -95,12 +95,28 @@ static bool book(context *ctx, event_table *events, bool beyond, bool within, in
     return true;
 }
 
+/* Whether the vessel's own controller turns it about its origin: on lines alone, or with the bow against the ice, what
+   is watched stays at its place as the vessel turns. */
+static bool turns_as_told(const station_table *s, int32_t row)
+{
+    return s->positioning[row] && s->heading_rule[row] == HEADING_FIXED && !is_of_heading_alone(&s->gains[row]);
+}
+
+vec2 station_watched_place(const station_table *s, int32_t row, const vessel_table *vessels, vec3 target)
+{
+    vec3 home = s->home[row], off = vec3_add(s->watched[row], vessels->centre[row]);
+    vec3 moved = vec3_sub(target, home);
+    if (turns_as_told(s, row) && target.z != home.z)
+        moved = vec3_add(moved, vec3_sub(plane_to_global(target.z, off), plane_to_global(home.z, off)));
+    return vec2_make(s->watched_home[row].x + moved.x, s->watched_home[row].y + moved.y);
+}
+
 vec3 station_deviation(const station_table *s, int32_t row, double time, const vessel_table *vessels,
                        const body_table *bodies, const waypoint_table *path)
 {
     int32_t body = vessels->body[row];
     vec3 target = reference_target(path, row, s->home[row], time);
-    vec3 wanted = vec3_add(s->watched_home[row], vec3_sub(target, s->home[row]));
+    vec2 wanted = station_watched_place(s, row, vessels, target);
     vec3 at = body_to_global(bodies, body, s->watched[row]);
     bool vanes = s->heading_rule[row] == HEADING_VANING;
     double heading = vanes ? s->vane_heading[row] : target.z;

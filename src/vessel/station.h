@@ -95,8 +95,11 @@ typedef struct station_moment {
     wrench ice; /* load on the vessel in the step before, global */
 } station_moment;
 
-/* How far the watched point is from where it shall be at a time, along X and Y [m] - where it was at the start, moved
-   with the way points - and the heading from the one that is wanted [rad]. */
+/* Where the watched point shall be for a target of the ship's origin: where it was at the start, moved with the target,
+   and turned with it where the vessel's own controller holds place and heading. */
+vec2 station_watched_place(const station_table *s, int32_t row, const vessel_table *vessels, vec3 target);
+/* How far the watched point is from there at a time, along X and Y [m], and the heading from the one that is wanted
+   [rad]. */
 vec3 station_deviation(const station_table *s, int32_t row, double time, const vessel_table *vessels,
                        const body_table *bodies, const waypoint_table *path);
 /* Measure, observe, control and give orders to the thrusters, where due; book offset and loss of position. */

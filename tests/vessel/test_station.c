@@ -190,6 +190,35 @@ START_TEST(the_watched_point)
 }
 END_TEST
 
+/* A drilling ship 20 m before whose amidships the well lies turns about the well: the way point is 20 m off, the well
+   stays.  Lines alone, thrusters that hold the heading alone, and a bow that turns against the ice do not move it. */
+START_TEST(the_watched_point_turns)
+{
+    enum { HELD, ADRIFT, HEADING_ALONE, VANES, CASES };
+    for (int k = 0; k < CASES; k++) {
+        held h;
+        station_definition d = definition();
+        d.watched = vec3_make(20, 0, 0);
+        d.positioning = k != ADRIFT;
+        d.control = k == HEADING_ALONE ? CONTROL_HEADING : CONTROL_PLACE_AND_HEADING;
+        d.heading = k == VANES ? HEADING_VANING : HEADING_FIXED;
+        open_held(&h, &d);
+        h.b.vessels.centre[0] = vec3_make(2, 0, 0);
+        h.b.bodies.position[0] = vec3_make(2, 0, 0);
+        h.stations.count = 0;
+        assert_ok(station_add(&h.b.ctx, &d, 0, &h.b.vessels, &h.b.bodies, &h.stations, &h.b.error), h.b.error);
+        ck_assert(table_resize(&h.b.ctx, &h.path, &waypoint_table_info, 1));
+        h.path.place[0] = vec3_make(20, -20, PI / 2);
+        h.b.bodies.position[0] = vec3_make(20, -18, 0);
+        h.b.bodies.orientation[0] = quat_from_roll_pitch_yaw(0, 0, PI / 2);
+        step(&h, 1, (wrench){{0, 0, 0}, {0, 0, 0}});
+        vec3 off = h.stations.offset[0], still = vec3_make(-20, 20, 0);
+        assert_vec3_close(vec3_make(off.x, off.y, 0), k == HELD ? vec3_make(0, 0, 0) : still, 1e-12);
+        close_held(&h);
+    }
+}
+END_TEST
+
 /* Noise is drawn anew for each step, with the deviation asked for. */
 START_TEST(noise_of_the_sensors)
 {
@@ -215,4 +244,5 @@ START_TEST(noise_of_the_sensors)
 END_TEST
 
 TEST_MAIN("station", the_load_that_turns_the_heading, the_load_that_is_fed_forward,
-          orders_and_measurements_have_their_own_rates, lost_and_regained, the_watched_point, noise_of_the_sensors)
+          orders_and_measurements_have_their_own_rates, lost_and_regained, the_watched_point, the_watched_point_turns,
+          noise_of_the_sensors)
