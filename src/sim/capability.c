@@ -135,13 +135,24 @@ static void fail(world *w, const capability_failure *f, bool failed)
         w->thrusters.failed[f->number] = failed;
 }
 
+/* What is out of order from the start holds nothing, as in the first step of a run. */
+static void leave_out_failed(world *w)
+{
+    for (int32_t i = 0; i < w->thrusters.count; i++)
+        w->thrusters.failed[i] = w->thrusters.failure_time[i] <= 0;
+    for (int32_t i = 0; i < w->lines.count; i++)
+        w->lines.broken[i] = w->lines.release_time[i] <= 0;
+}
+
 static void list_failures(const world *w, capability *c)
 {
     int32_t most = sizeof c->failure / sizeof *c->failure;
     for (int32_t i = 0; i < w->thrusters.count && c->failures < most; i++)
-        c->failure[c->failures++] = (capability_failure){false, i};
+        if (!w->thrusters.failed[i])
+            c->failure[c->failures++] = (capability_failure){false, i};
     for (int32_t i = 0; i < w->lines.count && c->failures < most; i++)
-        c->failure[c->failures++] = (capability_failure){true, i};
+        if (!w->lines.broken[i])
+            c->failure[c->failures++] = (capability_failure){true, i};
 }
 
 fram_status capability_go_on(const capability *c, fram_error *error)
@@ -285,6 +296,7 @@ static fram_status sweep(const scenario *s, world *w, capability *c, fram_error 
                       .line_safety = c->options.line_safety,
                       .offset_limit = station->offset_limit[VESSEL],
                       .heading_limit = station->heading_limit[VESSEL]};
+    leave_out_failed(w);
     list_failures(w, c);
     return find_limits(w, &h, c, error);
 }

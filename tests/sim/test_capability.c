@@ -50,6 +50,36 @@ START_TEST(limits_by_hand)
 }
 END_TEST
 
+/* Thrusters that fail, and lines that are let go, at the start of a run hold nothing, nor are they what is lost. */
+START_TEST(out_of_order_from_the_start)
+{
+    scene k;
+    scene_open_with(&k, box, (const char *const[]){"vessel.thrusters[1].failure_time=0"}, 1);
+    capability c;
+    fram_error error = {0};
+    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    ck_assert_int_eq(c.failures, 2);
+    ck_assert(c.failure[0].number == 0 && c.failure[1].number == 2);
+    ck_assert(c.intact[2].speed < 1e-3 && c.intact[0].speed > 1);
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+    static const char moored[] =
+        "vessel:\n  mode: free\n  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
+        "  mooring:\n    lines:\n"
+        "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5, breaking_load: 4.0e5,\n"
+        "         fairlead_distance: 30, release_time: 0}\n"
+        "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5, breaking_load: 4.0e5,\n"
+        "         fairlead_distance: 30, direction_deg: 180}\n"
+        "ice: {source: none}\ndomain: {boundary: open}\n";
+    scene_open(&k, moored);
+    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    ck_assert_int_eq(c.failures, 1);
+    ck_assert(c.failure[0].line && c.failure[0].number == 1);
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+}
+END_TEST
+
 START_TEST(broken_ice_by_formula)
 {
     /* B 18, h 1, S .8, v 1.5, rho 910: 379.8 kN (docs/oracles.md, section 8). */
@@ -206,5 +236,5 @@ START_TEST(a_stop_flag_is_seen)
 }
 END_TEST
 
-TEST_MAIN("capability", limits_by_hand, broken_ice_by_formula, measured_ice, ice_that_was_met, refusals,
-          a_stop_flag_is_seen)
+TEST_MAIN("capability", limits_by_hand, out_of_order_from_the_start, broken_ice_by_formula, measured_ice,
+          ice_that_was_met, refusals, a_stop_flag_is_seen)
