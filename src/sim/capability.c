@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
+#include "sim/sanity.h"
 #include "sim/steady_load.h"
 
 #include <stdio.h>
@@ -362,6 +363,17 @@ static fram_status choose_vessel(const scenario *s, const char *name, scenario *
     return FRAM_OK;
 }
 
+/* Currents come across the hull here whatever the scenario's own one does. */
+static void warn_of_sides(context *ctx, const scenario *s, const capability_options *o)
+{
+    double form = s->environment.hull_drag.water_form;
+    if (sanity_drags_as_ahead(s, &s->vessel, o->speed_most))
+        log_write(ctx, LOG_WARNING,
+                  "environment.hull_drag.water_form: %.3g is of a hull that goes ahead, and in this plot currents come "
+                  "from all sides: a ship's side has about 1; give that, or the vessel's current_coefficients",
+                  form);
+}
+
 fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
                             fram_error *error)
 {
@@ -373,6 +385,7 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
         status = check(s, o, error);
     if (status != FRAM_OK)
         return status;
+    warn_of_sides(ctx, s, o);
     c->loads.directions = o->directions;
     c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
     c->loads.speed_step = o->speed_step;

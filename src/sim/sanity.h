@@ -25,6 +25,10 @@ void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 
+/* Whether a current of that speed across a hull [m/s] matters to its station, and acts on its faces with the drag of
+   one that goes ahead. */
+bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double across);
+
 /* Between two directions [deg], 0 to 180. */
 static inline double sanity_degrees_apart(double a_deg, double b_deg)
 {

@@ -289,16 +289,22 @@ static void tell_area(const teller *t, const char *key, double area, double own)
    Fluid-Dynamic Drag). */
 #define SIDE_LEAST 0.4
 
+bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double across)
+{
+    const scenario_environment *n = &s->environment;
+    bool faces = v->current_coefficients.table.count == 0 && v->current_coefficients.table_file[0] == '\0';
+    return faces && n->water && v->hull.form != HULL_CONE && n->hull_drag.water_form < SIDE_LEAST &&
+           across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
+}
+
 /* A vessel kept on station in a beam current with the drag of a hull that goes ahead. */
 static void tell_current_across(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_environment *n = &t->s->environment;
     bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active);
-    bool faces = v->current_coefficients.table.count == 0 && v->current_coefficients.table_file[0] == '\0';
     double across = n->current_speed * fabs(real_sin((n->current_direction_deg - v->heading_deg) * (PI / 180)));
-    if (!kept || !faces || !n->water || v->hull.form == HULL_CONE || n->current_file[0] != '\0' ||
-        n->hull_drag.water_form >= SIDE_LEAST || across < ACROSS_LEAST * sanity_at_scale(t->s, 0.5))
+    if (!kept || n->current_file[0] != '\0' || !sanity_drags_as_ahead(t->s, v, across))
         return;
     sanity_say(
         t->tell, t->to,

@@ -5,6 +5,12 @@
 scene=$FRAM_SOURCE/scenes/supply_ship.yaml
 expect 0 "$FRAM" capability "$scene" -o "$scratch/a" --formula --directions 12 --speed-step 0.2 --json
 says '"file"' out
+# Currents come across a hull whose drag is that of one that goes ahead.
+sides='environment.hull_drag.water_form: 0.1 is of a hull that goes ahead'
+says "$sides" err
+expect 0 "$FRAM" capability "$scene" -o "$scratch/sides" --formula --directions 4 \
+    --set environment.hull_drag.water_form=1
+grep -F "${sides%% *}" err && fail "told of the drag of a ship's side"
 python3 - "$scratch/a" <<'END' || fail "capability.json or its tables"
 import csv, json, sys
 a = sys.argv[1]
