@@ -15,6 +15,11 @@
 #define FOUND 1e-6
 #define BALANCED 1e-9
 #define HELD_BALANCED 1e-12
+/* Steps of differences, in lengths of the vessel.  A hawser that hardly pulls is slack a finger's breadth away. */
+#define SLOPE_STEP 1e-4
+#define FINE_STEP 1e-7
+/* Part of their stiffness in two directions which lines have in every one, if they hold the vessel. */
+#define HOLDS 1e-12
 /* A moment over the length that may be rounding, ten times the force that is left. */
 #define NO_MOMENT 1e-11
 
@@ -25,7 +30,7 @@ typedef struct balance {
     steady_load load;
     const void *user;
     double z, roll, pitch;
-    double pulls; /* the lines' tensions together [N] */
+    double pulls; /* the lines' tensions together, or the load if it is more [N] */
     bool held;    /* the heading is, where the steady load is this: forces alone are balanced */
     vec3 steady;
 } balance;
@@ -49,9 +54,9 @@ static vec3 balance_miss(const balance *b, vec3 at)
     return vec3_make(left.x, left.y, b->held ? 0 : left.z);
 }
 
-static mat3 balance_slope(const balance *b, vec3 at)
+/* By differences over 2 `step`. */
+static mat3 balance_slope(const balance *b, vec3 at, double step)
 {
-    double step = 1e-4 * b->length;
     mat3 slope = {{{0}}};
     for (int c = 0; c < (b->held ? 2 : 3); c++) {
         vec3 by = vec3_make(c == 0 ? step : 0, c == 1 ? step : 0, c == 2 ? step : 0);
@@ -80,7 +85,7 @@ static vec3 balance_solve(const balance *b, vec3 at, double precision)
     vec3 miss = balance_miss(b, at);
     double damping = 1e-3;
     for (int i = 0; i < MOST_STEPS && vec3_length(miss) > precision * b->pulls; i++) {
-        mat3 slope = balance_slope(b, at);
+        mat3 slope = balance_slope(b, at, SLOPE_STEP * b->length);
         double scale = 0;
         for (int k = 0; k < 9; k++)
             scale = fmax(scale, fabs(slope.m[k / 3][k % 3]));
@@ -104,17 +109,99 @@ static vec3 balance_solve(const balance *b, vec3 at, double precision)
     return at;
 }
 
+/* A step with the heading held, at most `reach` long, along which the lines' potential falls: Newton's where the lines
+   hold in every direction, else with the load that is left, as a vessel drifts on slack lines. */
+static vec3 descent_step(mat3 slope, vec3 miss, double reach)
+{
+    double a = -slope.m[0][0], d = -slope.m[1][1], c = -0.5 * (slope.m[0][1] + slope.m[1][0]), det = a * d - c * c;
+    vec3 step = miss;
+    if (a > 0 && d > 0 && det > HOLDS * a * d)
+        step = vec3_make((d * miss.x - c * miss.y) / det, (a * miss.y - c * miss.x) / det, 0);
+    double length = vec3_length(step);
+    return length > reach || !(det > HOLDS * a * d) ? vec3_scale(step, reach / length) : step;
+}
+
+/* As much of a step as leaves no more than half of its downhill force behind it. */
+static double descent_part(const balance *b, vec3 at, vec3 step, double downhill)
+{
+    enum { MOST_HALVES = 60 };
+    double low = 0, high = 1, part = 1;
+    for (int i = 0; i < MOST_HALVES; i++) {
+        double force = vec3_dot(balance_miss(b, vec3_mad(at, step, part)), step);
+        if (fabs(force) <= 0.5 * downhill || (part == 1 && force > 0))
+            break;
+        if (force > 0)
+            low = part;
+        else
+            high = part;
+        part = 0.5 * (low + high);
+    }
+    return part;
+}
+
+/* As balance_solve with the heading held, for lines that may hang slack: there what is missed has no slope, and is less
+   than where lines pull too hard, so that a search for the least miss ends there.  A line pulls the harder the longer
+   it is, so that the potential of lines and load is convex, and any way down leads to its bottom. */
+static vec3 balance_descend(const balance *b, vec3 at, double precision)
+{
+    enum { MOST_STEPS = 400 };
+    for (int i = 0; i < MOST_STEPS; i++) {
+        vec3 miss = balance_miss(b, at);
+        if (vec3_length(miss) <= precision * b->pulls)
+            break;
+        vec3 step = descent_step(balance_slope(b, at, FINE_STEP * b->length), miss, 0.1 * b->length);
+        vec3 next = vec3_mad(at, step, descent_part(b, at, step, vec3_dot(miss, step)));
+        if (next.x == at.x && next.y == at.y)
+            break;
+        at = next;
+    }
+    return at;
+}
+
+static bool misses_no_more(const balance *b, vec3 at, double precision)
+{
+    return vec3_length(balance_miss(b, at)) <= precision * b->pulls;
+}
+
 /* ---- the heading at which a vessel comes to rest ---- */
+
+/* The same vessel with its heading held. */
+static balance balance_held(const balance *b, double yaw)
+{
+    balance still = *b;
+    still.held = true;
+    still.steady = steady_at(b, yaw);
+    return still;
+}
+
+/* Where it then lies. */
+static vec3 balance_hold(const balance *still, vec3 at)
+{
+    vec3 found = balance_solve(still, at, HELD_BALANCED);
+    if (misses_no_more(still, found, FOUND))
+        return found;
+    at = balance_descend(still, at, HELD_BALANCED);
+    return misses_no_more(still, at, FOUND) ? at : found;
+}
+
+/* The balance nearest to a pose, or the best on the way there. */
+static vec3 balance_near(const balance *b, vec3 at)
+{
+    vec3 found = balance_solve(b, at, BALANCED);
+    if (misses_no_more(b, found, BALANCED))
+        return found;
+    const balance still = balance_held(b, at.z / b->length);
+    vec3 other = balance_solve(b, balance_hold(&still, at), BALANCED);
+    return misses_no_more(b, other, BALANCED) ? other : found;
+}
 
 /* Moment over the length that is left where the vessel, turned by `by` (times the length) from `at`, lies when its
    heading is held; `at` moves there. */
 static double turn_to(const balance *b, double by, vec3 *at)
 {
-    balance still = *b;
     at->z += by;
-    still.held = true;
-    still.steady = steady_at(b, at->z / b->length);
-    *at = balance_solve(&still, *at, HELD_BALANCED);
+    const balance still = balance_held(b, at->z / b->length);
+    *at = balance_hold(&still, *at);
     return balance_left(&still, *at).z;
 }
 
@@ -145,14 +232,12 @@ static bool find_rest(const balance *b, vec3 at, vec3 *low, vec3 *high)
     return false;
 }
 
-static bool is_balanced(const balance *b, vec3 at) { return vec3_length(balance_miss(b, at)) <= BALANCED * b->pulls; }
-
 /* Whether a pose is a balance to which the vessel comes back, between these headings. */
 static bool is_rest(const balance *b, vec3 at, vec3 low, vec3 high)
 {
     double none = NO_MOMENT * b->pulls, by = BESIDE * b->length;
     vec3 port = at, starboard = at;
-    return is_balanced(b, at) && at.z >= low.z && at.z <= high.z && turn_to(b, by, &port) <= none &&
+    return misses_no_more(b, at, BALANCED) && at.z >= low.z && at.z <= high.z && turn_to(b, by, &port) <= none &&
            turn_to(b, -by, &starboard) >= -none;
 }
 
@@ -181,6 +266,9 @@ static balance balance_of(const line_table *lines, int32_t vessel, double length
     b.z = z, b.roll = attitude.x, b.pitch = attitude.y;
     for (int32_t i = 0; i < lines->count; i++)
         b.pulls += lines->vessel[i] == vessel ? lines->tension[i] : 0;
+    /* Slack lines come to pull as the load asks. */
+    vec3 steady = steady_at(&b, attitude.z);
+    b.pulls = fmax(b.pulls, sqrt(steady.x * steady.x + steady.y * steady.y));
     return b;
 }
 
@@ -200,7 +288,7 @@ bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double len
     vec3 attitude = quat_roll_pitch_yaw(*orientation);
     balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
     double residual;
-    vec3 at = balance_solve(&b, vec3_make(position->x, position->y, length * attitude.z), BALANCED);
+    vec3 at = balance_near(&b, vec3_make(position->x, position->y, length * attitude.z));
     return take_pose(&b, at, position, orientation, &residual);
 }
 
@@ -210,8 +298,8 @@ bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length,
     vec3 attitude = quat_roll_pitch_yaw(*orientation), low, high;
     balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
     vec3 start = vec3_make(position->x, position->y, length * attitude.z);
-    vec3 at = balance_solve(&b, start, BALANCED), rest = at;
-    bool meant = is_balanced(&b, at) && fabs(at.z - start.z) <= radians(MEANT_DEG) * length;
+    vec3 at = balance_near(&b, start), rest = at;
+    bool meant = misses_no_more(&b, at, BALANCED) && fabs(at.z - start.z) <= radians(MEANT_DEG) * length;
     /* Newton's pose is as good as any where it is that rest. */
     if (find_rest(&b, start, &low, &high) && !is_rest(&b, at, low, high))
         rest = narrow_rest(&b, low, high);

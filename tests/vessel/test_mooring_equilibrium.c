@@ -185,5 +185,39 @@ START_TEST(no_rest_under_a_moment)
 }
 END_TEST
 
+/* A barge on one hawser from its bow: taut or slack where it is put, it comes to lie behind the anchor, as far off as
+   the hawser is stretched, in a current that hardly moves it and in a strong one. */
+START_TEST(on_one_hawser)
+{
+    static const double length[] = {298, 301, 310}, push[] = {20, 3e3, 3e5};
+    for (int i = 0; i < 9; i++) {
+        bare_vessel b;
+        line_table lines = {0};
+        const flows current = {{PI}, {push[i % 3]}, {6 * push[i % 3]}};
+        line_definition d = sample_line(0);
+        d.kind = LINE_SPRING;
+        d.centre.x = TURRET;
+        d.fairlead_distance = 0;
+        d.distance = 300;
+        d.depth = 5 + 22;
+        d.length = length[i / 3];
+        d.stiffness = 2e5;
+        bare_vessel_open(&b);
+        quat q = b.bodies.orientation[0] = quat_from_roll_pitch_yaw(0, 0, radians(10));
+        vec3 at = b.bodies.position[0];
+        mooring_balance left;
+        assert_ok(mooring_add_line(&b.ctx, &d, &b.vessels, &b.bodies, &lines, &b.error), b.error);
+        ck_assert_msg(mooring_equilibrium(&lines, 0, LENGTH, push_of, &current, &at, &q, &left),
+                      "%g m, %g N: %g N are left", d.length, push[i % 3], left.residual);
+        assert_absolute(degrees(quat_roll_pitch_yaw(q).z), 0, 0.01);
+        assert_absolute(at.y, lines.anchor[0].y, 0.05);
+        double away = lines.anchor[0].x - at.x - TURRET, straight = sqrt(away * away + 22 * 22);
+        assert_relative(d.stiffness * (straight - d.length), push[i % 3] * straight / away, 1e-3);
+        table_free(&b.ctx, &lines, &line_table_info);
+        bare_vessel_close(&b);
+    }
+}
+END_TEST
+
 TEST_MAIN("mooring_equilibrium", the_bow_points_into_the_current, downhill_from_where_it_is_put,
-          a_balance_that_any_touch_ends, at_rest_at_any_heading, no_rest_under_a_moment)
+          a_balance_that_any_touch_ends, at_rest_at_any_heading, no_rest_under_a_moment, on_one_hawser)
