@@ -6,7 +6,9 @@
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/replay.h"
+#include "vessel/event.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
@@ -264,6 +266,29 @@ const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *
     if (vessel < scenario_vessel_count(&d->s))
         own = run_channel(d, vessel_channel_name(&d->s, vessel, name).text);
     return own ? own : run_channel(d, name);
+}
+
+/* By the channel, which counts lines that were let go too: at least so many parted. */
+static int32_t lines_gone_unasked(const run_data *d, int32_t vessel)
+{
+    const double *parted = run_vessel_channel(d, vessel, "lines_parted");
+    if (!parted || d->series.rows == 0 || vessel >= scenario_vessel_count(&d->s))
+        return 0;
+    double released = scenario_released_lines(scenario_vessel_entry(&d->s, vessel).keys, d->s.run.duration);
+    return (int32_t)fmax(parted[d->series.rows - 1] - released, 0);
+}
+
+int32_t run_lines_broken(const run_data *d, int32_t vessel)
+{
+    const char *name = scenario_vessel_name(&d->s, vessel);
+    int32_t broken = 0;
+    for (int32_t i = 0; i < d->note.events.count; i++) {
+        const run_event *e = &d->note.events.data[i];
+        broken += strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 && strcmp(e->vessel, name ? name : "") == 0;
+    }
+    /* A note may lack events: of a run that goes on, or that had more than it holds. */
+    int32_t gone = lines_gone_unasked(d, vessel);
+    return broken > gone ? broken : gone;
 }
 
 int32_t run_first_row(const run_data *d)

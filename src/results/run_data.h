@@ -59,6 +59,8 @@ void run_data_free(context *ctx, run_data *d);
 const double *run_channel(const run_data *d, const char *name);
 /* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
+/* Lines of a vessel that parted, whenever that was, but not those that the scenario let go. */
+int32_t run_lines_broken(const run_data *d, int32_t vessel);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
 /* That the series has no rows. */

@@ -128,6 +128,7 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
         out->figure[ROW_line_tension_significant] = tension.significant;
         out->figure[ROW_line_tension_largest] = fmax(tension.greatest, tension_of_parting(d, vessel));
         out->figure[ROW_lines_parted] = parted.greatest;
+        out->figure[ROW_lines_broken] = run_lines_broken(d, vessel);
     }
     if (v->thrusters.count > 0)
         out->figure[ROW_thruster_power_mean] = power.mean;
@@ -295,7 +296,7 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 5";
+static const char mark[] = "fram study row 6";
 
 static void number(context *ctx, text_buffer *out, double value)
 {

@@ -11,7 +11,8 @@
    significant: mean of the highest third of the peaks.  share: part of the mean horizontal ice load, along it, that a
    mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order).  range_equivalent: of the
    largest tension of a line and of the load, the range that does the damage of all rainflow cycles with one cycle a
-   second and the slope FATIGUE_CHAIN_SLOPE (results/rainflow.h). */
+   second and the slope FATIGUE_CHAIN_SLOPE (results/rainflow.h).  Counts are of the whole run, its transient too:
+   lines_parted with those that were let go, as the channel of this name, lines_broken without them. */
 #define RUN_ROW_FIGURES(X)                \
     X(time, "s")                          \
     X(load_mean, "N")                     \
@@ -26,6 +27,7 @@
     X(line_tension_significant, "N")      \
     X(line_tension_largest, "N")          \
     X(lines_parted, "1")                  \
+    X(lines_broken, "1")                  \
     X(thruster_power_mean, "W")           \
     X(fractures, "1")                     \
     X(load_range_equivalent, "N")         \

@@ -269,12 +269,10 @@ static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, 
 static bool has_parted(const run_data *d, const char *name, bool *offset)
 {
     for (int32_t v = 0; v < scenario_vessel_count(&d->s); v++) {
-        const double *parted = run_vessel_channel(d, v, "lines_parted");
         *offset = is_channel_of(d, v, "offset_", name);
         bool tension = is_channel_of(d, v, "line_", name) && strstr(name, "tension");
-        if (parted && d->series.rows > 0 && (*offset || tension))
-            return parted[d->series.rows - 1] >
-                   scenario_released_lines(scenario_vessel_entry(&d->s, v).keys, d->s.run.duration);
+        if (*offset || tension)
+            return run_lines_broken(d, v) > 0;
     }
     return false;
 }

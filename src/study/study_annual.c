@@ -7,19 +7,16 @@
 #include <stdio.h>
 
 /* The first condition that occurs in which lines part, of tensions below the level, and how; -1 without. */
-static fram_status find_parting(const study_folder *f, const condition_rows *conditions, double level, int32_t *found,
-                                parted_lines *parted, fram_error *error)
+static int32_t find_parting(const study *s, const condition_rows *conditions, double level, parted_lines *parted)
 {
-    fram_status status = FRAM_OK;
-    *found = -1;
-    for (int32_t c = 0; c < f->s->conditions && *found < 0 && status == FRAM_OK; c++) {
-        if (!(f->s->extremes.hours.data[c] > 0))
+    for (int32_t c = 0; c < s->conditions; c++) {
+        if (!(s->extremes.hours.data[c] > 0))
             continue;
-        status = study_parted_lines(f, conditions, c, parted, error);
-        if (status == FRAM_OK && parted->runs > 0 && level >= parted->least)
-            *found = c;
+        *parted = study_parted_lines(&conditions[c]);
+        if (parted->runs > 0 && level >= parted->least)
+            return c;
     }
-    return status;
+    return -1;
 }
 
 static void say_lack(const annual_lack *lack, annual_answer *out)
@@ -36,17 +33,15 @@ static void say_lack(const annual_lack *lack, annual_answer *out)
 }
 
 /* Where lines part, tensions go no further, and offsets depend on when a run ends. */
-static fram_status check_parting(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                                 annual_answer *out, fram_error *error)
+static void check_parting(const study *s, const condition_rows *conditions, run_figure figure, annual_answer *out)
 {
     bool tension = figure == ROW_line_tension_largest;
-    int32_t at;
     parted_lines parted;
     if (figure == ROW_load_largest)
-        return FRAM_OK;
-    fram_status status = find_parting(f, conditions, tension ? out->level.level : HUGE_VAL, &at, &parted, error);
-    if (status != FRAM_OK || at < 0)
-        return status;
+        return;
+    int32_t at = find_parting(s, conditions, tension ? out->level.level : HUGE_VAL, &parted);
+    if (at < 0)
+        return;
     out->level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
     int used = snprintf(out->why, sizeof out->why, "No answer: lines parted in %d runs of condition %d, ",
                         (int)parted.runs, (int)at + 1);
@@ -56,7 +51,6 @@ static fram_status check_parting(const study_folder *f, const condition_rows *co
     else
         snprintf(out->why + used, sizeof out->why - (size_t)used,
                  "and the vessel drifted on from there; lines without breaking_load tell it.");
-    return FRAM_OK;
 }
 
 /* Whether a run of a condition that occurs saw any: where none did, the level is not zero but unknown. */
@@ -109,7 +103,7 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
         } else if (!x->gev) {
             doubt_gumbel(x, of, count, &out[i]);
         }
-        status = check_parting(f, conditions, figure, &out[i], error);
+        check_parting(f->s, conditions, figure, &out[i]);
     }
     for (int32_t c = 0; of && c < count; c++)
         array_free(f->ctx, &of[c].value);

@@ -60,17 +60,14 @@ static fram_status ask_extreme(const study_folder *f, const double_array *of, do
 /* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs.
    And a vessel whose line has parted is held by the others, or drifts: its offsets are those of the time until a run
    ends. */
-static fram_status cut_at_parting(const study_folder *f, const condition_rows *conditions, int32_t condition,
-                                  run_figure figure, extreme_result *out, fram_error *error)
+static void cut_at_parting(const condition_rows *of, run_figure figure, int levels, extreme_result *out)
 {
     bool tension = figure == ROW_line_tension_largest;
-    parted_lines parted;
+    const parted_lines parted = study_parted_lines(of);
     char why[200];
-    fram_status status = study_parted_lines(f, conditions, condition, &parted, error);
-    if (status != FRAM_OK || parted.runs == 0)
-        return status;
-    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs,
-                        (int)conditions[condition].rows.count);
+    if (parted.runs == 0)
+        return;
+    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs, (int)of->rows.count);
     if (tension)
         snprintf(why + used, sizeof why - (size_t)used,
                  "and hold no more: levels from %.3g kN on are not told. Lines without breaking_load tell them.",
@@ -79,8 +76,7 @@ static fram_status cut_at_parting(const study_folder *f, const condition_rows *c
         snprintf(why + used, sizeof why - (size_t)used,
                  "and the vessel drifted on from there: levels of its offset are not told. Lines without breaking_load "
                  "tell them.");
-    extremes_cut(out, f->s->extremes.levels, tension ? parted.least : -HUGE_VAL, why);
-    return FRAM_OK;
+    extremes_cut(out, levels, tension ? parted.least : -HUGE_VAL, why);
 }
 
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
@@ -92,7 +88,7 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
     if (status == FRAM_OK)
         status = ask_extreme(f, &value, block, out, error);
     if (status == FRAM_OK && value.count > 0 && figure != ROW_load_largest)
-        status = cut_at_parting(f, conditions, condition, figure, out, error);
+        cut_at_parting(&conditions[condition], figure, f->s->extremes.levels, out);
     array_free(f->ctx, &value);
     return status;
 }

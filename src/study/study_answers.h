@@ -39,8 +39,7 @@ typedef struct parted_lines {
     int32_t runs;
     double least; /* HUGE_VAL without such a run */
 } parted_lines;
-fram_status study_parted_lines(const study_folder *f, const condition_rows *conditions, int32_t condition,
-                               parted_lines *out, fram_error *error);
+parted_lines study_parted_lines(const condition_rows *of);
 /* station.csv, where a vessel is on a station and something is required of that. */
 fram_status study_station_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* sensitivity.csv, of a study whose conditions are a design for it (study/sensitivity.h). */

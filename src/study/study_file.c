@@ -385,7 +385,7 @@ static bool has_worst(const study *s, const scenario *one)
     int32_t vessel = s->vessel ? scenario_find_vessel(one, s->vessel) : 0;
     const int figure = s->worst.figure;
     bool of_station = figure >= ROW_offset_mean && figure <= ROW_thruster_power_mean;
-    bool of_lines = (figure >= ROW_line_tension_significant && figure <= ROW_lines_parted) ||
+    bool of_lines = (figure >= ROW_line_tension_significant && figure <= ROW_lines_broken) ||
                     figure == ROW_line_tension_range_equivalent;
     if (!of_station && !of_lines)
         return true;

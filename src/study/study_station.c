@@ -15,17 +15,15 @@
 typedef struct station_count {
     double offset_limit, heading_limit; /* [m], [deg]; HUGE_VAL: none */
     bool lines;                         /* that may part */
-    int32_t released;                   /* of them, as the scenario wants it */
     int32_t runs, kept, beyond_offset, beyond_heading, parted;
 } station_count;
 
-static void take_lines(const scenario_vessel *v, double duration, station_count *out)
+static bool lines_may_part(const scenario_vessel *v)
 {
-    for (int32_t i = 0; i < v->mooring.lines.count; i++) {
-        const scenario_mooring_line *line = &v->mooring.lines.data[i];
-        out->lines |= !is_automatic(line->breaking_load);
-    }
-    out->released = scenario_released_lines(v, duration);
+    bool may = false;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++)
+        may |= !is_automatic(v->mooring.lines.data[i].breaking_load);
+    return may;
 }
 
 static fram_status read_limits(const study_folder *f, int32_t condition, station_count *out, fram_error *error)
@@ -39,8 +37,8 @@ static fram_status read_limits(const study_folder *f, int32_t condition, station
     if (status == FRAM_OK) {
         const scenario_vessel *v = scenario_vessel_entry(&one, vessel).keys;
         *out = (station_count){.offset_limit = automatic_or(v->station.offset_limit, HUGE_VAL),
-                               .heading_limit = automatic_or(v->station.heading_limit_deg, HUGE_VAL)};
-        take_lines(v, one.run.duration, out);
+                               .heading_limit = automatic_or(v->station.heading_limit_deg, HUGE_VAL),
+                               .lines = lines_may_part(v)};
     }
     scenario_free(f->ctx, &one);
     return status;
@@ -61,7 +59,7 @@ static void count_runs(const condition_rows *of, station_count *out)
             continue;
         bool offset = row->figure[ROW_offset_largest] > out->offset_limit;
         bool heading = row->figure[ROW_heading_deviation_largest] > out->heading_limit;
-        bool parted = row->figure[ROW_lines_parted] > out->released;
+        bool parted = row->figure[ROW_lines_broken] > 0;
         out->runs++;
         out->kept += !offset && !heading && !parted;
         out->beyond_offset += offset;
@@ -70,25 +68,17 @@ static void count_runs(const condition_rows *of, station_count *out)
     }
 }
 
-fram_status study_parted_lines(const study_folder *f, const condition_rows *conditions, int32_t condition,
-                               parted_lines *out, fram_error *error)
+parted_lines study_parted_lines(const condition_rows *of)
 {
-    const condition_rows *of = &conditions[condition];
-    station_count limits = {.released = -1};
-    fram_status status = FRAM_OK;
-    *out = (parted_lines){0, HUGE_VAL};
-    for (int32_t i = 0; i < of->rows.count && status == FRAM_OK; i++) {
+    parted_lines out = {0, HUGE_VAL};
+    for (int32_t i = 0; i < of->rows.count; i++) {
         const double *figure = of->rows.data[i].figure;
-        if (!(figure[ROW_lines_parted] > 0))
+        if (!(figure[ROW_lines_broken] > 0))
             continue;
-        if (limits.released < 0)
-            status = read_limits(f, condition, &limits, error);
-        if (!(figure[ROW_lines_parted] > limits.released))
-            continue;
-        out->runs++;
-        out->least = fmin(out->least, figure[ROW_line_tension_largest]);
+        out.runs++;
+        out.least = fmin(out.least, figure[ROW_line_tension_largest]);
     }
-    return status;
+    return out;
 }
 
 typedef struct station_counts {

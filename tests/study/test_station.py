@@ -85,6 +85,16 @@ class StationTest(StudyTest):
         told = self.rows("out", "station.csv")
         self.assertEqual([int(r["kept"]) for r in told], [4 - sum(parted[:4]), 4])
         self.assertEqual([int(r["lines_parted"]) for r in told], [sum(parted[:4]), 0])
+        # One that parts at once is not let go later.
+        study = self.write("seeds: 2\nkeep: series\nset: {vessel.mooring.lines.0.breaking_load: 1e3}\n")
+        self.fram(study, "-o", self.at / "early")
+        self.assertEqual([(r[LINES], r["lines_broken[1]"]) for r in self.rows("early")], [("1", "1")] * 2)
+        (told,) = self.rows("early", "station.csv")
+        self.assertEqual((told["kept"], told["lines_parted"]), ("0", "2"))
+        (run,) = (self.at / "early" / "runs").glob("*/1")
+        said = subprocess.run([FRAM, "extremes", run, "--channel", "offset_x"], check=True, capture_output=True,
+                              text=True)
+        self.assertIn("parted in 1 of 1 runs", said.stdout)
 
     def test_a_tension_that_parts_a_line_is_known_and_levels_beyond_it_are_not_told(self):
         self.plain()
@@ -158,7 +168,7 @@ class StationTest(StudyTest):
         self.assertNotIn("tension", self.page("bare"))
         # Nor have the tables a 0 of them, or of thrusters where there are none.
         lines = ("line_tension_significant[N]", "line_tension_largest[N]", "line_tension_range_equivalent[N]",
-                 "lines_parted[1]")
+                 "lines_parted[1]", "lines_broken[1]")
         for folder, empty, there in (("bare", lines, ["thruster_power_mean[W]"]),
                                      ("plain", ["thruster_power_mean[W]"], lines)):
             for row in self.rows(folder):
