@@ -187,7 +187,13 @@ fram_status study_answers_write(const study_folder *f, const condition_rows *con
     fram_status status = FRAM_OK;
     if (f->s->extremes.asked)
         status = write_extremes(f, conditions, error);
-    if (status == FRAM_OK && f->s->design.kind != DESIGN_NONE)
+    else
+        study_table_remove(f, "extremes.csv");
+    if (f->s->extremes.annuals == 0)
+        study_table_remove(f, "annual.csv");
+    if (f->s->design.kind == DESIGN_NONE)
+        study_table_remove(f, "sensitivity.csv");
+    else if (status == FRAM_OK)
         status = study_sensitivity_write(f, conditions, error);
     return status;
 }

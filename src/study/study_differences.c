@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static void figure_values(const condition_rows *of, run_figure figure, int32_t count, double *out)
 {
@@ -81,14 +80,11 @@ static fram_status write_lines(const study_folder *f, const condition_rows *cond
 fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
 {
     condition_pairs pairs = {0};
-    text_buffer path = {0};
     fram_status status = study_pairs(f->ctx, f->s, &pairs) ? FRAM_OK : error_memory(error);
-    text_format(f->ctx, &path, "%s/differences.csv", f->path);
     if (status == FRAM_OK && pairs.count > 0)
         status = write_lines(f, conditions, &pairs, error);
-    else if (status == FRAM_OK && !path.failed)
-        (void)unlink(path.data); /* of the study before it was changed */
-    text_free(f->ctx, &path);
+    else if (status == FRAM_OK)
+        study_table_remove(f, "differences.csv");
     array_free(f->ctx, &pairs);
     return status;
 }

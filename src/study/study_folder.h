@@ -53,5 +53,7 @@ typedef struct condition_rows {
 fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* DIR/NAME with a text that has been put together, as a whole or not at all. */
 fram_status study_table_write(const study_folder *f, const char *name, const text_buffer *b, fram_error *error);
+/* A table of the study before it was changed, which this one does not ask for. */
+void study_table_remove(const study_folder *f, const char *name);
 
 #endif

@@ -92,8 +92,10 @@ fram_status study_netcdf_write(const study_folder *f, const condition_rows *cond
     int32_t seeds = 0;
     for (int32_t c = 0; c < f->s->conditions; c++)
         seeds = conditions[c].rows.count > seeds ? conditions[c].rows.count : seeds;
-    if (seeds == 0)
+    if (seeds == 0) {
+        study_table_remove(f, "study.nc");
         return FRAM_OK;
+    }
     size_t room = (size_t)f->s->conditions * (size_t)seeds;
     text_buffer path = {0};
     netcdf_file nc;

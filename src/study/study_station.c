@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 /* What is required of the vessel under a condition, and in how many runs what happened.  runs is 0 where it is not on a
    station, or nothing is required. */
@@ -145,14 +144,11 @@ static fram_status write_station_lines(const study_folder *f, const station_coun
 fram_status study_station_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
 {
     station_counts counts;
-    text_buffer path = {0};
     fram_status status = count_all(f, conditions, &counts, error);
-    text_format(f->ctx, &path, "%s/station.csv", f->path);
     if (status == FRAM_OK && counts.judged)
         status = write_station_lines(f, &counts, error);
-    else if (status == FRAM_OK && !path.failed)
-        (void)unlink(path.data); /* of the study before it was changed */
-    text_free(f->ctx, &path);
+    else if (status == FRAM_OK)
+        study_table_remove(f, "station.csv");
     memory_free(f->ctx, counts.of);
     return status;
 }

@@ -5,6 +5,8 @@
 #include "study/seeds.h"
 #include "study/study_answers.h"
 
+#include <unistd.h>
+
 static void add_condition_cells(const study_folder *f, int32_t condition, text_buffer *b)
 {
     text_format(f->ctx, b, "%d", (int)condition + 1);
@@ -92,6 +94,15 @@ fram_status study_table_write(const study_folder *f, const char *name, const tex
                              : atomic_file_write(f->ctx, path.data, b->data, (size_t)b->count, error);
     text_free(f->ctx, &path);
     return status;
+}
+
+void study_table_remove(const study_folder *f, const char *name)
+{
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/%s", f->path, name);
+    if (!path.failed)
+        (void)unlink(path.data);
+    text_free(f->ctx, &path);
 }
 
 fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error)

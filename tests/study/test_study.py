@@ -663,7 +663,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("vary: {grid: {vessel.speed: [2, 2.5]}}\nextremes: {hours: [5000, 5000], annual: [0.1]}\n",
                      "at most 8784, found 10000")
         # Without a year the rest stays; the runs are there.
-        (self.at / "out" / "annual.csv").unlink()
         self.fram(self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
                              "extremes: {duration: 10min, method: gumbel, levels: [0.9]}\n"), "-o", self.at / "out")
         self.assertEqual(self.rows("out", "extremes.csv"), rows)
@@ -680,6 +679,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.fram(few, "-o", self.at / "few")
         self.assertIn("too few", self.rows("few", "extremes.csv")[0]["note"])
         self.assertIn("condition 1", self.rows("few", "annual.csv")[0]["note"])
+        # Tables that a study no longer asks for are of the one before.
+        (self.at / "few" / "sensitivity.csv").touch()
+        self.fram(self.write("set: {run.duration: 1, run.transient: 0.5}\nseeds: 3\n"), "-o", self.at / "few")
+        for name in ("extremes.csv", "annual.csv", "sensitivity.csv"):
+            self.assertFalse((self.at / "few" / name).exists(), name)
 
     @WHOLE
     def test_conditions_that_are_the_same_scenario_share_their_runs(self):
