@@ -359,6 +359,16 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
     memory_free(f->ctx, folder);
 }
 
+bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)
+{
+    static const char *const last[] = {
+        [KEEP_SUMMARY] = ".row", [KEEP_SERIES] = "/series.csv", [KEEP_ALL] = "/peaks.fram"};
+    char *path = study_run_path(f, condition, seed, last[keep]);
+    bool kept = path && access(path, F_OK) == 0;
+    memory_free(f->ctx, path);
+    return kept;
+}
+
 void study_folder_remove(context *ctx, const char *folder) { remove_but(ctx, folder, NULL, 0); }
 
 bool study_folder_is_busy(const char *folder)

@@ -35,6 +35,8 @@ fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
 /* Of a run that ended well and has its row: what is not kept of its folder goes, and at last its log.  Where there is
    no log all this was done before. */
 void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
+/* Whether there is of a run that ended well what `keep` keeps. */
+bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
 /* FRAM_ERROR_IO when the log of a run that failed says that the disk did: that is no answer of the scenario. */
 fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error);
 /* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */

@@ -392,6 +392,23 @@ static void tell_alike(const study_work *w, const condition_rows *rows)
                   (int)alike, (int)w->s->conditions);
 }
 
+/* What a study keeps is decided as its runs end: those of a time when it kept less are not made again for that. */
+static void tell_kept_less(const study_work *w)
+{
+    int64_t less = 0;
+    for (int32_t c = 0; c < w->s->conditions; c++) {
+        const study_condition *of = &w->conditions[c];
+        for (int32_t i = 0; i < of->seeds.count && i < of->wanted && w->first_of[c] == c; i++)
+            less += of->seeds.data[i].state == RUN_THERE && !of->seeds.data[i].row.failed &&
+                    !study_run_has_kept(&w->folder, c, w->s->seeds.first + i, w->s->keep);
+    }
+    if (less > 0)
+        log_write(w->ctx, LOG_WARNING,
+                  "%lld %s made while the study kept less of a run than now: remove %s/runs to have all made again, or "
+                  "name another folder",
+                  (long long)less, less == 1 ? "run was" : "runs were", w->folder.path);
+}
+
 /* The tables of what is there; of a study that is whole also the records of its worst runs, to which its page leads. */
 static fram_status write_results(const study_work *w, bool whole, study_result *result, fram_error *error)
 {
@@ -415,6 +432,8 @@ static fram_status write_results(const study_work *w, bool whole, study_result *
     }
     if (status == FRAM_OK)
         tell_alike(w, rows);
+    if (status == FRAM_OK)
+        tell_kept_less(w);
     if (status == FRAM_OK)
         status = study_tables_write(&w->folder, rows, error);
     bool changed = false;

@@ -216,6 +216,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.fram(keeps, "-o", self.at / "kept")
         self.fram(self.write("set: {run.duration: 0.1, run.transient: 0}\n"), "-o", self.at / "kept")
         self.assertEqual(len(list((self.at / "kept" / "runs").glob("*/1/series.csv"))), 1)
+        # Where it is to be more than was kept, that is told.
+        for keep, said in (("series", False), ("all", True)):
+            self.write(f"set: {{run.duration: 0.1, run.transient: 0}}\nkeep: {keep}\n")
+            done = subprocess.run([FRAM, "study", study, "-o", self.at / "kept"], capture_output=True, text=True)
+            self.assertEqual("1 run was made while the study kept less" in done.stderr, said, done.stderr)
 
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
