@@ -67,7 +67,7 @@ static void cut_at_parting(const condition_rows *of, run_figure figure, int leve
     char why[200];
     if (parted.runs == 0)
         return;
-    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs, (int)of->rows.count);
+    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs, (int)out->sample);
     if (tension)
         snprintf(why + used, sizeof why - (size_t)used,
                  "and hold no more: levels from %.3g kN on are not told. Lines without breaking_load tell them.",

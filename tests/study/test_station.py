@@ -1,5 +1,6 @@
 """In how many runs of a study a vessel keeps its station: station.csv and the page, by the runs themselves."""
 import json
+import re
 import subprocess
 import unittest
 
@@ -120,6 +121,16 @@ class StationTest(StudyTest):
         offset = told["offset_largest"]
         self.assertEqual([offset[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs, and the vessel drifted on", offset["note"])
+        # A run that failed is none of those.
+        (row,) = (self.at / "out" / "runs").glob(f"*/{whole[0]['seed']}.row")
+        kept = row.read_text()
+        row.write_text(re.sub(r"(?m)^([a-z_]+) .+$", r"\1 ", kept.replace("\nfinished\n", "\nfailed\n"))
+                       .replace("fram ", kept.splitlines()[0], 1))
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["failed"], 1)
+        for told in self.rows("out", "extremes.csv")[1:]:
+            self.assertIn(f"Lines parted in {len(parted)} of 13 runs", told["note"])
+        row.write_text(kept)
+        self.fram(study, "-o", self.at / "out")
         # The same of their series, one by one.
         run = [str(next((self.at / "out" / "runs").iterdir()) / r["seed"]) for r in (parted[0], whole[0])]
         for channel, tells in (("line_tension_max", True), ("line_1_tension", True), ("offset_x", True),
