@@ -6,6 +6,7 @@
 #include "results/run_data.h"
 #include "results/station_results.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -73,6 +74,13 @@ static const struct {
     {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
 };
 
+/* The same angle [deg], by as many turns more or less that it is next to the other one: 180.1 for -179.9 beside 179. */
+static double turned_next_to(double other, double angle)
+{
+    double turns = floor((other - angle) / 360 + 0.5);
+    return isfinite(turns) ? angle + 360 * turns : angle;
+}
+
 /* One measure of a channel in both runs; vessel: its name before a colon, or "". */
 static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
 {
@@ -80,6 +88,8 @@ static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
     char name[sizeof p->result->row->name];
     for (int k = 0; k < 2; k++)
         value[k] = measure_of(&p->d[k], channel, rows[i].what) * rows[i].factor;
+    if (strcmp(rows[i].unit, "deg") == 0)
+        value[1] = turned_next_to(value[0], value[1]);
     snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
     add_row(p, name, rows[i].unit, value);
 }

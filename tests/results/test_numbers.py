@@ -113,6 +113,11 @@ def main():
             deviation = (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5
             close(rows["ice load along X, standard deviation"][k], deviation, 5e-3)
             close(rows["x at the end"][k], -22 + SPEED * (WAY + 2), 1e-3)
+        # Headings are next to each other on either side of astern.
+        water = BOX.replace("source: level", "source: none").replace("transient: 1", "transient: 0")
+        ends = [run(folder, f"to{h}", water, f"vessel.heading_deg={h}", "run.duration=0.02") for h in (179.9, -179.9)]
+        a, b = compare(*ends)[1]["heading at the end"]
+        assert abs(a - 179.9) < 1e-6 and abs(b - 180.1) < 1e-6, (a, b)
         # A vertical face is pushed through ice that crushes: strength x beam x thickness.
         close(rows["ice load along X, minimum"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
         close(rows["ice load along X, minimum"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)
