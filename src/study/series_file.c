@@ -296,6 +296,9 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
         status = error_memory(error);
     for (int32_t i = 0; status == FRAM_OK && i < time->count; i++)
         time->data[i] = t[i];
+    if (status == FRAM_OK && strcmp(d.note.status, "failed") == 0)
+        log_write(ctx, LOG_WARNING, "%s: the run failed at %.6g s of %.6g s; its series up to there counts", folder,
+                  d.note.time, d.s.run.duration);
     *from = d.s.run.transient;
     out->parted += status == FRAM_OK && source->channel && has_parted(&d, source->channel, &out->offset);
     run_data_free(ctx, &d);

@@ -221,6 +221,12 @@ class Statistics(unittest.TestCase):
                                       ("extremes", "--draw", "record.fram")):
             self.refused((command, run, option, run / file), "names what the command reads")
         self.assertEqual((run / "series.csv").read_bytes(), before)
+        # A run that failed is told.
+        note = (run / "run.json").read_text()
+        for text, told in ((note, False), (note.replace('"finished"', '"failed"'), True)):
+            (run / "run.json").write_text(text)
+            done = subprocess.run([FRAM, "fatigue", run], capture_output=True, text=True, check=True)
+            self.assertEqual("the run failed at 2 s of 2 s" in done.stderr, told, done.stderr)
         self.write("a,b\n1,2\n", "run/series.csv")
         for words in (("fatigue", run), ("report", run, "-o", self.at / "page.html"), ("compare", run, run)):
             self.refused(words, "series.csv:1:", "without the column time[s]")
