@@ -181,6 +181,24 @@ static double cell(const report *r, const char *column, int32_t row)
     return c ? c->value.data[row] : (double)NAN;
 }
 
+/* By enum fracture_kind. */
+enum { BROKEN_KINDS = FRACTURE_RELEASE + 1 };
+static const char *const broken_names[BROKEN_KINDS] = {"", "split", "bending", "came loose"};
+
+static int broken_kind(const report *r, int32_t row)
+{
+    double kind = cell(r, "kind", row);
+    return kind > 0 && kind < BROKEN_KINDS ? (int)kind : 0;
+}
+
+int32_t report_broken(const report *r, int kind)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < r->d.fractures.rows; i++)
+        count += broken_kind(r, i) == kind;
+    return count;
+}
+
 static void event_table_of(report *r, load_unit unit)
 {
     char load[32];
@@ -191,7 +209,7 @@ static void event_table_of(report *r, load_unit unit)
     html_table_begin(&r->page, heads, 9);
     for (int32_t i = 0; i < shown; i++) {
         html_row_begin(&r->page);
-        html_cell(&r->page, cell(r, "kind", i) < 1.5 ? "split" : "bending");
+        html_cell(&r->page, broken_names[broken_kind(r, i)]);
         html_number(&r->page, cell(r, "time", i));
         html_number(&r->page, cell(r, "floe", i));
         html_number(&r->page, cell(r, "place_x", i));
@@ -210,7 +228,9 @@ static void event_table_of(report *r, load_unit unit)
 fram_status report_fractures(report *r, fram_error *error)
 {
     int32_t rows = r->d.fractures.rows;
-    double most = 0, bent = 0;
+    int32_t bent = report_broken(r, FRACTURE_BENDING), split = report_broken(r, FRACTURE_SPLIT), broke = bent + split;
+    int32_t loose = report_broken(r, FRACTURE_RELEASE);
+    double most = 0;
     if (!r->d.s.ice.breakable && rows == 0)
         return FRAM_OK;
     html_section(&r->page, "Fracture");
@@ -218,13 +238,14 @@ fram_status report_fractures(report *r, fram_error *error)
         html_paragraph(&r->page, "Floes may break, but none did.");
         return FRAM_OK;
     }
-    for (int32_t i = 0; i < rows; i++) {
+    for (int32_t i = 0; i < rows; i++)
         most = fmax(most, cell(r, "load", i));
-        bent += cell(r, "kind", i) > 1.5;
-    }
     const report_line kinds[] = {{"bendings", "broken in bending"}, {"splits", "split"}};
-    html_paragraph(&r->page, "%d floe%s broke: %.0f in bending, %.0f by splitting.", (int)rows, rows == 1 ? "" : "s",
-                   bent, rows - bent);
+    html_paragraph(&r->page, "%d floe%s broke: %d in bending, %d by splitting.", (int)broke, broke == 1 ? "" : "s",
+                   (int)bent, (int)split);
+    if (loose > 0)
+        html_paragraph(&r->page, "%d part%s of the sheet came loose from its held sides, and drift%s as %s.",
+                       (int)loose, loose == 1 ? "" : "s", loose == 1 ? "s" : "", loose == 1 ? "one floe" : "floes");
     html_grid_begin(&r->page);
     fram_status status = report_series(r, "Broken floes", "floes, cumulative", 1, kinds, 2, true, error);
     html_grid_end(&r->page);

@@ -42,6 +42,21 @@ run: {{duration: 2, time_step: 0.02}}
 vessel: {{mode: towed, speed: 1, {VESSEL}}}
 ice: {{source: none}}
 """
+# A tongue of level ice that leads cut off: it hangs on nothing once the ship breaks it.
+LOOSE = f"""
+run: {{duration: 3, time_step: 0.02}}
+vessel: {{mode: towed, x: -32, speed: 2, {VESSEL}}}
+ice:
+  source: level
+  breakable: true
+  thickness: 0.5
+  level:
+    x_min: -8
+    anchored_x_min: false
+    openings: [{{x: 12, length: 1, width: 24}}, {{x: 2, y: 11.5, length: 21, width: 1}},
+               {{x: 2, y: -11.5, length: 21, width: 1}}]
+domain: {{x_min: -60, x_max: 60, y_min: -40, y_max: 40}}
+"""
 SECTIONS = ("Scenario", "Ice load", "What makes the load", "Motion of the vessel", "Ice field",
             "Fracture", "Mass and energy", "Quality of the solution", "Origin", "Complete scenario")
 CHARTS = ("Ice load over time", "Ice load by mechanism", "Histogram of the load",
@@ -220,6 +235,21 @@ def check_water(folder, pictures):
             assert f'alt="{chart}"' not in page, chart
 
 
+def check_loose(folder):
+    """A part of a sheet that comes loose did not break, in bending least of all."""
+    file, run = folder / "loose.yaml", folder / "loose"
+    file.write_text(LOOSE)
+    subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    page = (run / "report.html").read_text()
+    with open(run / "fractures.csv", newline="") as file:
+        kinds = [row["kind[1]"] for row in csv.DictReader(file)]
+    bent = kinds.count("2")
+    assert kinds.count("3") == 1 and bent > 0 and len(kinds) == bent + 1, kinds
+    assert f"broke: {bent} in bending, 0 by splitting." in page and "1 part of the sheet came loose" in page
+    assert page.count("<td>bending</td>") == bent and page.count("<td>came loose</td>") == 1
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -232,6 +262,7 @@ def main():
             said.append(f"{name}: {check(name, run, pictures):g} %")
         check_times(pathlib.Path(folder))
         check_water(pathlib.Path(folder), pictures)
+        check_loose(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))
 
 

@@ -20,7 +20,8 @@ export class History {
         const death = body.death < frames.length ? frames[body.death].time : null;
         const origin = body.parent >= 0 ? `broke from floe ${body.parent} at ${born.toFixed(1)} s` : 'original';
         const crack = fractures.find((f) => f.floe === body.number);
-        const fate = crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${(crack.load / 1000).toFixed(0)} kN)`
+        const fate = crack?.kind === 'loose' ? `came loose at ${crack.time.toFixed(1)} s`
+            : crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${(crack.load / 1000).toFixed(0)} kN)`
             : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
         const name = body.level ? 'Level ice, tile' : 'Floe';
         const canvas = '<canvas role="img" aria-label="speed and contact force over time"></canvas>';

@@ -7,6 +7,7 @@ const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9
 const LOADS = 13, PRESSURE = 14;
 const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
+const BREAKS = ['', 'split', 'bending', 'loose']; // enum fracture_kind; loose: a part of level ice
 const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
 const NEVER = Infinity;
 
@@ -187,7 +188,7 @@ function readPrism(c) {
 }
 
 function readFracture(c) {
-    const f = { time: c.f64(), kind: c.i32() === 1 ? 'split' : 'bending', floe: c.i32(), pieces: c.i32() };
+    const f = { time: c.f64(), kind: BREAKS[c.i32()], floe: c.i32(), pieces: c.i32() };
     c.i32();
     return { ...f, place: c.vec3(), load: c.f32(), crack: c.f32(), area: c.f32() };
 }
