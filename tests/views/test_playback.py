@@ -7,8 +7,10 @@ without the viewer's page.
 """
 import csv
 import json
+import math
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -43,6 +45,17 @@ vessel:
 ice: {concentration: 0.75, mean_floe_area: 64, thickness: 0.3, breakable: true}
 domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 environment: {current_speed: 2.5, current_direction_deg: 180}
+output: {frame_interval: 0.25}
+"""
+# A model in a tank: newtons on metres.
+TANK = """
+run: {duration: 2, time_step: 0.01, scale: 1}
+vessel:
+  mode: free
+  hull: {length: 1.6, beam: 0.4, draught: 0.13, freeboard: 0.07}
+  thrusters: [{x: -0.6, thrust: 20, setting: 1}]
+ice: {mean_floe_area: 0.07, thickness: 0.03, concentration: 0.7}
+domain: {x_min: -2, x_max: 3, y_min: -1.3, y_max: 1.3}
 output: {frame_interval: 0.25}
 """
 TITLE = 'Moored <b>ship</b> # 2, "so" called'
@@ -230,6 +243,24 @@ def check_few(browser, folder):
         corners = [browser.run(LOOK.replace("pixel(130, 0)", f"pixel({x}, {y})"))["waterPixel"]
                    for x, y in ((-60, -36), (-60, 36), (50, -36), (50, 36))]
         assert all(is_blue(p) for p in corners), (name, corners)
+
+
+def check_tank(browser, folder):
+    """What is told and drawn of a model is as large as it is: colours, loads, arrows, water, propellers."""
+    run, rows = make_run(folder, "tank", TANK)
+    browser.open(run / "playback.html")
+    go(browser, "fram.end")
+    most = max(math.hypot(r["ice_force_averaged_x[N]"], r["ice_force_averaged_y[N]"]) for r in rows)
+    assert 0.1 < most < 1e3, f"loads of {most} N are not those of a model"
+    told = browser.run("document.getElementById('load').textContent")
+    found = re.fullmatch(r"averaged ice force: X (-?[0-9.]+) kN, Y (-?[0-9.]+) kN", told)
+    assert found and math.isclose(1e3 * float(found[1]), rows[-1]["ice_force_averaged_x[N]"], abs_tol=0.006), told
+    assert browser.run("fram.ranges.force[1]") < 0.1, "no floe takes a colour"
+    wide = browser.run("fram.scene.box.max.x - fram.scene.box.min.x")
+    assert wide < 10, f"{wide} m for a tank of 5 m: the model is lost in it"
+    disc = browser.run("fram.scene.station.thrusters[0].disc")
+    assert math.isclose(disc, math.sqrt(4 * 20 / (math.pi * 45e3 / 30)), rel_tol=1e-6), disc
+    assert browser.run("fram.scene.station.thrusters[0].axis.x") > 0.9
 
 
 def check_waiting(browser, folder):
@@ -444,6 +475,7 @@ def main():
         check_files_beside(browser, moored)
         check_opening(browser, towed / "playback.html")
         check_few(browser, pathlib.Path(folder))
+        check_tank(browser, pathlib.Path(folder))
         check_waiting(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
     print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")

@@ -5,6 +5,9 @@ import { forceText } from './legend.js';
 
 const MOST = 400; // frames that are looked at
 
+/** A tenth, or the digits that tell what is smaller. */
+function short(value) { return value < 10 ? `${Number(value.toPrecision(3))}` : value.toFixed(1); }
+
 export class History {
     constructor(panel, record, store) {
         this.panel = panel;
@@ -21,12 +24,12 @@ export class History {
         const origin = body.parent >= 0 ? `broke from floe ${body.parent} at ${born.toFixed(1)} s` : 'original';
         const crack = fractures.find((f) => f.floe === body.number);
         const fate = crack?.kind === 'loose' ? `came loose at ${crack.time.toFixed(1)} s`
-            : crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${(crack.load / 1000).toFixed(0)} kN)`
+            : crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${forceText(crack.load / 1000)})`
             : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
         const name = body.level ? 'Level ice, tile' : 'Floe';
         const canvas = '<canvas role="img" aria-label="speed and contact force over time"></canvas>';
-        this.panel.innerHTML = `<b>${name} ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
-            body.thickness.toFixed(2)} m thick, ${(body.area * body.thickness * body.density / 1000).toFixed(1)} t<br>${
+        this.panel.innerHTML = `<b>${name} ${body.number}</b> ${origin}<br>${short(body.area)} m², ${
+            short(body.thickness)} m thick, ${short(body.area * body.thickness * body.density / 1000)} t<br>${
             fate}${body.moves ? '' : '<br>fixed'}${canvas}<button id="whole" hidden></button>`;
         this.rows = new Map(); // by frame
         this.loading = null;

@@ -8,7 +8,7 @@ import { Loads } from './loads.js';
 import { PeakPanel } from './peaks.js';
 import { follow } from './live.js';
 import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
-import { readScenario, vesselsOf } from './scenario.js';
+import { readScenario, sizesOf, vesselsOf } from './scenario.js';
 import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
@@ -38,6 +38,7 @@ class Player {
         this.dirty = true;
         const told = readScenario(record.scenario), vessels = vesselsOf(told);
         $('title').textContent = told.title || 'Fram';
+        this.sizes = sizesOf(told);
         this.ofVessel = vessels.length > 1 ? ` on ${vessels[0].name}` : ''; // frames tell the force on the first
         this.begin();
     }
@@ -232,15 +233,15 @@ class Player {
         const least = (all) => all.reduce((a, b) => Math.min(a, b), Infinity);
         const most = (all) => all.reduce((a, b) => Math.max(a, b), -Infinity);
         this.ranges = {
-            speed: [0, high(speed, 0.05)],
-            force: [0, high(force, 1)],
+            speed: [0, high(speed, 0.05 * this.sizes.speed)],
+            force: [0, high(force, this.sizes.force)],
             thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
             age: [0, Math.max(10, 0.25 * (this.end - this.time))],
         };
         this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
         // A few arrows may be longer: one hard blow must not make all others vanish.
-        this.arrowScale = 0.12 * Math.max(size.x, size.y) / (1000 * high(pull.map((f) => f / 1000), 0.001));
+        this.arrowScale = 0.12 * Math.max(size.x, size.y) / high(pull, this.sizes.force);
         this.scene.arrowWidth = 0.05 * Math.max(size.x, size.y);
     }
 
@@ -487,13 +488,19 @@ class Player {
         return true;
     }
 
+    /** Whole kilonewtons, of a model with as many digits as its size asks for; never "-0". */
+    loadText(newton) {
+        const digits = Math.min(20, Math.max(0, -Math.floor(Math.log10(this.sizes.force))));
+        return `${(Number((newton / 1000).toFixed(digits)) || 0).toFixed(digits)} kN`;
+    }
+
     tell(state) {
         const { floes, tiles } = this.poses, count = `${floes} ${floes === 1 ? 'floe' : 'floes'}`;
         const ice = tiles === 0 ? count : floes === 0 ? 'level ice' : `level ice and ${count}`;
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${secondsText(this.end)} s, ${ice}`;
         this.timeline.tell(state.time);
-        const [x, y] = state.force.map((newton) => Math.round(newton / 1000)); // never "-0"
-        $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x} kN, Y ${y} kN` : '';
+        const [x, y] = state.force.map((newton) => this.loadText(newton));
+        $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x}, Y ${y}` : '';
     }
 }
 

@@ -27,6 +27,13 @@ export function vesselsOf(scenario) {
     return (scenario.vessels ?? [scenario.vessel]).filter((v) => v && v.present !== false);
 }
 
+/** What is as large as 1 m, 1 m/s and 1 N at full size, in the size of a scenario (Froude): `run.scale` is 30 at full
+ *  size, 1 in a tank. */
+export function sizesOf(scenario) {
+    const length = (scenario.run?.scale ?? 30) / 30;
+    return { length, speed: Math.sqrt(length), force: length ** 3 };
+}
+
 function valueOf(text) {
     if (text.startsWith('"')) return JSON.parse(text);
     if (text === '[]') return [];

@@ -4,6 +4,7 @@
 import * as THREE from 'three';
 import { FORCE_COLOURS } from './legend.js';
 import { Arrows, HullPressure, LitFloes } from './overlay.js';
+import { readScenario, sizesOf } from './scenario.js';
 import { Station } from './station.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
@@ -15,11 +16,12 @@ export class Scene {
     constructor(canvas, record, poses, first) {
         this.record = record;
         this.poses = poses;
+        this.metre = sizesOf(readScenario(record.scenario)).length; // of full size
         this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.scene = new THREE.Scene();
         this.scene.background = new THREE.Color(SKY);
-        this.camera = new THREE.PerspectiveCamera(40, 1, 1, 20000);
+        this.camera = new THREE.PerspectiveCamera(40, 1, this.metre, 20000 * this.metre);
         this.camera.up.set(0, 0, 1);
         this.addBodies();
         this.box = this.bounds(first);
@@ -59,7 +61,7 @@ export class Scene {
         this.scene.add(this.mesh);
         const lines = new THREE.LineBasicMaterial({ color: 0x5b7388 });
         lines.onBeforeCompile = (shader) => this.fetchPoses(shader);
-        this.edges = new THREE.LineSegments(edgeGeometry(bodies), lines);
+        this.edges = new THREE.LineSegments(edgeGeometry(bodies, 0.01 * this.metre), lines);
         this.edges.frustumCulled = false;
         this.scene.add(this.edges);
     }
@@ -110,7 +112,7 @@ export class Scene {
             shader.fragmentShader = shader.fragmentShader
                 .replace('#include <color_fragment>', `vec3 paint = bodyColour;
                     if (onShip.x > 1.5) paint = onShip.y > 0.94 ? ${glsl(BOW)} : ${glsl(DECK)};
-                    else if (onShip.x > 0.5 && abs(onShip.z) < 0.3) paint = ${glsl(LINE)};
+                    else if (onShip.x > 0.5 && abs(onShip.z) < ${float(0.3 * this.metre)}) paint = ${glsl(LINE)};
                     diffuseColor.rgb *= paint;`);
     }
 
@@ -146,7 +148,7 @@ export class Scene {
             if (n === ARROWS) break;
             way.set(...f.force);
             const length = way.length() * scale;
-            if (!(length > 0.2)) continue;
+            if (!(length > 0.2 * this.metre)) continue;
             way.normalize();
             turn.setFromUnitVectors(up, way);
             at.set(...f.point);
@@ -164,7 +166,7 @@ export class Scene {
     /** Where floes broke: points that are shown once their time has come. */
     addMarkers() {
         const { fractures } = this.record, geometry = new THREE.BufferGeometry();
-        const place = fractures.flatMap((f) => [f.place[0], f.place[1], f.place[2] + 1]);
+        const place = fractures.flatMap((f) => [f.place[0], f.place[1], f.place[2] + this.metre]);
         geometry.setAttribute('position', new THREE.Float32BufferAttribute(place, 3));
         geometry.setDrawRange(0, 0);
         const material = new THREE.PointsMaterial({ color: 0xd9730d, size: 7, sizeAttenuation: false });
@@ -198,7 +200,7 @@ export class Scene {
     pick(body) {
         this.ring.visible = body !== null;
         if (!body) return;
-        const points = body.outline.flatMap(([x, y]) => [x, y, body.thickness / 2 + 0.05]);
+        const points = body.outline.flatMap(([x, y]) => [x, y, body.thickness / 2 + 0.05 * this.metre]);
         this.ring.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
     }
 
@@ -246,7 +248,7 @@ export class Scene {
                 box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
         if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
         const hulls = bare ? bodies.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
-        return box.expandByScalar(hulls.reduce((far, x) => Math.max(far, Math.abs(x)), 20));
+        return box.expandByScalar(hulls.reduce((far, x) => Math.max(far, Math.abs(x)), 20 * this.metre));
     }
 }
 
@@ -267,6 +269,7 @@ export function own(body) { return OWN[body.material]; }
 
 /** A hull is painted as a ship is: deck, its bow marked, a white line at the water. */
 const DECK = new THREE.Color(0xc9b58c), BOW = new THREE.Color(0x1d3557), LINE = new THREE.Color(0xf4f4f0);
+function float(x) { return x.toPrecision(7); }
 function glsl(c) { return `vec3(${c.r.toFixed(4)}, ${c.g.toFixed(4)}, ${c.b.toFixed(4)})`; }
 
 /** All prisms and solids with their own normals, tagged by body. */
@@ -326,13 +329,14 @@ function addSolid(b, add) {
     }
 }
 
-/** The top rim of every prism, but for the tiles of level ice: their seams are neither boundary nor crack. */
-function edgeGeometry(bodies) {
+/** The top rim of every prism, so far over its face, but for the tiles of level ice: their seams are neither boundary
+ *  nor crack. */
+function edgeGeometry(bodies, over) {
     const position = [], body = [];
     for (const b of bodies) {
         if (!b.outline || b.level) continue;
         b.outline.forEach((a, i) => {
-            const c = b.outline[(i + 1) % b.outline.length], z = b.thickness / 2 + 0.01;
+            const c = b.outline[(i + 1) % b.outline.length], z = b.thickness / 2 + over;
             position.push(...a, z, ...c, z);
             body.push(b.index, b.index);
         });

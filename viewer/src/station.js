@@ -7,10 +7,10 @@ import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { FORCE_COLOURS, GONE } from './legend.js';
-import { readScenario, vesselsOf } from './scenario.js';
+import { readScenario, sizesOf, vesselsOf } from './scenario.js';
 
 const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one along the bottom
-const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller without a diameter, as the scenario's keys say [Pa]
+const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller of full size without a diameter, as the keys say [Pa]
 const SPACING = 1.5, DEPTH = 0.6, STERN = 0.45; // of propellers without keys, as src/sim/build_wash.c has them
 const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be seen
 
@@ -18,10 +18,12 @@ export class Station {
     /** water: its mesh, at whose edge lines are cut. */
     constructor(scene, record, water) {
         const hulls = record.bodies.filter((b) => b.material === 'hull');
-        const vessels = vesselsOf(readScenario(record.scenario));
+        const told = readScenario(record.scenario), vessels = vesselsOf(told);
+        this.sizes = sizesOf(told);
+        const disc = (thrust) => Math.sqrt(4 * thrust / (Math.PI * DISC_PRESSURE * this.sizes.length));
         const each = (make) => vessels.flatMap((v, i) => (v.mode === 'free' && hulls[i] ? make(v, hulls[i]) : []));
         this.lines = each(linesOf);
-        this.thrusters = each((v, hull) => [...thrustersOf(v, hull), ...propellersOf(v, hull)]);
+        this.thrusters = each((v, hull) => [...thrustersOf(v, hull, disc), ...propellersOf(v, hull, disc)]);
         this.gone = 0; // lines that parted and thrusters that failed
         const box = new THREE.Box3().setFromObject(water);
         this.edge = [box.min, box.max];
@@ -104,7 +106,8 @@ export class Station {
             else if (push) t.place = local(push.point, t.hull, poses); // where it stays when it fails
             t.works = Boolean(push);
             this.gone += !push;
-            t.axis = push?.force?.lengthSq() > 1 ? push.force.clone().normalize() : turned(t.rest, t.hull, poses);
+            t.axis = push?.force?.length() > this.sizes.force ? push.force.clone().normalize()
+                : turned(t.rest, t.hull, poses);
             t.at = t.place ? global(t.place, t.hull, poses) : null; // null: it had failed before the first frame
             matrix.compose(t.at ?? front, turn.setFromUnitVectors(front, t.axis), size.setScalar(t.at ? t.disc : 0));
             this.discs.setMatrixAt(i, matrix);
@@ -151,22 +154,23 @@ function reachOf(hull) {
         [Infinity, -Infinity]);
 }
 
-function thrustersOf(v, hull) {
+/** disc(thrust): diameter of a propeller without one of its own. */
+function thrustersOf(v, hull, disc) {
     const [stern, stem] = reachOf(hull);
     return (v.thrusters ?? []).map((t, i) => ({
         hull, number: i + 1, given: [t.x, t.y],
         rest: new THREE.Vector3(t.kind === 'tunnel' ? 0 : 1, t.kind === 'tunnel' ? 1 : 0, 0),
         disc: Math.max(LEAST_DISC * (stem - stern),
-            t.diameter > 0 ? t.diameter : Math.sqrt(4 * t.thrust / (Math.PI * DISC_PRESSURE))),
+            t.diameter > 0 ? t.diameter : disc(t.thrust)),
     }));
 }
 
 /** Propellers of `propulsion`: their thrust is no force of a frame, so they face ahead. */
-function propellersOf({ propulsion: p }, hull) {
+function propellersOf({ propulsion: p }, hull, disc) {
     if (typeof p?.bollard_pull !== 'number') return [];
     const [stern, stem] = reachOf(hull), or = (given, other) => (typeof given === 'number' ? given : other);
     const length = stem - stern, count = p.propellers;
-    const diameter = or(p.propeller_diameter, Math.sqrt(4 * p.bollard_pull / (count * Math.PI * DISC_PRESSURE)));
+    const diameter = or(p.propeller_diameter, disc(p.bollard_pull / count));
     const apart = or(p.propeller_spacing, SPACING * diameter);
     return Array.from({ length: count }, (_, k) => ({
         own: true, hull, rest: new THREE.Vector3(1, 0, 0), disc: Math.max(LEAST_DISC * length, diameter),
