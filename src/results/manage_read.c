@@ -42,16 +42,6 @@ static fram_status choose_vessel(manage_run *m, const char *name, fram_error *er
 
 /* ---- first reading: ways ---- */
 
-/* Body of a vessel by its row: hulls are born in the order of the vessels. */
-static int32_t body_of(const replay *r, int32_t vessel)
-{
-    for (int32_t i = 0; i < r->bodies.count; i++) {
-        if (r->bodies.data[i].material == MATERIAL_HULL && vessel-- == 0)
-            return i;
-    }
-    return -1;
-}
-
 static const replay_pose *pose_of(const replay *r, int32_t body)
 {
     for (int32_t i = 0; i < r->frame.poses.count; i++) {
@@ -114,16 +104,25 @@ static vec2 ice_velocity(const manage_run *m, const replay *r)
     return area > 0 ? vec2_scale(sum, 1 / area) : sum;
 }
 
+/* Of the protected vessel [m]; a hull from a file has its own, whatever the keys say. */
+static double beam_of(const manage_run *m, const replay *r)
+{
+    const scenario_hull *hull = &scenario_vessel_entry(&m->d.s, m->vessel).keys->hull;
+    return hull->form == HULL_MESH ? replay_hull_size(r, m->vessel).y : hull->beam;
+}
+
 /* Places and velocities; what follows from those of other moments comes later. */
 static fram_status add_moment(manage_run *m, const replay *r, fram_error *error)
 {
     manage_moment now = {.time = r->frame.time, .velocity = ice_velocity(m, r)};
-    const replay_pose *own = pose_of(r, body_of(r, m->vessel));
+    const replay_pose *own = pose_of(r, replay_hull(r, m->vessel));
     if (!own)
         return FRAM_OK;
     now.place = vec2_make(own->position.x, own->position.y);
+    if (is_automatic(m->limit))
+        m->limit = beam_of(m, r);
     for (int32_t v = 0, k = 0; k < m->helpers; v++) {
-        const replay_pose *p = v == m->vessel ? NULL : pose_of(r, body_of(r, v));
+        const replay_pose *p = v == m->vessel ? NULL : pose_of(r, replay_hull(r, v));
         if (v == m->vessel)
             continue;
         double lo = 0, hi = 0;
@@ -327,7 +326,7 @@ static fram_status look_at(manage_run *m, const look_list *looks, const ice_now 
 static void plan_windows(manage_run *m, const replay *r, int32_t i)
 {
     manage_moment *now = &m->moments.data[i];
-    const replay_pose *own = pose_of(r, body_of(r, m->vessel));
+    const replay_pose *own = pose_of(r, replay_hull(r, m->vessel));
     double lo, hi;
     if (!own || !(now->speed > STILL))
         return;
@@ -378,10 +377,9 @@ static fram_status read_all(manage_run *m, const manage_options *options, fram_e
     fram_status status = choose_vessel(m, options->vessel, error);
     if (status != FRAM_OK)
         return status;
-    const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
     int32_t others = scenario_vessel_count(&m->d.s) - 1;
     m->helpers = others < MANAGE_HELPERS ? others : MANAGE_HELPERS;
-    m->limit = automatic_or(options->limit, keys->hull.beam);
+    m->limit = options->limit;
     m->depth = options->depth;
     status = read_ways(m, error);
     if (status == FRAM_OK && m->moments.count == 0)

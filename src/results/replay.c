@@ -394,3 +394,28 @@ polygon replay_outline(const replay *r, const replay_body *b)
     /* Outlines of a record without any are nowhere. */
     return (polygon){b->vertex_count > 0 ? r->outlines.data + b->vertex_first : NULL, b->vertex_count};
 }
+
+int32_t replay_hull(const replay *r, int32_t vessel)
+{
+    /* Hulls are born in the order of the vessels. */
+    for (int32_t i = 0; i < r->bodies.count; i++) {
+        if (r->bodies.data[i].material == MATERIAL_HULL && vessel-- == 0)
+            return i;
+    }
+    return -1;
+}
+
+vec2 replay_hull_size(const replay *r, int32_t vessel)
+{
+    int32_t body = replay_hull(r, vessel);
+    vec2 lo = {HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL};
+    if (body < 0)
+        return vec2_make(0, 0);
+    const replay_body *b = &r->bodies.data[body];
+    for (int32_t i = 0; i < b->vertex_count; i++) {
+        vec3 p = r->points.data[b->vertex_first + i];
+        lo = vec2_make(fmin(lo.x, p.x), fmin(lo.y, p.y));
+        hi = vec2_make(fmax(hi.x, p.x), fmax(hi.y, p.y));
+    }
+    return b->vertex_count > 0 ? vec2_sub(hi, lo) : vec2_make(0, 0);
+}

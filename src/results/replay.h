@@ -85,5 +85,9 @@ fram_status replay_next(replay *r, bool *found, fram_error *error);
 void replay_close(replay *r);
 
 polygon replay_outline(const replay *r, const replay_body *b);
+/* Body of a vessel by its row in the scenario, -1 before it is there. */
+int32_t replay_hull(const replay *r, int32_t vessel);
+/* Length and breadth of a vessel's hull over all, in its own axes [m]; 0 before it is there. */
+vec2 replay_hull_size(const replay *r, int32_t vessel);
 
 #endif

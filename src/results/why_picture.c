@@ -110,6 +110,12 @@ int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d
     return count;
 }
 
+/* A hull from a file has its own length, whatever the keys say [m]. */
+static double length_of(const replay *r, const scenario_hull *hull, int32_t vessel)
+{
+    return hull->form == HULL_MESH ? replay_hull_size(r, vessel).x : hull->length;
+}
+
 /* Around the middle of what touches the vessel, and what the chains reach. */
 static box2 peak_window(const peak_detail *d, double reach)
 {
@@ -134,7 +140,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
     replay_plan plan = {0};
     load_unit unit = load_unit_for(d->load);
     vessel_entry vessel = scenario_vessel_entry(&y->run.s, y->vessel);
-    double most = 0, part, force = 0, reach = fmax(0.75 * vessel.keys->hull.length, 1);
+    double most = 0, part, force = 0, reach = fmax(0.75 * length_of(r, &vessel.keys->hull, y->vessel), 1);
     for (int32_t i = 0; i < m->poses.count; i++)
         if (part_in(d, &r->bodies.data[m->poses.data[i].body], &part))
             most = fmax(most, part);

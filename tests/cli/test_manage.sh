@@ -73,6 +73,15 @@ says "no ice before the vessel until 5 s, which the means count: give run.transi
 says "No ice was before the vessel until 5 s" late.html
 if built_with cairo; then says "The field at the end" late.html; fi
 
+# Floes count as managed up to the beam, which a hull from a file has of its own.
+expect 0 "$FRAM" hull --box --length 40 --beam 10 --draught 4 --freeboard 2 -o ship.stl -q
+expect 0 "$FRAM" run scene.yaml -o filed -q --set vessels.ship.hull.form=file \
+    --set vessels.ship.hull.file="$PWD/ship.stl" --set vessels.ship.hull.beam=20
+for run in both filed; do
+    expect 0 "$FRAM" manage $run --vessel ship --json -q
+    number "j['run']['limit']" 10
+done
+
 # A run that was stopped before its transient ended has no load to tell.
 expect 0 "$FRAM" run alone/scenario.yaml -o early --set run.transient=3 --until 2 -q
 expect 0 "$FRAM" manage early -q

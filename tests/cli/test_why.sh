@@ -36,6 +36,12 @@ if built_with cairo; then
     expect 0 "$FRAM" why run --peak 1 --no-rerun -o peak.svg
     says "<svg " peak.svg
     holds "</svg>" peak.svg
+    # The same hull from a file makes the same picture: it shows the hull as long as it is, whatever its keys say.
+    expect 0 "$FRAM" hull --box --length 40 --beam 20 --draught 4 --freeboard 3 -o box.stl -q
+    sed 's/hull: {form: box.*/hull: {form: file, file: box.stl}/' chain.yaml >filed.yaml
+    expect 0 "$FRAM" run filed.yaml -o filed --quiet
+    expect 0 "$FRAM" why filed --peak 1 --no-rerun -o filed.svg
+    cmp -s peak.svg filed.svg || fail "the picture of a peak goes by the default length of a hull from a file"
 fi
 
 # As JSON: the parts sum to the load, by zone too; computed again by the same method it is the same.
