@@ -121,17 +121,31 @@ static void remove_files(const char *folder, bool (*is_such)(const char *name))
     closedir(dir);
 }
 
-/* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */
+/* Files that grow with a run.  A link, as to a larger disk, stays: what it leads to is emptied when the run begins. */
+static void remove_streams(const char *folder)
+{
+    static const char *const names[] = {"series.csv", "fractures.csv", "record.fram"};
+    char path[PATH_ROOM];
+    struct stat about;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (path_join(folder, names[i], path, NULL) == FRAM_OK && lstat(path, &about) == 0 && S_ISREG(about.st_mode))
+            (void)unlink(path);
+    }
+}
+
+/* Results of the run before: next to the files of a new one that stops before it has written its own, or never writes
+   such, they would be taken for its own.  First of all how that run ended. */
 static void remove_results(const char *folder)
 {
-    static const char *const names[] = {"failed.fram",  "plan.png",   "loads.png",      "station.png",
-                                        "station.json", "peaks.fram", "peaks.fram.new", "playback.html",
-                                        "report.html",  "run.nc",     "run.mp4",        "manage.html"};
+    static const char *const names[] = {"run.json",     "failed.fram", "plan.png",       "loads.png",     "station.png",
+                                        "station.json", "peaks.fram",  "peaks.fram.new", "playback.html", "report.html",
+                                        "run.nc",       "run.mp4",     "manage.html"};
     char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (path_join(folder, names[i], path, NULL) == FRAM_OK)
             (void)unlink(path);
     }
+    remove_streams(folder);
     remove_files(folder, is_of_vessel);
     if (path_join(folder, "pictures", path, NULL) == FRAM_OK)
         remove_files(path, is_numbered_plan);

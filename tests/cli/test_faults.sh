@@ -70,6 +70,16 @@ if "$FRAM" --version | grep -q cairo; then
     same "$(status_of blocked)" failed "status of a run whose picture cannot be written"
 fi
 
+# A run over another one that cannot begin leaves nothing of that one which would be taken for its own.
+expect 0 "$FRAM" run scene.yaml -o over -q --set run.duration=0.1
+rm over/record.fram
+mkdir over/record.fram
+expect 2 "$FRAM" run scene.yaml -o over -q --force --set run.duration=0.2 --set title=second
+says "over/record.fram: cannot open for writing" err
+[ ! -e over/run.json ] || fail "a run that did not begin has the end of the one before: $(status_of over)"
+expect 2 "$FRAM" report over -q
+says "run.json: cannot read" err
+
 # A simulation that goes wrong is a failed run, and what it says is about what happened.
 expect 1 "$FRAM" run scene.yaml -o fast --set run.speed_limit=0.05 --set vessel.mode=free --set vessel.speed=0 \
     --set vessel.mass=1e6 --json
