@@ -11,7 +11,7 @@ Rules (CONTRIBUTING.md says why):
   - files of src/ have at most 500 lines (kernels and all others 800) of at most 120 columns, no reminders of unfinished
     work and no paths of one machine;
   - docs/architecture.md names files that are there;
-  - no libm function whose last bits differ between machines is called in src/, except in LIBM_EXEMPT.
+  - no libm function whose last bits differ between machines is called in src/.
 
 Prints file:line: message for each breach; exit code 1 when there is one.
 """
@@ -53,8 +53,6 @@ LIBRARY_ROOMS = {
     "nettle/": {"base", "io"},
     "pthread.h": {"base"},
 }
-# Files of src/ that may call libm's transcendentals: they draw, and nothing they compute reaches the state.
-LIBM_EXEMPT = set()
 
 # Programs of other engines, kept as they were written.
 KEPT_AS_WRITTEN = "bench/peers/"
@@ -142,7 +140,7 @@ def breaches_of(path, text):
             breach = include_breach(relative, *found.groups())
             if breach:
                 yield number, breach
-    if place == "src" and str(relative) not in LIBM_EXEMPT:
+    if place == "src":
         for number, line in enumerate(code, 1):
             for name in CALL.findall(line):
                 yield number, f"{name}() of libm differs between machines: see base/transcendental.h"

@@ -10,8 +10,6 @@ import pathlib
 ROUNDING = 1e-9
 PARTS = (("ice_force_capped", "ice_force_below_cap", "ice_force_friction"),
          ("ice_force_bow", "ice_force_shoulder", "ice_force_midbody", "ice_force_stern", "ice_force_bottom"))
-# May be empty of sense: no vessel, nothing estimated yet.
-MAY_BE_NOTHING = ()
 GROWING = ("ice_mass_left", "ice_mass_entered", "ice_mass_lost", "ice_mass_gained", "ice_mass_crushed", "brash_mass",
            "splits", "bendings")
 # Files that are the same to the byte, whoever computed the run and however often it was interrupted.
@@ -64,7 +62,7 @@ def look_at_run(folder):
     except (OSError, ValueError, IndexError) as problem:
         return f"series.csv or fractures.csv cannot be read: {problem}"
     for name, values in series.items():
-        if name not in MAY_BE_NOTHING and not all(math.isfinite(v) for v in values):
+        if not all(math.isfinite(v) for v in values):
             return f"series.csv holds a number that is none: {name}"
     for name in GROWING:
         values = series.get(name, [])
