@@ -253,6 +253,12 @@ static bool is_option(const char *word, const char *name)
 /* Options by which tasks would not be those that are waited for. */
 static fram_status check_slurm_option(const char *word, fram_error *error)
 {
+    fram_status status = check_slurm_word("slurm_options", word, error);
+    if (status != FRAM_OK)
+        return status;
+    if (strncmp(word, "--", 2) != 0)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
+                         "expected an option of sbatch, as --account=ice, found %.60s", word);
     if (is_option(word, "--array"))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
                          "the study numbers its tasks itself: expected no --array; runs a task make fewer of them");
@@ -263,10 +269,25 @@ static fram_status check_slurm_option(const char *word, fram_error *error)
     return FRAM_OK;
 }
 
+static fram_status check_slurm_options(const fram_study_definition *d, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    if (d->slurm_option_count < 0)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_option_count", "expected 0 or more, found %d",
+                         d->slurm_option_count);
+    for (int i = 0; status == FRAM_OK && i < d->slurm_option_count; i++) {
+        if (!d->slurm_options || !d->slurm_options[i])
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options", "expected %d texts, found NULL at %d",
+                             d->slurm_option_count, i);
+        status = check_slurm_option(d->slurm_options[i], error);
+    }
+    return status;
+}
+
 static fram_status check_slurm(const fram_study_definition *d, fram_error *error)
 {
     bool slurm = d->on && strcmp(d->on, "slurm") == 0;
-    bool asked = d->slurm_partition || d->slurm_time || d->slurm_option_count > 0 || d->slurm_runs_per_task > 0 ||
+    bool asked = d->slurm_partition || d->slurm_time || d->slurm_option_count != 0 || d->slurm_runs_per_task > 0 ||
                  d->slurm_poll > 0 || d->dry_run;
     if (!slurm && asked)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
@@ -274,14 +295,8 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
     fram_status status = check_slurm_word("slurm_partition", d->slurm_partition, error);
     if (status == FRAM_OK)
         status = check_slurm_word("slurm_time", d->slurm_time, error);
-    for (int i = 0; status == FRAM_OK && i < d->slurm_option_count; i++) {
-        status = check_slurm_word("slurm_options", d->slurm_options[i], error);
-        if (status == FRAM_OK && strncmp(d->slurm_options[i], "--", 2) != 0)
-            status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
-                               "expected an option of sbatch, as --account=ice, found %.60s", d->slurm_options[i]);
-        if (status == FRAM_OK)
-            status = check_slurm_option(d->slurm_options[i], error);
-    }
+    if (status == FRAM_OK)
+        status = check_slurm_options(d, error);
     if (status == FRAM_OK && (d->slurm_runs_per_task < 0 || d->slurm_runs_per_task > SLURM_RUNS_MOST))
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_runs_per_task", "expected 0 to %d, found %d",
                            SLURM_RUNS_MOST, d->slurm_runs_per_task);

@@ -63,6 +63,18 @@ START_TEST(misuse_is_refused)
     d.jobs = -1;
     ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
     ck_assert_str_eq(error.key, "jobs");
+    static const char *const no_option[] = {"--account=ice", NULL};
+    d.jobs = 0;
+    d.on = "slurm";
+    d.slurm_option_count = 2;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "slurm_options");
+    d.slurm_options = no_option;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.message, "expected 2 texts, found NULL at 1");
+    d.slurm_option_count = -1;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "slurm_option_count");
     d.size = 1;
     ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
     fram_study_destroy(s);
