@@ -114,9 +114,10 @@ seed_interval difference_of_means(const double *a, int32_t a_count, const double
     /* Samples without any scatter differ for certain. */
     *freedom = x.count + y.count - 2;
     if (both > 0) {
-        /* By shares: squares of small variances vanish. */
-        double share = of_x / both;
-        *freedom = (int32_t)(1 / (share * share / (x.count - 1) + (1 - share) * (1 - share) / (y.count - 1)));
+        /* By shares: squares of small variances vanish.  Whole degrees stay whole: 1/(1/93) is a hair below 93. */
+        double share = of_x / both, rest = 1 - share;
+        double degrees = 1 / (share * share / (x.count - 1) + rest * rest / (y.count - 1));
+        *freedom = (int32_t)(degrees * (1 + 1e-12));
     }
     out.half = student_quantile(confidence, *freedom) * sqrt(both);
     return out;

@@ -45,6 +45,11 @@ START_TEST(means_without_pairs_are_compared_by_welch)
     of = difference_of_means(equal, 3, other, 2, 0.95, &freedom);
     ck_assert_int_eq(freedom, 3);
     ck_assert(of.mean == 1 && of.half == 0);
+    double row[94];
+    for (int i = 0; i < 94; i++)
+        row[i] = i % 2;
+    of = difference_of_means(row, 94, other, 2, 0.95, &freedom);
+    ck_assert_int_eq(freedom, 93);
     const double small[2] = {1e-90, 3e-90}, still[2] = {0, 0};
     of = difference_of_means(small, 2, still, 2, 0.95, &freedom);
     ck_assert_int_eq(freedom, 1);
