@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 import unittest
+from unittest import mock
 
 import package  # noqa: F401  first: it finds the package `fram`
 import numpy as np
@@ -53,6 +54,23 @@ def in_threads(count, work):
         thread.join()
 
 
+class ClosesWhatIsCopied:
+    """The library; while it copies the world, another thread closes that."""
+
+    def __init__(self, world):
+        self.world, self.refused = world, False
+
+    def __getattr__(self, name):
+        return getattr(_library.lib, name)
+
+    def fram_world_copy(self, *arguments):
+        try:
+            self.world.close()
+        except fram.UsageError:
+            self.refused = True
+        return _library.lib.fram_world_copy(*arguments) if self.refused else 0
+
+
 class Worlds(unittest.TestCase):
     def test_a_callback_may_close_step_and_load(self):
         world = towed().world()
@@ -89,6 +107,13 @@ class Worlds(unittest.TestCase):
             world.close()
         world._calls.pop()
         world.close()
+
+    def test_a_world_that_is_copied_is_not_closed(self):
+        world = towed().world()
+        library = ClosesWhatIsCopied(world)
+        with mock.patch("fram.world.lib", library):
+            world.copy()
+        self.assertTrue(library.refused)
 
     def test_channels_within_a_step_are_no_numbers(self):
         seen = []

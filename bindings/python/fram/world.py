@@ -552,8 +552,8 @@ class World:
 
     def copy(self) -> "World":
         """A second world in the same state, steered and recorded apart."""
-        error, out = new_error(), ffi.new("fram_world **")
-        self.scenario._context._check(lib.fram_world_copy(self._living(), out, error), error)
+        out = ffi.new("fram_world **")
+        self._call(lib.fram_world_copy, out)
         return World(out[0], self.scenario)
 
     def __copy__(self) -> "World":
