@@ -335,6 +335,16 @@ def check_colours(browser):
     assert units[0] is None and all("[" in unit for unit in units[1:]), units
     for mode in ("speed", "force", "age"):
         assert seen[mode][1] != seen["plain"][1], f"colour by {mode} changes nothing"
+    # The ages of a run that grows go by its length, wherever the view stands.
+    oldest = browser.run("""(() => {
+        const { end } = fram;
+        fram.end = fram.record.frames[0].time + 400;
+        fram.findRanges();
+        const [, oldest] = fram.ranges.age;
+        fram.end = end;
+        fram.findRanges();
+        return oldest; })()""")
+    assert oldest == 100, oldest
     browser.choose("colour", "plain")
 
 

@@ -236,7 +236,7 @@ class Player {
             speed: [0, high(speed, 0.05 * this.sizes.speed)],
             force: [0, high(force, this.sizes.force)],
             thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
-            age: [0, Math.max(10, 0.25 * (this.end - this.time))],
+            age: [0, Math.max(10, 0.25 * (this.end - record.frames[0].time))],
         };
         this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
