@@ -4,7 +4,7 @@
 const $ = (id) => document.getElementById(id);
 const parts = JSON.parse($('parts').textContent); // {worker, playback, scenario}: texts
 const workerAddress = URL.createObjectURL(new Blob([parts.worker], { type: 'text/javascript' }));
-let worker = null, begun = null, waiting = [], links = [], newest = 0;
+let worker = null, begun = null, waiting = [], over = false, links = [], newest = 0;
 
 $('scenario').value = parts.scenario;
 $('run').onclick = run;
@@ -24,6 +24,7 @@ async function run() {
     window.simulation = { state: 'loading' };
     begun = null;
     waiting = [];
+    over = false;
     openScene();
     worker = new Worker(workerAddress);
     worker.onmessage = ({ data }) => { if (mine === newest) hear(data); };
@@ -40,6 +41,7 @@ function openScene() {
         window.simulation.scene = scene.contentWindow;
         for (const bytes of waiting) scene.contentWindow.framAppend(bytes);
         waiting = null;
+        if (over) scene.contentWindow.framEnd();
     };
     scene.srcdoc = parts.playback;
 }
@@ -56,6 +58,8 @@ function end() {
     newest++;
     worker?.terminate();
     worker = null;
+    over = true;
+    if (!waiting) $('scene').contentWindow.framEnd();
     $('run').disabled = false;
     $('stop').disabled = true;
     if (!$('progress').hasAttribute('value')) $('progress').value = 0;
@@ -107,7 +111,6 @@ function finish(ended, files) {
     hash.textContent = `state hash ${ended.hash}`;
     $('results').append(document.createElement('br'), hash);
     Object.assign(window.simulation, { state: ended.stopped ? 'stopped' : 'finished', ended });
-    if (!waiting) $('scene').contentWindow.framEnd();
 }
 
 /** The place of a mistake first, and the cursor there. */

@@ -100,6 +100,7 @@ def check_mistake(browser):
     chosen = browser.run("(() => { const b = document.getElementById('scenario');"
                          " return b.value.slice(b.selectionStart, b.selectionEnd); })()")
     assert chosen == WRONG.splitlines()[3], chosen
+    browser.until("simulation.scene?.framEnded === true", "the playback waits for a run that failed")
     return shown
 
 
