@@ -232,17 +232,41 @@ unit_status unit_enter_initialization(unit *u)
     return status;
 }
 
-/* Inputs that changed, in their order: positioning comes before the orders that it would refuse. */
+/* Whether an input is an order to a thruster of the vessel whose input `positioning` is the other one. */
+static bool is_order_of(const unit *u, const variable *v, const variable *positioning)
+{
+    fram_channel order, other;
+    if (!positioning || fram_world_input(u->world, v->index, &order, NULL) != FRAM_OK ||
+        fram_world_input(u->world, positioning->index, &other, NULL) != FRAM_OK)
+        return false;
+    size_t vessel = strlen(other.name) - strlen("positioning");
+    return strncmp(order.name, other.name, vessel) == 0 && strncmp(order.name + vessel, "thruster_", 9) == 0;
+}
+
+static bool is_positioning(const unit *u, const variable *v)
+{
+    fram_channel input;
+    if (fram_world_input(u->world, v->index, &input, NULL) != FRAM_OK)
+        return false;
+    const char *point = strrchr(input.name, '.');
+    return strcmp(point ? point + 1 : input.name, "positioning") == 0;
+}
+
+/* Inputs that changed, in their order: positioning comes before the orders that it would refuse.  When the vessel's own
+   controller hands over, its thrusters have its last orders, and the importer's, changed or not, take their place. */
 static unit_status tell_inputs(unit *u)
 {
     fram_error e;
+    const variable *handed_over = NULL;
     for (int i = 0; i < u->count; i++) {
         variable *v = &u->variables[i];
-        if (v->kind != VARIABLE_INPUT || v->value == v->told)
+        if (v->kind != VARIABLE_INPUT || (v->value == v->told && !is_order_of(u, v, handed_over)))
             continue;
         if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
             return unit_fail_by(u, &e);
         v->told = v->value; /* as the importer sees it: a limited order is not told again */
+        if (v->value == 0 && is_positioning(u, v))
+            handed_over = v;
     }
     return UNIT_OK;
 }

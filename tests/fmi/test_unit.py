@@ -121,6 +121,28 @@ class Units:
         instance.free()
         world.free()
 
+    def test_orders_hold_after_the_vessels_own_controller(self):
+        """What an importer's inputs say is what the thrusters do, also where it says what it said before."""
+        world, instance = World(BUILD / "libfram.so", self.scene), self.unit.instance().initialise()
+        orders = {"thruster_1_order": 5e4, "thruster_1_order_angle": 0, "thruster_2_order": 0,
+                  "thruster_2_order_angle": 0}
+        instance.set("thruster_1_order", 5e4)
+        dt = self.unit.step_size
+        for i in range(24):
+            if i in (8, 16):
+                instance.set("positioning", int(i == 8))
+                world["positioning"] = int(i == 8)
+            if i in (0, 16):
+                for name, order in orders.items():
+                    world[name] = order
+            instance.step(i * dt, dt)
+            world.step()
+        self.assertEqual(instance.get(*orders), list(orders.values()))
+        names = self.unit.outputs()
+        self.assertEqual(instance.get(*names), [world[name] for name in names])
+        instance.free()
+        world.free()
+
     def test_roll_backs_are_equal_to_the_bit(self):
         rng, dt = random.Random(3), self.unit.step_size
         one, two = self.unit.instance(name="one").initialise(), self.unit.instance(name="two").initialise()
