@@ -533,6 +533,7 @@ class Package(unittest.TestCase):
                 "    return c\n"
                 "for _ in range(5): make()\n"
                 "gc.collect()\n"
+                "assert not fram._library._made, fram._library._made\n"
                 "kept = make()\n"
                 "keep = lambda: kept\n"
                 "kept.recording = kept.world.record(sys.argv[2])\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import Callable, Optional
 
 from ._library import check, ffi, lib, new_error, owned, text_of
@@ -43,10 +44,17 @@ class Context:
 
         self._keep.append(look)
         definition.work = look
+        self._log = log
         if log is not None:
+            # The library's functions live as long as its context does, whoever has it: they must not hold the
+            # caller's, which may know the worlds of this context.
+            me = weakref.ref(self)
+
             @ffi.callback("void(void *, fram_log_level, const char *)", onerror=keep_exception)
             def forward(_user, level, text):
-                log(_LEVELS[int(level)], text_of(text))
+                context = me()
+                if context is not None:
+                    context._log(_LEVELS[int(level)], text_of(text))
 
             self._keep.append(forward)
             definition.log = forward

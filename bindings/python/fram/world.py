@@ -62,8 +62,9 @@ class _Memory:
 class _Keep:
     """What arrays hold of a world."""
 
-    def __init__(self, pointer):
-        self.pointer = pointer
+    def __init__(self, pointer, scenario: Scenario):
+        self.pointer = pointer  # goes first: the end of a recording is told to the log of the scenario's context
+        self.scenario = scenario
 
 
 _NEVER = (-1,)
@@ -299,9 +300,9 @@ class World:
     """A world.  ``world["ice_force_x"]`` reads a channel or an input, ``world["wind_x"] = 10`` tells an input."""
 
     def __init__(self, pointer, scenario: Scenario):
-        self.scenario = scenario
         self._pointer = owned(pointer, lib.fram_world_destroy, scenario._pointer)
-        self._keep: Optional[_Keep] = _Keep(self._pointer)
+        self._keep: Optional[_Keep] = _Keep(self._pointer, scenario)
+        self.scenario = scenario
         self._view: Optional[View] = None
         self._recordings = 0  # so far
         self._shapes: Optional[Outlines] = None
