@@ -122,6 +122,18 @@ class Package(unittest.TestCase):
         with self.assertRaises(fram.UsageError):
             fram.Scenario.from_text("run\0")
 
+    def test_texts_are_utf_8_in_a_locale_that_is_not(self):
+        text = ("import fram, sys\n"
+                "assert sys.getfilesystemencoding() == 'ascii'\n"
+                "word = 'K\\xf6ln'\n"
+                "for title, overrides in (('', {'title': word}), ('', ['title=' + word]), ('title: ' + word, None)):\n"
+                "    scenario = fram.Scenario.from_text(title + sys.argv[1], overrides=overrides)\n"
+                "    assert 'title: \"K\\xf6ln\"' in scenario.text\n")
+        done = subprocess.run([sys.executable, "-c", text, TOWED], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1]),
+                                   "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_a_scenario_stays_what_it_was_when_the_working_folder_changes(self):
         (self.folder / "other").mkdir()
         for folder, seed in ((self.folder, 3), (self.folder / "other", 4)):

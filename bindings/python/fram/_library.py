@@ -110,8 +110,16 @@ def text_of(pointer) -> str:
 
 
 def bytes_of(path) -> bytes:
-    """A path or text for C."""
-    encoded = os.fsencode(path)
+    """A path for C."""
+    return _without_nul(os.fsencode(path))
+
+
+def text_bytes_of(text) -> bytes:
+    """A text for C, whose scenarios are UTF-8 in every locale."""
+    return _without_nul(text.encode("utf-8", "surrogateescape") if isinstance(text, str) else os.fsencode(text))
+
+
+def _without_nul(encoded: bytes) -> bytes:
     if b"\0" in encoded:
         raise UsageError("usage", "expected a text without NUL characters", key="text")
     return encoded

@@ -7,7 +7,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_of
+from ._library import UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_bytes_of, text_of
 from .context import Context, default_context
 
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
@@ -18,16 +18,16 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
     if overrides is None:
         return []
     if isinstance(overrides, (str, bytes)):
-        return [bytes_of(overrides)]
+        return [text_bytes_of(overrides)]
     if not isinstance(overrides, Mapping):
-        return [bytes_of(text) for text in overrides]
+        return [text_bytes_of(text) for text in overrides]
 
     def word(value: Any) -> str:
         if isinstance(value, (bool, np.bool_)):
             return "true" if value else "false"
         return repr(float(value)) if isinstance(value, float) else str(value)
 
-    return [bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
+    return [text_bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
 
 
 def _read_again(how: str, what: bytes, base, overrides: list[bytes]) -> "Scenario":
@@ -57,7 +57,7 @@ class Scenario:
                   context: Optional[Context] = None) -> "Scenario":
         """A scenario from YAML text; relative paths in it start from the folder `base` (default: the working one)."""
         folder = None if base is None else bytes_of(base)
-        return cls._make("parse", bytes_of(text), folder, _override_texts(overrides), context or default_context())
+        return cls._make("parse", text_bytes_of(text), folder, _override_texts(overrides), context or default_context())
 
     @classmethod
     def _make(cls, how: str, what: bytes, base, overrides: list[bytes], context: Context) -> "Scenario":
