@@ -469,6 +469,20 @@ class Package(unittest.TestCase):
         except ImportError:
             print("without matplotlib")
 
+    def test_optional_libraries_that_are_broken(self):
+        """As those that were built for another numpy: what does not need them is not in need of them."""
+        for name in ("pandas", "gymnasium"):
+            (self.folder / "broken" / name).mkdir(parents=True)
+            (self.folder / "broken" / name / "__init__.py").write_text("raise ValueError('numpy.dtype size changed')")
+        text = ("import sys, fram\n"
+                "run = fram.Scenario.from_text(sys.argv[1], overrides='run.duration=0.1').run(sys.argv[2])\n"
+                "assert isinstance(run.series, dict) and isinstance(run.fractures, dict)\n"
+                "assert isinstance(fram.StationKeeping(fram.Scenario.from_text(sys.argv[3])).action_space, fram.Box)\n")
+        path = os.pathsep.join((str(self.folder / "broken"), str(pathlib.Path(fram.__file__).parents[1])))
+        done = subprocess.run([sys.executable, "-c", text, TOWED, self.folder / "with broken", FREE],
+                              capture_output=True, text=True, check=False, env={**os.environ, "PYTHONPATH": path})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_callbacks_raise_through_the_library(self):
         class Mine(Exception):
             pass

@@ -43,7 +43,7 @@ class Box:
 def _box(low, high):
     try:
         from gymnasium.spaces import Box as Theirs
-    except ImportError:
+    except Exception:  # noqa: BLE001: also one that was built for another numpy
         return Box(low, high)
     return Theirs(np.asarray(low, np.float64), np.asarray(high, np.float64), dtype=np.float64)
 

@@ -19,7 +19,7 @@ from .context import Context, default_context
 
 try:
     import pandas
-except ImportError:
+except Exception:  # noqa: BLE001: also one that was built for another numpy
     pandas = None
 
 
