@@ -22,9 +22,11 @@
    threads at once when its memory and log functions can be called so; the C library's can.  The context's threads then
    work for one of them at a time, and the others' work is done by the threads that called.
 
-   After a failed step (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to step it
-   again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the world
-   that loads it as failed.  A call of this header that fails changes nothing, unless it says so.
+   After a step that went wrong (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to
+   step it again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the
+   world that loads it as failed.  A step that was made and could not be recorded is an error too, FRAM_ERROR_IO where a
+   disk is full: the recording ends as that of a failed run, and the world goes on from that step.  A call of this
+   header that fails changes nothing, unless it says so.
 
    Older programs run with a newer library, whose structs may have more members at their ends; fram.h says how. */
 #ifndef FRAM_LIVE_H

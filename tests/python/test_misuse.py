@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import pickle
+import resource
 import shutil
 import signal
 import sys
@@ -227,6 +228,23 @@ class Worlds(unittest.TestCase):
         self.assertEqual(towed(overrides="run.seed=8").hash, towed(overrides={"run.seed": np.int64(8)}).hash)
         self.assertEqual(towed(overrides={"ice.breakable": np.bool_(True)}).hash,
                          towed(overrides={"ice.breakable": True}).hash)
+
+    def test_a_step_that_cannot_be_recorded_is_made(self):
+        world = towed().world()
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, before)
+        with tempfile.TemporaryDirectory() as folder:
+            recording = world.record(pathlib.Path(folder) / "run")
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, before[1]))
+            with self.assertRaisesRegex(fram.FileError, "cannot write"):
+                world.step(400)
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+            self.assertEqual(fram.open(recording.folder).info["status"], "failed")
+        self.assertFalse(world.recorded)
+        steps, alone = world.steps, towed().world()
+        world.step()
+        alone.step(steps + 1)
+        self.assertEqual(world.hash, alone.hash)
 
     def test_a_world_closed_under_its_recording_or_view(self):
         world = towed().world()
