@@ -16,11 +16,14 @@
    Callbacks but `memory` are called from the thread that called the library, never from one of its own, and during that
    call alone; their user pointer is handed back as it is.  They must not call functions on the same world or context.
 
-   Threads.  One world from one thread at a time.  A call on a world while another one steps, loads or records it, on
-   another thread or from a callback of it, is refused where it is seen: FRAM_ERROR_USAGE with key "world", functions
-   without a status as for NULL, and fram_world_destroy does nothing.  Worlds of one context may be used from different
-   threads at once when its memory and log functions can be called so; the C library's can.  The context's threads then
-   work for one of them at a time, and the others' work is done by the threads that called.
+   Threads.  One world from one thread at a time.  A call on a world while another one changes it (steps, loads, tells
+   or records it), on another thread or from a callback of it, is refused where it is seen: FRAM_ERROR_USAGE with key
+   "world", functions without a status as for NULL, and fram_world_destroy does nothing.  So is a call that would change
+   a world while another one copies, saves or hashes it, or reads whole arrays of it; several may do so at once.
+
+   Worlds of one context may be used from different threads at once when its memory and log functions can be called so;
+   the C library's can.  The context's threads then work for one of them at a time, and the others' work is done by the
+   threads that called.
 
    After a step that went wrong (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to
    step it again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the

@@ -73,27 +73,35 @@ static void put_bodies(const world *w, const int32_t *slot, int count, int row, 
     put3(a->angular_velocity, row, b->angular_velocity, slot, count);
 }
 
-int(fram_world_bodies)(const fram_world *w, unsigned selection, const fram_body_arrays *arrays, size_t size)
+/* Returns how many are selected. */
+static int put_selected(const world *w, unsigned selection, const fram_body_arrays *a)
 {
-    if (!world_can_be_read(w) || RESULT_CHECK(arrays, size, fram_body_arrays, NULL) != FRAM_OK)
-        return 0;
-    fram_body_arrays a = {0};
-    if (arrays)
-        memcpy(&a, arrays, size);
     int32_t slot[RUN];
     int count = 0, waiting = 0, put = 0;
-    for (int32_t i = 0; i < w->inner.bodies.count; i++) {
-        if (!is_selected(&w->inner.bodies, i, selection))
+    for (int32_t i = 0; i < w->bodies.count; i++) {
+        if (!is_selected(&w->bodies, i, selection))
             continue;
-        if (count++ < a.room)
+        if (count++ < a->room)
             slot[waiting++] = i;
         if (waiting == RUN) {
-            put_bodies(&w->inner, slot, waiting, put, &a);
+            put_bodies(w, slot, waiting, put, a);
             put += waiting;
             waiting = 0;
         }
     }
-    put_bodies(&w->inner, slot, waiting, put, &a);
+    put_bodies(w, slot, waiting, put, a);
+    return count;
+}
+
+int(fram_world_bodies)(const fram_world *w, unsigned selection, const fram_body_arrays *arrays, size_t size)
+{
+    if (RESULT_CHECK(arrays, size, fram_body_arrays, NULL) != FRAM_OK || !world_reads(w))
+        return 0;
+    fram_body_arrays a = {0};
+    if (arrays)
+        memcpy(&a, arrays, size);
+    int count = put_selected(&w->inner, selection, &a);
+    world_end_reading(w);
     return count;
 }
 
@@ -101,7 +109,8 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
                         int point_room, int *bodies)
 {
     int row = 0, points = 0;
-    int32_t slots = world_can_be_read(w) ? w->inner.bodies.count : 0;
+    bool reads = world_reads(w);
+    int32_t slots = reads ? w->inner.bodies.count : 0;
     for (int32_t i = 0; i < slots; i++) {
         const body_table *b = &w->inner.bodies;
         if (!is_selected(b, i, selection))
@@ -124,13 +133,16 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
         offset[row] = points;
     if (bodies)
         *bodies = row;
+    if (reads)
+        world_end_reading(w);
     return points;
 }
 
 int fram_world_shapes(const fram_world *w, int32_t *offset, int offset_room, double *xy, int point_room)
 {
     int points = 0;
-    int32_t slots = world_can_be_read(w) ? w->inner.bodies.count : 0;
+    bool reads = world_reads(w);
+    int32_t slots = reads ? w->inner.bodies.count : 0;
     for (int32_t i = 0; i < slots; i++) {
         if (offset && i < offset_room)
             offset[i] = points;
@@ -146,6 +158,8 @@ int fram_world_shapes(const fram_world *w, int32_t *offset, int offset_room, dou
     }
     if (offset && slots < offset_room)
         offset[slots] = points;
+    if (reads)
+        world_end_reading(w);
     return points;
 }
 
@@ -183,7 +197,7 @@ static fram_body_id id_of(const body_table *b, int32_t slot)
 
 int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, size_t size)
 {
-    if (!world_can_be_read(w) || RESULT_CHECK(contacts, size, fram_contact, NULL) != FRAM_OK)
+    if (RESULT_CHECK(contacts, size, fram_contact, NULL) != FRAM_OK || !world_reads(w))
         return 0;
     int32_t count = w->inner.scratch.contacts.count;
     for (int32_t i = 0; contacts && i < count && i < room; i++) {
@@ -200,12 +214,13 @@ int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, 
         out->capped = at_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
         result_give(result_row(contacts, size, i), size, out);
     }
+    world_end_reading(w);
     return count;
 }
 
 int(fram_world_fractures)(const fram_world *w, fram_fracture *fractures, int room, size_t size)
 {
-    if (!world_can_be_read(w) || RESULT_CHECK(fractures, size, fram_fracture, NULL) != FRAM_OK)
+    if (RESULT_CHECK(fractures, size, fram_fracture, NULL) != FRAM_OK || !world_reads(w))
         return 0;
     int32_t count = w->inner.scratch.fractures.count;
     for (int32_t i = 0; fractures && i < count && i < room; i++) {
@@ -232,5 +247,6 @@ int(fram_world_fractures)(const fram_world *w, fram_fracture *fractures, int roo
         out->area_gained = e->area_gained;
         result_give(result_row(fractures, size, i), size, out);
     }
+    world_end_reading(w);
     return count;
 }

@@ -202,29 +202,26 @@ fram_status fram_world_set_input(fram_world *w, int index, double value, fram_er
 {
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK)
-        status = world_refuse_taken(w, error);
+        status = world_enter(w, error);
     if (status != FRAM_OK)
         return status;
-    if (index < 0 || index >= w->base->controls.count)
-        return refuse_index(index, w->base->controls.count, error);
-    world_changed(w);
-    return control_set(&w->scenario->context->inner, &w->base->model, &w->inner, &w->base->controls.data[index], value,
-                       error);
+    if (index < 0 || index >= w->base->controls.count) {
+        status = refuse_index(index, w->base->controls.count, error);
+    } else {
+        world_changed(w);
+        status = control_set(&w->scenario->context->inner, &w->base->model, &w->inner, &w->base->controls.data[index],
+                             value, error);
+    }
+    world_leave(w);
+    return status;
 }
 
 /* Rows of a path that are taken at a time in one call, and beyond which nobody has one. */
 enum { PATH_MOST = 1000000 };
 
-fram_status fram_world_set_path(fram_world *w, int vessel, const double *times, const double *places, int count,
-                                fram_error *error)
+static fram_status set_path(fram_world *w, int vessel, const double *times, const double *places, int count,
+                            fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"world", w});
-    if (status == FRAM_OK && count != 0)
-        status = REFUSE_NULL(error, {"times", times}, {"places", places});
-    if (status == FRAM_OK)
-        status = world_refuse_taken(w, error);
-    if (status != FRAM_OK)
-        return status;
     if (vessel < 0 || vessel >= w->inner.vessels.count)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
                          "expected one of %d vessels, counted from 0; found %d", (int)w->inner.vessels.count, vessel);
@@ -238,7 +235,22 @@ fram_status fram_world_set_path(fram_world *w, int vessel, const double *times, 
     for (int i = 0; i < count; i++)
         list[i] = vec3_make(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
     world_changed(w);
-    status = control_path(ctx, &w->inner, vessel, times, list, count, error);
+    fram_status status = control_path(ctx, &w->inner, vessel, times, list, count, error);
     memory_free(ctx, list);
+    return status;
+}
+
+fram_status fram_world_set_path(fram_world *w, int vessel, const double *times, const double *places, int count,
+                                fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK && count != 0)
+        status = REFUSE_NULL(error, {"times", times}, {"places", places});
+    if (status == FRAM_OK)
+        status = world_enter(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = set_path(w, vessel, times, places, count, error);
+    world_leave(w);
     return status;
 }

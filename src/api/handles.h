@@ -41,10 +41,12 @@ typedef struct world_base {
     char inputs[SHA256_TEXT_SIZE]; /* run_inputs_digest of the files that the scenario names */
 } world_base;
 
+/* In place of the number of calls that read. */
+enum { CHANGED_BY_A_CALL = -1 };
 /* Of a world, beside its state. */
 typedef struct world_aside {
-    atomic_bool taken; /* a call that changes the world is going on */
-    bool row_is_new;   /* the row of all channels tells what is now */
+    atomic_int calls; /* that are going on: CHANGED_BY_A_CALL, or how many read the whole state */
+    bool row_is_new;  /* the row of all channels tells what is now */
     kept_memory kept;
 } world_aside;
 
@@ -71,10 +73,15 @@ const char *channel_meaning(const char *channel);
 bool world_make_row(fram_world *w);
 /* Fills base->inputs. */
 fram_status world_find_inputs(fram_world *w, fram_error *error);
-/* A call that changes a world has it to itself: FRAM_ERROR_USAGE when another one is going on, on another thread or
-   around the callback that this one comes from, and for NULL.  world_leave ends it. */
+/* A call that changes a world has it to itself: FRAM_ERROR_USAGE when another one is going on that changes it or reads
+   all of it, on another thread or around the callback that this one comes from, and for NULL.  world_leave ends it. */
 fram_status world_enter(fram_world *w, fram_error *error);
 void world_leave(fram_world *w);
+/* Calls that read the whole state keep those out that would change it meanwhile, and no others.  FRAM_ERROR_USAGE, or
+   false, while one that changes it is going on, and for NULL; world_end_reading ends the others. */
+fram_status world_begin_reading(const fram_world *w, fram_error *error);
+bool world_reads(const fram_world *w);
+void world_end_reading(const fram_world *w);
 /* FRAM_ERROR_USAGE while a call that changes the world is going on: there is no state to be told of. */
 fram_status world_refuse_taken(const fram_world *w, fram_error *error);
 /* The same for functions without a status; false for NULL too. */

@@ -16,18 +16,13 @@ void fram_stop_set(volatile int *stop, int value) /* NOLINT(readability-non-cons
         __atomic_store_n(stop, value, __ATOMIC_RELAXED);
 }
 
-fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *error)
+static fram_status copy_world(const fram_world *w, fram_world **out, fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"world", w}, {"copy", out});
-    if (status == FRAM_OK)
-        status = world_refuse_taken(w, error);
-    if (status != FRAM_OK)
-        return status;
     fram_world *copy = world_handle(w->scenario, w->base);
     if (!copy)
         return error_memory(error);
-    status = world_make_row(copy) ? world_copy(&w->scenario->context->inner, &w->inner, &copy->inner, error)
-                                  : error_memory(error);
+    fram_status status = world_make_row(copy) ? world_copy(&w->scenario->context->inner, &w->inner, &copy->inner, error)
+                                              : error_memory(error);
     if (status != FRAM_OK) {
         world_handle_free(copy);
         return status;
@@ -36,6 +31,18 @@ fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *e
     copy->step_wall = w->step_wall;
     *out = copy;
     return FRAM_OK;
+}
+
+fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"copy", out});
+    if (status == FRAM_OK)
+        status = world_begin_reading(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = copy_world(w, out, error);
+    world_end_reading(w);
+    return status;
 }
 
 fram_status world_find_inputs(fram_world *w, fram_error *error)
@@ -60,12 +67,13 @@ fram_status fram_world_save_memory(const fram_world *w, void **data, size_t *siz
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"data", data}, {"size", size});
     if (status == FRAM_OK)
-        status = world_refuse_taken(w, error);
+        status = world_begin_reading(w, error);
     if (status != FRAM_OK)
         return status;
     checkpoint_note note = note_of(w);
     char *bytes;
     status = state_encode(&w->scenario->context->inner, &w->inner, &note, &bytes, size, error);
+    world_end_reading(w);
     if (status == FRAM_OK)
         *data = bytes;
     return status;

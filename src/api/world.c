@@ -36,7 +36,7 @@ fram_world *world_handle(const fram_scenario *s, world_base *base)
         world_handle_free(w);
         return NULL;
     }
-    atomic_init(&w->aside->taken, false);
+    atomic_init(&w->aside->calls, 0);
     w->base = base;
     atomic_fetch_add(&base->users, 1);
     return w;
@@ -109,7 +109,7 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
 
 void fram_world_destroy(fram_world *w)
 {
-    if (!world_can_be_read(w))
+    if (!w || atomic_load_explicit(&w->aside->calls, memory_order_acquire) != 0)
         return;
     if (fram_world_is_recorded(w))
         (void)fram_world_record_end(w, NULL, NULL);
@@ -128,8 +128,10 @@ static fram_status taken(fram_error *error)
 
 fram_status world_enter(fram_world *w, fram_error *error)
 {
+    int none = 0;
     fram_status status = REFUSE_NULL(error, {"world", w});
-    if (status == FRAM_OK && atomic_exchange_explicit(&w->aside->taken, true, memory_order_acquire))
+    if (status == FRAM_OK && !atomic_compare_exchange_strong_explicit(&w->aside->calls, &none, CHANGED_BY_A_CALL,
+                                                                      memory_order_acquire, memory_order_relaxed))
         status = taken(error);
     /* The parent's: not even freed, since threads that work for it are the parent's too. */
     if (status == FRAM_OK && w->recording && !fram_world_is_recorded(w)) {
@@ -139,11 +141,31 @@ fram_status world_enter(fram_world *w, fram_error *error)
     return status;
 }
 
-void world_leave(fram_world *w) { atomic_store_explicit(&w->aside->taken, false, memory_order_release); }
+void world_leave(fram_world *w) { atomic_store_explicit(&w->aside->calls, 0, memory_order_release); }
+
+bool world_reads(const fram_world *w)
+{
+    if (!w)
+        return false;
+    int calls = atomic_load_explicit(&w->aside->calls, memory_order_relaxed);
+    while (calls != CHANGED_BY_A_CALL) {
+        if (atomic_compare_exchange_weak_explicit(&w->aside->calls, &calls, calls + 1, memory_order_acquire,
+                                                  memory_order_relaxed))
+            return true;
+    }
+    return false;
+}
+
+fram_status world_begin_reading(const fram_world *w, fram_error *error)
+{
+    return world_reads(w) ? FRAM_OK : taken(error);
+}
+
+void world_end_reading(const fram_world *w) { atomic_fetch_sub_explicit(&w->aside->calls, 1, memory_order_release); }
 
 bool world_can_be_read(const fram_world *w)
 {
-    return w && !atomic_load_explicit(&w->aside->taken, memory_order_relaxed);
+    return w && atomic_load_explicit(&w->aside->calls, memory_order_relaxed) != CHANGED_BY_A_CALL;
 }
 
 fram_status world_refuse_taken(const fram_world *w, fram_error *error)
@@ -197,7 +219,16 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
 
 double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }
 int64_t fram_world_steps(const fram_world *w) { return w ? w->inner.clock.step[0] : 0; }
-uint64_t fram_world_hash(const fram_world *w) { return world_can_be_read(w) ? world_hash(&w->inner) : 0; }
+
+uint64_t fram_world_hash(const fram_world *w)
+{
+    if (!world_reads(w))
+        return 0;
+    uint64_t hash = world_hash(&w->inner);
+    world_end_reading(w);
+    return hash;
+}
+
 int fram_world_slots(const fram_world *w) { return w ? w->inner.bodies.count : 0; }
 
 bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
@@ -293,14 +324,9 @@ static bool is_of_use(vec3 v)
     return fabs(v.x) <= WRENCH_MOST && fabs(v.y) <= WRENCH_MOST && fabs(v.z) <= WRENCH_MOST;
 }
 
-fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
-                                   fram_error *error)
+static fram_status add_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
+                              fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"world", w}, {"force", force}, {"moment", moment});
-    if (status == FRAM_OK)
-        status = world_refuse_taken(w, error);
-    if (status != FRAM_OK)
-        return status;
     if (!is_living(&w->inner.bodies, id))
         return no_such_body(id, error);
     if (!body_is_free(&w->inner.bodies, id.slot))
@@ -312,6 +338,19 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, is_force ? "moment" : "force",
                          "a %s is not finite, or beyond all use", is_force ? "moment" : "force");
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
+}
+
+fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
+                                   fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"force", force}, {"moment", moment});
+    if (status == FRAM_OK)
+        status = world_enter(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = add_wrench(w, id, force, moment, error);
+    world_leave(w);
+    return status;
 }
 
 fram_status(fram_world_ice_load)(const fram_world *w, fram_body_id id, fram_ice_load *load, fram_error *error,

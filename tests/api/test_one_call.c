@@ -1,4 +1,5 @@
-/* A world that a call is changing is not touched by another call, from a callback or another thread. */
+/* A world that a call is changing is not touched by another call, from a callback or another thread; one that is being
+   read as a whole is not changed. */
 #include "fram/live.h"
 #include "testing.h"
 
@@ -16,7 +17,7 @@ static const char scene[] = "run: {duration: 5, time_step: 0.02, seed: 5}\n"
 static fram_error e;
 static fram_world *w; /* NULL: callbacks do nothing */
 static int refused, loads, asked;
-static bool on_a_thread;
+static bool on_a_thread, is_read;
 
 static void assert_taken(fram_status status, const fram_error *error)
 {
@@ -67,11 +68,25 @@ static void try_to_read(fram_body_id body)
     ck_assert(!fram_world_vessel(w, &body) && !fram_world_body(w, 0, &body));
 }
 
+/* Who reads is not in the way of others who do. */
+static void read_too(void)
+{
+    fram_world *copy;
+    fram_error error;
+    assert_ok(fram_world_copy(w, &copy, &error), error);
+    ck_assert(fram_world_hash(copy) == fram_world_hash(w) && fram_world_bodies(w, 0, NULL) > 0);
+    ck_assert(fram_world_shapes(w, NULL, 0, NULL, 0) == fram_world_outlines(w, 0, NULL, 0, NULL, 0, NULL));
+    fram_world_destroy(copy);
+}
+
 static void *try_all(void *user)
 {
     const fram_body_id *body = user;
     try_to_change(*body);
-    try_to_read(*body);
+    if (is_read)
+        read_too();
+    else
+        try_to_read(*body);
     refused++;
     return NULL;
 }
@@ -114,6 +129,30 @@ static void *resize(void *user, void *ptr, size_t size)
     return realloc(ptr, size);
 }
 
+static void try_while_it_is_read(fram_context *ctx, fram_world *tried)
+{
+    fram_world *copy;
+    void *data;
+    size_t size;
+    int before = refused;
+    is_read = true;
+    w = tried;
+    loads = 1;
+    assert_ok(fram_world_copy(w, &copy, &e), e);
+    loads = 1;
+    on_a_thread = true;
+    assert_ok(fram_world_save_memory(w, &data, &size, &e), e);
+    w = NULL;
+    is_read = false;
+    ck_assert_int_eq(refused, before + 2);
+    ck_assert(fram_world_hash(copy) == fram_world_hash(tried));
+    assert_ok(fram_world_load_memory(copy, data, size, &e), e);
+    ck_assert(fram_world_hash(copy) == fram_world_hash(tried));
+    fram_data_free(ctx, data);
+    fram_world_destroy(copy);
+    assert_ok(fram_world_step(tried, &e), e);
+}
+
 START_TEST(a_world_in_a_call_refuses_another)
 {
     fram_context *ctx;
@@ -147,6 +186,7 @@ START_TEST(a_world_in_a_call_refuses_another)
     w = NULL;
     ck_assert(refused == STEPS + 1 && fram_world_hash(tried) == fram_world_hash(left));
     assert_ok(fram_world_step(tried, &e), e);
+    try_while_it_is_read(ctx, tried);
     /* One that is refused for another reason is free again. */
     ck_assert_int_eq(fram_world_load_memory(tried, data, size / 2, &e), FRAM_ERROR_INPUT);
     ck_assert_int_eq(fram_world_checkpoint(tried, &e), FRAM_ERROR_USAGE);

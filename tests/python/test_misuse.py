@@ -116,9 +116,20 @@ class Worlds(unittest.TestCase):
             world.copy()
         self.assertTrue(library.refused)
 
-    def test_channels_within_a_step_are_no_numbers(self):
-        seen = []
-        context = fram.Context(log=lambda _level, _text: seen.append((world["time"], world.values())))
+    def test_what_is_read_within_a_step(self):
+        """Channels are no numbers, arrays and states are refused: not a world without bodies."""
+        seen, refused = [], []
+
+        def look(_level, _text):
+            seen.append((world["time"], world.values()))
+            self.assertIn("fram.World at t = ", repr(world))
+            for ask in (world.bodies, world.outlines, world.shapes, world.contacts, world.fractures, world.to_bytes,
+                        world.copy, world.close, lambda: world.hash, lambda: world.vessel):
+                with self.assertRaises(fram.UsageError) as caught:
+                    ask()
+                refused.append(caught.exception.key)
+
+        context = fram.Context(log=look)
         scenario = fram.Scenario.from_text(FREE.replace("x: 18", "x: 18, failure_time: 0.1"), context=context)
         world = scenario.world()
         world.step(3)  # it tells that the thruster fails
@@ -126,6 +137,9 @@ class Worlds(unittest.TestCase):
         for time, values in seen:
             self.assertTrue(np.isnan(time))
             self.assertTrue(np.all(np.isnan(values)))
+        self.assertEqual(refused, ["world"] * 10)
+        self.assertEqual(world._readers, [])
+        self.assertGreater(len(world.shapes()), len(world.outlines()))
 
     def test_worlds_of_one_context_in_threads(self):
         alone = fram.Scenario.from_text(FREE).world()

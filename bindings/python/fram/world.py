@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import weakref
@@ -309,7 +310,10 @@ class World:
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._shape_number = 0  # of the changes when the shapes were made
         self._rooms: list[_Room] = []
-        self._calls: list[None] = []  # an item for each call that has not returned, of whatever thread
+        # An item for each call that has not returned, of whatever thread: those that change the world, and others.
+        self._calls: list[None] = []
+        self._readers: list[None] = []
+        self._begun = 0  # how many that change it have begun so far
         self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
         self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
 
@@ -317,7 +321,7 @@ class World:
         found = {}
         for index in range(count(self._pointer)):
             channel = ffi.new("fram_channel *")
-            self._call(get, index, channel, size=ffi.sizeof("fram_channel"))
+            self._call(get, index, channel, size=ffi.sizeof("fram_channel"), reads=True)
             name = text_of(channel.name)
             found[name] = Channel(index, name, text_of(channel.unit), text_of(channel.meaning))
         return found
@@ -327,23 +331,41 @@ class World:
             raise UsageError("usage", "the world was closed", key="world")
         return self._pointer
 
-    def _call(self, function, *arguments, size: Optional[int] = None) -> None:
-        """A function of the world; size: of the struct that it fills, 0 for none."""
-        error = new_error()
+    def _call(self, function, *arguments, size: Optional[int] = None, reads: bool = False) -> None:
+        """A function of the world; size: of the struct that it fills, 0 for none; reads: it changes nothing."""
+        error, calls = new_error(), self._readers if reads else self._calls
         last = (error,) if size is None else (error, size)
         pointer = self._living()
-        self._calls.append(None)
+        calls.append(None)
+        self._begun += not reads
         try:
             status = function(pointer, *arguments, *last)
         finally:
-            self._calls.pop()
+            calls.pop()
         self.scenario._context._check(status, error)
+
+    @contextlib.contextmanager
+    def _reading(self):
+        """What is read is of one state: UsageError when another call changes the world before the block ends.
+
+        The library's functions that return no status find nothing then, which looks like a world without bodies.
+        """
+        begun = self._begun
+        self._readers.append(None)
+        try:
+            is_busy = bool(self._calls)
+            yield self._living()
+            if is_busy or self._calls or self._begun != begun:
+                raise UsageError("usage", "another call on it has not returned yet: use a world from one thread at a "
+                                 "time, and not from a function that a call on it calls", key="world")
+        finally:
+            self._readers.pop()
 
     def close(self) -> None:
         """Free the world now rather than when Python finds that nobody has it; a recording ends."""
         if self._pointer is None:
             return
-        if self._calls:
+        if self._calls or self._readers:
             raise UsageError("usage", "another call on it has not returned yet: close it after that", key="world")
         pointer, self._pointer = self._pointer, None
         self._changes = _NEVER
@@ -376,6 +398,7 @@ class World:
         for _ in range(n):
             pointer = self._living()
             calls.append(None)
+            self._begun += 1
             try:
                 status = lib.fram_world_step(pointer, error)
             finally:
@@ -409,7 +432,8 @@ class World:
     @property
     def hash(self) -> str:
         """16 hexadecimal digits of the whole state, as `fram run` and run.json tell them."""
-        return f"{lib.fram_world_hash(self._living()):016x}"
+        with self._reading() as pointer:
+            return f"{lib.fram_world_hash(pointer):016x}"
 
     # ---- channels and inputs ----
 
@@ -475,11 +499,16 @@ class World:
     def vessel(self) -> Optional[tuple[int, int]]:
         """(slot, generation) of the first vessel, or None."""
         identity = ffi.new("fram_body_id *")
-        return (identity.slot, identity.generation) if lib.fram_world_vessel(self._living(), identity) else None
+        with self._reading() as pointer:
+            return (identity.slot, identity.generation) if lib.fram_world_vessel(pointer, identity) else None
 
     def bodies(self, kind: Union[str, Sequence[str], None] = None) -> Bodies:
         """Copies of what bodies are and how they move; kind: "floe", "vessel", "wall", "other", several, or all."""
-        pointer, selection = self._living(), _selection(kind)
+        with self._reading() as pointer:
+            return self._bodies(pointer, _selection(kind))
+
+    @staticmethod
+    def _bodies(pointer, selection: int) -> Bodies:
         size = ffi.sizeof("fram_body_arrays")
         count = lib.fram_world_bodies(pointer, selection, ffi.NULL, size)
         columns = {"id": (np.int64, 1), "kind": (np.int32, 1), "number": (np.int32, 1), "parent": (np.int32, 1),
@@ -496,12 +525,12 @@ class World:
 
     def outlines(self, kind: Union[str, Sequence[str], None] = "floe") -> Outlines:
         """Plan outlines of floes and walls now, global [m], in the order of `bodies(kind)`."""
-        pointer, selection = self._living(), _selection(kind)
-        bodies = ffi.new("int *")
-        count = lib.fram_world_outlines(pointer, selection, ffi.NULL, 0, ffi.NULL, 0, bodies)
-        offsets, points = np.empty(bodies[0] + 1, np.int32), np.empty((count, 2))
-        lib.fram_world_outlines(pointer, selection, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
-                                ffi.cast("double *", points.ctypes.data), count, ffi.NULL)
+        selection, bodies = _selection(kind), ffi.new("int *")
+        with self._reading() as pointer:
+            count = lib.fram_world_outlines(pointer, selection, ffi.NULL, 0, ffi.NULL, 0, bodies)
+            offsets, points = np.empty(bodies[0] + 1, np.int32), np.empty((count, 2))
+            lib.fram_world_outlines(pointer, selection, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
+                                    ffi.cast("double *", points.ctypes.data), count, ffi.NULL)
         return Outlines(offsets, points)
 
     def view(self) -> View:
@@ -523,22 +552,24 @@ class World:
         return self._shapes
 
     def _make_shapes(self) -> None:
-        pointer, view = self._living(), self.view()
-        view._look()
-        slots, self._shapes = lib.fram_world_slots(pointer), None
-        for room in self._rooms:
-            if self._shapes is None and room.is_free():
+        view = self.view()
+        with self._reading() as pointer:
+            view._look()
+            slots, self._shapes = lib.fram_world_slots(pointer), None
+            for room in self._rooms:
+                if self._shapes is None and room.is_free():
+                    self._shapes = room.fill(pointer, slots)
+            if self._shapes is None:
+                room = _Room(slots, lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0))
+                self._rooms = [room, *self._rooms[:1]]
                 self._shapes = room.fill(pointer, slots)
-        if self._shapes is None:
-            room = _Room(slots, lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0))
-            self._rooms = [room, *self._rooms[:1]]
-            self._shapes = room.fill(pointer, slots)
         self._changes, self._shape_number = view._changes, view._changes[0]
 
     def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
-        count = function(self._living(), ffi.NULL, 0, dtype.itemsize)
-        out = np.zeros(count, dtype)
-        function(self._living(), ffi.cast(ctype, out.ctypes.data), count, dtype.itemsize)
+        with self._reading() as pointer:
+            count = function(pointer, ffi.NULL, 0, dtype.itemsize)
+            out = np.zeros(count, dtype)
+            function(pointer, ffi.cast(ctype, out.ctypes.data), count, dtype.itemsize)
         return out
 
     def contacts(self) -> np.ndarray:
@@ -554,7 +585,7 @@ class World:
     def copy(self) -> "World":
         """A second world in the same state, steered and recorded apart."""
         out = ffi.new("fram_world **")
-        self._call(lib.fram_world_copy, out)
+        self._call(lib.fram_world_copy, out, reads=True)
         return World(out[0], self.scenario)
 
     def __copy__(self) -> "World":
@@ -569,7 +600,7 @@ class World:
     def to_bytes(self) -> bytes:
         """The whole state."""
         data, size = ffi.new("void **"), ffi.new("size_t *")
-        self._call(lib.fram_world_save_memory, data, size)
+        self._call(lib.fram_world_save_memory, data, size, reads=True)
         try:
             return bytes(ffi.buffer(data[0], size[0]))
         finally:
@@ -582,7 +613,7 @@ class World:
 
     def save(self, path: Union[str, os.PathLike]) -> None:
         """The whole state into a file."""
-        self._call(lib.fram_world_save, bytes_of(path))
+        self._call(lib.fram_world_save, bytes_of(path), reads=True)
 
     def load(self, path: Union[str, os.PathLike]) -> None:
         """Take over a state of the same scenario and files from a file: one of `save`, or a run's checkpoint
@@ -626,4 +657,4 @@ class World:
 
     def __repr__(self) -> str:
         return "<fram.World closed>" if self._pointer is None else \
-            f"<fram.World at t = {self.time:g} s, {int(self['floes'])} floes>"
+            f"<fram.World at t = {self.time:g} s, {self['floes']:.0f} floes>"
