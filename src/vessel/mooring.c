@@ -172,6 +172,14 @@ line_pull mooring_line_pull(const line_table *lines, int32_t row, vec3 position,
     return pull;
 }
 
+/* About `position`.  A turret turns on its bearing until its lines leave no moment about the vertical on it: it hands
+   the vessel none.  Its fairleads are taken to stay in their directions. */
+static void add_pull(const line_table *lines, int32_t row, const line_pull *pull, vec3 position, wrench *sum)
+{
+    wrench_add(sum, position, pull->force, pull->point);
+    sum->moment.z -= vec3_cross(lines->arm[row], pull->force).z;
+}
+
 wrench mooring_pull(const line_table *lines, int32_t vessel, vec3 position, quat orientation)
 {
     wrench sum = {0};
@@ -179,7 +187,7 @@ wrench mooring_pull(const line_table *lines, int32_t vessel, vec3 position, quat
         if (lines->vessel[i] != vessel)
             continue;
         line_pull pull = mooring_line_pull(lines, i, position, orientation);
-        wrench_add(&sum, position, pull.force, pull.point);
+        add_pull(lines, i, &pull, position, &sum);
     }
     return sum;
 }
@@ -220,8 +228,8 @@ fram_status mooring_step(context *ctx, line_table *lines, const vessel_table *ve
             continue;
         lines->tension[i] = pull.tension;
         lines->horizontal[i] = pull.horizontal;
-        wrench_add(&loads[body], bodies->position[body], pull.force, pull.point);
-        wrench_add(&sum[vessel], bodies->position[body], pull.force, pull.point);
+        add_pull(lines, i, &pull, bodies->position[body], &loads[body]);
+        add_pull(lines, i, &pull, bodies->position[body], &sum[vessel]);
     }
     return FRAM_OK;
 }

@@ -69,7 +69,7 @@ typedef struct line_pull {
     double tension, horizontal; /* [N] */
 } line_pull;
 line_pull mooring_line_pull(const line_table *lines, int32_t row, vec3 position, quat orientation);
-/* Of all lines of a vessel, about `position`. */
+/* Of all lines of a vessel, about `position`; about the vertical a turret bears forces alone. */
 wrench mooring_pull(const line_table *lines, int32_t vessel, vec3 position, quat orientation);
 
 /* One step: lines that are due part or are let go (an event each), the others' pulls are added to loads[body] and to

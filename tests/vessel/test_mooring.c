@@ -60,6 +60,19 @@ START_TEST(a_turret_does_not_hold_the_heading)
     line_pull first = mooring_line_pull(&m.lines, 0, m.b.bodies.position[0], quat_from_roll_pitch_yaw(0, 0, 1));
     assert_vec3_close(first.point, vec3_make(10 * real_cos(0.3), 10 * real_sin(0.3), -5), 1e-12);
     unmoor(&m);
+    /* Nor does one line that pulls aside on its fairlead turn the ship. */
+    d.centre.x = 20;
+    moor(&m, d, 1);
+    wrench pull = mooring_pull(&m.lines, 0, vec3_make(0, -5, 0), quat_identity()), sum = {{0, 0, 0}, {0, 0, 0}};
+    ck_assert(pull.force.y > 5e4);
+    assert_relative(pull.moment.z, 20 * pull.force.y, 1e-9);
+    m.b.bodies.position[0].y = -5;
+    wrench load = sum;
+    assert_ok(mooring_step(&m.b.ctx, &m.lines, &m.b.vessels, &m.b.bodies, 1, &load, &sum, &m.b.events, &m.b.error),
+              m.b.error);
+    assert_relative(sum.moment.z, 20 * sum.force.y, 1e-9);
+    assert_relative(load.moment.z, 20 * load.force.y, 1e-9);
+    unmoor(&m);
 }
 END_TEST
 
