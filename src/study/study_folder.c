@@ -194,34 +194,43 @@ static fram_status check_folder(context *ctx, const char *path, fram_error *erro
     return status;
 }
 
-/* A study of another scenario in the folder: nothing that was computed is lost, but the tables are. */
-static void tell_other(const study_folder *f, const char *path, const char *data, size_t size)
+/* A study of another scenario in the folder: nothing that was computed is lost, but the tables are.  The record of the
+   study before has the whole path of its scenario, its file only that from where it lay. */
+static void tell_other(const study_folder *f)
 {
     study other;
+    char *data = NULL, *whole = study_scenario_whole(f->ctx, f->s);
+    size_t size = 0;
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/effective.yaml", f->path);
     /* What is written differently, or by another version, is of no scenario that can be told. */
-    if (study_parse(f->ctx, f->s->file, data, size, &other, NULL) != FRAM_OK)
-        return;
-    if (strcmp(other.scenario, f->s->scenario) != 0)
-        log_write(f->ctx, LOG_WARNING,
-                  "%s was of a study of %s: its runs stay, but the tables and the page are of this study now; give the "
-                  "other one again to have them back",
-                  path, other.scenario);
-    study_free(f->ctx, &other);
+    if (whole && !path.failed && file_is_readable(path.data) &&
+        file_read(f->ctx, path.data, STUDY_FILE_LIMIT, &data, &size, NULL) == FRAM_OK &&
+        study_parse(f->ctx, path.data, data, size, &other, NULL) == FRAM_OK) {
+        if (strcmp(other.scenario, whole) != 0)
+            log_write(
+                f->ctx, LOG_WARNING,
+                "%s was of a study of %s: its runs stay, but the tables and the page are of this study now; give the "
+                "other one again to have them back",
+                f->path, other.scenario);
+        study_free(f->ctx, &other);
+    }
+    memory_free(f->ctx, data);
+    text_free(f->ctx, &path);
+    memory_free(f->ctx, whole);
 }
 
 static fram_status copy_study(const study_folder *f, fram_error *error)
 {
-    char *data = NULL, *before = NULL;
-    size_t size = 0, before_size = 0;
+    char *data = NULL;
+    size_t size = 0;
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/study.yaml", f->path);
     fram_status status = path.failed ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
         status = file_read(f->ctx, f->s->file, STUDY_FILE_LIMIT, &data, &size, error);
-    if (status == FRAM_OK && file_is_readable(path.data) &&
-        file_read(f->ctx, path.data, STUDY_FILE_LIMIT, &before, &before_size, NULL) == FRAM_OK)
-        tell_other(f, f->path, before, before_size);
-    memory_free(f->ctx, before);
+    if (status == FRAM_OK)
+        tell_other(f);
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, data, size, error);
     memory_free(f->ctx, data);

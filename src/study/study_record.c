@@ -112,6 +112,13 @@ static void add_conditions(context *ctx, text_buffer *b, const study *s)
     }
 }
 
+char *study_scenario_whole(context *ctx, const study *s)
+{
+    char *whole = realpath(s->scenario, NULL), *out = memory_string(ctx, whole ? whole : s->scenario);
+    free(whole);
+    return out;
+}
+
 static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *error)
 {
     static const char *const keeps[] = {[KEEP_SUMMARY] = "summary", [KEEP_SERIES] = "series", [KEEP_ALL] = "all"};
@@ -124,10 +131,12 @@ static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *
         status = add_file(ctx, b, "scenario", s->scenario, error);
     if (status == FRAM_OK && s->table)
         status = add_file(ctx, b, "conditions", s->table, error);
-    char *whole = realpath(s->scenario, NULL);
+    char *whole = study_scenario_whole(ctx, s);
+    if (!whole)
+        return error_memory(error);
     text_add(ctx, b, "scenario: ");
-    text_quoted(ctx, b, whole ? whole : s->scenario);
-    free(whole);
+    text_quoted(ctx, b, whole);
+    memory_free(ctx, whole);
     if (s->vessel)
         add_record_value(ctx, b, "\n", "vessel", s->vessel);
     for (int32_t i = 0; i < s->set.count; i++)

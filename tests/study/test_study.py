@@ -385,6 +385,16 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                                   text=True)
             self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
             self.assertEqual("base.yaml" in done.stderr, tells)
+        # The study as it was read is of the same scenario, one of the same name elsewhere is of another.
+        record, away = self.at / "out" / "effective.yaml", self.at / "away"
+        away.mkdir()
+        (away / "other.yaml").write_text((self.at / "base.yaml").read_text())
+        (away / "study.yaml").write_text(study.read_text())
+        for path, tells in ((record, False), (study, False), (away / "study.yaml", True)):
+            done = subprocess.run([FRAM, "study", path, "-o", self.at / "out"], check=True, capture_output=True,
+                                  text=True)
+            self.assertEqual(f"was of a study of {self.at}/other.yaml" in done.stderr, tells, done.stderr)
+            self.assertEqual("warning" in done.stderr, tells, done.stderr)
         # One of something else is left alone, --force or not.
         (self.at / "mine").mkdir()
         (self.at / "mine" / "letter").write_text("")
