@@ -91,6 +91,8 @@ fram_status world_refuse_failed(const fram_world *w, fram_error *error);
 /* A live view of a folder whose address the caller was told; page NULL: none.  FRAM_ERROR_USAGE without `live`. */
 fram_status live_open(context *ctx, const char *folder, const char *page, fram_live_function live, void *user,
                       live_view **view, fram_error *error);
+/* As callers are told. */
+fram_run_result run_answer(const run_result *from);
 /* The recording of a world that went wrong, if it has one, is closed as a failed run. */
 void recording_abandon(fram_world *w, const char *message);
 /* The row of all channels now. */

@@ -2,7 +2,6 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
-#include "base/clock.h"
 #include "fram/live.h"
 #include "io/path.h"
 #include "results/run_results.h"
@@ -106,22 +105,9 @@ fram_status fram_world_checkpoint(fram_world *w, fram_error *error)
     return status;
 }
 
-static void fill_result(const fram_world *w, fram_run_result *result)
-{
-    const world *in = &w->inner;
-    *result = (fram_run_result){.state_hash = world_hash(in), .steps = in->clock.step[0], .time = in->clock.time[0]};
-    result->wall = clock_wall() - w->recording->started;
-    result->real_time_factor = result->wall > 0 ? (result->time - w->recording->began_at) / result->wall : 0;
-    for (int32_t i = 0; i < in->bodies.count; i++)
-        result->bodies += body_is_alive(&in->bodies, i);
-    for (int32_t i = 0; i < in->floes.count; i++)
-        result->floes += in->floes.body[i] >= 0;
-    result->finished = result->steps >= w->recording->end_step;
-}
-
 fram_status(fram_world_record_end)(fram_world *w, fram_run_result *result, fram_error *error, size_t size)
 {
-    fram_run_result local;
+    run_result reached;
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK)
         status = RESULT_CHECK(result, size, fram_run_result, error);
@@ -129,9 +115,9 @@ fram_status(fram_world_record_end)(fram_world *w, fram_run_result *result, fram_
         status = enter_recorded(w, error);
     if (status != FRAM_OK)
         return status;
-    fill_result(w, &local);
-    result_give(result, size, &local);
-    status = recording_end(w->recording, local.finished ? "finished" : "stopped", error);
+    recording_result(w->recording, &reached);
+    result_give(result, size, &(fram_run_result[]){run_answer(&reached)});
+    status = recording_end(w->recording, reached.finished ? "finished" : "stopped", error);
     forget(w);
     world_leave(w);
     return status;

@@ -73,7 +73,7 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
                          .finish = run_results_write};
 }
 
-static fram_run_result answer_of(const run_result *from)
+fram_run_result run_answer(const run_result *from)
 {
     return (fram_run_result){.state_hash = from->state_hash,
                              .steps = from->steps,
@@ -89,7 +89,7 @@ static fram_run_result answer_of(const run_result *from)
 static void give_result(fram_run_result *result, size_t size, fram_status status, const run_result *from)
 {
     if (status == FRAM_OK || status == FRAM_INTERRUPTED)
-        result_give(result, size, &(fram_run_result[]){answer_of(from)});
+        result_give(result, size, &(fram_run_result[]){run_answer(from)});
 }
 
 fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,

@@ -170,6 +170,19 @@ static fram_status as_failure(fram_status status, fram_error *error)
     return FRAM_ERROR_IO;
 }
 
+void recording_result(const recording *r, run_result *out)
+{
+    const world *w = r->w;
+    *out = (run_result){.state_hash = world_hash(w), .steps = w->clock.step[0], .time = w->clock.time[0]};
+    out->wall = clock_wall() - r->started;
+    out->real_time_factor = out->wall > 0 ? (out->time - r->began_at) / out->wall : 0;
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        out->bodies += body_is_alive(&w->bodies, i);
+    for (int32_t i = 0; i < w->floes.count; i++)
+        out->floes += w->floes.body[i] >= 0;
+    out->finished = out->steps >= r->end_step;
+}
+
 /* How the run stands, last of all: whatever fails before, run.json does not stay at "running".  One that cannot be
    replaced is removed, which may make the room that it takes; that memory ran out is told all the same. */
 static fram_status end_summary(recording *r, const char *state, const char *message, fram_error *error)

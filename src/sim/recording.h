@@ -44,6 +44,15 @@ typedef struct recording {
     int lock; /* on the folder, -1 */
 } recording;
 
+/* How far the world came, and what this call took. */
+typedef struct run_result {
+    uint64_t state_hash;
+    int64_t steps;
+    double time, wall, real_time_factor;
+    int32_t bodies, floes;
+    bool finished;
+} run_result;
+
 /* The first step whose time is not before `time`, within rounding. */
 int64_t step_at(double time, double time_step);
 
@@ -65,6 +74,8 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 fram_status recording_step(recording *r, double step_wall, fram_error *error);
 /* A checkpoint of now. */
 fram_status recording_checkpoint(recording *r, fram_error *error);
+/* Of now. */
+void recording_result(const recording *r, run_result *out);
 /* The end: the last checkpoint, pictures, results, run.json.  state: "finished", "stopped", "interrupted".  Whatever is
    returned, the streams are closed; what could not be written is FRAM_ERROR_IO. */
 fram_status recording_end(recording *r, const char *state, fram_error *error);

@@ -68,22 +68,6 @@ static fram_status step_loop(run *r, fram_error *error)
     return status;
 }
 
-static void fill_result(run *r, run_result *result)
-{
-    const world *w = &r->world;
-    result->state_hash = world_hash(w);
-    result->steps = w->clock.step[0];
-    result->time = w->clock.time[0];
-    result->wall = clock_wall() - r->record.started;
-    result->real_time_factor = result->wall > 0 ? (result->time - r->record.began_at) / result->wall : 0;
-    result->bodies = result->floes = 0;
-    for (int32_t i = 0; i < w->bodies.count; i++)
-        result->bodies += body_is_alive(&w->bodies, i);
-    for (int32_t i = 0; i < w->floes.count; i++)
-        result->floes += w->floes.body[i] >= 0;
-    result->finished = result->steps >= r->record.end_step;
-}
-
 static fram_status drive(run *r, run_result *result, fram_error *error)
 {
     r->drawn = 0;
@@ -96,7 +80,7 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
     /* A flag that is set from here on comes too late to be the reason for the end. */
     bool interrupted = status == FRAM_OK && r->world.clock.step[0] < r->record.stop_step;
     if (status == FRAM_OK) {
-        fill_result(r, result);
+        recording_result(&r->record, result);
         const char *state = result->finished ? "finished" : interrupted ? "interrupted" : "stopped";
         status = recording_end(&r->record, state, &local);
     } else {

@@ -3,7 +3,7 @@
 #define SIM_RUN_H
 
 #include "model/scenario.h"
-#include "vessel/outcome.h"
+#include "sim/recording.h"
 
 typedef struct run_progress {
     double time, end; /* simulated [s] */
@@ -21,19 +21,8 @@ typedef struct run_options {
     void (*progress)(void *user, const run_progress *p); /* may be NULL */
     void *progress_user;
     const volatile int *stop; /* may be NULL */
-    /* Makes what people read from the finished time series in the folder; its time counts as recording.  May be NULL.
-     */
-    fram_status (*finish)(context *ctx, const scenario *s, const station_outcome *station, const char *folder,
-                          fram_error *error);
+    recording_finish finish;  /* its time counts as recording; may be NULL */
 } run_options;
-
-typedef struct run_result {
-    uint64_t state_hash;
-    int64_t steps;
-    double time, wall, real_time_factor;
-    int32_t bodies, floes;
-    bool finished;
-} run_result;
 
 /* From the start into an empty folder (or any with force). */
 fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
