@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "fram/live.h"
+#include "sim/mechanisms.h"
 
 #include <string.h>
 
@@ -210,8 +211,7 @@ int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, 
         out->normal_impulse = c->impulse[0];
         out->limit = c->impulse_limit;
         out->depth = c->depth;
-        bool at_limit = c->impulse[0] > 0 && c->impulse[0] >= c->impulse_limit;
-        out->capped = at_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
+        out->capped = c->impulse[0] > 0 && contact_is_capped(c) ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
         result_give(result_row(contacts, size, i), size, out);
     }
     world_end_reading(w);

@@ -523,6 +523,8 @@ START_TEST(contacts_sum_to_the_load_and_fractures_are_told)
             for (int axis = 0; axis < 3; axis++)
                 sum[axis] += sign * c->impulse[axis] / 0.02;
             ck_assert(c->normal_impulse >= 0 && c->normal_impulse <= c->limit);
+            bool at_limit = c->normal_impulse > 0 && c->normal_impulse >= c->limit;
+            ck_assert_int_eq(c->capped, at_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW);
             capped += sign != 0 && c->capped == FRAM_CONTACT_CRUSHING;
         }
         fram_ice_load load;
