@@ -260,6 +260,32 @@ class Worlds(unittest.TestCase):
         alone.step(steps + 1)
         self.assertEqual(world.hash, alone.hash)
 
+    def test_closing_tells_what_a_recording_could_not_write(self):
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, before)
+        with tempfile.TemporaryDirectory() as folder:
+            for held in (False, True):
+                world = towed().world()
+                view = world.view().mass if held else None
+                recording = world.record(pathlib.Path(folder) / str(held))
+                world.step(3)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
+                with self.assertRaisesRegex(fram.FileError, "cannot write"):
+                    world.close()
+                resource.setrlimit(resource.RLIMIT_FSIZE, before)
+                self.assertEqual((fram.open(recording.folder).info["status"], repr(world)),
+                                 ("failed", "<fram.World closed>"))
+                del view
+
+            def fail(_level, _text):
+                raise RuntimeError("mine")
+
+            scenario = towed(context=fram.Context(log=fail))
+            with self.assertRaisesRegex(RuntimeError, "mine"), scenario.world() as world:
+                world.record(pathlib.Path(folder) / "log")
+                world.step()  # it meets no ice, which the log is told at the end
+            scenario.world().close()
+
     def test_a_world_closed_under_its_recording_or_view(self):
         world = towed().world()
         with tempfile.TemporaryDirectory() as folder:

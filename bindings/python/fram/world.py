@@ -362,7 +362,10 @@ class World:
             self._readers.pop()
 
     def close(self) -> None:
-        """Free the world now rather than when Python finds that nobody has it; a recording ends."""
+        """Free the world now rather than when Python finds that nobody has it.
+
+        A recording ends; what it cannot write, as on a full disk, is an error, and the world is closed all the same.
+        """
         if self._pointer is None:
             return
         if self._calls or self._readers:
@@ -374,10 +377,12 @@ class World:
         viewed = weakref.ref(self._keep)
         self._keep = self._view = self._shapes = None
         self._rooms = []
-        if viewed() is None:
+        error, status = new_error(), 0
+        if lib.fram_world_is_recorded(pointer):
+            status = lib.fram_world_record_end(pointer, ffi.NULL, error, 0)
+        if viewed() is None:  # if arrays are held the memory goes with the last of them
             ffi.release(pointer)
-        elif lib.fram_world_is_recorded(pointer):  # arrays are held: the memory goes with the last of them
-            lib.fram_world_record_end(pointer, ffi.NULL, ffi.NULL, 0)
+        self.scenario._context._check(status, error)
 
     def __enter__(self) -> "World":
         return self
