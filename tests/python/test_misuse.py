@@ -11,6 +11,7 @@ import pickle
 import resource
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -154,6 +155,22 @@ class Worlds(unittest.TestCase):
 
         in_threads(4, work)
         self.assertEqual(hashes, [alone.hash] * 4)
+
+    def test_threads_that_begin_together_have_one_context(self):
+        """In a process that has none yet."""
+        text = ("import fram, pickle, sys, threading\n"
+                "sys.setswitchinterval(1e-6)\n"
+                "together, found = threading.Barrier(8), []\n"
+                "def begin():\n"
+                "    together.wait()\n"
+                "    found.append(fram.Scenario.from_text(sys.argv[1]))\n"
+                "threads = [threading.Thread(target=begin) for _ in range(8)]\n"
+                "for thread in threads: thread.start()\n"
+                "for thread in threads: thread.join()\n"
+                "assert len({pickle.loads(pickle.dumps(scenario)).hash for scenario in found}) == 1\n")
+        done = subprocess.run([sys.executable, "-c", text, TOWED], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1])})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_what_threads_make_and_leave_is_destroyed_once(self):
         scenario = fram.Scenario.from_text(FREE, overrides={"ice.source": "none"})

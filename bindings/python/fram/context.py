@@ -81,12 +81,10 @@ class Context:
         check(status, error)
 
 
-_default: Optional[Context] = None
+_default: dict[str, Context] = {}
 
 
 def default_context() -> Context:
     """The context of everything that is made without one: one thread, no log."""
-    global _default
-    if _default is None:
-        _default = Context()
-    return _default
+    # Threads that ask for it at once may make several: one is there first, and is everybody's.
+    return _default.get("one") or _default.setdefault("one", Context())
