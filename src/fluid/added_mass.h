@@ -13,10 +13,10 @@ typedef struct plate_added_mass {
 
 /* A thin plate that floats on deep water and moves quickly, so that the surface beside it yields (zero potential): half
    of that of the plate deep under water.  Heave: the rectangle of the same area and the same ratio of second moments,
-   m = C (pi/4) rho a^2 b for sides a <= b (DNV-RP-C205 2010, table D-2: C = 0.579 for a square, 1 for a strip; linear
-   in a/b between its rows); 10 x 10 m: 233 t.  Roll and pitch: m (8/15) (second moment / area), which is the disc's
-   (16/45) rho r^5 (Lamb 1932, section 102) and 1.4 times the strip's about its long axis.  Surge, sway and yaw have
-   none: a plate is thin. */
+   m = 1/2 C (pi/4) rho a^2 b for sides a <= b (DNV-RP-C205 2010, table D-2: C = 0.579 for a square, 1 for a strip;
+   linear in a/b between its rows); 10 x 10 m: 233 t.  Roll and pitch: m (8/15) (second moment / area), which is the
+   disc's (16/45) rho r^5 (Lamb 1932, section 102) and 1.4 times the strip's about its long axis.  Surge, sway and yaw
+   have none: a plate is thin. */
 plate_added_mass plate_added_mass_of(const polygon_moments *outline, double water_density);
 
 /* The lower half of an ellipsoid of semi-axes a, b, c along x, y, z, its middle plane in still water: half of that of
