@@ -113,13 +113,13 @@ void peak_list_free(context *ctx, peak_list *list)
 
 /* ---- telling ---- */
 
-peak_breaks peak_breaks_before(const run_data *d, double time, double before)
+peak_breaks peak_breaks_before(const run_data *d, double time)
 {
     peak_breaks b = {.last = (double)NAN};
     const csv_table_column *when = csv_table_find(&d->fractures, "time"), *kind = csv_table_find(&d->fractures, "kind");
     for (int32_t i = 0; when && kind && i < d->fractures.rows; i++) {
         double t = when->value.data[i], slack = 1e-9 * (1 + fabs(time));
-        if (t > time + slack || t < time - before)
+        if (t > time + slack || t < time - PEAK_BEFORE)
             continue;
         b.splits += kind->value.data[i] == 1;
         b.bendings += kind->value.data[i] == 2;
@@ -171,11 +171,11 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
                 unit.name, d->mechanism[first] * share, mechanism_text(first), zones[zone] * share, zone_names[zone],
                 (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
     tell_floe(ctx, d, out);
-    peak_breaks b = peak_breaks_before(run, d->time, 5);
+    peak_breaks b = peak_breaks_before(run, d->time);
     if (b.splits + b.bendings > 0) {
         text_add(ctx, out, "; in all of the ice ");
         peak_tell_breaks(ctx, &b, out);
-        text_add(ctx, out, " in the 5 s before");
+        text_format(ctx, out, " in the %d s before", PEAK_BEFORE);
     }
     text_add(ctx, out, ".");
 }

@@ -17,12 +17,15 @@ typedef struct peak_list {
 fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, peak_list *list, fram_error *error);
 void peak_list_free(context *ctx, peak_list *list);
 
-/* The floes that broke in the `before` seconds up to a time: how many by kind (1 split, 2 bending). */
+/* How far before a peak it is told what broke [s]. */
+enum { PEAK_BEFORE = 5 };
+
+/* The floes that broke in that span up to a time: how many by kind (1 split, 2 bending). */
 typedef struct peak_breaks {
     int32_t splits, bendings;
     double last; /* time of the latest; NaN without [s] */
 } peak_breaks;
-peak_breaks peak_breaks_before(const run_data *d, double time, double before);
+peak_breaks peak_breaks_before(const run_data *d, double time);
 /* In words: "2 breaks in bending and 1 split". */
 void peak_tell_breaks(context *ctx, const peak_breaks *b, text_buffer *out);
 

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What happened so long before a peak is told [s]. */
-static const double BEFORE = 5;
 /* Differences under this part of the load matter to nobody: within what chance does from one second to the next. */
 static const double MATTERS = 0.05;
 
@@ -154,15 +152,15 @@ static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text
 
 static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
 {
-    peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
-    text_format(y->ctx, out, "\nIn the %g s before, in all of the ice: ", BEFORE);
+    peak_breaks b = peak_breaks_before(&y->run, d->time);
+    text_format(y->ctx, out, "\nIn the %d s before, in all of the ice: ", PEAK_BEFORE);
     peak_tell_breaks(y->ctx, &b, out);
     if (isfinite(b.last))
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
     const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
     double most = -1;
     for (int32_t i = 0; time && residual && i < y->run.series.rows; i++)
-        if (time[i] > d->time - BEFORE && time[i] <= d->time)
+        if (time[i] > d->time - PEAK_BEFORE && time[i] <= d->time)
             most = fmax(most, residual[i]);
     if (most < 0)
         text_add(y->ctx, out, "; series.csv holds no rows of that time, so the solver's residual is unknown\n");
@@ -315,7 +313,7 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
                      fram_error *error)
 {
     context *ctx = y->ctx;
-    peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
+    peak_breaks b = peak_breaks_before(&y->run, d->time);
     const char *vessel = scenario_vessel_name(&y->run.s, y->vessel);
     text_format(ctx, out, "{\"vessel\": %s%s%s, ", vessel ? "\"" : "", vessel ? vessel : "null", vessel ? "\"" : "");
     text_format(ctx, out, "\"peak\": %d, \"peaks\": %d, ", (int)rank, (int)y->peaks.count);

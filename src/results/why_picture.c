@@ -148,7 +148,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         most = fmax(most, part_of(d, &d->floe[i]));
         force = fmax(force, vec3_length(d->floe[i].force));
     }
-    fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, 5, &plan, error);
+    fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, PEAK_BEFORE, &plan, error);
     if (status == FRAM_OK) {
         double length = force > 0 ? 0.3 * reach / force : 0;
         char title[120], caption[200];
@@ -165,8 +165,8 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
                  d->load * unit.factor, unit.name, d->time);
         snprintf(caption, sizeof caption,
-                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s%s",
-                 mechanism_text(peak_main_mechanism(d->mechanism)),
+                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %d s%s",
+                 mechanism_text(peak_main_mechanism(d->mechanism)), PEAK_BEFORE,
                  label_count > 0 ? "; discs: floes that no frame shows" : "");
         plan_view view = {.window = peak_window(d, reach),
                           .title = title,
