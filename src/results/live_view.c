@@ -140,6 +140,8 @@ static enum MHD_Result give_record(live_view *v, struct MHD_Connection *connecti
     struct MHD_Response *response = NULL;
     if (given > 0) {
         response = MHD_create_response_from_fd_at_offset64(given, descriptor, from);
+        if (!response)
+            close(descriptor);
     } else {
         if (descriptor >= 0)
             close(descriptor);
