@@ -289,12 +289,18 @@ static void tell_area(const teller *t, const char *key, double area, double own)
    Fluid-Dynamic Drag). */
 #define SIDE_LEAST 0.4
 
+/* Given damping acts on the water's motion past the hull: with such in sway its side has drag whatever its form. */
+static bool is_damped_in_sway(const scenario_hydrodynamics *h)
+{
+    return h->source == HYDRODYNAMICS_GIVEN && h->damping.count > 1 && h->damping.data[1].sway > 0;
+}
+
 bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double across)
 {
     const scenario_environment *n = &s->environment;
     bool faces = v->current_coefficients.table.count == 0 && v->current_coefficients.table_file[0] == '\0';
-    return faces && n->water && v->hull.form != HULL_CONE && n->hull_drag.water_form < SIDE_LEAST &&
-           across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
+    return faces && n->water && v->hull.form != HULL_CONE && !is_damped_in_sway(&v->hydrodynamics) &&
+           n->hull_drag.water_form < SIDE_LEAST && across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
 }
 
 /* A vessel kept on station in a beam current with the drag of a hull that goes ahead. */

@@ -5,11 +5,15 @@
 scene=$FRAM_SOURCE/scenes/supply_ship.yaml
 expect 0 "$FRAM" capability "$scene" -o "$scratch/a" --formula --directions 12 --speed-step 0.2 --json
 says '"file"' out
-# Currents come across a hull whose drag is that of one that goes ahead.
+# Currents come across a hull whose drag is that of one that goes ahead: its side has none but what is given.
 sides='environment.hull_drag.water_form: 0.1 is of a hull that goes ahead'
+grep -F "${sides%% *}" err && fail "told of a hull whose side is damped"
+estimate='--formula --directions 4 --set vessel.hydrodynamics.source=estimate'
+# shellcheck disable=SC2086
+expect 0 "$FRAM" capability "$scene" -o "$scratch/ahead" $estimate
 says "$sides" err
-expect 0 "$FRAM" capability "$scene" -o "$scratch/sides" --formula --directions 4 \
-    --set environment.hull_drag.water_form=1
+# shellcheck disable=SC2086
+expect 0 "$FRAM" capability "$scene" -o "$scratch/sides" $estimate --set environment.hull_drag.water_form=1
 grep -F "${sides%% *}" err && fail "told of the drag of a ship's side"
 python3 - "$scratch/a" <<'END' || fail "capability.json or its tables"
 import csv, json, sys
