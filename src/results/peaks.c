@@ -3,6 +3,7 @@
 #include "io/record_layout.h"
 #include "io/text_buffer.h"
 #include "results/report_parts.h"
+#include "vessel/hull.h"
 
 #include <errno.h>
 #include <math.h>
@@ -12,13 +13,12 @@
 #define TEXT(id, name, text) text,
 static const char *const mechanism_names[] = {ICE_MECHANISMS(NAME)}, *const mechanism_texts[] = {ICE_MECHANISMS(TEXT)};
 static const char *const end_names[] = {CHAIN_ENDS(NAME)}, *const end_texts[] = {CHAIN_ENDS(TEXT)};
-static const char *const zone_names[PEAK_ZONES] = {"bow", "shoulder", "midbody", "stern", "bottom"};
 
 const char *mechanism_name(ice_mechanism m) { return mechanism_names[m]; }
 const char *mechanism_text(ice_mechanism m) { return mechanism_texts[m]; }
 const char *chain_end_name(chain_end e) { return end_names[e]; }
 const char *chain_end_text(chain_end e) { return end_texts[e]; }
-const char *peak_zone_name(int32_t zone) { return zone_names[zone]; }
+const char *peak_zone_name(int32_t zone) { return hull_zone_name((hull_zone)zone); }
 
 ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT])
 {
@@ -168,8 +168,8 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     ice_mechanism first = peak_main_mechanism(d->mechanism);
     double share = d->load > 0 ? 100 / d->load : 0;
     text_format(ctx, out, "%.4g %s, %.0f %% of it by %s, %.0f %% on the %s, from %d %s", d->load * unit.factor,
-                unit.name, d->mechanism[first] * share, mechanism_text(first), zones[zone] * share, zone_names[zone],
-                (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
+                unit.name, d->mechanism[first] * share, mechanism_text(first), zones[zone] * share,
+                peak_zone_name(zone), (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
     tell_floe(ctx, d, out);
     peak_breaks b = peak_breaks_before(run, d->time);
     if (b.splits + b.bendings > 0) {

@@ -50,7 +50,6 @@ static fram_status write_panels(pressure_map *p, fram_error *error)
 
 static fram_status write_zones(pressure_map *p, fram_error *error)
 {
-    static const char *const zones[ZONE_COUNT] = {"bow", "shoulder", "midbody", "stern", "bottom"};
     static const char *const mechanisms[MECHANISM_COUNT] = {
 #define MECHANISM_NAME(id, name, text) [MECHANISM_##id] = (name),
         ICE_MECHANISMS(MECHANISM_NAME)
@@ -61,7 +60,8 @@ static fram_status write_zones(pressure_map *p, fram_error *error)
     for (int z = 0; z < ZONE_COUNT; z++)
         for (int m = 0; m < MECHANISM_COUNT; m++) {
             vec3 f = vec3_scale(p->part[z][m], 1 / p->time);
-            text_format(p->ctx, &text, "%s,%s,%.12g,%.12g,%.12g\n", zones[z], mechanisms[m], f.x, f.y, f.z);
+            text_format(p->ctx, &text, "%s,%s,%.12g,%.12g,%.12g\n", hull_zone_name((hull_zone)z), mechanisms[m], f.x,
+                        f.y, f.z);
         }
     return write_text(p, "zones.csv", &text, error);
 }

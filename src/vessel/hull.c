@@ -386,3 +386,9 @@ hull_zone hull_zone_at(const hull_zones *zones, vec3 point)
         return ZONE_STERN;
     return point.x > zones->shoulder ? ZONE_SHOULDER : ZONE_MIDBODY;
 }
+
+const char *hull_zone_name(hull_zone zone)
+{
+    static const char *const names[ZONE_COUNT] = {"bow", "shoulder", "midbody", "stern", "bottom"};
+    return names[zone];
+}

@@ -91,5 +91,7 @@ typedef struct hull_zones {
    lowest twentieth of the draught.  Entrance and run of HULL_MESH and HULL_CONE count as L/5. */
 hull_zones hull_zones_of(const hull_particulars *p);
 hull_zone hull_zone_at(const hull_zones *zones, vec3 point);
+/* "bow" */
+const char *hull_zone_name(hull_zone zone);
 
 #endif
