@@ -154,6 +154,11 @@ static fram_status sound_pieces(importing *m)
     char reason[OVERLAY_REASON_SIZE];
     overlay_is_valid(m->plane, p, reason, &at);
     status = note_fault(m, IMPORT_NOTE_CROSSED, true, at, &mended);
+    bool too_often = false;
+    if (status == FRAM_OK && mended)
+        status = import_crosses_too_often(m->ctx, p, &too_often, m->error);
+    if (too_often)
+        return refuse(m, "crosses itself too often to be repaired; bad rings can be dropped", at);
     return status == FRAM_OK && mended ? overlay_make_valid(m->plane, p, &m->pieces, m->error) : status;
 }
 

@@ -16,6 +16,9 @@ typedef ARRAY(import_pair) import_pair_array;
 fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,
                          fram_error *error);
 
+/* Whether a ring crosses or touches itself so often that it is no outline to be repaired. */
+fram_status import_crosses_too_often(context *ctx, polygon p, bool *too_often, fram_error *error);
+
 /* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.
    Cut pieces under the smallest area or a thousandth of their floe are left out. */
 fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *options, import_field *field,

@@ -214,6 +214,31 @@ START_TEST(bad_rings_are_refused_dropped_repaired)
 }
 END_TEST
 
+/* A zigzag across another one: each of its edges crosses all of the other's, a hundred and sixty thousand in all, which
+   GEOS would take gigabytes and minutes for. */
+START_TEST(scribbles_are_not_repaired)
+{
+    enum { EDGES = 400, ROOM = 1 << 15 };
+    char *text = calloc(1, ROOM);
+    ck_assert_ptr_nonnull(text);
+    size_t n = (size_t)snprintf(text, ROOM, "{\"type\":\"Polygon\",\"coordinates\":[[[0,0]");
+    for (int i = 1; i <= EDGES; i++)
+        n += (size_t)snprintf(text + n, ROOM - n, ",[%d,%d]", i, i % 2 * EDGES);
+    for (int i = 1; i <= EDGES; i++)
+        n += (size_t)snprintf(text + n, ROOM - n, ",[%d,%d]", i % 2 ? 0 : EDGES, i);
+    snprintf(text + n, ROOM - n, ",[0,0]]]}");
+    rig *r = rig_make();
+    import_options o = options_of(IMPORT_REPAIR);
+    assert_ok(parse(r, text), r->error);
+    assert_fails(import(r, &o), r->error, FRAM_ERROR_INPUT, "crosses itself too often to be repaired");
+    ck_assert_str_eq(r->error.key, "feature 1, polygon 1, ring 1");
+    o.bad = IMPORT_DROP;
+    assert_fails(import(r, &o), r->error, FRAM_ERROR_INPUT, "no floe is left");
+    rig_free(r);
+    free(text);
+}
+END_TEST
+
 START_TEST(holes_are_filled_on_request)
 {
     rig *r = rig_make();
@@ -494,6 +519,7 @@ int main(void)
     tcase_add_test(cases, features_of_all_kinds);
     tcase_add_loop_test(cases, texts_are_refused_at_their_place, 0, BAD_TEXTS);
     tcase_add_loop_test(cases, bad_rings_are_refused_dropped_repaired, 0, BAD_RINGS);
+    tcase_add_test(cases, scribbles_are_not_repaired);
     tcase_add_test(cases, holes_are_filled_on_request);
     tcase_add_test(cases, clockwise_rings_are_turned_scaled_and_moved);
     tcase_add_test(cases, far_coordinates_and_empty_fields_are_refused);
