@@ -374,34 +374,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertIn("condition 2 (vessel.mass=1.0e8)", error["message"])
         self.assertEqual(list(self.at.glob("out/runs/*/*")), [])
 
-    def test_a_folder_of_a_study_of_another_scenario_is_told(self):
-        short = "set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n"
-        self.fram(self.write(short), "-o", self.at / "out")
-        (self.at / "other.yaml").write_text((self.at / "base.yaml").read_text())
-        study = self.write(short)
-        for name, tells in (("base.yaml", False), ("other.yaml", True), ("other.yaml", False)):
-            study.write_text(f"scenario: {name}\n{short}# {name}\n")
-            done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], check=True, capture_output=True,
-                                  text=True)
-            self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
-            self.assertEqual("base.yaml" in done.stderr, tells)
-        # The study as it was read is of the same scenario, one of the same name elsewhere is of another.
-        record, away = self.at / "out" / "effective.yaml", self.at / "away"
-        away.mkdir()
-        (away / "other.yaml").write_text((self.at / "base.yaml").read_text())
-        (away / "study.yaml").write_text(study.read_text())
-        for path, tells in ((record, False), (study, False), (away / "study.yaml", True)):
-            done = subprocess.run([FRAM, "study", path, "-o", self.at / "out"], check=True, capture_output=True,
-                                  text=True)
-            self.assertEqual(f"was of a study of {self.at}/other.yaml" in done.stderr, tells, done.stderr)
-            self.assertEqual("warning" in done.stderr, tells, done.stderr)
-        # One of something else is left alone, --force or not.
-        (self.at / "mine").mkdir()
-        (self.at / "mine" / "letter").write_text("")
-        error = self.fram(study, "-o", self.at / "mine", "--force", code=2)["error"]
-        self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
-        self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
-
     @WHOLE
     def test_seeds_go_on_until_the_interval_is_narrow(self):
         study = self.write("seeds: {least: 2, most: 9, mean_within: 0.08, confidence: 0.9}\n")
