@@ -183,7 +183,9 @@ fram_status netcdf_end(netcdf_file *f, fram_error *error)
     if (f->failed == NC_NOERR)
         status = atomic_file_adopt(f->ctx, f->temporary, f->path, error);
     else
-        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s", f->nc->strerror(f->failed));
+        /* HDF5 keeps to itself what it met, which is mostly that there is no room. */
+        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s%s", f->nc->strerror(f->failed),
+                           f->failed == NC_EHDFERR ? " (a full disk ends so)" : "");
     if (f->failed != NC_NOERR)
         unlink(f->temporary);
     forget_netcdf(f);

@@ -200,7 +200,8 @@ if "$FRAM" --version | grep -q netcdf; then
     expect 2 "$FRAM" export run --netcdf -o no/such/run.nc
     says "cannot open for writing" err
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
-    same "$(value 'j["error"]["status"], j["error"]["file"]')" "io full.nc" "an export that finds no room"
+    same "$(value 'j["error"]["status"], j["error"]["file"], "full disk" in j["error"]["message"]')" \
+        "io full.nc True" "an export that finds no room"
     # No room at all, so that the words go into a pipe.
     code=0
     told=$(bash -c 'ulimit -f 0 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc 2>&1) || code=$?
