@@ -220,11 +220,14 @@ static void set_point(world *w, const control *c, double value)
     drop_path(w, c->which);
 }
 
-/* Taken up without a jump: what the controller remembers begins at the vessel as it is. */
+/* Taken up without a jump: what the controller remembers begins at the vessel as it is.  The point whose offset counts
+   stays where it shall be, whoever turns the vessel from here on. */
 static void set_positioning(world *w, int32_t v, bool on)
 {
     station_table *s = &w->stations;
     bool was = s->positioning[v] != 0;
+    if (was != on)
+        move_home(w, v, target_of(w, v));
     s->positioning[v] = on;
     if (was || !on)
         return;
