@@ -18,6 +18,8 @@
 /* Steps of differences, in lengths of the vessel.  A hawser that hardly pulls is slack a finger's breadth away. */
 #define SLOPE_STEP 1e-4
 #define FINE_STEP 1e-7
+/* What a vessel drifts at most on slack lines in a step of the search, in its lengths. */
+#define FARTHEST_STEP 100.0
 /* Part of their stiffness in two directions which lines have in every one, if they hold the vessel. */
 #define HOLDS 1e-12
 /* A moment over the length that may be rounding, ten times the force that is left. */
@@ -145,14 +147,18 @@ static double descent_part(const balance *b, vec3 at, vec3 step, double downhill
 static vec3 balance_descend(const balance *b, vec3 at, double precision)
 {
     enum { MOST_STEPS = 400 };
+    double least = 0.1 * b->length, reach = least;
     for (int i = 0; i < MOST_STEPS; i++) {
         vec3 miss = balance_miss(b, at);
         if (vec3_length(miss) <= precision * b->pulls)
             break;
-        vec3 step = descent_step(balance_slope(b, at, FINE_STEP * b->length), miss, 0.1 * b->length);
-        vec3 next = vec3_mad(at, step, descent_part(b, at, step, vec3_dot(miss, step)));
+        vec3 step = descent_step(balance_slope(b, at, FINE_STEP * b->length), miss, reach);
+        double part = descent_part(b, at, step, vec3_dot(miss, step));
+        vec3 next = vec3_mad(at, step, part);
         if (next.x == at.x && next.y == at.y)
             break;
+        /* A boat or a buoy may have hundreds of its lengths to drift. */
+        reach = part < 1 ? least : fmin(2 * reach, FARTHEST_STEP * b->length);
         at = next;
     }
     return at;

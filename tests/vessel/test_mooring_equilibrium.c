@@ -186,11 +186,11 @@ START_TEST(no_rest_under_a_moment)
 END_TEST
 
 /* A barge on one hawser from its bow: taut or slack where it is put, it comes to lie behind the anchor, as far off as
-   the hawser is stretched, in a current that hardly moves it and in a strong one. */
+   the hawser is stretched, in a current that hardly moves it and in a strong one, were it 75 of its lengths. */
 START_TEST(on_one_hawser)
 {
-    static const double length[] = {298, 301, 310}, push[] = {20, 3e3, 3e5};
-    for (int i = 0; i < 9; i++) {
+    static const double length[] = {298, 301, 310, 6000}, push[] = {20, 3e3, 3e5};
+    for (int i = 0; i < 12; i++) {
         bare_vessel b;
         line_table lines = {0};
         const flows current = {{PI}, {push[i % 3]}, {6 * push[i % 3]}};
