@@ -174,6 +174,7 @@ class Worlds(unittest.TestCase):
 
     def test_what_threads_make_and_leave_is_destroyed_once(self):
         scenario = fram.Scenario.from_text(FREE, overrides={"ice.source": "none"})
+        gc.collect()  # of what other tests left
         address, before = _library._address(scenario._pointer), len(_library._made)
 
         def work():

@@ -3,6 +3,7 @@
 
 import gc
 import inspect
+import itertools
 import json
 import os
 import pathlib
@@ -556,6 +557,7 @@ class Package(unittest.TestCase):
                 "    c.context = fram.Context(log=lambda level, text: c)\n"
                 "    c.scenario = fram.Scenario.from_text(sys.argv[1], context=c.context)\n"
                 "    c.world = c.scenario.world(); c.other = c.world.copy(); c.world.step(2)\n"
+                "    c.place, c.shapes = c.world.view().position, c.world.shapes()\n"
                 "    return c\n"
                 "for _ in range(5): make()\n"
                 "gc.collect()\n"
@@ -569,6 +571,27 @@ class Package(unittest.TestCase):
                               env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1])})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(fram.open_run(folder).info["steps"], 5)
+
+    def test_a_recording_ends_with_its_world(self):
+        """Whatever arrays are held; the log hears of it, also one that goes with the world."""
+        for arrays, circle in itertools.product((False, True), repeat=2):
+            heard, known = [], []
+
+            def log(_level, text, heard=heard, known=known):
+                heard.append((text, len(known)))
+
+            world = fram.Scenario.from_text(TOWED, context=fram.Context(log=log)).world()
+            folder = world.record(self.folder / f"goes {arrays} {circle}").folder
+            world.step()
+            heard.clear()
+            place = world.view().position if arrays else None
+            known.extend([world] if circle else [])
+            del log, world, known
+            gc.collect()
+            self.assertEqual(fram.open(folder).info["status"], "stopped")
+            self.assertIn("met no ice", heard[0][0])
+            if arrays:
+                self.assertTrue(np.all(np.isfinite(place[0])))
 
     def test_environment(self):
         environment = fram.StationKeeping(fram.Scenario.from_text(FREE), interval=0.2, horizon=1)

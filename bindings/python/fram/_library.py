@@ -161,6 +161,11 @@ def _address(pointer) -> int:
     return int(ffi.cast("intptr_t", pointer))
 
 
+def is_made(pointer) -> bool:
+    """Whether what the library made is there still, and is this process's to end."""
+    return _address(pointer) in _made
+
+
 def _end(pointer) -> None:
     address = _address(pointer)
     with _turn:

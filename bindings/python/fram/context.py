@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import weakref
 from typing import Callable, Optional
 
@@ -45,14 +46,15 @@ class Context:
         self._keep.append(look)
         definition.work = look
         self._log = log
+        self._ending: list[Context] = []  # this one, once for each world that ends its recording as it goes
         if log is not None:
             # The library's functions live as long as its context does, whoever has it: they must not hold the
             # caller's, which may know the worlds of this context.
-            me = weakref.ref(self)
+            me, heard = weakref.ref(self), self._ending
 
             @ffi.callback("void(void *, fram_log_level, const char *)", onerror=keep_exception)
             def forward(_user, level, text):
-                context = me()
+                context = me() or (heard[-1] if heard else None)
                 if context is not None:
                     context._log(_LEVELS[int(level)], text_of(text))
 
@@ -61,6 +63,15 @@ class Context:
         error, out = new_error(), ffi.new("fram_context **")
         check(lib.fram_context_create(definition, out, error), error)
         self._pointer = owned(out[0], lib.fram_context_destroy, uses=self._keep)
+
+    @contextlib.contextmanager
+    def _heard(self):
+        """The log is called in the block though Python's collector has found this context with what goes."""
+        self._ending.append(self)
+        try:
+            yield
+        finally:
+            self._ending.pop()
 
     def __copy__(self) -> "Context":
         return self  # it never changes

@@ -11,7 +11,7 @@ from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, 
 
 import numpy as np
 
-from ._library import InputError, UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_of
+from ._library import InputError, UsageError, absolute_of, bytes_of, ffi, is_made, lib, new_error, owned, text_of
 from .scenario import Scenario
 
 KINDS = {"floe": 0, "vessel": 1, "wall": 2, "other": 3}
@@ -61,11 +61,10 @@ class _Memory:
 
 
 class _Keep:
-    """What arrays hold of a world."""
+    """What arrays hold of a world: nothing of Python's, whose collector does not see through arrays."""
 
-    def __init__(self, pointer, scenario: Scenario):
-        self.pointer = pointer  # goes first: the end of a recording is told to the log of the scenario's context
-        self.scenario = scenario
+    def __init__(self, pointer):
+        self.pointer = pointer
 
 
 _NEVER = (-1,)
@@ -302,7 +301,7 @@ class World:
 
     def __init__(self, pointer, scenario: Scenario):
         self._pointer = owned(pointer, lib.fram_world_destroy, scenario._pointer)
-        self._keep: Optional[_Keep] = _Keep(self._pointer, scenario)
+        self._keep: Optional[_Keep] = _Keep(self._pointer)
         self.scenario = scenario
         self._view: Optional[View] = None
         self._recordings = 0  # so far
@@ -383,6 +382,13 @@ class World:
         if viewed() is None:  # if arrays are held the memory goes with the last of them
             ffi.release(pointer)
         self.scenario._context._check(status, error)
+
+    def __del__(self) -> None:
+        """A recording ends with its world, whatever arrays are held; the log of the context is told of that."""
+        pointer = getattr(self, "_pointer", None)
+        if pointer is not None and is_made(pointer) and lib.fram_world_is_recorded(pointer):
+            with self.scenario._context._heard():
+                lib.fram_world_record_end(pointer, ffi.NULL, ffi.NULL, 0)
 
     def __enter__(self) -> "World":
         return self
