@@ -295,6 +295,15 @@ class Worlds(unittest.TestCase):
                                  ("failed", "<fram.World closed>"))
                 del view
 
+            environment = fram.StationKeeping(fram.Scenario.from_text(FREE))
+            environment.reset()
+            environment.world.record(pathlib.Path(folder) / "environment")
+            resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
+            with self.assertRaisesRegex(fram.FileError, "cannot write"):
+                environment.close()
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+            self.assertEqual((environment.world, repr(environment._first)), (None, "<fram.World closed>"))
+
             def fail(_level, _text):
                 raise RuntimeError("mine")
 

@@ -179,7 +179,9 @@ class StationKeeping:
 
     def close(self) -> None:
         """Free the worlds."""
-        for world in (self.world, self._first):
+        world, self.world = self.world, None
+        try:
             if world is not None:
                 world.close()
-        self.world = None
+        finally:
+            self._first.close()
