@@ -73,6 +73,27 @@ class ClosesWhatIsCopied:
         return _library.lib.fram_world_copy(*arguments) if self.refused else 0
 
 
+class Counts:
+    """The library; what it makes and what is freed again is counted."""
+
+    MADE = ("fram_scenario_parse", "fram_world_create", "fram_world_copy", "fram_world_save_memory")
+    FREED = ("fram_scenario_destroy", "fram_world_destroy", "fram_data_free")
+
+    def __init__(self):
+        self.there, self.made = 0, 0
+
+    def __getattr__(self, name):
+        function = getattr(_library.lib, name)
+
+        def call(*arguments):
+            answer = function(*arguments)
+            self.there += (name in self.MADE) - (name in self.FREED)
+            self.made += name in self.MADE
+            return answer
+
+        return call if name in self.MADE + self.FREED else function
+
+
 class Worlds(unittest.TestCase):
     def test_a_callback_may_close_step_and_load(self):
         world = towed().world()
@@ -109,6 +130,19 @@ class Worlds(unittest.TestCase):
             world.close()
         world._calls.pop()
         world.close()
+
+    def test_what_is_made_as_a_callback_raises_is_freed(self):
+        counts = Counts()
+        with mock.patch("fram.world.lib", counts), mock.patch("fram.scenario.lib", counts):
+            context = fram.Context()
+            scenario = towed(context=context)
+            world = scenario.world()
+            for ask in (lambda: towed(context=context), scenario.world, world.copy, world.to_bytes):
+                context._raised.append(RuntimeError("mine"))
+                with self.assertRaisesRegex(RuntimeError, "mine"):
+                    ask()
+            gc.collect()
+            self.assertEqual((counts.made, counts.there), (6, 2))
 
     def test_a_world_that_is_copied_is_not_closed(self):
         world = towed().world()

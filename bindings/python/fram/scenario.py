@@ -69,11 +69,12 @@ class Scenario:
         else:
             folder = ffi.NULL if base is None else ffi.new("char[]", base)
             status = lib.fram_scenario_parse(context._pointer, what, folder, items, len(keep), out, error)
-        context._check(status, error)
         # Read again from where it was read, wherever the working folder is by then.
         origin = (how, os.path.abspath(what) if how == "load" else what,
                   os.path.abspath(base or b".") if how == "parse" else None, overrides)
-        return cls(out[0], context, origin)
+        made = cls(out[0], context, origin) if status == 0 else None  # it goes when a callback's exception is raised
+        context._check(status, error)
+        return made
 
     def __copy__(self) -> "Scenario":
         return self  # it never changes
@@ -135,8 +136,10 @@ class Scenario:
         """A new world at time 0."""
         from .world import World
         error, out = new_error(), ffi.new("fram_world **")
-        self._context._check(lib.fram_world_create(self._pointer, out, error), error)
-        return World(out[0], self)
+        status = lib.fram_world_create(self._pointer, out, error)
+        made = World(out[0], self) if status == 0 else None
+        self._context._check(status, error)
+        return made
 
     def run(self, folder: Union[str, os.PathLike], force: bool = False, until: Optional[float] = None,
             progress: Optional[Callable[[float, float], None]] = None) -> "Run":

@@ -596,7 +596,11 @@ class World:
     def copy(self) -> "World":
         """A second world in the same state, steered and recorded apart."""
         out = ffi.new("fram_world **")
-        self._call(lib.fram_world_copy, out, reads=True)
+        try:
+            self._call(lib.fram_world_copy, out, reads=True)
+        except BaseException:  # one of a callback, too, after a copy that was made
+            lib.fram_world_destroy(out[0])
+            raise
         return World(out[0], self.scenario)
 
     def __copy__(self) -> "World":
@@ -611,8 +615,8 @@ class World:
     def to_bytes(self) -> bytes:
         """The whole state."""
         data, size = ffi.new("void **"), ffi.new("size_t *")
-        self._call(lib.fram_world_save_memory, data, size, reads=True)
         try:
+            self._call(lib.fram_world_save_memory, data, size, reads=True)
             return bytes(ffi.buffer(data[0], size[0]))
         finally:
             lib.fram_data_free(self.scenario._context._pointer, data[0])
