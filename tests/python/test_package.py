@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import package  # first: it finds the package `fram`
 import numpy as np
@@ -134,6 +135,15 @@ class Package(unittest.TestCase):
                               env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1]),
                                    "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_paths_are_of_the_file_system_in_a_locale_that_is_not_utf_8(self):
+        """A name of UTF-8 bytes, as Python tells it with ISO 8859-1, is that file again."""
+        (self.folder / "K\xf6ln.txt").write_text("0 0\n9 0\n9 9\n0 9\n", encoding="utf-8")
+        shown = pathlib.Path(os.fsencode(self.folder / "K\xf6ln.txt").decode("iso8859-1"))
+        with mock.patch("os.fsencode", lambda path: os.fspath(path).encode("iso8859-1")):
+            scenario = fram.Scenario.from_text(FREE, overrides={"ice.source": "file", "ice.file": shown})
+        self.assertIn("K\xf6ln.txt", scenario.text)
+        scenario.check()
 
     def test_a_scenario_stays_what_it_was_when_the_working_folder_changes(self):
         (self.folder / "other").mkdir()

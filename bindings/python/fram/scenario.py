@@ -27,7 +27,9 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
             return "true" if value else "false"
         return repr(float(value)) if isinstance(value, float) else str(value)
 
-    return [text_bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
+    # A path is written as the file system has it, whose bytes Python's str tells by the locale.
+    return [text_bytes_of(f"{key}=") + bytes_of(value) if isinstance(value, os.PathLike)
+            else text_bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
 
 
 def _read_again(how: str, what: bytes, base, overrides: list[bytes]) -> "Scenario":
