@@ -674,29 +674,6 @@ START_TEST(positioning_set_points_and_lines_are_steered)
 }
 END_TEST
 
-/* A ship turned by 90 degrees about its well, 18 m before amidships: 18 m off, as long as it lies as it did.  Whoever
-   takes the thrusters over, the well's place stays. */
-START_TEST(the_watched_point_stays_as_positioning_changes_hands)
-{
-    open_text("run: {duration: 2, time_step: 0.02}\n"
-              "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
-              "  thrusters:\n    - {x: 18}\n    - {x: -18}\n"
-              "  positioning:\n    active: true\n    waypoints:\n"
-              "      - {time: 0, x: 0, y: 0, heading_deg: 0}\n      - {time: 0.1, x: 0, y: 0, heading_deg: 90}\n"
-              "  station: {watch_x: 18}\nice: {source: none}\n");
-    fram_world *w = create();
-    step(w, 10);
-    for (int i = 0; i < 3; i++) {
-        assert_absolute(value(w, "offset_x"), 18, 0.1);
-        assert_absolute(value(w, "offset_y"), -18, 0.1);
-        set(w, "positioning", i % 2);
-        step(w, 1);
-    }
-    fram_world_destroy(w);
-    close_all();
-}
-END_TEST
-
 START_TEST(towing_drift_and_paths_are_steered)
 {
     open_text(towed);
@@ -819,6 +796,5 @@ TEST_MAIN("live", a_recorded_world_leaves_what_a_run_leaves, a_recording_can_be_
           a_world_that_failed_is_not_stepped_on, channels_are_the_columns_of_the_series,
           arrays_tell_what_single_calls_tell, a_component_that_nobody_told_goes_on,
           contacts_sum_to_the_load_and_fractures_are_told, every_input_is_state_and_has_its_effect,
-          positioning_set_points_and_lines_are_steered, the_watched_point_stays_as_positioning_changes_hands,
-          towing_drift_and_paths_are_steered, a_text_finds_its_files_from_its_folder,
-          a_stop_flag_is_set_from_another_thread)
+          positioning_set_points_and_lines_are_steered, towing_drift_and_paths_are_steered,
+          a_text_finds_its_files_from_its_folder, a_stop_flag_is_set_from_another_thread)
