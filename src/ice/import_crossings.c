@@ -17,14 +17,19 @@ typedef struct crossing_count {
     int64_t found;
 } crossing_count;
 
+/* Where a ring only touches itself, as at the corners of cells of a raster, nothing multiplies. */
+static bool segments_cross(vec2 a, vec2 b, vec2 c, vec2 d)
+{
+    return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
 static fram_status count_crossing(void *user, int32_t a, int32_t b, fram_error *error)
 {
     (void)error; /* the caller knows the ring's place */
     crossing_count *c = user;
     int32_t n = c->p.count, after_a = (a + 1) % n, after_b = (b + 1) % n;
     const vec2 *v = c->p.vertex;
-    bool neighbours = after_a == b || after_b == a;
-    c->found += !neighbours && segments_touch(v[a], v[after_a], v[b], v[after_b]);
+    c->found += segments_cross(v[a], v[after_a], v[b], v[after_b]);
     return c->found > CROSSINGS_MOST ? FRAM_ERROR_INPUT : FRAM_OK;
 }
 

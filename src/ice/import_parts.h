@@ -16,7 +16,7 @@ typedef ARRAY(import_pair) import_pair_array;
 fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,
                          fram_error *error);
 
-/* Whether a ring crosses or touches itself so often that it is no outline to be repaired. */
+/* Whether a ring crosses itself so often that it is no outline to be repaired.  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
 fram_status import_crosses_too_often(context *ctx, polygon p, bool *too_often, fram_error *error);
 
 /* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.

@@ -1,4 +1,5 @@
 /* io/geojson and ice/import: what is read, what is refused and where, what is mended, and the way out and back. */
+#include "ice/import_parts.h"
 #include "io/geojson.h"
 #include "io/outline_file.h"
 #include "scratch.h"
@@ -236,6 +237,26 @@ START_TEST(scribbles_are_not_repaired)
     assert_fails(import(r, &o), r->error, FRAM_ERROR_INPUT, "no floe is left");
     rig_free(r);
     free(text);
+}
+END_TEST
+
+/* A chain of squares, corner to corner, as a raster's cells are: it touches itself sixty thousand times and crosses
+   itself nowhere. */
+START_TEST(a_chain_of_squares_is_no_scribble)
+{
+    enum { SQUARES = 15000 };
+    vec2 *v = calloc(4 * SQUARES, sizeof *v);
+    ck_assert_ptr_nonnull(v);
+    for (int i = 0; i < 2 * SQUARES; i++) {
+        v[i] = vec2_make(i, i % 2);
+        v[2 * SQUARES + i] = vec2_make(2 * SQUARES - i, -(i % 2));
+    }
+    rig *r = rig_make();
+    bool too_often = true;
+    assert_ok(import_crosses_too_often(&r->ctx, (polygon){v, 4 * SQUARES}, &too_often, &r->error), r->error);
+    ck_assert(!too_often);
+    rig_free(r);
+    free(v);
 }
 END_TEST
 
@@ -520,6 +541,7 @@ int main(void)
     tcase_add_loop_test(cases, texts_are_refused_at_their_place, 0, BAD_TEXTS);
     tcase_add_loop_test(cases, bad_rings_are_refused_dropped_repaired, 0, BAD_RINGS);
     tcase_add_test(cases, scribbles_are_not_repaired);
+    tcase_add_test(cases, a_chain_of_squares_is_no_scribble);
     tcase_add_test(cases, holes_are_filled_on_request);
     tcase_add_test(cases, clockwise_rings_are_turned_scaled_and_moved);
     tcase_add_test(cases, far_coordinates_and_empty_fields_are_refused);

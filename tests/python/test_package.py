@@ -353,6 +353,22 @@ class Package(unittest.TestCase):
         with self.assertRaises(fram.UsageError):
             world.apply_wrench((body[0], 99), (1, 0, 0))
 
+    def test_the_watched_point_stays_as_positioning_changes_hands(self):
+        """A ship that way points turn about its well, 18 m before amidships, lies 18 m off, whoever has its thrusters."""
+        text = FREE[:FREE.index("  mooring:")] + """
+  thrusters: [{x: 18}, {x: -18}]
+  positioning: {active: true, waypoints: [{time: 0}, {time: 0.1, heading_deg: 90}]}
+  station: {watch_x: 18}
+ice: {source: none}
+"""
+        world = fram.Scenario.from_text(text).world()
+        world.step(4)
+        for on in (0, 1, 0):
+            self.assertAlmostEqual(world["offset_x"], 18, delta=0.1)
+            self.assertAlmostEqual(world["offset_y"], -18, delta=0.1)
+            world["positioning"] = on
+            world.step()
+
     def test_states(self):
         world = fram.Scenario.from_text(FREE).world()
         world.step(5)
