@@ -354,7 +354,7 @@ class Package(unittest.TestCase):
             world.apply_wrench((body[0], 99), (1, 0, 0))
 
     def test_the_watched_point_stays_as_positioning_changes_hands(self):
-        """A ship that way points turn about its well, 18 m before amidships, lies 18 m off, whoever has its thrusters."""
+        """A ship that way points turn about its well, 18 m before amidships, lies 18 m off whoever steers."""
         text = FREE[:FREE.index("  mooring:")] + """
   thrusters: [{x: 18}, {x: -18}]
   positioning: {active: true, waypoints: [{time: 0}, {time: 0.1, heading_deg: 90}]}
