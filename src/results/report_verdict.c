@@ -222,8 +222,9 @@ static void judge_lines(verdict *v)
         find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
              use > LINE_USE ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
                             : "",
-             "%slargest tension %s in line %d, %.0f %% of its breaking load; %d lines%s.", name, force(tension, text),
-             (int)worst, 100 * use, (int)number, beyond ? ", of which those that parted went beyond" : "");
+             "%slargest tension %s in line %d, %.0f %% of its breaking load; %d line%s%s.", name, force(tension, text),
+             (int)worst, 100 * use, (int)number, number == 1 ? "" : "s",
+             beyond ? ", of which those that parted went beyond" : "");
     else if (number > 0)
         find(v, VERDICT_NOTE, "",
              "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
@@ -426,8 +427,10 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
     char lines[80] = "";
     if (v->parted > 0)
         snprintf(lines, sizeof lines, " %d of %d lines parted or were released.", (int)v->parted, (int)v->lines);
-    else if (v->lines > 0)
+    else if (v->lines > 1)
         snprintf(lines, sizeof lines, " No line of %d parted.", (int)v->lines);
+    else if (v->lines == 1)
+        snprintf(lines, sizeof lines, " The line did not part.");
     bool several = scenario_vessel_count(&r->d.s) > 1;
     const char *who = several ? "Every vessel with a limit" : "The vessel";
     snprintf(out, TEXT_SIZE, "%s%s%s%s",

@@ -58,6 +58,13 @@ value = float(told[1]) * {"": 1, "k": 1e3, "M": 1e6}[told[2]]
 assert abs(value / most - 1) < 0.006, (value, most)
 PY
 
+# One line is told in the singular.
+sed '/count: 4/d; s/^         breaking_load.*//' ship.yaml >hawser.yaml
+expect 0 "$FRAM" run hawser.yaml -o hawser --quiet --set run.duration=4.1
+verdict hawser
+says "The vessel held its station. The line did not part." verdict.txt
+says "% of its breaking load; 1 line." verdict.txt
+
 # A limit that is passed and a line that parts are told with their time, and what to do.
 expect 0 "$FRAM" run ship.yaml -o lost --quiet --set vessel.station.offset_limit=0.01 \
     --set "vessel.mooring.lines[1].breaking_load=90000"
