@@ -30,9 +30,12 @@ int command_why(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    if ((peak != PEAK_NONE) == (d.time == d.time))
-        return answer_usage(&common, "--peak", "or --time is required, but not both");
-    if (d.time != d.time && peak < 1)
+    const bool timed = d.time == d.time;
+    if (peak != PEAK_NONE && timed)
+        return answer_usage(&common, "--time", "does not go with --peak: give one of them");
+    if (peak == PEAK_NONE && !timed)
+        return answer_usage(&common, "--peak", "is missing: --peak 1 is the largest; or name a moment, --time T");
+    if (!timed && peak < 1)
         return answer_usage(&common, "--peak", "expected 1, the largest, or more");
     const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, PICTURE_ENDINGS}}};
     code = refuse_outputs(&common, &files);

@@ -42,8 +42,10 @@ static fram_status write_panels(pressure_map *p, fram_error *error)
                     q->centre.y, q->centre.z, q->normal.x, q->normal.y, q->normal.z);
         text_format(p->ctx, &text, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,", q->bounds.lo.x, q->bounds.hi.x,
                     q->bounds.lo.y, q->bounds.hi.y, q->bounds.lo.z, q->bounds.hi.z, q->area);
-        text_format(p->ctx, &text, "%.12g,%.12g,%.9g,%.12g,%.12g,%.12g,%.12g\n", l->sum / q->area / p->time,
-                    l->most / q->area, l->when, l->sum / q->area, f.x, f.y, f.z);
+        text_format(p->ctx, &text, "%.12g,%.12g,", l->sum / q->area / p->time, l->most / q->area);
+        if (l->most > 0) // a panel that met no ice has no such moment
+            text_format(p->ctx, &text, "%.9g", l->when);
+        text_format(p->ctx, &text, ",%.12g,%.12g,%.12g,%.12g\n", l->sum / q->area, f.x, f.y, f.z);
     }
     return write_text(p, "panels.csv", &text, error);
 }

@@ -73,6 +73,7 @@ assert all(p["pressure_mean"] == 0 for p in bow if p["row"] < -1 or p["row"] > 0
 assert all(p["pressure_mean"] <= p["pressure_largest"] * (1 + 1e-9) for p in panels)
 assert all(abs(p["pressure_cumulative"] - p["pressure_mean"] * 0.5) <= 1e-6 * (1 + p["pressure_mean"]) for p in panels)
 assert all(2.5 < p["time_of_largest"] <= 3 for p in panels if p["pressure_largest"] > 0)
+assert all(p["time_of_largest"] == "" for p in panels if p["pressure_largest"] == 0)
 curve = table("map/area.csv")
 one = [c for c in curve if (c["columns"], c["rows"]) == (1, 1)][0]
 assert abs(one["pressure_largest"] - max(p["pressure_largest"] for p in panels)) < 1e-6 * one["pressure_largest"]

@@ -67,7 +67,9 @@ same "$(value "j['computed_again']")" None "not computed again"
 
 # Refusals.
 expect 2 "$FRAM" why run
+says "--peak: is missing" err
 expect 2 "$FRAM" why run --peak 1 --time 3
+says "--time: does not go with --peak" err
 expect 2 "$FRAM" why run --peak 0
 says "expected 1, the largest, or more" err
 expect 2 "$FRAM" why run --peak 1 -o peak.pdf
