@@ -60,6 +60,18 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .crush_trims = s->ice.crush_trims};
 }
 
+double build_wedge_area(const scenario *s)
+{
+    const scenario_ice *i = &s->ice;
+    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
+                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    fracture_settings f = build_fracture_settings(s);
+    double radius =
+        fracture_edge_stress(&f, &m, i->thickness, 1, i->thickness * i->thickness, EDGE_STRAIGHT).breaking_radius;
+    double side = fracture_wedge_side(&f, radius);
+    return 0.5 * side * side * real_sin(PI / (double)f.wedges);
+}
+
 static edge_compliance compliance_of(const scenario *s)
 {
     return (edge_compliance){.gives = s->ice.fracture.edge_compliance,

@@ -8,31 +8,18 @@
 
 /* Part of the mean floe from which on what is left out is ice that was asked for. */
 #define LEFT_OUT 0.1
+/* Part of a wedge that breaks off from which on floes that must be larger raise the load by more than chance. */
+#define WEDGES_KEPT 0.25
 /* Of the thickness squared: pieces smaller than this are no floes any more. */
 #define SPECK 1e-3
 /* Of the thickness: edges as long belong to the shape of a floe. */
 #define LONG_EDGE 1.0
 
-/* Of one of the N wedges that break off an edge, N corners of its stencil apart (docs/theory.md) [m2].  Where floes
-   must be larger a sheet keeps them: a ship of 30 m made 3.3 m/s in ice of 0.2 m where floes had 1 wedge at least, 1.0
-   m/s at 2, and was beset from 4 on. */
-static double wedge_area(const scenario *s)
-{
-    const scenario_ice *i = &s->ice;
-    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
-                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
-    fracture_settings f = build_fracture_settings(s);
-    double radius =
-        fracture_edge_stress(&f, &m, i->thickness, 1, i->thickness * i->thickness, EDGE_STRAIGHT).breaking_radius;
-    double side = fracture_wedge_side(&f, radius);
-    return 0.5 * side * side * real_sin(PI / (double)f.wedges);
-}
-
 static void tell_left_out(const teller *t, const char *key, double area)
 {
     const scenario_ice *i = &t->s->ice;
     bool mean_floe = i->source == ICE_VORONOI && i->populations.count == 0;
-    double wedge = i->breakable ? wedge_area(t->s) : HUGE_VAL;
+    double wedge = i->breakable ? build_wedge_area(t->s) : HUGE_VAL;
     if (mean_floe && area > LEFT_OUT * i->mean_floe_area)
         sanity_say(t->tell, t->to,
                    "ice.%s: %.4g m2 is %.2g of the mean floe, %.4g m2: ice that is asked for is left out; give a "
@@ -46,12 +33,27 @@ static void tell_left_out(const teller *t, const char *key, double area)
                    key, area, wedge, t->s->run.scale);
 }
 
+/* Ice that breaks in pieces which are not made: they stay with their neighbours, and the edge with its teeth. */
+static void tell_wedges_kept(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    double wedge = i->breakable ? build_wedge_area(t->s) : HUGE_VAL, area = i->smallest_floe_area;
+    if (area > WEDGES_KEPT * wedge && area <= wedge)
+        sanity_say(
+            t->tell, t->to,
+            "ice.smallest_floe_area: %.4g m2 is %.2g of the pieces that break off, wedges of about %.3g m2: "
+            "smaller ones stay with their neighbours, and loads grow (level ice of 0.7 m: by a sixth with 0.4 of "
+            "them, a third with 0.8): take %.2g m2 or less where loads count",
+            area, area / wedge, wedge, 0.1 * wedge);
+}
+
 static void tell_thresholds(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
     double speck = SPECK * i->thickness * i->thickness;
     tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
+    tell_wedges_kept(t);
     if (i->breakable && i->smallest_floe_area < speck)
         sanity_say(t->tell, t->to,
                    "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "

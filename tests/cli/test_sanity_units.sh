@@ -58,7 +58,9 @@ all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load
 all_told level.yaml ice.smallest_floe_area=1e-6 -- "smallest_floe_area: 1e-06 m2 keeps specks"
 all_told level.yaml ice.smallest_floe_area=11 -- \
     "smallest_floe_area: 11 m2 is more than the pieces that break off|wedges of about 10.2 m2"
-all_told level.yaml ice.smallest_floe_area=9 --
+all_told level.yaml ice.smallest_floe_area=9 -- \
+    "smallest_floe_area: 9 m2 is 0.88 of the pieces that break off|wedges of about 10.2 m2|take 1 m2 or less"
+all_told level.yaml ice.smallest_floe_area=2.5 --
 all_told level.yaml output.frame_interval=0 --
 all_told floes.yaml "ice.floes[0].x=20" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \
     "ice.floes[0]: 280.5 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
