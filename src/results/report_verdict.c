@@ -354,11 +354,29 @@ static fram_status judge_load(verdict *v, fram_error *error)
 
 /* ---- the numbers behind ---- */
 
-static double approach_speed(const scenario *s)
+/* Mean size of a vector of two after the transient; 0 where it is not known. */
+static double mean_size(const report *r, const double *x, const double *y)
 {
+    int32_t first = run_first_row(&r->d), rows = r->d.series.rows - first;
+    double sum = 0;
+    for (int32_t i = first; x && y && i < first + rows; i++)
+        sum += sqrt(x[i] * x[i] + y[i] * y[i]);
+    return rows > 0 ? sum / rows : 0;
+}
+
+/* Of a drift that a file tells, and of a ship on a path or under its own power, the series knows the speed. */
+static double approach_speed(const report *r)
+{
+    const scenario *s = &r->d.s;
     double most = fmax(s->environment.current_speed, automatic_or(s->domain.drift_speed, 0));
-    for (int32_t i = 0; i < scenario_vessel_count(s); i++)
-        most = fmax(most, scenario_vessel_entry(s, i).keys->speed);
+    most = fmax(most, mean_size(r, run_channel(&r->d, "drift_x"), run_channel(&r->d, "drift_y")));
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
+        const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
+        most = fmax(most, v->speed);
+        if (v->path.count > 0 || !is_automatic(v->propulsion.bollard_pull))
+            most = fmax(most, mean_size(r, run_vessel_channel(&r->d, i, "velocity_x"),
+                                        run_vessel_channel(&r->d, i, "velocity_y")));
+    }
     return most;
 }
 
@@ -370,7 +388,7 @@ static void judge_solver(verdict *v)
 {
     const report *r = v->r;
     const double *time = run_channel(&r->d, "time"), *residual = run_channel(&r->d, "solver_residual");
-    double speed = approach_speed(&r->d.s);
+    double speed = approach_speed(r);
     if (!time || !residual || run_first_row(&r->d) == r->d.series.rows)
         return;
     double mean = channel_statistics_of(time, residual, r->d.series.rows, r->d.s.run.transient).mean;

@@ -193,6 +193,7 @@ expect 0 "$FRAM" run touch.yaml -o touch
 grep -q "met no ice" err && fail "a ship that met ice between rows is told that it met none: $(cat err)"
 verdict touch
 says "but one of" verdict.txt
+says "of the approach speed of 8 m/s" verdict.txt # that of the path, which the series tells
 grep -q "no ice load occurred" verdict.txt && fail "the report knows nothing of a load between rows"
 sed -i "s|source: floes.*|source: none}|" far.yaml
 met
