@@ -187,7 +187,9 @@ static void judge_lines(verdict *v)
     const report *r = v->r;
     const scenario_mooring *m = &scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring;
     const double *time = run_channel(&r->d, "time");
-    int32_t number = 0, worst = 0, rows = r->d.series.rows;
+    const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
+    int32_t number = 0, worst = 0, rows = r->d.series.rows, at = 0;
+    int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0;
     double use = 0, tension = 0;
     for (int32_t i = 0; i < m->lines.count; i++)
         for (int64_t k = 0; k < m->lines.data[i].count; k++) {
@@ -195,7 +197,8 @@ static void judge_lines(verdict *v)
             snprintf(channel, sizeof channel, "line_%d_tension", ++number);
             const double *t = run_vessel_channel(&r->d, r->vessel, channel);
             double most = 0, breaks = automatic_or(m->lines.data[i].breaking_load, HUGE_VAL);
-            for (int32_t row = 0; t && row < rows; row++)
+            bool whole = gone > 0 && t && !(t[rows - 1] > 0); /* what parted is judged with its transient */
+            for (int32_t row = whole ? 0 : run_first_row(&r->d); t && row < rows; row++)
                 most = fmax(most, t[row]);
             if (most / breaks > use || (use == 0 && most > tension)) {
                 use = most / breaks;
@@ -203,8 +206,6 @@ static void judge_lines(verdict *v)
                 worst = number;
             }
         }
-    const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
-    int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0, at = 0;
     while (gone > 0 && at < rows && parted[at] < 1)
         at++;
     char name[48], text[40];
