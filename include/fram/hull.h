@@ -92,6 +92,10 @@ typedef struct fram_hull_surface {
     int holes_filled; /* on request */
     double hole_area; /* [m2] */
     int flipped;      /* triangles turned, on request */
+    /* Closed parts inside the hull (tanks, the inner face of a plating), which were left out: no water comes there; by
+       how much the hull encloses more without them [m3]. */
+    int inner_parts;
+    double inner_volume;
 } fram_hull_surface;
 FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
 #define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))

@@ -53,6 +53,8 @@ static void describe_file(fram_hull *h, const hull_file_report *r)
         .holes_filled = r->holes,
         .hole_area = r->hole_area,
         .flipped = r->flipped,
+        .inner_parts = r->inner_parts,
+        .inner_volume = r->inner_volume,
     };
     copy3(h->about.crack_vector, r->seal.area_vector);
     copy3(h->about.crack_volume, r->seal.volume);

@@ -161,6 +161,9 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
            s->hi[0], s->hi[1], s->hi[2]);
     if (s->dropped)
         printf("  left out: %d without area\n", s->dropped);
+    if (s->inner_parts)
+        printf("  left out: %d closed part%s inside the hull, %.6g m3, where no water comes\n", s->inner_parts,
+               s->inner_parts == 1 ? "" : "s", s->inner_volume);
     if (s->lids)
         printf("  left out: %d triangles in the waterplane\n", s->lids);
     if (s->joined || s->splits)
@@ -247,6 +250,8 @@ static void json_surface(json *j, const fram_hull_surface *s)
     json_integer(j, "holes_filled", s->holes_filled);
     json_real(j, "hole_area_m2", s->hole_area);
     json_integer(j, "triangles_turned", s->flipped);
+    json_integer(j, "inner_parts_left_out", s->inner_parts);
+    json_real(j, "inner_volume_m3", s->inner_volume);
 }
 
 static void json_floating(json *j, const fram_hull_floating *f, const fram_hull_condition *c)

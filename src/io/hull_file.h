@@ -24,10 +24,12 @@ typedef struct hull_file_report {
     int32_t lids; /* GDF: triangles in the water plane, which are left out */
     double seal_width;
     mesh_seal_report seal;
-    double freeboard; /* of the topsides that were added, 0 without [m] */
-    int32_t holes;    /* filled on request */
-    double hole_area; /* [m2] */
-    int32_t flipped;  /* triangles turned on request */
+    double freeboard;    /* of the topsides that were added, 0 without [m] */
+    int32_t holes;       /* filled on request */
+    double hole_area;    /* [m2] */
+    int32_t flipped;     /* triangles turned on request */
+    int32_t inner_parts; /* closed parts inside the hull, left out: tanks, the inner face of a plating */
+    double inner_volume; /* by which the hull encloses more without them [m3] */
 } hull_file_report;
 
 /* FRAM_ERROR_INPUT with line and element of the file where the surface is no sound solid, and what would help;

@@ -1,6 +1,8 @@
 /* The steps from a file's triangles to a sound solid; see hull_mend.h. */
 #include "io/hull_mend.h"
 
+#include "io/hull_skin.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -233,6 +235,17 @@ static fram_status raise_top(hull_reading *r)
     return status;
 }
 
+/* Of a sound surface. */
+static fram_status keep_skin(hull_reading *r)
+{
+    hull_inside inside;
+    if (!hull_keep_outer_skin(r->ctx, &r->file->surface, &inside))
+        return error_memory(&r->out->error);
+    r->out->report.inner_parts = inside.parts;
+    r->out->report.inner_volume = inside.volume;
+    return FRAM_OK;
+}
+
 static fram_status check(hull_reading *r)
 {
     mesh_report report;
@@ -242,7 +255,7 @@ static fram_status check(hull_reading *r)
         return refuse_report(r, &report);
     double box = r->longest * r->longest * r->longest, volume = mesh_solid_properties(&r->file->surface).volume;
     if (volume > LEAST_VOLUME * box)
-        return FRAM_OK;
+        return keep_skin(r);
     return error_set(
         &r->out->error, FRAM_ERROR_INPUT, r->name, 0, "mesh",
         "the surface encloses no volume (%g m3); give the plate a thickness in the program that made the file", volume);

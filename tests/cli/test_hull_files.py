@@ -319,6 +319,8 @@ def cases():
          0), [], read(cone, 1e-5)),
         ("slivers.stl", "binary STL, deck and bottom of 2,000 slivers", stl_binary(plated_box(2000)), [],
          read(BOX_FLOATS, 1e-5)),
+        ("hollow.stl", "a plating of 10 mm, its outer and inner face as two closed parts",
+         stl_binary(join(BOX, turned(box(-19.99, 19.99, -4.99, 4.99, -2.99, 1.99)))), [], read(BOX_FLOATS)),
         ("semi.stl", "semi-submersible of separate columns and pontoons", stl_binary(semi(False)), [],
          read(semi_floats(), 1e-5)),
         ("model.obj", "a model of 40 mm: small volumes keep their digits", obj(moved(BOX, scale=0.001)), [],

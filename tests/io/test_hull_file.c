@@ -102,6 +102,30 @@ START_TEST(repair)
 }
 END_TEST
 
+/* A tetrahedron with a cavity in which another one stands: water comes to the outer skin alone. */
+START_TEST(inner_parts)
+{
+    context ctx;
+    context_init(&ctx);
+    hull_file_options options = hull_file_defaults();
+    mesh m = {0};
+    hull_file_report report;
+    fram_error error = {0};
+    assert_ok(finish(&ctx, "tank.obj",
+                     "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 8\nv 1 1 1\nv 3 1 1\nv 1 3 1\nv 1 1 3\n"
+                     "v 1.5 1.5 1.5\nv 1.75 1.5 1.5\nv 1.5 1.75 1.5\nv 1.5 1.5 1.75\n"
+                     "f 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n"
+                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 5 6 7\nf 5 8 6\nf 5 7 8\nf 6 8 7\n",
+                     &options, &m, &report, &error),
+              error);
+    check_sound(&ctx, &m, 512.0 / 6);
+    ck_assert_int_eq(m.vertex.count, 4);
+    ck_assert_int_eq(report.inner_parts, 2);
+    assert_relative(report.inner_volume, (8 - 1.0 / 64) / 6, 1e-12);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
 START_TEST(options_are_checked)
 {
     context ctx;
@@ -149,4 +173,4 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull_file", topsides, scale, repair, options_are_checked, memory_runs_out)
+TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, options_are_checked, memory_runs_out)

@@ -1,0 +1,19 @@
+/* What a hull's triangles are of a ship, inside io: its outer skin.  Knows the surface alone, not how it
+   came about nor what is said about it. */
+#ifndef IO_HULL_SKIN_H
+#define IO_HULL_SKIN_H
+
+#include "geometry/mesh.h"
+
+/* Closed parts of a surface that lie inside another part. */
+typedef struct hull_inside {
+    int32_t parts;
+    double volume; /* by which the hull encloses more without them [m3] */
+} hull_inside;
+
+/* Leave out the closed parts that lie inside of others: cavities, and what stands in them.  No water comes there: they
+   are tanks, or the inner face of a plating.  The surface must be sound; faces and vertices that stay keep their order.
+   false: no memory. */
+bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside);
+
+#endif
