@@ -96,6 +96,7 @@ typedef struct fram_hull_surface {
        how much the hull encloses more without them [m3]. */
     int inner_parts;
     double inner_volume;
+    bool half; /* the file has half a hull, open along its centre plane y = 0, and was closed there on request */
 } fram_hull_surface;
 FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
 #define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))

@@ -55,6 +55,7 @@ static void describe_file(fram_hull *h, const hull_file_report *r)
         .flipped = r->flipped,
         .inner_parts = r->inner_parts,
         .inner_volume = r->inner_volume,
+        .half = r->half,
     };
     copy3(h->about.crack_vector, r->seal.area_vector);
     copy3(h->about.crack_volume, r->seal.volume);

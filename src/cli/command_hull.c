@@ -347,6 +347,13 @@ static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, 
     return status;
 }
 
+static void warn_of_half(const common_options *common, const fram_hull_surface *s)
+{
+    if (s->half && !common->quiet)
+        fprintf(stderr, "warning: the file has half a hull, open along its centre plane y = 0, and is closed there: "
+                        "what follows is half a ship; mirror it in the program that made the file\n");
+}
+
 /* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
 #define LONGEST 500.0
 
@@ -395,6 +402,7 @@ int command_hull(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         warn_of_size(&common, &w, &floating);
+        warn_of_half(&common, &surface);
         if (common.json) {
             print_hull_json(&w, &surface, &floating, &pieces);
         } else {

@@ -69,8 +69,11 @@ static fram_status attempt_all(const hull_request *q, hull_outcome *out)
         status = hull_mend(q, widest, true, out);
     for (int i = NARROW_SEALS; i-- > 0 && !given && q->options.repair && may_go_on(status);)
         status = hull_mend(q, narrow_seals[i] * length, true, out);
-    if (may_go_on(status) && !given && tells_more(&narrow, out))
+    if (may_go_on(status) && !given && tells_more(&narrow, out)) {
         out->error = narrow.error;
+        out->half = narrow.half;
+    }
+    out->report.half = status == FRAM_OK && out->half;
     return status;
 }
 
@@ -155,7 +158,8 @@ fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, co
     fram_status status = check_options(options, &out.error);
     if (status == FRAM_OK) {
         status = attempt_all(&q, &out);
-        if (status == FRAM_ERROR_INPUT)
+        /* Whatever closes half a hull makes half a ship of it. */
+        if (status == FRAM_ERROR_INPUT && !out.half)
             status = name_remedy(&q, &out.error);
     }
     *report = out.report;

@@ -30,6 +30,7 @@ typedef struct hull_file_report {
     int32_t flipped;     /* triangles turned on request */
     int32_t inner_parts; /* closed parts inside the hull, left out: tanks, the inner face of a plating */
     double inner_volume; /* by which the hull encloses more without them [m3] */
+    bool half;           /* it was half a hull, open along its centre plane, and was closed there on request */
 } hull_file_report;
 
 /* FRAM_ERROR_INPUT with line and element of the file where the surface is no sound solid, and what would help;

@@ -71,6 +71,16 @@ static const char *work_for(mesh_defect defect)
     }
 }
 
+static const char *advice_for(const hull_reading *r, mesh_defect defect)
+{
+    if (defect != MESH_OPEN || !r->out->half)
+        return work_for(defect);
+    return r->file->format == MESH_GDF
+               ? "it is half a hull, open along its centre plane y = 0: set ISY to 1 in the third line of the file"
+               : "it is half a hull, open along its centre plane y = 0: mirror it there in the program that made the "
+                 "file";
+}
+
 static fram_status refuse_report(hull_reading *r, const mesh_report *report)
 {
     r->out->defect = report->defect;
@@ -79,7 +89,7 @@ static fram_status refuse_report(hull_reading *r, const mesh_report *report)
         snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
     else
         snprintf(text, sizeof text, "the %s", report->text);
-    return refuse_face(r, report->face, text, work_for(report->defect));
+    return refuse_face(r, report->face, text, advice_for(r, report->defect));
 }
 
 /* ---- steps ---- */
@@ -295,6 +305,12 @@ static fram_status fill_holes(hull_reading *r)
     return status;
 }
 
+static fram_status find_half(hull_reading *r)
+{
+    bool done = hull_is_half(r->ctx, &r->file->surface, r->tolerance, &r->out->half);
+    return done ? FRAM_OK : error_memory(&r->out->error);
+}
+
 static fram_status finish_hull(hull_reading *r)
 {
     scale_surface(r);
@@ -307,7 +323,9 @@ static fram_status finish_hull(hull_reading *r)
         status = orient(r);
     r->top = mesh_bounds(&r->file->surface).hi.z;
     if (status == FRAM_OK && r->out->report.seal.open_after > 0) {
-        status = find_rims(r);
+        status = find_half(r);
+        if (status == FRAM_OK)
+            status = find_rims(r);
         if (status == FRAM_OK)
             status = raise_top(r);
         if (status == FRAM_OK)

@@ -1,8 +1,12 @@
-/* The outer skin of a hull; see hull_skin.h. */
+/* The outer skin of a hull, and halves of hulls; see hull_skin.h. */
 #include "io/hull_skin.h"
 
 #include "geometry/mesh_parts.h"
 #include "geometry/mesh_repair.h"
+
+#include <math.h>
+
+/* ---- the outer skin ---- */
 
 static bool find_parts(context *ctx, const mesh *m, mesh_parts *out)
 {
@@ -56,4 +60,36 @@ bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside)
     inside->volume = mesh_solid_properties(m).volume - before;
     mesh_parts_free(ctx, &parts);
     return done && (inside->parts == 0 || mesh_drop_unused_vertices(ctx, m));
+}
+
+/* ---- halves ---- */
+
+/* Open edges in the centre plane, not counting those of an open top; -1 where others are open too. */
+static int32_t count_central(const mesh *m, const mesh_adjacency *adjacency, double top, double tolerance)
+{
+    int32_t count = 0;
+    for (int32_t h = 0; h < adjacency->neighbour.count; h++) {
+        if (adjacency->neighbour.data[h] >= 0)
+            continue;
+        vec3 a = m->vertex.data[m->face.data[h / 3].v[h % 3]];
+        vec3 b = m->vertex.data[m->face.data[h / 3].v[(h % 3 + 1) % 3]];
+        bool at_top = fmin(a.z, b.z) >= top - tolerance, central = fmax(fabs(a.y), fabs(b.y)) <= tolerance;
+        if (!at_top && !central)
+            return -1;
+        count += central && !at_top;
+    }
+    return count;
+}
+
+bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half)
+{
+    box3 box = mesh_bounds(m);
+    *half = false;
+    if (box.lo.y < -tolerance && box.hi.y > tolerance)
+        return true;
+    mesh_adjacency adjacency = {0};
+    bool done = mesh_adjacency_build(ctx, m, &adjacency) == FRAM_OK;
+    *half = done && count_central(m, &adjacency, box.hi.z, tolerance) > 0;
+    mesh_adjacency_free(ctx, &adjacency);
+    return done;
 }

@@ -1,4 +1,4 @@
-/* What a hull's triangles are of a ship, inside io: its outer skin.  Knows the surface alone, not how it
+/* What a hull's triangles are of a ship, inside io: its outer skin, or half of it.  Knows the surface alone, not how it
    came about nor what is said about it. */
 #ifndef IO_HULL_SKIN_H
 #define IO_HULL_SKIN_H
@@ -15,5 +15,9 @@ typedef struct hull_inside {
    are tanks, or the inner face of a plating.  The surface must be sound; faces and vertices that stay keep their order.
    false: no memory. */
 bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside);
+
+/* The surface is half of a ship's: all of it lies on one side of the centre plane y = 0, and it is open there, and at
+   most there and at its top.  Heights and breadths are equal to `tolerance` [m].  false: no memory. */
+bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half);
 
 #endif

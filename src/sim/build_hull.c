@@ -62,6 +62,9 @@ static void report_file(context *ctx, const hull_file_report *r)
     if (r->holes || r->flipped)
         log_write(ctx, LOG_INFO, "it is repaired: %d holes of %.3g m2 filled, %d triangles turned", (int)r->holes,
                   r->hole_area, (int)r->flipped);
+    if (r->half)
+        log_write(ctx, LOG_WARNING,
+                  "the hull's file has half a hull, open along its centre plane y = 0, and is closed there: mirror it");
     if (r->inner_parts)
         log_write(ctx, LOG_INFO, "closed parts inside the hull are left out, %d of %.4g m3: no water comes there",
                   (int)r->inner_parts, r->inner_volume);

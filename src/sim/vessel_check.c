@@ -255,6 +255,8 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 #define OFF_AMIDSHIPS 0.2
 /* Part of the beam by which the centre of buoyancy may lie beside the centre line. */
 #define OFF_CENTRE 0.02
+/* Part of its beam within which the side of half a hull stands in the centre line. */
+#define ON_CENTRE 0.001
 /* Beam over draught, as of hulls by particulars. */
 #define SHALLOWEST 25.0
 
@@ -279,11 +281,13 @@ static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e,
                   "on the ship are counted from there; move the mesh",
                   e->path, p->length, p->midships);
     const vec3 buoyancy = m->floats.centre_of_buoyancy;
+    const box2 line = m->floats.waterline;
+    bool one_side = fmin(fabs(line.lo.y), fabs(line.hi.y)) < ON_CENTRE * p->beam;
     if (m->floats.volume > 0 && fabs(buoyancy.y) > OFF_CENTRE * p->beam)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull lies about y = %.4g m, not about y = 0, the centre line: all places on the "
-                  "ship are counted from there; move the mesh",
-                  e->path, buoyancy.y);
+                  "ship are counted from there; %s",
+                  e->path, buoyancy.y, one_side ? "mirror the mesh if it is half a hull, or move it" : "move the mesh");
     if (p->beam > SHALLOWEST * p->draught)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "

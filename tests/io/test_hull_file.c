@@ -126,6 +126,31 @@ START_TEST(inner_parts)
 }
 END_TEST
 
+/* What closes half a hull makes half a ship of it: it is refused as half, and told where repair is asked for. */
+START_TEST(half)
+{
+    context ctx;
+    context_init(&ctx);
+    const char *const box = "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
+                            "f 4 3 2 1\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    for (int deck = 0; deck < 2; deck++) {
+        char text[400];
+        snprintf(text, sizeof text, "%s%s", box, deck ? "f 5 6 7 8\n" : "");
+        hull_file_options options = hull_file_defaults();
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        ck_assert_int_eq(finish(&ctx, "half.obj", text, &options, &m, &report, &error), FRAM_ERROR_INPUT);
+        ck_assert_ptr_nonnull(strstr(error.message, "mirror it"));
+        options.repair = true;
+        fram_status status = finish(&ctx, "half.obj", text, &options, &m, &report, &error);
+        ck_assert_int_eq(status, deck ? FRAM_OK : FRAM_ERROR_INPUT);
+        ck_assert(report.half == deck);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
 START_TEST(options_are_checked)
 {
     context ctx;
@@ -173,4 +198,4 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, options_are_checked, memory_runs_out)
+TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, half, options_are_checked, memory_runs_out)
