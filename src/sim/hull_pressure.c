@@ -66,12 +66,12 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose,
     return good;
 }
 
-/* Where nothing tells how far the run went, as far as its scenario does. */
+/* Where nothing tells how far the run went, as far as its scenario does.  A program may have gone on beyond that. */
 static fram_status find_last_time(pressure_map *p, fram_error *error)
 {
     double until;
     fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
-    p->end = until > 0 ? fmin(until, p->s.run.duration) : p->s.run.duration;
+    p->end = until > 0 ? until : p->s.run.duration;
     if (status == FRAM_OK && p->o->to > p->end + 1e-6 * p->s.run.time_step)
         log_write(p->ctx, LOG_WARNING, "the run has gone to %.10g s: pressures are up to there, not to %.10g s", p->end,
                   p->o->to);

@@ -184,6 +184,18 @@ static fram_status go_back(rerun *r, const model *m, fram_error *error)
     return status;
 }
 
+/* From the first step on to the last one of the scenario, or as far as a program took the run beyond that. */
+static fram_status check_moment(const rerun *r, fram_error *error)
+{
+    double dt = r->s.run.time_step, ran, end = r->s.run.duration;
+    fram_status status = rerun_run_end(r->ctx, r->folder, &ran, error);
+    end = fmax(end, fmax((double)step_at(end, dt) * dt, ran));
+    if (status == FRAM_OK && !(r->time >= dt && r->time <= end * (1 + 1e-12)))
+        status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "time", "expected a time from %g s to %g s, found %g",
+                           dt, end, r->time);
+    return status;
+}
+
 fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t vessel, rerun_result *out,
                          fram_error *error)
 {
@@ -196,9 +208,7 @@ fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t 
     if (status != FRAM_OK)
         return status;
     model m = {0};
-    if (!(time >= r.s.run.time_step && time <= r.s.run.duration * (1 + 1e-12)))
-        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "time", "expected a time from %g s to %g s, found %g",
-                           r.s.run.time_step, r.s.run.duration, time);
+    status = check_moment(&r, error);
     if (status == FRAM_OK)
         status = build_model(ctx, &r.s, &m, error);
     if (status == FRAM_OK) {

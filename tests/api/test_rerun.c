@@ -148,6 +148,30 @@ START_TEST(no_row_behind)
 }
 END_TEST
 
+/* The last step ends after the duration, which is no multiple of the time step. */
+START_TEST(last_step)
+{
+    static const char *const words[] = {"output.checkpoint_interval=0", "run.duration=2.993"};
+    open_all();
+    record(words, 2, -1);
+    assert_ok(why(3, 0), e);
+    assert_fails(why(3.02, 0), e, FRAM_ERROR_INPUT, "to 3 s, found 3.02");
+    close_all();
+}
+END_TEST
+
+/* A program goes on beyond the scenario's end: to there it is explained. */
+START_TEST(beyond_the_end)
+{
+    static const char *const words[] = {"output.checkpoint_interval=0.2", "run.duration=2"};
+    open_all();
+    record(words, 2, 135);
+    assert_ok(why(2.2, 0), e);
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "at t = 2.72 s");
+    close_all();
+}
+END_TEST
+
 START_TEST(without_memory)
 {
     open_all();
@@ -181,4 +205,4 @@ START_TEST(without_memory)
 }
 END_TEST
 
-TEST_MAIN("rerun", steered, from_a_checkpoint, rows_far_apart, no_row_behind, without_memory)
+TEST_MAIN("rerun", steered, from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, without_memory)
