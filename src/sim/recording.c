@@ -113,7 +113,7 @@ static fram_status write_what_is_due(recording *r, double step_wall, fram_error 
     fram_status status = recorder_step(&r->recorder, r->w, step_wall, error);
     if (status == FRAM_OK && r->picture_every > 0 && step % r->picture_every == 0)
         status = draw_numbered_plan(r, error);
-    if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step < r->stop_step)
+    if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step != r->stop_step)
         status = write_checkpoint(r, error);
     return status;
 }

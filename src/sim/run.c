@@ -156,17 +156,26 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
 
 /* ---- resume ---- */
 
+/* A run that a program took beyond the scenario's end is at its end. */
+static fram_status check_stop(run *r, fram_error *error)
+{
+    double now = r->world.clock.time[0], until = r->options->until;
+    if (until > 0 && until < now - 0.5 * r->record.s->run.time_step)
+        return error_set(error, FRAM_ERROR_USAGE, r->options->folder, 0, "until",
+                         "expected a time from %g s on, where the newest checkpoint is; found %g s", now, until);
+    if (r->record.stop_step < r->world.clock.step[0])
+        r->record.stop_step = r->world.clock.step[0];
+    return FRAM_OK;
+}
+
 static fram_status resume_world(run *r, run_result *result, fram_error *error)
 {
     recorder_lengths lengths;
     fram_status status = recording_read_state(&r->record, &r->model, &r->world, &lengths, error);
-    if (status != FRAM_OK)
-        return status;
-    if (r->record.stop_step < r->world.clock.step[0])
-        return error_set(error, FRAM_ERROR_USAGE, r->options->folder, 0, "until",
-                         "expected a time from %g s on, where the newest checkpoint is; found %g s",
-                         r->world.clock.time[0], r->options->until);
-    status = recording_continue(&r->record, &lengths, error);
+    if (status == FRAM_OK)
+        status = check_stop(r, error);
+    if (status == FRAM_OK)
+        status = recording_continue(&r->record, &lengths, error);
     if (status != FRAM_OK)
         return status;
     log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);

@@ -160,14 +160,27 @@ START_TEST(last_step)
 }
 END_TEST
 
-/* A program goes on beyond the scenario's end: to there it is explained. */
+/* A program goes on beyond the scenario's end: to there it is explained, kept by checkpoints, and ended by a resume. */
 START_TEST(beyond_the_end)
 {
     static const char *const words[] = {"output.checkpoint_interval=0.2", "run.duration=2"};
+    char path[300];
+    fram_run_definition d;
+    fram_run_result result;
     open_all();
     record(words, 2, 135);
     assert_ok(why(2.2, 0), e);
     assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "at t = 2.72 s");
+    snprintf(path, sizeof path, "%s/checkpoint-000000000140.fram", run);
+    ck_assert_int_eq(access(path, F_OK), 0);
+    fram_run_default(&d);
+    d.folder = run;
+    d.until = 2.9;
+    assert_fails(fram_resume(ctx, &d, &result, &e), e, FRAM_ERROR_USAGE, "from 3 s on");
+    d.until = 0;
+    assert_ok(fram_resume(ctx, &d, &result, &e), e);
+    ck_assert(result.finished);
+    ck_assert_int_eq(result.steps, 150);
     close_all();
 }
 END_TEST
