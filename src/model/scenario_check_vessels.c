@@ -160,16 +160,20 @@ static fram_status check_hull(const scenario *s, const vessel_entry *e, fram_err
     return FRAM_OK;
 }
 
+/* A path stands in place of x and y: the vessel begins at its first point. */
 static fram_status check_place(const scenario *s, const vessel_entry *e, fram_error *error)
 {
     const scenario_vessel *v = e->keys;
     const scenario_domain *d = &s->domain;
-    bool inside = v->x >= d->x_min && v->x <= d->x_max && v->y >= d->y_min && v->y <= d->y_max;
+    bool goes = v->path.count > 0;
+    double x = goes ? v->path.data[0].x : v->x, y = goes ? v->path.data[0].y : v->y;
+    bool inside = x >= d->x_min && x <= d->x_max && y >= d->y_min && y <= d->y_max;
     if (d->boundary != DOMAIN_WALLS || inside)
         return FRAM_OK;
-    return vessel_fault(s, e, "x", error,
-                        "expected %s.x and %s.y inside the walls of the domain, found a place outside", e->path,
-                        e->path);
+    const char *of = goes ? "path[0]." : "";
+    return vessel_fault(s, e, goes ? "path[0].x" : "x", error,
+                        "expected %s.%sx and %s.%sy inside the walls of the domain, found a place outside", e->path, of,
+                        e->path, of);
 }
 
 static fram_status check_rows(const scenario *s, const vessel_entry *e, const char *key, int32_t count,

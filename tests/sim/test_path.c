@@ -53,4 +53,27 @@ START_TEST(places_between_points)
 }
 END_TEST
 
-TEST_MAIN("path", driven_hull, towed_hull, places_between_points)
+/* Walls stand around where a path begins, wherever that is; x and y are not looked at. */
+START_TEST(begins_inside_the_walls)
+{
+    static const char far[] =
+        "vessel:\n  mode: towed\n  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}\n"
+        "  path: [{time: 0, x: 1000, y: 500}, {time: 60, x: 1010, y: 500}]\n"
+        "ice: {source: none}\ndomain: {x_min: 940, x_max: 1060, y_min: 460, y_max: 540}\n";
+    static const char *const elsewhere[] = {"vessel.path[0].x=0"};
+    fram_error error = {0};
+    scenario s = {0};
+    context ctx;
+    scene k;
+    scene_open(&k, far);
+    check_place(&k, 1000, 500, 0, 1e-12);
+    scene_close(&k);
+    context_init(&ctx);
+    const scenario_overrides overrides = {elsewhere, 1};
+    assert_fails(scenario_parse(&ctx, "far.yaml", far, strlen(far), &overrides, &s, &error), error, FRAM_ERROR_INPUT,
+                 "vessel.path[0].x and vessel.path[0].y inside the walls");
+    ck_assert_str_eq(error.key, "vessel.path[0].x");
+}
+END_TEST
+
+TEST_MAIN("path", driven_hull, towed_hull, places_between_points, begins_inside_the_walls)
