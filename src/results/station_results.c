@@ -93,12 +93,14 @@ static int32_t end_of_line(const station_data *d, int32_t line)
     return -1;
 }
 
-/* A line that parted was used up, whenever that was: its last tension counts, before the transient too. */
+/* A line that parted was used up, whenever that was: its last tension counts, before the transient too.  One without
+   a breaking load has no use that could be told: 0 would look like a slack line. */
 static double line_use(const station_data *d, int32_t line, double peak)
 {
     int32_t end = end_of_line(d, line);
     double last = end >= 0 ? d->outcome->events->value[end] : (double)NAN;
-    return fmax(peak, last) / d->outcome->lines->breaking_load[d->line[line]];
+    double breaking = d->outcome->lines->breaking_load[d->line[line]];
+    return breaking < HUGE_VAL ? fmax(peak, last) / breaking : (double)NAN;
 }
 
 /* The largest part of the thrust ahead, or astern, that was asked of a thruster. */
