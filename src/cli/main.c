@@ -254,6 +254,8 @@ int main(int argc, char **argv)
     }
     /* A limit on the size of files is an error of the write that meets it, with its message and its tidying up. */
     signal(SIGXFSZ, SIG_IGN);
+    /* Whoever started this may have ignored it: then nobody could tell how runs of a study and ffmpeg end. */
+    signal(SIGCHLD, SIG_DFL);
     common_options common = {0};
     common.json = words_ask_for_json(argc - 1, argv + 1);
     bring_command_forward(argc, argv);

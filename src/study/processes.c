@@ -45,11 +45,24 @@ int processes_that_fit(int cores, double memory, double bytes)
     return fit < 1 ? 1 : fit < cores ? (int)fit : cores;
 }
 
+/* Whether the system keeps how a program ended until it is asked: not where SIGCHLD is ignored, which a program has
+   from whoever started it. */
+static bool ends_are_told(void)
+{
+    struct sigaction child;
+    return sigaction(SIGCHLD, NULL, &child) != 0 ||
+           (child.sa_handler != SIG_IGN && (child.sa_flags & SA_NOCLDWAIT) == 0);
+}
+
 fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,
                             fram_error *error)
 {
     posix_spawn_file_actions_t files;
     process p = {.task = task};
+    if (!ends_are_told())
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "SIGCHLD",
+                         "is ignored by this program, so that nobody can tell how its runs end: set it to SIG_DFL, "
+                         "without SA_NOCLDWAIT, before a study runs");
     if (!array_reserve(ctx, &all->running, all->running.count + 1))
         return error_memory(error);
     if (posix_spawn_file_actions_init(&files) != 0)

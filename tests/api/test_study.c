@@ -3,6 +3,7 @@
 
 #include "fram/study.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -288,6 +289,14 @@ START_TEST(a_study_runs_by_the_command)
     d.folder = other;
     d.program = "/nowhere";
     ck_assert_int_ne(fram_study_run(s, &d, &result, &error), FRAM_OK);
+    /* Nor where the system would not tell how runs end: all of them would have failed. */
+    d.program = program;
+    ck_assert(signal(SIGCHLD, SIG_IGN) != SIG_ERR);
+    ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "SIGCHLD");
+    ck_assert(signal(SIGCHLD, SIG_DFL) != SIG_ERR);
+    ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_OK);
+    ck_assert_int_eq(result.failed, 0);
     fram_study_destroy(s);
     fram_context_destroy(c);
 }

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Folders of studies: of another scenario they are told, of something else they are left alone."""
+"""Folders of studies: of another scenario they are told, of something else they are left alone; who starts a study may
+ignore how programs end."""
+import signal
 import subprocess
 import unittest
 
@@ -34,6 +36,12 @@ class Folders(StudyTest):
         error = self.fram(study, "-o", self.at / "mine", "--force", code=2)["error"]
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
+
+    def test_runs_end_well_where_the_starter_ignored_sigchld(self):
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n")
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True,
+                              preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":
