@@ -54,8 +54,8 @@ static void work_show(void *user, const char *what, double done, double total)
 {
     work_view *view = user;
     double now = wall_clock();
-    /* What goes back begins again: a record is read several times. */
-    if (strcmp(view->what, what) != 0 || done < view->done) {
+    /* What goes back begins again: a record is read several times, and of a short file its beginning alone is told. */
+    if (strcmp(view->what, what) != 0 || done < view->done || (done == 0 && total > 0)) {
         snprintf(view->what, sizeof view->what, "%s", what);
         view->begun = now;
         view->first = done;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Folders of studies: of another scenario they are told, of something else they are left alone; who starts a study may
-ignore how programs end."""
+ignore how programs end; and what is told meanwhile is of the study."""
 import signal
 import subprocess
 import unittest
@@ -42,6 +42,13 @@ class Folders(StudyTest):
         done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True,
                               preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_files_that_are_read_at_once_are_not_told(self):
+        """A second after the first run had ended its file was told as being read, 0 %, by that of each later one."""
+        study = self.write("seeds: 4\nset: {run.duration: 10}\n")
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--jobs", "1"], check=True,
+                              capture_output=True, text=True)
+        self.assertNotIn("reading", done.stderr)
 
 
 if __name__ == "__main__":
