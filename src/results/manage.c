@@ -253,15 +253,24 @@ static fram_status write_sizes(const manage_run *m, const manage_summary *s, con
     return status == FRAM_OK ? closed : status;
 }
 
-fram_status manage_tables(const manage_run *m, const manage_summary *s, fram_error *error)
+/* The tables' names are made of the page's: none of them is one of what the runs are made of. */
+static fram_status find_paths(const manage_options *options, const char *folder, manage_summary *s, fram_error *error)
 {
-    char path[PATH_ROOM];
-    fram_status status = beside_page(s->page, ".csv", path, error);
+    char *paths[] = {s->page, s->moments, s->sizes};
+    fram_status status = path_given_or(options->output, folder, "manage.html", s->page, error);
     if (status == FRAM_OK)
-        status = write_moments(m, path, error);
+        status = beside_page(s->page, ".csv", s->moments, error);
     if (status == FRAM_OK)
-        status = beside_page(s->page, "-sizes.csv", path, error);
-    return status == FRAM_OK ? write_sizes(m, s, path, error) : status;
+        status = beside_page(s->page, "-sizes.csv", s->sizes, error);
+    if (status == FRAM_OK && strcmp(s->page, s->moments) == 0)
+        status = error_set(error, FRAM_ERROR_USAGE, s->page, 0, "output",
+                           "expected the name of a page, as manage.html: its tables are named after it, with .csv");
+    for (size_t i = 0; i < sizeof paths / sizeof *paths && status == FRAM_OK; i++) {
+        status = path_refuse_own(folder, paths[i], error);
+        if (status == FRAM_OK && options->beside)
+            status = path_refuse_own(options->beside, paths[i], error);
+    }
+    return status;
 }
 
 /* ---- all ---- */
@@ -276,7 +285,7 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
         return status;
     status = manage_sum_up(&run, summary, error);
     if (status == FRAM_OK)
-        status = path_given_or(options->output, folder, "manage.html", summary->page, error);
+        status = find_paths(options, folder, summary, error);
     bool both = options->beside != NULL && status == FRAM_OK;
     if (both) {
         manage_options same = *options;
@@ -289,7 +298,9 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
     if (status == FRAM_OK)
         status = manage_page(&run, summary, both ? &other : NULL, both ? &other_summary : NULL, error);
     if (status == FRAM_OK)
-        status = manage_tables(&run, summary, error);
+        status = write_moments(&run, summary->moments, error);
+    if (status == FRAM_OK)
+        status = write_sizes(&run, summary, summary->sizes, error);
     if (beside)
         *beside = other_summary;
     if (both)

@@ -25,8 +25,8 @@ typedef struct manage_options {
 } manage_options;
 
 typedef struct manage_summary {
-    char page[PATH_ROOM];
-    double limit; /* [m] */
+    char page[PATH_ROOM], moments[PATH_ROOM], sizes[PATH_ROOM]; /* what was written: page and tables */
+    double limit;                                               /* [m] */
     struct {
         double windows;                             /* looked at after the transient */
         double concentration, managed, sheet, mean; /* means; the middle two over the ice; mean size by area [m] */
@@ -55,7 +55,7 @@ fram_status manage_text(context *ctx, const manage_summary *s, const manage_summ
 fram_status manage_met_ice(context *ctx, const char *folder, const char *name, managed_ice *sum, fram_error *error);
 /* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,
    may be NULL.  FRAM_ERROR_INPUT for a folder without a run or a record, and for a vessel that is not there or not to
-   be told from others. */
+   be told from others; FRAM_ERROR_USAGE for a page whose tables would be written over what a run is made of. */
 fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
                          manage_summary *beside, fram_error *error);
 

@@ -49,6 +49,5 @@ fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *
 /* The page, on which `other` (NULL: none) stands beside. */
 fram_status manage_page(const manage_run *m, const manage_summary *s, const manage_run *other,
                         const manage_summary *other_summary, fram_error *error);
-fram_status manage_tables(const manage_run *m, const manage_summary *s, fram_error *error);
 
 #endif

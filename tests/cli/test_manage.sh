@@ -172,6 +172,14 @@ says "nobody" err
 expect 2 "$FRAM" manage both --vessel ship --limit -1
 expect 2 "$FRAM" manage both --vessel ship --beside nowhere
 expect 2 "$FRAM" manage both --vessel ship -o both/run.json
+# Tables are named after the page, and would be written over the series of either run, or over the page.
+expect 2 "$FRAM" manage both --vessel ship -o both/series.html
+says "both/series.csv: --output: expected a file of its own, found one that the run is made of" err
+expect 2 "$FRAM" manage both --vessel ship --beside alone -o alone/fractures.html
+head -1 alone/fractures.csv | grep -q '^time' || fail "a run lost its fractures"
+expect 2 "$FRAM" manage both --vessel ship -o table.csv
+says "table.csv: --output: expected the name of a page" err
+[ ! -e table-sizes.csv ] || fail "a page that is its own table was written"
 expect 0 "$FRAM" manage --help
 says "Examples:" out
 finish "ice management: known floes, windows and times"
