@@ -106,6 +106,7 @@ static scenario driven(const scenario *s, double from, double speed)
     d.environment.current_speed = speed;
     d.environment.current_direction_deg = towards;
     d.environment.current_file[0] = '\0';
+    d.environment.current_profile_file[0] = '\0'; /* of one direction, as the balance has none */
     d.environment.wind_speed = 0;
     d.environment.wind_file[0] = '\0';
     return d;

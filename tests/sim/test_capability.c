@@ -1,7 +1,11 @@
 /* The capability plot of simple ships against balances by hand, and its loads. */
+#include "base/channel_statistics.h"
+#include "io/csv_read.h"
 #include "scene.h"
 #include "sim/capability.h"
+#include "sim/ice_loads.h"
 
+#include <stdlib.h>
 #include <unistd.h>
 
 /* A box whose only load is form drag of the current: 1/2 rho v^2 A with A = 12 x 4 m ahead, 60 x 4 m abeam. */
@@ -45,6 +49,52 @@ START_TEST(limits_by_hand)
     /* Use grows with the square of the speed; ring 1 of direction 0 is 0.5 m/s. */
     double share = 0.25 / (speed_for(60e3, 48) * speed_for(60e3, 48));
     assert_relative(c.use[1].use, share, 2e-3);
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+}
+END_TEST
+
+/* Halfway between two directions and two speeds, around the bow, and beyond the ends of the table; the allowance is on
+   mean loads alone. */
+START_TEST(loads_between_directions_and_speeds)
+{
+    vec3 wind[4], damping[4], drag[4], ice[8];
+    for (int i = 0; i < 4; i++) {
+        wind[i] = vec3_make(1 + i, 0, 0);
+        damping[i] = vec3_make(10 * (1 + i), 0, 0);
+        drag[i] = vec3_make(100 * (1 + i), 0, 0);
+        ice[2 * i] = vec3_make(1000 * (1 + i), 1, 0);
+        ice[2 * i + 1] = vec3_make(3000 * (1 + i), 0, 1);
+    }
+    capability c = {.options = plain, .loads = {4, 2, 0.5, wind, damping, drag, ice, .measured = true}};
+    vec3 sum = capability_load_at(&c, 0.25 * PI, 0.75);
+    double mean = 1.25 * (1.5 + 15 * 0.75 + 150 * 0.75 * 0.75);
+    assert_relative(sum.x, mean + 3000, 1e-12);
+    assert_relative(sum.y, 0.5, 1e-12);
+    assert_relative(sum.z, 0.5, 1e-12);
+    /* Between ahead (1) and port (4), from either way round. */
+    assert_relative(capability_load_at(&c, -0.25 * PI, 0).x, 1.25 * 2.5, 1e-12);
+    assert_relative(capability_load_at(&c, 1.75 * PI, 0).x, 1.25 * 2.5, 1e-12);
+    assert_relative(capability_load_at(&c, 0, 0.1).x, 1.25 * (1 + 10 * 0.1 + 100 * 0.01) + 1000, 1e-12);
+    assert_relative(capability_load_at(&c, 0, 2).x, 1.25 * (1 + 10 * 2 + 100 * 4) + 3000, 1e-12);
+    c.loads.measured = false;
+    assert_relative(capability_load_at(&c, 0.25 * PI, 0.75).x, mean + 1.25 * 3000, 1e-12);
+}
+END_TEST
+
+/* The wind is the scenario's, from the side that the drift comes from; the damping that is given is of 1 m/s. */
+START_TEST(loads_of_wind_and_damping)
+{
+    static const char *const blown[] = {"environment.wind_speed=20", "environment.wind_direction_deg=70",
+                                        "environment.hull_drag.air_form=1", "environment.current_speed=0.7"};
+    scene k;
+    scene_open_with(&k, box, blown, sizeof blown / sizeof *blown);
+    capability c;
+    fram_error error = {0};
+    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    assert_relative(c.loads.wind[0].x, -0.5 * 1.225 * 400 * 24, 1e-3);
+    assert_relative(c.loads.wind[2].y, 0.5 * 1.225 * 400 * 120, 1e-3);
+    assert_relative(c.loads.drag[2].y, 0.5 * 1025 * 240, 1e-3);
     capability_free(&k.ctx, &c);
     scene_close(&k);
 }
@@ -100,6 +150,12 @@ START_TEST(broken_ice_by_formula)
     vec3 sum = capability_load_at(&c, 0, 0.5);
     assert_relative(-sum.x, 1.25 * (ahead + 0.5 * 1025 * 0.25 * 48), 1e-3);
     capability_free(&k.ctx, &c);
+    /* Through the middle of the breadth, which is abaft a centre of gravity that lies ahead. */
+    k.s.vessel.centre_of_gravity_x = 5;
+    assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
+    assert_relative(c.loads.ice[2 * c.loads.speeds + 1].z, -5 * abeam, 1e-3);
+    capability_free(&k.ctx, &c);
+    k.s.vessel.centre_of_gravity_x = 0;
     /* Measuring needs ice that is driven past. */
     o.formula = false;
     ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_INPUT);
@@ -108,14 +164,69 @@ START_TEST(broken_ice_by_formula)
 }
 END_TEST
 
-/* Ice that drifts onto a hull from ahead pushes it astern, from starboard to port; mirrored from port. */
+/* What runs of the drift from starboard measure, made by hand: the whole ice goes the drift's way, whatever current and
+   wind the scenario has.  In the ship's frame, scaled to the significant value of the load along its mean. */
+static vec3 load_from_starboard(scene *k, double speed, double seconds)
+{
+    scenario d = k->s;
+    model m;
+    world w;
+    fram_error error = {0};
+    double_array time = {0}, part[3] = {{0}, {0}, {0}};
+    d.vessel.mode = VESSEL_PRESCRIBED;
+    d.domain.drift_speed = d.environment.current_speed = speed;
+    d.domain.drift_direction_deg = d.environment.current_direction_deg = 30 - 90 + 180;
+    d.environment.wind_speed = 0;
+    d.environment.current_profile_file[0] = '\0';
+    assert_ok(scene_build(&k->ctx, &d, &m, &w, &error), error);
+    for (int i = 0; i < (int)floor(seconds / d.run.time_step + 0.5); i++) {
+        assert_ok(world_step(&k->ctx, &m, &w, &error), error);
+        wrench mean = load_window_average(&w, 0);
+        vec3 load = plane_to_vessel(radians(30), vec3_make(mean.force.x, mean.force.y, mean.moment.z));
+        const double row[3] = {load.x, load.y, load.z};
+        ck_assert(array_push(&k->ctx, &time, w.clock.time[0]));
+        for (int j = 0; j < 3; j++)
+            ck_assert(array_push(&k->ctx, &part[j], row[j]));
+    }
+    double mean[3], size;
+    for (int j = 0; j < 3; j++)
+        mean[j] = channel_statistics_of(time.data, part[j].data, time.count, seconds / 3).mean;
+    size = sqrt(mean[0] * mean[0] + mean[1] * mean[1]);
+    for (int32_t i = 0; i < time.count; i++)
+        part[0].data[i] = (part[0].data[i] * mean[0] + part[1].data[i] * mean[1]) / size;
+    double most = channel_statistics_of(time.data, part[0].data, time.count, seconds / 3).significant_above / size;
+    ck_assert(most > 1.01);
+    array_free(&k->ctx, &time);
+    for (int j = 0; j < 3; j++)
+        array_free(&k->ctx, &part[j]);
+    world_free(&k->ctx, &w);
+    model_free(&k->ctx, &m);
+    return vec3_make(most * mean[0], most * mean[1], most * mean[2]);
+}
+
+/* Ice that drifts onto a hull from ahead pushes it astern, from starboard to port; mirrored from port.  Neither wind
+   nor what the current has on top at a depth are in it. */
 START_TEST(measured_ice)
 {
+    char path[] = "/tmp/fram-profile-XXXXXX", profile[80];
+    int file = mkstemp(path);
+    ck_assert(file >= 0 && dprintf(file, "depth,x,y\n0,0,1\n20,0,1\n") > 0);
+    close(file);
+    snprintf(profile, sizeof profile, "environment.current_profile_file=%s", path);
     scene k;
-    static const char *const ice[] = {"ice.source=voronoi",    "ice.concentration=0.9",   "ice.mean_floe_area=80",
-                                      "ice.thickness=0.6",     "domain.boundary=feeding", "domain.x_min=-70",
-                                      "domain.x_max=70",       "domain.y_min=-70",        "domain.y_max=70",
-                                      "vessel.hull.length=40", "run.time_step=0.05"};
+    const char *const ice[] = {"ice.source=voronoi",
+                               "ice.concentration=0.9",
+                               "ice.mean_floe_area=80",
+                               "ice.thickness=0.6",
+                               "domain.boundary=feeding",
+                               "domain.x_min=-70",
+                               "domain.x_max=70",
+                               "domain.y_min=-70",
+                               "domain.y_max=70",
+                               "vessel.hull.length=40",
+                               "environment.wind_speed=15",
+                               "run.time_step=0.05",
+                               profile};
     scene_open_with(&k, box, ice, sizeof ice / sizeof *ice);
     capability_options o = plain;
     o.directions = 4;
@@ -124,11 +235,17 @@ START_TEST(measured_ice)
     capability c;
     fram_error error = {0};
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
+    unlink(path);
     const vec3 *load = c.loads.ice;
     ck_assert(load[0].x < -1e3 && load[2].x > 1e3);
     ck_assert(load[1].y > 1e3);
     assert_absolute(load[3].y, -load[1].y, 0);
     assert_absolute(load[3].x, load[1].x, 0);
+    assert_absolute(load[3].z, -load[1].z, 0);
+    vec3 by_hand = load_from_starboard(&k, 0.8, 20);
+    assert_relative(load[1].x, by_hand.x, 1e-12);
+    assert_relative(load[1].y, by_hand.y, 1e-12);
+    assert_relative(load[1].z, by_hand.z, 1e-12);
     capability_free(&k.ctx, &c);
     scene_close(&k);
 }
@@ -236,5 +353,6 @@ START_TEST(a_stop_flag_is_seen)
 }
 END_TEST
 
-TEST_MAIN("capability", limits_by_hand, out_of_order_from_the_start, broken_ice_by_formula, measured_ice,
-          ice_that_was_met, refusals, a_stop_flag_is_seen)
+TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
+          out_of_order_from_the_start, broken_ice_by_formula, measured_ice, ice_that_was_met, refusals,
+          a_stop_flag_is_seen)
