@@ -130,6 +130,95 @@ START_TEST(out_of_order_from_the_start)
 }
 END_TEST
 
+/* Four springs about a box, ahead, to port, astern and to starboard. */
+#define SPRING(direction)                                                                                                        \
+    "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5, breaking_load: 4.0e5, direction_deg: " direction \
+    ", fairlead_distance: 5}\n"
+static const char sprung[] =
+    "vessel:\n  mode: free\n"
+    "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
+    "  mooring:\n    lines:\n" SPRING("0") SPRING("90") SPRING("180")
+        SPRING("270") "ice: {source: none}\ndomain: {boundary: open}\n"
+                      "environment:\n  hull_drag: {water_form: 1, water_skin: 0, air_form: 0, air_skin: 0}\n";
+
+static capability find_with(const char *const *overrides, int count, const capability_options *o)
+{
+    scene k;
+    capability c;
+    fram_error error = {0};
+    scene_open_with(&k, sprung, overrides, count);
+    assert_ok(capability_find(&k.ctx, &k.s, o, &c, &error), error);
+    scene_close(&k);
+    return c;
+}
+
+static void forget(capability *c)
+{
+    context ctx;
+    context_init(&ctx);
+    capability_free(&ctx, c);
+}
+
+/* After a failure the vessel is one that has lost the line from the start, with the factor for that. */
+START_TEST(what_is_left_after_a_line)
+{
+    static const char *const starboard[] = {"vessel.mooring.lines[3].release_time=0"};
+    capability_options o = plain;
+    capability whole = find_with(NULL, 0, &o);
+    o.line_safety = o.line_safety_damaged;
+    capability left = find_with(starboard, 1, &o);
+    ck_assert_int_eq(whole.damaged[2].failure, 3);
+    ck_assert(whole.damaged[2].speed < whole.intact[2].speed && !whole.damaged[2].beyond);
+    assert_relative(whole.damaged[2].speed, left.intact[2].speed, 1e-12);
+    forget(&whole);
+    forget(&left);
+}
+END_TEST
+
+/* A ship that has lost a line turns: up to its limit, or on a turret not at all. */
+START_TEST(ships_that_turn)
+{
+    static const char *const limit[] = {"vessel.station.heading_limit_deg=2"};
+    static const char *const turret[] = {"vessel.mooring.turret=true"};
+    capability held = find_with(limit, 1, &plain), free = find_with(turret, 1, &plain);
+    ck_assert_int_eq(held.damaged[1].at.item, HOLDING_HEADING);
+    assert_relative(degrees(held.damaged[1].at.turn), 2, 0.02);
+    ck_assert_int_eq(free.damaged[1].at.item, HOLDING_LINE);
+    assert_absolute(free.damaged[1].at.turn, 0, 1e-3);
+    forget(&held);
+    forget(&free);
+}
+END_TEST
+
+/* The balance is that in which a run begins that asks for its equilibrium; the plot's own does not move with it. */
+START_TEST(balances_are_those_of_a_run)
+{
+    /* At 1.25 m/s from 45 degrees to starboard, with the spring ahead cut down to next to nothing. */
+    static const char *const asked[] = {"vessel.mooring.lines[0].stiffness=10", "vessel.mooring.lines[0].pretension=10",
+                                        "vessel.mooring.equilibrium=true", "environment.current_speed=1.25",
+                                        "environment.current_direction_deg=135"};
+    capability_options o = plain;
+    o.allowance = 1;
+    o.directions = 72; /* loads are linear between them */
+    o.speed_step = o.speed_most = 1.25;
+    capability still = find_with(asked, 2, &o), moved = find_with(asked, 5, &o);
+    const holding *at = &still.use[9];
+    scene k;
+    scene_open_with(&k, sprung, asked, 5);
+    int32_t body = k.w.vessels.body[0];
+    vec3 place = k.w.bodies.position[body];
+    double turn = quat_roll_pitch_yaw(k.w.bodies.orientation[body]).z;
+    ck_assert(fabs(turn) > 0.01);
+    assert_relative(at->turn, fabs(turn), 1e-3);
+    assert_relative(at->offset, sqrt(place.x * place.x + place.y * place.y), 1e-3);
+    for (int32_t i = 0; i < still.loads.directions * still.loads.speeds; i++)
+        assert_absolute(moved.use[i].offset, still.use[i].offset, 0);
+    scene_close(&k);
+    forget(&still);
+    forget(&moved);
+}
+END_TEST
+
 START_TEST(broken_ice_by_formula)
 {
     /* B 18, h 1, S .8, v 1.5, rho 910: 379.8 kN (docs/oracles.md, section 8). */
@@ -251,6 +340,41 @@ START_TEST(measured_ice)
 }
 END_TEST
 
+/* Of more than four speeds four are measured, up to the largest. */
+static void keep_speeds(void *user, log_level level, const char *text)
+{
+    double *speeds = user, speed;
+    (void)level;
+    if (sscanf(text, "ice from 0 deg at %lf m/s", &speed) == 1)
+        speeds[(int)speeds[0] + 1] = speed, speeds[0]++;
+}
+
+START_TEST(speeds_that_are_measured)
+{
+    static const char *const ice[] = {"ice.source=voronoi", "ice.mean_floe_area=400", "domain.boundary=feeding",
+                                      "domain.x_min=-70",   "domain.x_max=70",        "domain.y_min=-70",
+                                      "domain.y_max=70"};
+    double speeds[9] = {0};
+    scene k;
+    scene_open_with(&k, box, ice, sizeof ice / sizeof *ice);
+    k.ctx.log = keep_speeds;
+    k.ctx.log_user = speeds;
+    capability_options o = plain;
+    o.directions = 4;
+    o.speed_step = 0.25;
+    o.speed_most = 2;
+    o.measure = k.s.run.time_step;
+    capability c;
+    fram_error error = {0};
+    assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
+    ck_assert_double_eq(speeds[0], 4);
+    for (int i = 1; i <= 4; i++)
+        assert_relative(speeds[i], 0.5 * i, 1e-12);
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+}
+END_TEST
+
 /* Four fifths of the ice in floes of 4 m, the rest in floes of 9 m: of the field that is made for the vessel as much.
  */
 START_TEST(ice_that_was_met)
@@ -354,5 +478,6 @@ START_TEST(a_stop_flag_is_seen)
 END_TEST
 
 TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
-          out_of_order_from_the_start, broken_ice_by_formula, measured_ice, ice_that_was_met, refusals,
+          out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run,
+          broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met, refusals,
           a_stop_flag_is_seen)
