@@ -1,7 +1,8 @@
 /* What the results of station keeping are made of. */
-#include "testing.h"
+#include "../io/scratch.h"
 
 #include "base/transcendental.h"
+#include "io/scenario_file.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
 
@@ -52,4 +53,85 @@ START_TEST(the_transient_is_left_out)
 }
 END_TEST
 
-TEST_MAIN("station_results", envelope_of_offsets, sectors_lie_about_their_directions, the_transient_is_left_out)
+/* ---- the second of two vessels ---- */
+
+#define HULL "    mode: free\n    hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
+static const char two_ships[] = "run: {transient: 1}\noutput: {averaging_window: 0.7}\nvessels:\n"
+                                "  - name: a\n" HULL "    thrusters: [{thrust: 10}]\n"
+                                "    mooring: {lines: [{kind: spring, distance: 100, stiffness: 1}]}\n"
+                                "  - name: b\n" HULL "    thrusters: [{thrust: 50}]\n"
+                                "    station: {offset_limit: 9, heading_limit_deg: 3}\n"
+                                "    mooring: {lines: [{kind: spring, distance: 100, stiffness: 1}]}\n";
+
+/* A row before the transient, and three of one second each. */
+static const char two_series[] =
+    "time[s],b.offset_x[m],b.offset_y[m],b.heading_deviation[deg],b.ice_force_averaged_x[N],b.ice_force_averaged_y[N],"
+    "b.thruster_power[W],b.thrusters_saturated[1],b.line_tension_max[N],b.line_1_tension[N],b.thruster_1_thrust[N]\n"
+    "0,99,99,99,99,99,99,99,99,99,99\n"
+    "1,3,4,1,10,-1,6,0,100,100,20\n"
+    "2,6,8,-5,10,-2,6,1,800,800,-10\n"
+    "3,3,4,4,10,-3,6,0,0,0,40\n";
+
+static void check_told(const char *text, const char *expected)
+{
+    if (!strstr(text, expected))
+        ck_abort_msg("station-b.json lacks %s:\n%s", expected, text);
+}
+
+/* Its lines, thrusters and events stand behind those of the first in the tables; its line was used up as it parted. */
+START_TEST(results_of_the_second_vessel)
+{
+    scratch f = scratch_make();
+    context ctx;
+    scenario s;
+    line_table lines = {0};
+    thruster_table thrusters = {0};
+    event_table events = {0};
+    fram_error error = {0};
+    context_init(&ctx);
+    assert_ok(scenario_parse(&ctx, "two.yaml", two_ships, strlen(two_ships), NULL, &s, &error), error);
+    ck_assert(table_resize(&ctx, &lines, &line_table_info, 2) &&
+              table_resize(&ctx, &thrusters, &thruster_table_info, 2));
+    for (int i = 0; i < 2; i++) {
+        lines.vessel[i] = thrusters.vessel[i] = i;
+        lines.breaking_load[i] = i ? 1000 : 1e9;
+        lines.broken[i] = i == 1;
+        thrusters.ahead[i] = i ? 50 : 1e9;
+        thrusters.astern[i] = i ? 25 : 1e9;
+        thrusters.failed[i] = 0;
+    }
+    ck_assert(event_add(&ctx, &events, EVENT_LINE_BREAK, 1.5, 0, 0, 444) &&
+              event_add(&ctx, &events, EVENT_LINE_BREAK, 2.5, 1, 0, 950));
+    const station_outcome o = {3, &lines, &thrusters, &events};
+    scratch_write(scratch_path(&f, "series.csv"), two_series, strlen(two_series));
+    assert_ok(station_results_write(&ctx, &s, 1, &o, f.folder, &error), error);
+    size_t size;
+    char *text = scratch_read(scratch_path(&f, "station-b.json"), &size);
+    text[size] = '\0';
+    static const char *const told[] = {
+        "\"vessel\": \"b\"",
+        "\"averaging_window_s\": 0.7",
+        "\"greatest\": 10, \"peak\": 10, \"limit\": 9, \"exceedance\": 0.333333333333333",
+        "\"limit\": 3, \"exceedance\": 0.666666666666666",
+        "\"ice_load_x_N\": {\"mean\": 10,",
+        "\"ice_load_y_N\": {\"mean\": -2,",
+        "\"energy_J\": 12",
+        "\"thrusters_saturated\": 0.333333333333333",
+        "\"parted\": true, \"parted_at_s\": 2.5, \"tension_then\": 950, \"utilisation\": 0.95, \"mean\": 300",
+        "\"failed\": false, \"largest_use\": 0.8,",
+        "\"time_s\": 2.5, \"value\": 950, \"number\": 1,"};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        check_told(text, told[i]);
+    ck_assert_ptr_null(strstr(text, "444"));
+    free(text);
+    unlink(scratch_path(&f, "series.csv"));
+    scratch_remove(&f, "station-b.json");
+    table_free(&ctx, &lines, &line_table_info);
+    table_free(&ctx, &thrusters, &thruster_table_info);
+    table_free(&ctx, &events, &event_table_info);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+TEST_MAIN("station_results", envelope_of_offsets, sectors_lie_about_their_directions, the_transient_is_left_out,
+          results_of_the_second_vessel)
