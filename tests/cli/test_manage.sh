@@ -93,6 +93,16 @@ expect 0 "$FRAM" manage both --vessel tender --limit 5 --depth 2 -q
 holds "at the vessel  *[0-9][0-9]*  *0.000  *-  *-  *-  *-$" out
 expect 0 "$FRAM" manage both --vessel ship --limit 50 --depth 20 -o all.html
 says "No unmanaged ice was on its way" all.html
+python3 - <<'END' || fail "all.csv or all-sizes.csv"
+import csv
+for row in csv.DictReader(open("all.csv")):
+    for place in ("upstream", "behind", "at_vessel"):
+        ice = float(row[place + "_concentration[1]"] or "nan")
+        assert not ice > 0 or float(row[place + "_managed[1]"]) == 1, ("shares are of the ice", row)
+rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(open("all-sizes.csv"))]
+assert [row["sheet[1]"] for row in rows] == [0] * (len(rows) - 1) + [1], rows
+assert abs(sum(row["at_vessel[1]"] for row in rows) - 1) < 1e-9, rows
+END
 expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -o page.html
 says "At its nearest, unmanaged ice was" page.html
 says "comparison run" out

@@ -55,7 +55,15 @@ START_TEST(covers_are_areas_in_the_window)
     assert_relative(c.of_class[2], 12 * 16 / whole, 1e-12);
     assert_relative(c.of_class[5], 100 / whole, 1e-12);
     assert_relative(c.largest, manage_size(400), 1e-12);
+    assert_relative(c.size_area, (12 * 16 * manage_size(16) + 100 * manage_size(400)) / whole, 1e-12);
     ck_assert_double_eq(c.sheet, 0);
+    managed_cover fine;
+    fram_error error = {0};
+    f.floe[12].thickness = 3;
+    assert_ok(
+        manage_measure(&f.ctx, f.floe, f.count, &(manage_window){{17.5, 12.5}, {1, 0}, 45, 35}, 10, &c, &fine, &error),
+        error);
+    assert_relative(fine.volume, (12 * 16 + 3 * 100) / whole, 1e-12);
     c = cover_of(&f, (manage_window){{17.5, 12.5}, {1, 0}, 45, 35}, 23);
     assert_relative(c.managed, c.ice, 1e-12);
 }
