@@ -62,8 +62,9 @@ EMSCRIPTEN_KEEPALIVE int simulator_begin(simulator *s, const char *text, const c
         status = fram_world_create(s->scenario, &s->world, &s->error);
     if (status == FRAM_OK)
         status = fram_world_record(s->world, &record, &s->error);
+    /* The step that is nearest, as where `fram run` ends. */
     if (status == FRAM_OK)
-        s->end_step = (int64_t)ceil(fram_scenario_duration(s->scenario) / fram_scenario_time_step(s->scenario) - 1e-6);
+        s->end_step = (int64_t)floor(fram_scenario_duration(s->scenario) / fram_scenario_time_step(s->scenario) + 0.5);
     return (int)status;
 }
 

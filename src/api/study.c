@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "io/scenario_file.h"
 #include "sim/bench_looks.h"
+#include "sim/recording.h"
 #include "sim/scene_size.h"
 #include "study/extent.h"
 #include "study/processes.h"
@@ -118,7 +119,7 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
     status = bench_looks(ctx, &one, looks_after, LOOKS, found, &build, error);
     if (status == FRAM_OK) {
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
-        double steps = ceil(one.run.duration / one.run.time_step);
+        double steps = (double)step_at(one.run.duration, one.run.time_step);
         double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
         out->run_seconds += PROGRAM_SECONDS + build + steps * late.time;
         out->run_seconds_packed += PROGRAM_SECONDS + build + steps * fmax(packed_step_time(&early, &late), breaking);

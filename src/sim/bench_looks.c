@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "sim/bench_measure.h"
 #include "sim/build.h"
+#include "sim/recording.h"
 
 #include <math.h>
 
@@ -85,7 +86,7 @@ fram_status bench_looks(context *ctx, const scenario *s, const double *after, in
     status = build_world(ctx, s, &m, &w, &report, error);
     *build = clock_processor() - began;
     if (status == FRAM_OK) {
-        looked_run run = {ctx, &m, &w, 0, (int64_t)ceil(s->run.duration / s->run.time_step), 0, 0};
+        looked_run run = {ctx, &m, &w, 0, step_at(s->run.duration, s->run.time_step), 0, 0};
         status = look_at_world(&run, after, count, out, error);
         world_free(ctx, &w);
     }

@@ -7,6 +7,7 @@
 #include "sim/build.h"
 #include "sim/build_model.h"
 #include "sim/effective.h"
+#include "sim/recording.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
 #include "sim/wall_check.h"
@@ -192,7 +193,7 @@ static void tell_fact(const void *to, const char *text) { note_fact(to, "%s", te
 
 static void take_notes(const note_taker *n, const scenario *s)
 {
-    note_fact(n, "run: %.0f steps of %g s", floor(s->run.duration / s->run.time_step + 0.5), s->run.time_step);
+    note_fact(n, "run: %.0f steps of %g s", (double)step_at(s->run.duration, s->run.time_step), s->run.time_step);
     scene_size size = scene_size_of(s);
     note_fact(n, "memory: about %.2g GB for about %.0f floe%s; run.memory_limit is %g GB", size.bytes * 1e-9,
               size.floes, size.floes > 0.5 && size.floes < 1.5 ? "" : "s", s->run.memory_limit);

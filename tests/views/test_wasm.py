@@ -17,9 +17,9 @@ import chromium
 FRAM = os.environ["FRAM"]
 SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
 PAGE = SOURCE / "build" / "wasm" / "fram.html"
-# Thrusters, lines, a controller, floes that split: what the page's own scenario has not.
+# Thrusters, lines, a controller, floes that split, an end between two steps: what the page's own scenario has not.
 OWN = """title: Own
-run: {duration: 6, time_step: 0.02, seed: 3}
+run: {duration: 6.008, time_step: 0.02, seed: 3}
 vessel:
   mode: free
   hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
@@ -32,7 +32,7 @@ environment: {current_speed: 2.5, current_direction_deg: 180}
 output: {frame_interval: 0.2}
 """
 WRONG = "run: {duration: 6, time_step: 0.02}\nvessel:\n  mode: towed\n  hull: {length: 48, beam: 12, draft: 4}\n"
-LONG = OWN.replace("duration: 6", "duration: 10000")
+LONG = OWN.replace("duration: 6.008", "duration: 10000")
 OVER = "['finished', 'stopped', 'failed'].includes(simulation.state)"
 
 
