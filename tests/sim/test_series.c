@@ -159,5 +159,194 @@ START_TEST(loads_in_the_vessels_axes)
 }
 END_TEST
 
+static vec3 counted(double *next)
+{
+    *next += 3;
+    return vec3_make(*next - 2, *next - 1, *next);
+}
+
+static void assert_channel(const row *r, const char *name, double expected)
+{
+    ck_assert_msg(channel(r, name) == expected, "%s is %.17g, expected %.17g", name, channel(r, name), expected);
+}
+
+/* Each part of the ice load is another number, in the order of the columns. */
+START_TEST(parts_of_the_ice_load)
+{
+    static const char *const mechanisms[] = {"splitting",    "bending",    "crushing", "chain",
+                                             "accumulation", "submersion", "impact",   "friction"};
+    static const char *const zones[] = {[ZONE_BOW] = "bow",
+                                        [ZONE_SHOULDER] = "shoulder",
+                                        [ZONE_MIDBODY] = "midbody",
+                                        [ZONE_STERN] = "stern",
+                                        [ZONE_BOTTOM] = "bottom"};
+    scene k;
+    row r = {0};
+    char name[80];
+    double next = 0, again = 0;
+    scene_open(&k, moored);
+    ck_assert(array_resize(&k.ctx, &k.w.scratch.ice_loads, 1));
+    ice_load *load = &k.w.scratch.ice_loads.data[0];
+    *load = (ice_load){.contacts = 5};
+    load->capped.force = counted(&next);
+    load->below_cap.force = counted(&next);
+    load->friction.force = counted(&next);
+    load->hulls.force = counted(&next);
+    load->hulls.moment = counted(&next);
+    for (size_t z = 0; z < sizeof zones / sizeof *zones; z++)
+        load->zone[z].force = counted(&next);
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        load->mechanism[m].force = counted(&next);
+        load->mechanism[m].moment = counted(&next);
+    }
+    take(&k, &r);
+    assert_channel(&r, "vessel_contacts", 5);
+    assert_channels(&r, "ice_force_capped", counted(&again));
+    assert_channels(&r, "ice_force_below_cap", counted(&again));
+    assert_channels(&r, "ice_force_friction", counted(&again));
+    assert_channels(&r, "hull_contact_force", counted(&again));
+    assert_channels(&r, "hull_contact_moment", counted(&again));
+    for (size_t z = 0; z < sizeof zones / sizeof *zones; z++) {
+        snprintf(name, sizeof name, "ice_force_%s", zones[z]);
+        assert_channels(&r, name, counted(&again));
+    }
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        snprintf(name, sizeof name, "mechanism_%s", mechanisms[m]);
+        assert_channels(&r, name, counted(&again));
+        snprintf(name, sizeof name, "mechanism_%s_moment", mechanisms[m]);
+        assert_channels(&r, name, counted(&again));
+    }
+    ck_assert(next == again);
+    series_layout_free(&k.ctx, &r.layout);
+    scene_close(&k);
+}
+END_TEST
+
+/* A ship that drives itself beside a sheet that drifts: what each of them has a column of. */
+START_TEST(propulsion_drift_and_books)
+{
+    scene k;
+    row r = {0};
+    scene_open(&k, moored);
+    world *w = &k.w;
+    ck_assert(table_resize(&k.ctx, &w->propulsion, &propulsion_table_info, 1) &&
+              table_resize(&k.ctx, &w->drift, &drift_table_info, 1));
+    w->propulsion.vessel[0] = 0;
+    w->propulsion.thrust[0] = 1;
+    w->propulsion.steering[0] = radians(20);
+    w->propulsion.besets[0] = 3;
+    w->propulsion.rams[0] = 4;
+    w->propulsion.rounds[0] = 5;
+    w->propulsion.off[0] = 6;
+    w->drift.entered[0] = 7;
+    w->drift.velocity[0] = vec2_make(8, 9);
+    w->drift.load[0] = vec2_make(10, 11);
+    w->drift.drive[0] = vec2_make(12, 13);
+    w->stations.estimate[0].place = vec3_make(14, 15, radians(16));
+    ck_assert(array_resize(&k.ctx, &w->scratch.responses, 1) && array_resize(&k.ctx, &w->scratch.wash_force, 1));
+    w->scratch.responses.data[0].force = vec3_make(17, 18, 19);
+    w->scratch.wash_force.data[0] = vec3_make(20, 21, 22);
+    double *const books[] = {w->clock.ice_left,    w->clock.ice_lost,   w->clock.ice_gained,
+                             w->clock.ice_crushed, w->clock.brash_mass, w->clock.work_crushed};
+    for (int i = 0; i < 6; i++)
+        *books[i] = 30 + i;
+    w->clock.brash_momentum[0] = vec3_make(36, 37, 38);
+    w->clock.splits[0] = 39;
+    w->clock.bendings[0] = 40;
+    take(&k, &r);
+    static const struct {
+        const char *name;
+        double value;
+    } told[] = {{"net_thrust", 1},
+                {"besets", 3},
+                {"rams", 4},
+                {"pattern_rounds", 5},
+                {"track_error", 6},
+                {"drift_x", 8},
+                {"drift_y", 9},
+                {"ice_mass_entered", 7},
+                {"sheet_load_x", 10},
+                {"sheet_load_y", 11},
+                {"sheet_drive_x", 12},
+                {"sheet_drive_y", 13},
+                {"estimated_x", 14},
+                {"estimated_y", 15},
+                {"wash_force_x", 20},
+                {"wash_force_y", 21},
+                {"ice_mass_left", 30},
+                {"ice_mass_lost", 31},
+                {"ice_mass_gained", 32},
+                {"ice_mass_crushed", 33},
+                {"brash_mass", 34},
+                {"crushing_work", 35},
+                {"splits", 39},
+                {"bendings", 40}};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        assert_channel(&r, told[i].name, told[i].value);
+    assert_absolute(channel(&r, "steering_angle"), 20, 1e-12);
+    assert_absolute(channel(&r, "estimated_heading"), 16, 1e-12);
+    assert_channels(&r, "hydrodynamic_force", vec3_make(17, 18, 19));
+    assert_channels(&r, "brash_momentum", vec3_make(36, 37, 38));
+    series_layout_free(&k.ctx, &r.layout);
+    scene_close(&k);
+}
+END_TEST
+
+/* fractures.csv, column by column. */
+START_TEST(breaks_as_recorded)
+{
+    const fracture_event e = {.kind = 2,
+                              .floe = 3,
+                              .pieces = 4,
+                              .first_piece = 5,
+                              .place = {6, 7, 8},
+                              .load = 9,
+                              .crack_length = 10,
+                              .loaded_radius = 11,
+                              .stress_ratio = 12,
+                              .parent_area = 13,
+                              .piece_area = 14,
+                              .area_lost = 15,
+                              .area_gained = 16,
+                              .mass_lost = 17,
+                              .mass_gained = 18,
+                              .momentum_lost = {19, 20, 21},
+                              .angular_momentum_lost = {22, 23, 24}};
+    static const char *const names[] = {"time",
+                                        "kind",
+                                        "floe",
+                                        "pieces",
+                                        "first_piece",
+                                        "place_x",
+                                        "place_y",
+                                        "place_z",
+                                        "load",
+                                        "crack_length",
+                                        "loaded_radius",
+                                        "stress_over_strength",
+                                        "floe_area",
+                                        "pieces_area",
+                                        "area_lost",
+                                        "area_gained",
+                                        "mass_lost",
+                                        "mass_gained",
+                                        "momentum_lost_x",
+                                        "momentum_lost_y",
+                                        "momentum_lost_z",
+                                        "angular_momentum_lost_x",
+                                        "angular_momentum_lost_y",
+                                        "angular_momentum_lost_z"};
+    int32_t count;
+    const csv_column *columns = fracture_columns(&count);
+    double value[FRACTURE_ROOM];
+    ck_assert_int_eq(count, 24);
+    fracture_row(1, &e, value);
+    for (int i = 0; i < 24; i++) {
+        ck_assert_str_eq(columns[i].name, names[i]);
+        ck_assert_double_eq(value[i], i + 1);
+    }
+}
+END_TEST
+
 TEST_MAIN("series", station_as_recorded, mooring_moments_are_about_the_centre_of_mass, counts_as_recorded,
-          loads_in_the_vessels_axes)
+          loads_in_the_vessels_axes, parts_of_the_ice_load, propulsion_drift_and_books, breaks_as_recorded)
