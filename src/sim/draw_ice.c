@@ -5,6 +5,7 @@
 #include "io/outline_file.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_packed.h"
+#include "sim/sanity_parts.h"
 
 #include <math.h>
 
@@ -72,6 +73,26 @@ static void log_notes(context *ctx, const import_rings *rings, const import_fiel
     }
 }
 
+/* Of thicknesses that stand in the file, as of ice.thickness. */
+static void tell_thickness(context *ctx, const scenario *s, const import_field *field)
+{
+    double factor = sanity_at_scale(s, 1);
+    double least = USUAL_THICKNESS_LEAST * fmin(1, factor), most = USUAL_THICKNESS_MOST * fmax(1, factor);
+    int32_t beyond = 0, first = -1;
+    for (int32_t i = 0; i < field->thickness.count; i++) {
+        double h = field->thickness.data[i];
+        if (isnan(h) || (h >= least && h <= most))
+            continue;
+        first = beyond++ == 0 ? i : first;
+    }
+    if (beyond > 0)
+        log_write(
+            ctx, LOG_WARNING,
+            "%.200s: the property thickness of %d floes, the first %.6g m, is outside of %.3g to %.3g, what floes "
+            "measure: give metres",
+            s->ice.file, (int)beyond, field->thickness.data[first], least, most);
+}
+
 /* What became of the file: counts of what was left out and mended, overlaps, concentration. */
 static fram_status report_import(context *ctx, const scenario *s, world *w, const char *path,
                                  const polygon_list *keep_out, const import_field *field, field_report *report,
@@ -129,6 +150,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
         status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
     if (status == FRAM_OK) {
         log_notes(ctx, &rings, &field);
+        tell_thickness(ctx, s, &field);
         status = report_import(ctx, s, w, path, keep_out, &field, &out->report, error);
     }
     for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)

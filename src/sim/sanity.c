@@ -32,9 +32,10 @@ typedef struct usual {
    up to 3, modulus 1 to 10 GPa; Timco and Frederking (1996): density 720 to 940 kg/m3; Dempsey, Adamson and Mulmule
    (1999): toughness 0.05 to 0.3 MPa m^0.5; friction: Sukhorukov and Loset (2013), 0.02 to 1. */
 static const usual usual_values[] = {
-    {"ice.thickness", 0.02, 6, 1, "what floes and sheets measure", "give metres"},
-    {"ice.populations[].thickness", 0.02, 6, 1, "what floes measure", "give metres"},
-    {"ice.floes[].thickness", 0.02, 6, 1, "what floes measure", "give metres"},
+    {"ice.thickness", USUAL_THICKNESS_LEAST, USUAL_THICKNESS_MOST, 1, "what floes and sheets measure", "give metres"},
+    {"ice.populations[].thickness", USUAL_THICKNESS_LEAST, USUAL_THICKNESS_MOST, 1, "what floes measure",
+     "give metres"},
+    {"ice.floes[].thickness", USUAL_THICKNESS_LEAST, USUAL_THICKNESS_MOST, 1, "what floes measure", "give metres"},
     {"ice.flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.populations[].flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.elastic_modulus", 1e8, 1.5e10, 1, "what was measured on ice", "give pascal, not GPa"},

@@ -33,6 +33,10 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
            automatic_or(h->block_coefficient, SANITY_BLOCK);
 }
 
+/* Thickness of floes and sheets of full size [m]. */
+#define USUAL_THICKNESS_LEAST 0.02
+#define USUAL_THICKNESS_MOST 6
+
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
 

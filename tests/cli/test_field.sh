@@ -107,6 +107,11 @@ printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
 expect 0 "$FRAM" field file.yaml -o again.geojson --json
 cmp -s packed.geojson again.geojson || fail "a scenario reads a generated field as another one"
 same "$(value 'j["made"]["populations"], j["made"]["placed"] == j["floes"]')" "[] True" "a field of a file"
+# A thickness in centimetres of a feature is told as one of the scenario is.
+sed '0,/"thickness":[0-9.]*/s//"thickness":60/' packed.geojson >thick.geojson
+expect 0 "$FRAM" field file.yaml --set ice.file=thick.geojson
+grep -q 'thick.geojson: the property thickness of 1 floes, the first 60 m, is outside of 0.02 to 6' err ||
+    fail "a floe of 60 m is not told"
 expect 0 "$FRAM" field packed.yaml --threads 4 -o again.geojson
 cmp -s packed.geojson again.geojson || fail "the field depends on the number of threads"
 says "moved rigidly" out
