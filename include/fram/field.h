@@ -110,7 +110,7 @@ FRAM_API double fram_field_concentration(const fram_field *field, const double l
 /* --- How it was made --- */
 
 typedef struct fram_field_making {
-    double target;          /* concentration that was asked for [1] */
+    double target;          /* concentration that was asked for, NaN for floes of a file alone [1] */
     double reached;         /* ice area over the area free for ice [1] */
     double free_area;       /* domain less the vessel, its margin and open water [m2] */
     double largest_overlap; /* the least way that parts the two floes that overlap most; 0 when none do [m] */

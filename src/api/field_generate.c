@@ -20,7 +20,8 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
         return status;
     f->floes.outlines = f->drawn.outlines;
     f->drawn.outlines = (polygon_list){0};
-    f->target = s->ice.concentration;
+    bool asked = s->ice.source != ICE_FILE || s->ice.populations.count > 0;
+    f->target = asked ? s->ice.concentration : (double)NAN;
     return field_describe(f, plane, NULL, error);
 }
 

@@ -12,7 +12,7 @@ struct fram_field {
     import_rings source; /* of a file */
     import_field floes;
     drawn_ice drawn; /* of a scenario, without outlines: those are in floes */
-    double target;   /* concentration that the scenario asks for [1] */
+    double target;   /* concentration that the scenario asks for, or NaN [1] */
     box2 window;     /* what is shown [m] */
     fram_field_definition made;
     fram_field_summary about;

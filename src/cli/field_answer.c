@@ -1,6 +1,7 @@
 /* Answers of fram field. */
 #include "cli/field_words.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,8 +69,11 @@ static void print_making(const fram_field *field)
     fram_field_making m;
     if (!fram_field_making_get(field, &m))
         return;
-    printf("  concentration %.3f %% of %.6g m2 free for ice; asked for: %.3f %%\n", 100 * m.reached, m.free_area,
-           100 * m.target);
+    printf("  concentration %.3f %% of %.6g m2 free for ice", 100 * m.reached, m.free_area);
+    if (isnan(m.target))
+        printf("\n");
+    else
+        printf("; asked for: %.3f %%\n", 100 * m.target);
     printf("  largest overlap %.2g m\n", m.largest_overlap);
     for (int i = 0; i < m.populations; i++)
         print_population(field, i);

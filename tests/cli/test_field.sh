@@ -107,6 +107,7 @@ printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
 expect 0 "$FRAM" field file.yaml -o again.geojson --json
 cmp -s packed.geojson again.geojson || fail "a scenario reads a generated field as another one"
 same "$(value 'j["made"]["populations"], j["made"]["placed"] == j["floes"]')" "[] True" "a field of a file"
+same "$(value 'j["made"]["asked_concentration"]')" None "a concentration is asked of a field of a file"
 # A thickness in centimetres of a feature is told as one of the scenario is.
 sed '0,/"thickness":[0-9.]*/s//"thickness":60/' packed.geojson >thick.geojson
 expect 0 "$FRAM" field file.yaml --set ice.file=thick.geojson
