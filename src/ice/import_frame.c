@@ -1,13 +1,16 @@
 #include "ice/import_frame.h"
 
+#include "base/transcendental.h"
+
 #include <math.h>
 
 /* Lengths are too long by (r / 2R)^2, 0.6 % so far from the centre [m]. */
 #define REACH_MOST 1e6
-/* Sea ice begins at the south coast of the Bohai Sea, and a floe of 50 km covers less than a square degree: no tank or
-   planar field is so far from its origin with floes so small [deg]. */
+/* Sea ice begins at the south coast of the Bohai Sea, and a floe of 50 km covers a quarter of a square degree of
+   latitude: no tank or planar field is so far from its origin with floes so small [deg]. */
 #define LATITUDE_LEAST 37
 #define FLOE_MOST 0.5
+#define HALF_TURN 180.0 /* [deg] */
 
 static polygon all_vertices(const import_rings *r) { return (polygon){r->rings.vertex.data, r->rings.vertex.count}; }
 
@@ -55,10 +58,26 @@ static bool look_like_degrees(const import_rings *r)
             continue;
         box2 box = box_of(p);
         bool icy = box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST;
-        if (!on_earth(p) || !icy || (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y) > FLOE_MOST * FLOE_MOST)
+        double narrow =
+            real_cos(radians(0.5 * (box.lo.y + box.hi.y))); /* degrees of longitude, over those of latitude */
+        double size = narrow * (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
+        if (!on_earth(p) || !icy || size > FLOE_MOST * FLOE_MOST)
             return false;
     }
     return r->rings.vertex.count > 0;
+}
+
+/* Round everything in its place. */
+static box2 box_projected(const stereographic *s, polygon p)
+{
+    vec2 first = stereographic_project(s, p.vertex[0]);
+    box2 box = {first, first};
+    for (int32_t i = 1; i < p.count; i++) {
+        vec2 v = stereographic_project(s, p.vertex[i]);
+        box.lo = vec2_make(fmin(box.lo.x, v.x), fmin(box.lo.y, v.y));
+        box.hi = vec2_make(fmax(box.hi.x, v.x), fmax(box.hi.y, v.y));
+    }
+    return box;
 }
 
 static fram_status project(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
@@ -83,6 +102,11 @@ static fram_status project(const import_rings *r, const import_options *o, impor
                 return fault(r, o, i, error,
                              "the field reaches farther than 1000 km from its centre, where it cannot be laid flat; "
                              "cut it, or project it before");
+    }
+    /* Of a field round a pole the middle of its degrees lies beside it. */
+    if (o->centre || box.hi.x - box.lo.x >= HALF_TURN) {
+        box2 laid = box_projected(&out->projection, all_vertices(r));
+        out->shift = vec2_sub(o->offset, vec2_scale(vec2_add(laid.lo, laid.hi), 0.5));
     }
     return FRAM_OK;
 }

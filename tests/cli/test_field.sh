@@ -282,6 +282,22 @@ cat >bohai.geojson <<'END'
 END
 expect 2 "$FRAM" field bohai.geojson
 says "look like degrees" err
+# A floe of 38 km in the Arctic, more than two degrees of longitude wide.
+sed 's/119.51/121.7/g; s/37.11/37.46/g; s/37\([.0-9]*\)\]/80\1]/g' bohai.geojson >arctic.geojson
+expect 2 "$FRAM" field arctic.geojson
+says "look like degrees" err
+# --centre of degrees; a field round the pole is centred in any case: the middle of its degrees lies beside the pole.
+expect 0 "$FRAM" field arctic.geojson --degrees --centre --x 7 --json
+same "$(value 'abs(j["bounds_m"][0] + j["bounds_m"][2] - 14) < 1e-6, abs(j["bounds_m"][1] + j["bounds_m"][3]) < 1e-6')" \
+    "True True" "the centre of degrees"
+cat >pole.geojson <<'END'
+{"type": "MultiPolygon", "coordinates": [[[[0, 89.9], [4, 89.9], [2, 89.91], [0, 89.9]]],
+  [[[90, 89.9], [94, 89.9], [92, 89.91], [90, 89.9]]], [[[180, 89.9], [184, 89.9], [182, 89.91], [180, 89.9]]],
+  [[[-90, 89.9], [-86, 89.9], [-88, 89.91], [-90, 89.9]]]]}
+END
+expect 0 "$FRAM" field pole.geojson --degrees --json
+same "$(value 'abs(j["bounds_m"][0] + j["bounds_m"][2]) < 1e-6, abs(j["bounds_m"][1] + j["bounds_m"][3]) < 1e-6')" \
+    "True True" "a field round the pole"
 expect 2 "$FRAM" field floes.geojson --bad drop --degrees --scale 2
 says "have no scale" err
 sed 's/40.1/400.1/g' floes.geojson >far.geojson
