@@ -85,8 +85,12 @@ static fram_status note_fault(importing *m, import_event event, bool can_mend, v
     if (bad != IMPORT_REFUSE)
         return add_note(m, event, !*mended, at);
     char what[200];
-    snprintf(what, sizeof what, "%s; bad rings can be dropped%s", import_event_text(event),
-             can_mend ? " or repaired" : "");
+    if (m->options->as_it_is)
+        snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" does with --bad repair and -o",
+                 import_event_text(event));
+    else
+        snprintf(what, sizeof what, "%s; bad rings can be dropped%s", import_event_text(event),
+                 can_mend ? " or repaired" : "");
     return refuse(m, what, at);
 }
 

@@ -117,9 +117,13 @@ fram_status import_frame_make(const import_rings *r, const import_options *o, im
     if (o->degrees)
         return project(r, o, out, error);
     if (o->scale == 1 && look_like_degrees(r))
-        return fault(r, o, 0, error,
-                     "the coordinates look like degrees of longitude and latitude, and lengths are expected: have them "
-                     "projected as degrees, or give the scale that makes metres of them");
+        return fault(
+            r, o, 0, error,
+            o->as_it_is
+                ? "the coordinates look like degrees of longitude and latitude, and only lengths are "
+                  "taken here"
+                : "the coordinates look like degrees of longitude and latitude, and lengths are expected: have them "
+                  "projected as degrees, or give the scale that makes metres of them");
     if (o->centre && r->rings.vertex.count > 0) {
         box2 box = polygon_bounds(all_vertices(r));
         out->shift = vec2_sub(o->offset, vec2_scale(vec2_add(box.lo, box.hi), 0.5 * o->scale));

@@ -286,6 +286,13 @@ says "look like degrees" err
 sed 's/119.51/121.7/g; s/37.11/37.46/g; s/37\([.0-9]*\)\]/80\1]/g' bohai.geojson >arctic.geojson
 expect 2 "$FRAM" field arctic.geojson
 says "look like degrees" err
+# Zones and templates have no option for degrees and bad rings: none is named.
+printf '%s\n' 'run: {duration: 1}' 'ice: {open_water_file: hole.wkt}' >zones.yaml
+echo 'POLYGON ((90 40, 99 40, 99 49, 90 40), (92 41, 94 41, 94 42, 92 41))' >hole.wkt
+expect 2 "$FRAM" field zones.yaml
+says "ring 2: the ring is a hole; mend the file, as \"fram field\" does" err
+expect 2 "$FRAM" field zones.yaml --set ice.open_water_file=arctic.geojson
+says "only lengths are taken here" err
 # --centre of degrees; a field round the pole is centred in any case: the middle of its degrees lies beside the pole.
 expect 0 "$FRAM" field arctic.geojson --degrees --centre --x 7 --json
 same "$(value 'abs(j["bounds_m"][0] + j["bounds_m"][2] - 14) < 1e-6, abs(j["bounds_m"][1] + j["bounds_m"][3]) < 1e-6')" \
