@@ -47,13 +47,18 @@ static const char *meets_from(double towards, double heading)
     return sides[eighth_of(towards + 180 - heading)];
 }
 
+static double heading_at_start(const scenario_vessel *v)
+{
+    return v->path.count > 0 ? v->path.data[0].heading_deg : v->heading_deg;
+}
+
 /* "0.4 m/s towards 180 deg ←", with where a single vessel is met. */
 static void motion_words(const effective_list *t, double speed, double towards, char out[PART_SIZE])
 {
     int n = snprintf(out, PART_SIZE, "%.4g m/s towards %.4g deg %s", speed, towards, arrow_of(towards));
     if (speed > 0 && scenario_vessel_count(t->s) == 1)
         snprintf(out + n, PART_SIZE - (size_t)n, ", from %s",
-                 meets_from(towards, scenario_vessel_entry(t->s, 0).keys->heading_deg));
+                 meets_from(towards, heading_at_start(scenario_vessel_entry(t->s, 0).keys)));
     else if (!(speed > 0))
         snprintf(out, PART_SIZE, "0");
 }
