@@ -169,7 +169,8 @@ fram_status file_create_temporary(context *ctx, const char *path, file_writer *w
 
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error)
 {
-    return begin(ctx, path, O_RDWR | O_CREAT | O_TRUNC, w, error);
+    /* For writing alone: who could read from a pipe too would never be told that its reader has gone, and wait. */
+    return begin(ctx, path, O_WRONLY | O_CREAT | O_TRUNC, w, error);
 }
 
 fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error)

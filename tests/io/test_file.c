@@ -108,6 +108,24 @@ START_TEST(a_pipe_is_not_waited_for)
 }
 END_TEST
 
+/* As `fram report RUN -o /dev/stdout | head` has it. */
+START_TEST(a_reader_that_goes_ends_the_writing)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    int reader = open(s.path, O_RDONLY | O_NONBLOCK);
+    ck_assert_int_ge(reader, 0);
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    ck_assert_int_eq(close(reader), 0);
+    ck_assert(signal(SIGPIPE, SIG_IGN) != SIG_ERR);
+    assert_ok(file_write(&w, "a", 1, &error), error);
+    assert_fails(file_close(&w, &error), error, FRAM_ERROR_IO, "Broken pipe");
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
 START_TEST(a_full_disk_is_seen_at_once)
 {
     context_init(&ctx);
@@ -296,6 +314,7 @@ START_TEST(no_memory_is_an_error)
 END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
-          a_pipe_is_not_waited_for, a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
-          a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
-          devices_and_links_are_written_through, a_bare_name_is_here, no_memory_is_an_error)
+          a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_full_disk_is_seen_at_once,
+          a_partial_write_is_seen, replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place,
+          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
+          no_memory_is_an_error)
