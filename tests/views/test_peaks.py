@@ -189,6 +189,12 @@ def check_two(browser, folder, pressure):
     assert not browser.run("document.getElementById('vessels').hidden")
     told = browser.run("document.getElementById('load').textContent")
     assert told.startswith("averaged ice force on first: X "), told
+    browser.call("Emulation.setDeviceMetricsOverride", width=320, height=720, deviceScaleFactor=1, mobile=False)
+    browser.until("document.documentElement.clientWidth === 320", "the window does not get narrow")
+    cut = browser.run("(() => { const load = document.getElementById('load');"
+                      "return [load, ...load.children].some((e) => e.scrollWidth > e.clientWidth); })()")
+    assert not cut, f"on a phone the end is left out of {told!r}"
+    browser.call("Emulation.clearDeviceMetricsOverride")
     check_legend(browser)
 
 

@@ -500,7 +500,9 @@ class Player {
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${secondsText(this.end)} s, ${ice}`;
         this.timeline.tell(state.time);
         const [x, y] = state.force.map((newton) => this.loadText(newton));
-        $('load').textContent = this.hull ? `averaged ice force${this.ofVessel}: X ${x}, Y ${y}` : '';
+        const [name, numbers] = $('load').children;
+        name.textContent = this.hull ? `averaged ice force${this.ofVessel}: ` : '';
+        numbers.textContent = this.hull ? `X ${x}, Y ${y}` : '';
     }
 }
 
