@@ -14,7 +14,7 @@ enum { BINS_MOST = 600, SIDES = 2 };
 /* Means of the parts of each mechanism along the horizontal load: the load of the same stretch of time. */
 typedef struct stacked {
     int32_t bins;
-    double width;                         /* of a bin [s] */
+    double width, apart;                  /* of a bin, and from row to row [s] */
     double *time, *part[MECHANISM_COUNT]; /* parts [N] */
     /* Of the bands above zero and below it, in the chart's unit. */
     double *low[SIDES][MECHANISM_COUNT], *high[SIDES][MECHANISM_COUNT];
@@ -87,10 +87,25 @@ static void stack(const stacked *s, double factor)
     }
 }
 
+/* Parts of the load have no averaged columns: rows that leave out steps tell those of the steps that they have. */
+static void tell_means(report *r, const stacked *s, char *out, size_t room)
+{
+    bool thinned = s->apart > 1.5 * r->d.s.run.time_step;
+    snprintf(out, room, "means over %.3g s%s", s->width, thinned ? " of single steps" : "");
+    if (!thinned)
+        return;
+    if (s->width < 1.5 * s->apart)
+        snprintf(out, room, "single steps");
+    html_paragraph(&r->page,
+                   "The series has a row every %.3g s: parts are those of the steps that it has, whose load may be far "
+                   "from its average.",
+                   s->apart);
+}
+
 static fram_status draw_stack(report *r, const stacked *s, load_unit unit, fram_error *error)
 {
     chart_line bands[SIDES * MECHANISM_COUNT];
-    char label[48], subtitle[96];
+    char label[48], means[64], subtitle[128];
     stack(s, unit.factor);
     for (int k = 0; k < SIDES * MECHANISM_COUNT; k++) {
         int side = k / MECHANISM_COUNT, m = k % MECHANISM_COUNT;
@@ -102,7 +117,8 @@ static fram_status draw_stack(report *r, const stacked *s, load_unit unit, fram_
         bands[k].solid = true;
     }
     snprintf(label, sizeof label, "along the load [%s]", unit.name);
-    snprintf(subtitle, sizeof subtitle, "means over %.3g s; what pushes against the load is under zero", s->width);
+    tell_means(r, s, means, sizeof means);
+    snprintf(subtitle, sizeof subtitle, "%s; what pushes against the load is under zero", means);
     chart c = chart_make("Ice load by mechanism", subtitle, "time [s]", label, bands, SIDES * MECHANISM_COUNT);
     return html_chart(&r->page, &c, true, error);
 }
@@ -194,7 +210,7 @@ fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
     double step = (time[rows - 1] - time[0]) / (rows - 1), window = r->d.s.output.averaging_window;
     double every = ceil(fmax(window / step, (double)rows / BINS_MOST) - 1e-9);
     int32_t size = every < 1 ? 1 : every > rows ? rows : (int32_t)every;
-    stacked s = {.bins = (rows + size - 1) / size, .width = size * step};
+    stacked s = {.bins = (rows + size - 1) / size, .width = size * step, .apart = step};
     if (!make_stacked_room(r, &s))
         return error_memory(error);
     if (!find_parts(r, size, &s))

@@ -201,8 +201,10 @@ def check_times(folder):
         subprocess.run([FRAM, "run", file, "-o", run, "-q", "--set", "output.frame_interval=5", "--set",
                         f"output.csv_interval={interval}"], check=True)
         subprocess.run([FRAM, "report", run, "-q"], check=True)
+        page = (run / "report.html").read_text()
+        assert ("parts are those of the steps that it has" in page) == (interval != "0"), "what a bin of parts is"
         tables = Tables()
-        tables.feed((run / "report.html").read_text())
+        tables.feed(page)
         rows = tables.rows
         if unknown:
             assert rows["not accounted for"][0].startswith("unknown"), rows["not accounted for"]
