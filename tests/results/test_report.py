@@ -206,6 +206,7 @@ def check_times(folder):
         tables = Tables()
         tables.feed(page)
         rows = tables.rows
+        assert "heading 0 deg, from which it begins at the equilibrium" in rows["motion"][0], rows["motion"]
         if unknown:
             assert rows["not accounted for"][0].startswith("unknown"), rows["not accounted for"]
         else:
