@@ -15,7 +15,9 @@
 #include "study/study_record.h"
 
 #include <errno.h>
+#include <locale.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -398,6 +400,15 @@ bool study_run_met_another(context *ctx, const char *folder, const char *log)
     return met;
 }
 
+/* What the command fram, which keeps the locale "C", calls an error, whatever the language of this program. */
+static void name_fault(int number, char out[128])
+{
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    snprintf(out, 128, "%s", plain ? strerror_l(number, plain) : strerror(number));
+    if (plain)
+        freelocale(plain);
+}
+
 fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error)
 {
     static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};
@@ -405,12 +416,15 @@ fram_status study_log_check_disk(context *ctx, const char *log, fram_error *erro
     size_t size = 0;
     fram_status status = FRAM_OK;
     if (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK) {
-        for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++)
-            if (strstr(text, strerror(faults[i])))
+        for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++) {
+            char name[128];
+            name_fault(faults[i], name);
+            if (strstr(text, name))
                 status = error_set(error, FRAM_ERROR_IO, log, 0, NULL,
                                    "a run could not write: %s; what ended is kept: mend that, and give the same "
                                    "command again",
-                                   strerror(faults[i]));
+                                   name);
+        }
     }
     memory_free(ctx, text);
     return status;

@@ -3,6 +3,7 @@
 
 #include "fram/study.h"
 
+#include <locale.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/stat.h>
@@ -105,7 +106,8 @@ static void add_standing(void *user, const fram_study_standing *c)
     sum->wanted += c->wanted;
 }
 
-/* A program that cannot write, in place of the command: that is no result of its scenario. */
+/* A program that cannot write, in place of the command: that is no result of its scenario, whatever the language of the
+   program that studies: German here, where the C library has its texts. */
 START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
 {
     fram_error error = {0};
@@ -128,7 +130,10 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     d.folder = out;
     d.program = program;
     fram_study_result result = {0};
+    if (setlocale(LC_ALL, "C.UTF-8"))
+        setenv("LANGUAGE", "de", 1);
     ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
+    setlocale(LC_ALL, "C");
     ck_assert_ptr_nonnull(strstr(error.message, "No space left"));
     ck_assert_msg(fram_study_list(c, out, add_standing, &sum, &error) == FRAM_OK, "%s", error.message);
     ck_assert_int_eq(sum.conditions, 3);
