@@ -21,8 +21,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SUMMARY_LIMIT = 1 << 26 };
-
 /* ---- folder ---- */
 
 fram_status run_folder_make(const char *folder, fram_error *error)
@@ -217,7 +215,7 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
     run_input file;
     fram_status status = path_join(folder, "run.json", path, error);
     if (status == FRAM_OK)
-        status = file_read(ctx, path, SUMMARY_LIMIT, &text, &size, error);
+        status = file_read(ctx, path, RUN_NOTE_MOST, &text, &size, error);
     if (status == FRAM_OK && !strstr(text, scenario_hash))
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "scenario.yaml",
                            "was changed since the run was made, or is read by another version of Fram: restore it or "

@@ -25,6 +25,8 @@ void run_folder_unlock(int lock);
    of an earlier run are removed, so that they are never mixed with the new one's. */
 fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int *lock, fram_error *error);
 
+/* Bytes that a run.json has at most. */
+enum { RUN_NOTE_MOST = 1 << 26 };
 /* Whether the run was made of this scenario (its hash) and these inputs (run_inputs_list), by its run.json;
    FRAM_ERROR_INPUT names what was changed. */
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,

@@ -87,6 +87,9 @@ static fram_status name_condition(study_folder *f, int32_t condition, const scen
         memcpy(f->id[condition], hash, CONDITION_ID - 1);
         f->id[condition][CONDITION_ID - 1] = '\0';
         study_index_row(f, condition, of, inputs.data);
+        f->files[condition] = inputs.count > 0 ? memory_string(f->ctx, inputs.data) : NULL;
+        if (inputs.count > 0 && !f->files[condition])
+            status = error_memory(error);
     }
     text_free(f->ctx, &b);
     text_free(f->ctx, &inputs);
@@ -278,9 +281,10 @@ static fram_status write_conditions(study_folder *f, fram_error *error)
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
 {
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)s->conditions, CONDITION_ID);
-    *f = (study_folder){.ctx = ctx, .s = s, .path = path, .id = id, .lock = -1};
+    char **files = memory_array(ctx, (size_t)s->conditions, sizeof *files);
+    *f = (study_folder){.ctx = ctx, .s = s, .path = path, .id = id, .files = files, .lock = -1};
     study_index_heads(f);
-    fram_status status = f->id ? check_folder(ctx, path, error) : error_memory(error);
+    fram_status status = id && files ? check_folder(ctx, path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = run_folder_make(path, error);
     if (status == FRAM_OK)
@@ -308,7 +312,11 @@ void study_folder_close(study_folder *f)
 {
     run_folder_unlock(f->lock);
     f->lock = -1;
+    for (int32_t c = 0; f->files && c < f->s->conditions; c++)
+        memory_free(f->ctx, f->files[c]);
+    memory_free(f->ctx, f->files);
     memory_free(f->ctx, f->id);
+    f->files = NULL;
     f->id = NULL;
 }
 
@@ -378,6 +386,28 @@ bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, 
     bool kept = path && access(path, F_OK) == 0;
     memory_free(f->ctx, path);
     return kept;
+}
+
+fram_status study_run_check_files(const study_folder *f, int32_t condition, const char *folder, fram_error *error)
+{
+    text_buffer path = {0};
+    char *text = NULL;
+    size_t size = 0;
+    run_input file;
+    text_format(f->ctx, &path, "%s/run.json", folder);
+    fram_status status = path.failed ? error_memory(error) : FRAM_OK;
+    const char *at = f->files[condition];
+    if (status == FRAM_OK && at && file_is_readable(path.data))
+        status = file_read(f->ctx, path.data, RUN_NOTE_MOST, &text, &size, error);
+    for (const char *end = text ? at + strlen(at) : at; status == FRAM_OK && text && run_inputs_next(&at, end, &file);)
+        if (!strstr(text, file.digest))
+            status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "inputs",
+                               "%.*s was changed while the study ran; what ended before is kept: restore the file, or "
+                               "have all runs made of what it is now, and give the same command again",
+                               file.path_length, file.path);
+    memory_free(f->ctx, text);
+    text_free(f->ctx, &path);
+    return status;
 }
 
 void study_folder_remove(context *ctx, const char *folder) { remove_but(ctx, folder, NULL, 0); }

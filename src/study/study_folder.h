@@ -11,6 +11,7 @@ typedef struct study_folder {
     const study *s;
     const char *path;
     char (*id)[CONDITION_ID]; /* of each condition */
+    char **files;             /* of each condition that names some: its list (sim/run_inputs.h) */
     int lock;                 /* -1 */
     text_buffer index;        /* of index.csv, while the folder is opened */
     text_buffer inputs;       /* files of the conditions that were looked at so far (sim/run_inputs.h), as long */
@@ -39,6 +40,9 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
 bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
 /* FRAM_ERROR_IO when the log of a run that failed says that the disk did: that is no answer of the scenario. */
 fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error);
+/* FRAM_ERROR_INPUT, naming the file, when a run was made of other files than the condition is named after: somebody
+   changed one while the study ran.  What failed before it had a run.json is not told of. */
+fram_status study_run_check_files(const study_folder *f, int32_t condition, const char *folder, fram_error *error);
 /* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
 bool study_folder_is_busy(const char *folder);
 /* Whether a run that failed met such a program, which had been started and had not yet locked the folder: no answer of

@@ -229,6 +229,8 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     /* Made when the other one has ended: a program of a study that was killed, here or on a node. */
     bool again = status == FRAM_OK && exit_code != 0 && study_run_met_another(w->ctx, folder, log);
     if (status == FRAM_OK && !again)
+        status = study_run_check_files(&w->folder, condition, folder, error);
+    if (status == FRAM_OK && !again)
         status = judge_run(w, folder, row, exit_code, &of->row, error);
     if (status == FRAM_OK && !again) {
         of->state = RUN_THERE;

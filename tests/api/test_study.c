@@ -307,6 +307,47 @@ START_TEST(a_study_runs_by_the_command)
 }
 END_TEST
 
-TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs,
-          a_program_of_a_killed_study_is_waited_for, conditions_are_counted_and_a_stop_is_heard_between_them,
-          the_record_of_a_kept_run_counts_up_to_its_limit, a_study_runs_by_the_command)
+/* Runs of other files than those that name their condition are none of its runs: the program changes the file first. */
+START_TEST(a_file_that_is_changed_while_the_study_runs_is_told)
+{
+    if (!getenv("FRAM"))
+        return; /* a build without the command */
+    static const char *const text[][2] = {
+        {"current.csv", "time[s],x[m/s],y[m/s]\n0,0.5,0\n"},
+        {"floe.yaml", "run: {duration: 0.2, time_step: 0.02}\nenvironment: {current_file: current.csv}\n"
+                      "ice: {source: floes, floes: [{length: 9, width: 9}]}\n"},
+        {"program", "#!/bin/sh\necho 1,0,0 >>\"${0%/*}/current.csv\"\nexec \"$FRAM\" \"$@\"\n"}};
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], study[300], path[300], out[300];
+    write_study(folder, study);
+    for (int i = 0; i < 3; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, text[i][0]);
+        FILE *file = fopen(path, "w");
+        ck_assert(file && fputs(text[i][1], file) >= 0 && fclose(file) == 0);
+    }
+    ck_assert_int_eq(chmod(path, 0700), 0);
+    ck_assert_msg(fram_study_load(c, study, &s, &error) == FRAM_OK, "%s", error.message);
+    snprintf(out, sizeof out, "%s/out", folder);
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = path;
+    d.jobs = 1;
+    fram_study_result result = {0};
+    ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_INPUT);
+    ck_assert_msg(strstr(error.message, "current.csv was changed while the study ran") != NULL, "%s", error.message);
+    /* Given again it makes the runs of what the file is now. */
+    d.program = getenv("FRAM");
+    ck_assert_msg(fram_study_run(s, &d, &result, &error) == FRAM_OK, "%s", error.message);
+    ck_assert(result.made == 6 && result.failed == 0);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
+TEST_MAIN("study", a_file_that_is_changed_while_the_study_runs_is_told, misuse_is_refused,
+          a_full_disk_fails_the_study_and_not_its_runs, a_program_of_a_killed_study_is_waited_for,
+          conditions_are_counted_and_a_stop_is_heard_between_them, the_record_of_a_kept_run_counts_up_to_its_limit,
+          a_study_runs_by_the_command)
