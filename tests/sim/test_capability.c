@@ -131,9 +131,9 @@ START_TEST(out_of_order_from_the_start)
 END_TEST
 
 /* Four springs about a box, ahead, to port, astern and to starboard. */
-#define SPRING(direction)                                                                                                        \
-    "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5, breaking_load: 4.0e5, direction_deg: " direction \
-    ", fairlead_distance: 5}\n"
+#define SPRING(direction)                                                          \
+    "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5,\n" \
+    "         breaking_load: 4.0e5, fairlead_distance: 5, direction_deg: " direction "}\n"
 static const char sprung[] =
     "vessel:\n  mode: free\n"
     "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
@@ -340,15 +340,18 @@ START_TEST(measured_ice)
 }
 END_TEST
 
-/* Of more than four speeds four are measured, up to the largest. */
+/* Behind their number the speeds at which ice from ahead is measured. */
 static void keep_speeds(void *user, log_level level, const char *text)
 {
     double *speeds = user, speed;
     (void)level;
-    if (sscanf(text, "ice from 0 deg at %lf m/s", &speed) == 1)
-        speeds[(int)speeds[0] + 1] = speed, speeds[0]++;
+    if (sscanf(text, "ice from 0 deg at %lf m/s", &speed) == 1) {
+        speeds[0]++;
+        speeds[(int)speeds[0]] = speed;
+    }
 }
 
+/* Of more than four speeds four are measured, up to the largest. */
 START_TEST(speeds_that_are_measured)
 {
     static const char *const ice[] = {"ice.source=voronoi", "ice.mean_floe_area=400", "domain.boundary=feeding",

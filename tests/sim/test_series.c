@@ -246,6 +246,12 @@ START_TEST(propulsion_drift_and_books)
     ck_assert(array_resize(&k.ctx, &w->scratch.responses, 1) && array_resize(&k.ctx, &w->scratch.wash_force, 1));
     w->scratch.responses.data[0].force = vec3_make(17, 18, 19);
     w->scratch.wash_force.data[0] = vec3_make(20, 21, 22);
+    ck_assert(table_resize(&k.ctx, &w->joints, &joint_table_info, 1));
+    w->vessels.joint[0] = 0;
+    w->joints.reaction_force[0] = vec3_make(41, 42, 43);
+    w->joints.reaction_moment[0] = vec3_make(44, 45, 46);
+    w->bodies.velocity[w->vessels.body[0]] = vec3_make(47, 48, 49);
+    w->bodies.angular_velocity[w->vessels.body[0]] = vec3_make(50, 51, 52);
     double *const books[] = {w->clock.ice_left,    w->clock.ice_lost,   w->clock.ice_gained,
                              w->clock.ice_crushed, w->clock.brash_mass, w->clock.work_crushed};
     for (int i = 0; i < 6; i++)
@@ -287,6 +293,10 @@ START_TEST(propulsion_drift_and_books)
     assert_absolute(channel(&r, "estimated_heading"), 16, 1e-12);
     assert_channels(&r, "hydrodynamic_force", vec3_make(17, 18, 19));
     assert_channels(&r, "brash_momentum", vec3_make(36, 37, 38));
+    assert_channels(&r, "tow_force", vec3_make(41, 42, 43));
+    assert_channels(&r, "tow_moment", vec3_make(44, 45, 46));
+    assert_channels(&r, "velocity", vec3_make(47, 48, 49));
+    assert_channels(&r, "angular_velocity", vec3_make(50, 51, 52));
     series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
