@@ -245,6 +245,20 @@ def check_few(browser, folder):
         assert all(is_blue(p) for p in corners), (name, corners)
 
 
+def check_no_vessel(browser, folder):
+    run, _ = make_run(folder, "ice", """
+run: {duration: 0.1, time_step: 0.02}
+vessel: {present: false}
+ice: {source: floes, floes: [{x: 0, y: 0, length: 20, width: 10}]}
+domain: {x_min: -40, x_max: 40, y_min: -30, y_max: 30}
+output: {frame_interval: 0.02}
+""")
+    browser.open(run / "playback.html")
+    browser.run("fram.draw()")
+    told = browser.run("document.getElementById('timeline').ariaDescription")
+    assert told == "no vessel", told
+
+
 def check_tank(browser, folder):
     """What is told and drawn of a model is as large as it is: colours, loads, arrows, water, propellers."""
     run, rows = make_run(folder, "tank", TANK)
@@ -485,6 +499,7 @@ def main():
         check_files_beside(browser, moored)
         check_opening(browser, towed / "playback.html")
         check_few(browser, pathlib.Path(folder))
+        check_no_vessel(browser, pathlib.Path(folder))
         check_tank(browser, pathlib.Path(folder))
         check_waiting(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints

@@ -138,9 +138,10 @@ export class Timeline {
     }
 
     drawPlain(g, w, h) {
-        const most = `largest of them ${forceText(this.most)}`;
-        const head = this.drawCaption(g, w,
-            `ice load on the vessel, averaged, at the frames; ${most}${this.eventText()}`) + 7;
+        const most = this.load.some((load) => load > 0) ? `largest of them ${forceText(this.most)}` : 'none';
+        const what = this.record.bodies.some((b) => b.material === 'hull')
+            ? `ice load on the vessel, averaged, at the frames; ${most}` : 'no vessel';
+        const head = this.drawCaption(g, w, `${what}${this.eventText()}`) + 7;
         g.fillStyle = '#c9d6e2';
         g.beginPath();
         g.moveTo(0, h);
