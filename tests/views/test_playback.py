@@ -349,6 +349,15 @@ def check_colours(browser):
     assert units[0] is None and all("[" in unit for unit in units[1:]), units
     for mode in ("speed", "force", "age"):
         assert seen[mode][1] != seen["plain"][1], f"colour by {mode} changes nothing"
+    # What is left of a tile of level ice has a parent, but it is not what broke off.
+    ages = browser.run("""(() => {
+        const piece = fram.record.bodies.find((b) => b.parent >= 0);
+        const age = () => (fram.tabulate(), fram.brokeAt[piece.index]);
+        piece.level = true;
+        const tile = age();
+        piece.level = false;
+        return [Number.isNaN(tile), Number.isNaN(age())]; })()""")
+    assert ages == [True, False], f"what has no age: tile, piece: {ages}"
     # The ages of a run that grows go by its length, wherever the view stands.
     oldest = browser.run("""(() => {
         const { end } = fram;

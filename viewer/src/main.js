@@ -321,7 +321,9 @@ class Player {
         const { bodies, frames } = this.record, n = bodies.length;
         this.ice = Uint32Array.from(bodies.filter((b) => b.material === 'ice'), (b) => b.index);
         this.thickness = Float32Array.from(bodies, (b) => b.thickness ?? 0);
-        this.brokeAt = Float64Array.from(bodies, (b) => (b.parent >= 0 ? frames[b.birth]?.time ?? NaN : NaN));
+        // What is left of a tile that broke has not broken off.
+        const off = (b) => b.parent >= 0 && !b.level;
+        this.brokeAt = Float64Array.from(bodies, (b) => (off(b) ? frames[b.birth]?.time ?? NaN : NaN));
         this.ownColours = new Float32Array(3 * n);
         for (const b of bodies) own(b).toArray(this.ownColours, 3 * b.index);
         this.rgb = this.ownColours.slice();
