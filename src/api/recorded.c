@@ -5,7 +5,9 @@
 #include "fram/live.h"
 #include "io/path.h"
 #include "results/run_results.h"
+#include "sim/run_inputs.h"
 
+#include <string.h>
 #include <unistd.h>
 
 static void fram_record_fill(fram_record_definition *definition)
@@ -24,10 +26,24 @@ static void forget(fram_world *w)
     memory_free(r->ctx, r);
 }
 
+/* The record tells of which files its world was made, and what is computed again from it is made of them. */
+static fram_status check_inputs(const fram_world *w, const recording *r, fram_error *error)
+{
+    char now[SHA256_TEXT_SIZE];
+    fram_status status = run_inputs_digest(r->ctx, r->inputs.data, (size_t)r->inputs.count, now, error);
+    if (status == FRAM_OK && strcmp(now, w->base->inputs) != 0)
+        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "world",
+                           "a file that its scenario names was changed since the world was made; restore it to record "
+                           "this world, or make a new one");
+    return status;
+}
+
 /* A record begins with all bodies, whatever was recorded of them before. */
 static fram_status begin(fram_world *w, recording *r, fram_error *error)
 {
     fram_status status = recording_prepare(r, error);
+    if (status == FRAM_OK)
+        status = check_inputs(w, r, error);
     if (status != FRAM_OK)
         return status;
     table_free(r->ctx, &w->inner.recorded, &recorded_table_info);

@@ -187,6 +187,12 @@ START_TEST(states_of_other_files_are_refused)
         assert_fails(fram_world_load_memory(w, saved, size, &e), e, FRAM_ERROR_INPUT,
                      "changed since the state was saved; restore");
         ck_assert_uint_eq(fram_world_hash(w), hash);
+        /* Nor is a record begun that would name other files than those that the world was made of. */
+        fram_record_definition d;
+        fram_record_default(&d);
+        d.folder = place("third", hull, "19");
+        d.force = true;
+        assert_fails(fram_world_record(w, &d, &e), e, FRAM_ERROR_INPUT, "changed since the world was made; restore");
         close_world(w, other);
         fram_run_result result;
         place("first", longer, which ? "21" : "20");
