@@ -67,11 +67,10 @@ static void note_ice(const note_taker *n, const scenario *s)
                   i->mean_floe_area, area);
     note_fact(n, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)", i->smallest_floe_area,
               i->smallest_piece_area, i->edge_threshold, s->run.scale);
+    double wedge = i->breakable ? build_wedge_area(s) : 0;
     if (i->breakable)
-        note_fact(
-            n,
-            "thresholds: floes have %.2g of a wedge at least, %.3g m2 where ice breaks at rest: above 0.1 the load grows",
-            i->smallest_floe_area / build_wedge_area(s), build_wedge_area(s));
+        note_fact(n, "thresholds: floes have %.2g of a wedge at least, %.3g m2 where ice breaks at rest",
+                  i->smallest_floe_area / wedge, wedge);
 }
 
 /* Most of the crushing that breaks an edge, and most of the ice thickness, that a vessel may go in one step. */

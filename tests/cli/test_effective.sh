@@ -96,7 +96,8 @@ expect 0 "$FRAM" check tow.yaml --set domain.x_min=-80
 told "the vessel leaves the domain before the end, at (-90, "
 
 # On a path the bow is that of its first point.
-sed 's/speed: 1.5, course_deg: 180/path: [{time: 0, heading_deg: 90}, {time: 60, y: 30, heading_deg: 90}]/' tow.yaml >path.yaml
+path='path: [{time: 0, heading_deg: 90}, {time: 60, y: 30, heading_deg: 90}]'
+sed "s/speed: 1.5, course_deg: 180/$path/" tow.yaml >path.yaml
 printf 'environment: {current_speed: 0.5, current_direction_deg: 270}\n' >>path.yaml
 expect 0 "$FRAM" check path.yaml
 told "current: 0.5 m/s towards 270 deg ↓, from ahead"
