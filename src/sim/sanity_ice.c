@@ -42,7 +42,7 @@ static void tell_wedges_kept(const teller *t)
         sanity_say(
             t->tell, t->to,
             "ice.smallest_floe_area: %.4g m2 is %.2g of the pieces that break off, wedges of about %.3g m2: "
-            "smaller ones stay with their neighbours, and loads grow (level ice of 0.7 m: by a sixth with 0.4 of "
+            "smaller ones stay with their neighbours, and loads grow (level ice of 0.7 m: by a fifth with 0.4 of "
             "them, a third with 0.8): take %.2g m2 or less where loads count",
             area, area / wedge, wedge, 0.1 * wedge);
 }
