@@ -4,12 +4,14 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "base/transcendental.h"
-#include "io/hull_file.h"
+#include "io/hull_mend.h"
 #include "io/hull_view.h"
 #include "vessel/hydrostatics.h"
 
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
+#include <strings.h>
 
 struct fram_hull {
     fram_context *context;
@@ -435,5 +437,14 @@ fram_status fram_hull_save(const fram_hull *h, const char *path, fram_error *err
     fram_status status = REFUSE_NULL(error, {"hull", h}, {"path", path});
     if (status != FRAM_OK)
         return status;
-    return mesh_file_write(&h->context->inner, path, &h->surface, error);
+    status = mesh_file_write(&h->context->inner, path, &h->surface, error);
+    const char *dot = strrchr(path, '.');
+    int32_t lids = status == FRAM_OK && dot && strcasecmp(dot, ".gdf") == 0 ? hull_count_lids(&h->surface) : 0;
+    if (lids > 0)
+        log_write(
+            &h->context->inner, LOG_WARNING,
+            "%.200s: %d triangles lie in z = 0, where panels are lids of the water plane, which are left out when "
+            "the file is read: move the hull, or write .stl or .obj",
+            path, (int)lids);
+    return status;
 }

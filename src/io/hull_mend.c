@@ -103,11 +103,25 @@ static void scale_surface(const hull_reading *r)
 
 /* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of
  * the wetted hull. */
-static bool is_lid(const hull_reading *r, int32_t face)
+static bool is_level(const mesh *m, int32_t face, double tolerance)
 {
     vec3 p[3];
-    mesh_face_points(&r->file->surface, face, p);
-    return r->file->format == MESH_GDF && fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance;
+    mesh_face_points(m, face, p);
+    return fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= tolerance;
+}
+
+static bool is_lid(const hull_reading *r, int32_t face)
+{
+    return r->file->format == MESH_GDF && is_level(&r->file->surface, face, r->tolerance);
+}
+
+int32_t hull_count_lids(const mesh *m)
+{
+    double tolerance = LEVEL_TOLERANCE * hull_longest_side(m);
+    int32_t count = 0;
+    for (int32_t f = 0; f < m->face.count; f++)
+        count += is_level(m, f, tolerance);
+    return count;
 }
 
 /* Leave out lids and, where repair is asked for, triangles without area;

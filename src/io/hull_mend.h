@@ -32,5 +32,7 @@ fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_
 
 /* [m] */
 double hull_longest_side(const mesh *m);
+/* Triangles in z = 0, which whoever reads a GDF takes for lids of the water plane, and leaves out. */
+int32_t hull_count_lids(const mesh *m);
 
 #endif

@@ -57,6 +57,12 @@ for ending in stl obj gdf; do
     expect 0 "$FRAM" hull "ship.$ending" --json
     same "$(value 'abs(j["block_coefficient"] - 0.5) < 1e-6')" True "block coefficient of ship.$ending"
 done
+# A deck in z = 0 would be a lid of the water plane to whoever reads it.
+sed 's/^\(v .*\) 2e3$/\1 0/; s/e3//g' long.obj >deck.obj
+expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.gdf
+says "warning: deck.gdf: 2 triangles lie in z = 0" err
+expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.stl
+! grep -q warning err || fail "deck.stl is warned of: $(cat err)"
 expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9 --json
 same "$(value 'j["error"]["key"]')" --block-coefficient "key"
 says "can be 0.3750 to 0.5661" err
