@@ -96,7 +96,9 @@ typedef struct fram_hull_surface {
        how much the hull encloses more without them [m3]. */
     int inner_parts;
     double inner_volume;
-    bool half; /* the file has half a hull, open along its centre plane y = 0, and was closed there on request */
+    double well;    /* part of what the waterline (z = 0, or half the height) goes round that is a hole in it */
+    bool open_boat; /* more than half of it: plating without a deck, and full of water */
+    bool half;      /* the file has half a hull, open along its centre plane y = 0, and was closed there on request */
 } fram_hull_surface;
 FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
 #define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))

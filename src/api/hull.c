@@ -58,6 +58,8 @@ static void describe_file(fram_hull *h, const hull_file_report *r)
         .inner_parts = r->inner_parts,
         .inner_volume = r->inner_volume,
         .half = r->half,
+        .well = r->well,
+        .open_boat = r->well > OPEN_BOAT,
     };
     copy3(h->about.crack_vector, r->seal.area_vector);
     copy3(h->about.crack_volume, r->seal.volume);

@@ -354,6 +354,15 @@ static void warn_of_half(const common_options *common, const fram_hull_surface *
                         "what follows is half a ship; mirror it in the program that made the file\n");
 }
 
+static void warn_of_well(const common_options *common, const fram_hull_surface *s)
+{
+    if (s->open_boat && !common->quiet)
+        fprintf(stderr,
+                "warning: the waterline goes round a hole of %.0f %% of its area: an open boat is full of water; give "
+                "it a deck, or its outer face alone, in the program that made the file\n",
+                100 * s->well);
+}
+
 /* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
 #define LONGEST 500.0
 
@@ -403,6 +412,7 @@ int command_hull(const command_row *self, int argc, char **argv)
         code = EXIT_GOOD;
         warn_of_size(&common, &w, &floating);
         warn_of_half(&common, &surface);
+        warn_of_well(&common, &surface);
         if (common.json) {
             print_hull_json(&w, &surface, &floating, &pieces);
         } else {

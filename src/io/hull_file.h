@@ -31,7 +31,11 @@ typedef struct hull_file_report {
     int32_t inner_parts; /* closed parts inside the hull, left out: tanks, the inner face of a plating */
     double inner_volume; /* by which the hull encloses more without them [m3] */
     bool half;           /* it was half a hull, open along its centre plane, and was closed there on request */
+    double well;         /* part of what the waterline goes round that is a hole in it (hull_skin.h) */
 } hull_file_report;
+
+/* A well of more than this: an open boat, plating without a deck.  Moonpools are smaller. */
+#define OPEN_BOAT 0.5
 
 /* FRAM_ERROR_INPUT with line and element of the file where the surface is no sound solid, and what would help;
    FRAM_ERROR_IO, FRAM_ERROR_MEMORY.  surface must be empty; on failure it still is. */

@@ -267,7 +267,8 @@ static fram_status keep_skin(hull_reading *r)
         return error_memory(&r->out->error);
     r->out->report.inner_parts = inside.parts;
     r->out->report.inner_volume = inside.volume;
-    return FRAM_OK;
+    bool found = hull_find_well(r->ctx, &r->file->surface, &r->out->report.well);
+    return found ? FRAM_OK : error_memory(&r->out->error);
 }
 
 static fram_status check(hull_reading *r)

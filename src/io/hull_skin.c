@@ -93,3 +93,21 @@ bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half)
     mesh_adjacency_free(ctx, &adjacency);
     return done;
 }
+
+/* ---- wells ---- */
+
+bool hull_find_well(context *ctx, const mesh *m, double *part)
+{
+    box3 box = mesh_bounds(m);
+    double level = box.lo.z < 0 && box.hi.z > 0 ? 0 : 0.5 * (box.lo.z + box.hi.z), round = 0, holes = 0;
+    polygon_list rings = {0};
+    fram_status status = mesh_section(ctx, m, level, &rings, NULL);
+    for (int32_t i = 0; i < polygon_list_count(&rings) && status == FRAM_OK; i++) {
+        double area = polygon_area(polygon_list_get(&rings, i));
+        round += fmax(area, 0);
+        holes += fmax(-area, 0);
+    }
+    polygon_list_free(ctx, &rings);
+    *part = round > 0 ? holes / round : 0;
+    return status != FRAM_ERROR_MEMORY;
+}

@@ -65,6 +65,11 @@ static void report_file(context *ctx, const hull_file_report *r)
     if (r->half)
         log_write(ctx, LOG_WARNING,
                   "the hull's file has half a hull, open along its centre plane y = 0, and is closed there: mirror it");
+    if (r->well > OPEN_BOAT)
+        log_write(ctx, LOG_WARNING,
+                  "the hull's waterline goes round a hole of %.0f %% of its area: an open boat is full of water; give "
+                  "it a deck, or its outer face alone",
+                  100 * r->well);
     if (r->inner_parts)
         log_write(ctx, LOG_INFO, "closed parts inside the hull are left out, %d of %.4g m3: no water comes there",
                   (int)r->inner_parts, r->inner_volume);

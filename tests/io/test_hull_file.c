@@ -126,6 +126,35 @@ START_TEST(inner_parts)
 }
 END_TEST
 
+/* A cup of 8 x 8 x 3 with walls and bottom of 0.5: full of water. */
+START_TEST(open_boat)
+{
+    static const char *const text =
+        "v -4 -4 -2\nv 4 -4 -2\nv 4 4 -2\nv -4 4 -2\nv -4 -4 1\nv 4 -4 1\nv 4 4 1\nv -4 4 1\n"
+        "v -3.5 -3.5 -1.5\nv 3.5 -3.5 -1.5\nv 3.5 3.5 -1.5\nv -3.5 3.5 -1.5\n"
+        "v -3.5 -3.5 1\nv 3.5 -3.5 1\nv 3.5 3.5 1\nv -3.5 3.5 1\n"
+        "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+        "f 9 10 11 12\nf 13 14 10 9\nf 14 15 11 10\nf 15 16 12 11\nf 16 13 9 12\n"
+        "f 5 6 14 13\nf 6 7 15 14\nf 7 8 16 15\nf 8 5 13 16\n";
+    context ctx;
+    context_init(&ctx);
+    hull_file_options options = hull_file_defaults();
+    mesh m = {0};
+    hull_file_report report;
+    fram_error error = {0};
+    assert_ok(finish(&ctx, "boat.obj", text, &options, &m, &report, &error), error);
+    check_sound(&ctx, &m, 8 * 8 * 3 - 7 * 7 * 2.5);
+    assert_relative(report.well, 49.0 / 64, 1e-12);
+    ck_assert(report.well > OPEN_BOAT);
+    mesh_free(&ctx, &m);
+    assert_ok(finish(&ctx, "tetrahedron.obj", OBJ_POINTS "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", &options, &m, &report,
+                     &error),
+              error);
+    ck_assert(report.well == 0);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
 /* What closes half a hull makes half a ship of it: it is refused as half, and told where repair is asked for. */
 START_TEST(half)
 {
@@ -198,4 +227,4 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, half, options_are_checked, memory_runs_out)
+TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, options_are_checked, memory_runs_out)
