@@ -21,8 +21,8 @@ bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside);
 bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half);
 
 /* Part of what the section at the waterline goes round that is a hole in it, as a moonpool: nearly all of it where the
-   surface is an open boat, plating without a deck, which is full of water.  At z = 0, or half the height where that does
-   not cut the surface, which must be sound.  false: no memory. */
+   surface is an open boat, plating without a deck, which is full of water.  At z = 0, or half the height where that
+   does not cut the surface, which must be sound.  false: no memory. */
 bool hull_find_well(context *ctx, const mesh *m, double *part);
 
 #endif
