@@ -170,6 +170,17 @@ static fram_status read_polygon(reading *r, json_walk *w)
     return name_place(r, status);
 }
 
+/* A geometry without coordinates is one of null (RFC 7946, 3.1), as programs write what a cut left nothing of. */
+static fram_status read_single_polygon(reading *r, json_walk *w)
+{
+    bool more = true;
+    json_walk inside = *w;
+    fram_status status = json_walk_enter(&inside, JSON_ARRAY, NULL);
+    if (status == FRAM_OK && json_walk_element(&inside, true, &more, NULL) == FRAM_OK && !more)
+        return FRAM_OK;
+    return read_polygon(r, w);
+}
+
 static fram_status read_polygons(reading *r, json_walk *w)
 {
     bool more = true;
@@ -280,7 +291,7 @@ static fram_status read_scanned_geometry(reading *r, json_walk begin, const obje
                                 collection ? "geometries" : "coordinates");
     if (collection)
         return read_geometries(r, w);
-    return many ? read_polygons(r, &w) : read_polygon(r, &w);
+    return many ? read_polygons(r, &w) : read_single_polygon(r, &w);
 }
 
 static fram_status read_geometry(reading *r, json_walk w)

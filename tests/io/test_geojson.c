@@ -65,7 +65,9 @@ START_TEST(features_of_all_kinds)
                                   "\"properties\":{\"a\":[{}],\"thickness\":1.25},\"type\":\"Feature\"},\n"
                                   "{\"type\":\"Feature\",\"geometry\":null,\"properties\":null},\n"
                                   "{\"type\":\"Feature\",\"properties\":{\"thickness\":null},\"geometry\":{\"type\":"
-                                  "\"MultiPolygon\",\"coordinates\":[[" SQUARE "],[" SQUARE "," SQUARE "]]}}")),
+                                  "\"MultiPolygon\",\"coordinates\":[[" SQUARE "],[" SQUARE "," SQUARE "]]}},"
+                                  "{\"type\":\"Feature\",\"properties\":null,\"geometry\":{\"type\":\"Polygon\","
+                                  "\"coordinates\":[ ]}}")),
               r->error);
     ck_assert_int_eq(r->rings.place.count, 4);
     const import_place *p = r->rings.place.data;
@@ -134,7 +136,7 @@ static const bad_text bad_texts[] = {
      "expected an object"},
     {"{\"type\":\"GeometryCollection\"}", 1, 1, "feature 1", "no member \"geometries\""},
     /* coordinates */
-    {POLYGON(""), 1, 33, "feature 1, polygon 1", "at least one ring"},
+    {"{\"type\":\"MultiPolygon\",\"coordinates\":[[]]}", 1, 39, "feature 1, polygon 1", "at least one ring"},
     {POLYGON("7"), 1, 34, "feature 1, polygon 1, ring 1", "expected an array"},
     {POLYGON("[[0,0],[1]]"), 1, 41, "feature 1, polygon 1, ring 1", "2 or 3 numbers, found 1"},
     {POLYGON("[[0,0],[1,2,3,4]]"), 1, 41, "feature 1, polygon 1, ring 1", "2 or 3 numbers, found more"},
