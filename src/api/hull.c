@@ -10,8 +10,6 @@
 
 #include <stddef.h>
 #include <stdio.h>
-#include <string.h>
-#include <strings.h>
 
 struct fram_hull {
     fram_context *context;
@@ -440,8 +438,7 @@ fram_status fram_hull_save(const fram_hull *h, const char *path, fram_error *err
     if (status != FRAM_OK)
         return status;
     status = mesh_file_write(&h->context->inner, path, &h->surface, error);
-    const char *dot = strrchr(path, '.');
-    int32_t lids = status == FRAM_OK && dot && strcasecmp(dot, ".gdf") == 0 ? hull_count_lids(&h->surface) : 0;
+    int32_t lids = status == FRAM_OK && mesh_file_ends_with(path, ".gdf") ? hull_count_lids(&h->surface) : 0;
     if (lids > 0)
         log_write(
             &h->context->inner, LOG_WARNING,

@@ -252,6 +252,9 @@ static void json_surface(json *j, const fram_hull_surface *s)
     json_integer(j, "triangles_turned", s->flipped);
     json_integer(j, "inner_parts_left_out", s->inner_parts);
     json_real(j, "inner_volume_m3", s->inner_volume);
+    json_real(j, "well", s->well);
+    json_boolean(j, "open_boat", s->open_boat);
+    json_boolean(j, "half", s->half);
 }
 
 static void json_floating(json *j, const fram_hull_floating *f, const fram_hull_condition *c)

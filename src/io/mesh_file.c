@@ -203,7 +203,7 @@ const char *mesh_format_name(mesh_format f)
 
 const char *mesh_format_element(mesh_format f) { return f == MESH_OBJ ? "face" : f == MESH_GDF ? "panel" : "facet"; }
 
-static bool ends_with(const char *name, const char *ending)
+bool mesh_file_ends_with(const char *name, const char *ending)
 {
     size_t length = strlen(name), tail = strlen(ending);
     return length > tail && strcasecmp(name + length - tail, ending) == 0;
@@ -249,11 +249,11 @@ static fram_status find_format(const mesh_reading *r, const char *data, size_t s
     if (size == 0)
         return mesh_refuse(r, 0, 0, "the file is empty");
     bool solid = word_next(&w) && word_is(&w, "solid");
-    if (ends_with(r->name, ".stl"))
+    if (mesh_file_ends_with(r->name, ".stl"))
         *f = solid && !mesh_is_binary_stl(data, size) ? MESH_STL_TEXT : MESH_STL_BINARY;
-    else if (ends_with(r->name, ".obj"))
+    else if (mesh_file_ends_with(r->name, ".obj"))
         *f = MESH_OBJ;
-    else if (ends_with(r->name, ".gdf"))
+    else if (mesh_file_ends_with(r->name, ".gdf"))
         *f = MESH_GDF;
     else if (mesh_is_binary_stl(data, size))
         *f = MESH_STL_BINARY;
@@ -359,11 +359,11 @@ fram_status mesh_file_write_as(context *ctx, const char *path, mesh_format forma
 
 fram_status mesh_file_write(context *ctx, const char *path, const mesh *m, fram_error *error)
 {
-    if (ends_with(path, ".stl"))
+    if (mesh_file_ends_with(path, ".stl"))
         return mesh_file_write_as(ctx, path, MESH_STL_BINARY, m, error);
-    if (ends_with(path, ".obj"))
+    if (mesh_file_ends_with(path, ".obj"))
         return mesh_file_write_as(ctx, path, MESH_OBJ, m, error);
-    if (ends_with(path, ".gdf"))
+    if (mesh_file_ends_with(path, ".gdf"))
         return mesh_file_write_as(ctx, path, MESH_GDF, m, error);
     return error_set(error, FRAM_ERROR_USAGE, path, 0, NULL,
                      "expected a name that ends in .stl, .obj or .gdf for a mesh to be written");

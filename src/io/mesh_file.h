@@ -30,6 +30,9 @@ const char *mesh_format_name(mesh_format f);
 /* What the format calls an element: "facet", "face", "panel". */
 const char *mesh_format_element(mesh_format f);
 
+/* Whether a file is of the format of an ending (".gdf"), in any case of letters, by its name. */
+bool mesh_file_ends_with(const char *name, const char *ending);
+
 /* The file's surface, coordinates as they stand in it.  The format is that of the file's ending (.stl, .obj, .gdf), or
    that which its content looks like.  FRAM_ERROR_INPUT with line and key ("panel 12"), FRAM_ERROR_IO,
    FRAM_ERROR_MEMORY; out is then empty. */

@@ -63,6 +63,43 @@ expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.gdf
 says "warning: deck.gdf: 2 triangles lie in z = 0" err
 expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.stl
 ! grep -q warning err || fail "deck.stl is warned of: $(cat err)"
+# Plating of a metre without a deck: the water in it is told of.
+cat >boat.obj <<'END'
+v -8 -4 -2
+v 8 -4 -2
+v 8 4 -2
+v -8 4 -2
+v -8 -4 1
+v 8 -4 1
+v 8 4 1
+v -8 4 1
+v -7 -3 -1
+v 7 -3 -1
+v 7 3 -1
+v -7 3 -1
+v -7 -3 1
+v 7 -3 1
+v 7 3 1
+v -7 3 1
+f 4 3 2 1
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+f 9 10 11 12
+f 13 14 10 9
+f 14 15 11 10
+f 15 16 12 11
+f 16 13 9 12
+f 5 6 14 13
+f 6 7 15 14
+f 7 8 16 15
+f 8 5 13 16
+END
+expect 0 "$FRAM" hull boat.obj --json
+near 'j["well"], j["volume_m3"]' "84 / 128, 256 - 84" "the well of an open boat"
+same "$(value 'j["open_boat"], j["half"]')" "True False" "an open boat"
+says "goes round a hole of 66 % of its area" err
 expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9 --json
 same "$(value 'j["error"]["key"]')" --block-coefficient "key"
 says "can be 0.3750 to 0.5661" err
