@@ -5,8 +5,9 @@ now.
   validation/status.py            names them; exit code 0 whatever it finds: a page may wait, but not in silence
   validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
 
-Told by content, not by date: the code of a part is the hash of its files without comments and white space, and with
-numbers for names that a .c file has for itself, so that a page does not age by a better comment or name.
+Told by content, not by date: the code of a part is the hash of its files without comments and white space, with numbers
+for names that a .c file has for itself, and without assertions, which the build that makes the book leaves out: so a page
+does not age by a better comment, name or assertion.
 """
 
 import fnmatch
@@ -33,6 +34,8 @@ PARTS = {
 }
 ROOMS = sorted({name.split("/")[1] for names, _ in PARTS.values() for name in names})
 COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|("(?:\\.|[^"\\\n])*")', re.S)
+# Blocks without directives of their own, and statements that end with the line.
+ASSERTION = re.compile(r"^#ifndef NDEBUG\n(?:(?!#).*\n)*#endif\n|^ *assert\([^;]*\);\n", re.M)
 
 
 # What a file calls its own at the left margin: static functions and data, macros, types, enumerators.
@@ -47,9 +50,9 @@ def own_names(code):
 
 
 def bare(path, text):
-    """Code without comments, without white space where it says nothing, and of a file that is not included by others
-    without the names that are its own: the n-th of them is ~n."""
-    code = COMMENT.sub(lambda found: found.group(1) or " ", text)
+    """Code without comments and assertions, without white space where it says nothing, and of a file that is not
+    included by others without the names that are its own: the n-th of them is ~n."""
+    code = ASSERTION.sub("", COMMENT.sub(lambda found: found.group(1) or " ", text))
     if path.endswith(".c"):
         own, numbers = own_names(code), {}
         code = re.sub(r"\w+", lambda found: f"~{numbers.setdefault(found.group(), len(numbers))}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The code that a page of the validation book was made on is told by what it says, not by how it is commented or what
-its files call their own."""
+"""The code that a page of the validation book was made on is told by what it says, not by how it is commented, what
+its files call their own or what they assert."""
 import os
 import pathlib
 import sys
@@ -38,8 +38,14 @@ LIFT = FILES["src/fluid/lift.c"]
 assert parts_changed(src__fluid__lift=LIFT.replace("lift", "raise").replace("MOST", "LIFTS_MOST")) == []
 assert parts_changed(src__fluid__lift=LIFT.replace("return lift(u)", "return MOST")) == ["water"]
 assert parts_changed(src__fluid__lift=LIFT.replace("both", "all")) == ["water"]
+# The book is made by a build without assertions. Other code of debug builds, and code after an assertion, counts.
+ASSERTED = LIFT.replace("{ return", "{\n    assert(u > 0 &&\n           fabs(u) < MOST);\n    return")
+assert parts_changed(src__fluid__lift=ASSERTED) == []
+assert parts_changed(src__fluid__lift=ASSERTED.replace("    return lift", "    u++;\n    return lift")) == ["water"]
+assert parts_changed(src__fluid__lift="#ifndef NDEBUG\nint unused;\n#endif\n" + LIFT) == []
+assert parts_changed(src__fluid__lift="#ifdef FRAM_WIDE\nint unused;\n#endif\n" + LIFT) == ["water"]
 # Each part has files in this checkout: a pattern that matches nothing would call every page fresh.
 empty = status.fingerprint([], None)
 now = status.of_checkout()
 assert all(now[part] != empty[part] for part in status.PARTS), now
-print("comments and own names change no fingerprint, code changes that of its part")
+print("comments, own names and assertions change no fingerprint, code changes that of its part")
