@@ -38,7 +38,8 @@ fram_status overlay_make_valid(overlay *o, polygon p, polygon_list *out, fram_er
 fram_status overlay_simplify(overlay *o, polygon p, double tolerance, vec2_array *out, fram_error *error);
 /* Constrained Delaunay triangulation of the interior: appends triangles (3 vertices each, counter-clockwise), two less
    than p has vertices, which have every vertex of p as a corner and no others.  Without GEOS, exact but for which of
-   the two diagonals of four vertices on one circle (to rounding) is taken. */
+   the two diagonals of four vertices on one circle (to rounding) is taken: a triangle may be so thin that
+   polygon_area of it is 0 or less. */
 fram_status overlay_triangulate(overlay *o, polygon p, polygon_list *out, fram_error *error);
 
 /* Cut a simple polygon into convex pieces that keep area and outline exactly.  Convex input is returned as it is,

@@ -99,6 +99,28 @@ START_TEST(triangles_of_degenerate_outlines)
 }
 END_TEST
 
+/* A vertex that lies on a line of two others but for rounding, on its inner side: a triangle, though the computed area
+   of it is not above zero. */
+START_TEST(a_triangle_may_be_thinner_than_its_area_tells)
+{
+    setup();
+    vec2 v[] = {{0, 16}, {4112, 4096}, {2056, 2056}, {-5400, 6152}};
+    for (int k = 0; k < 4; k++)
+        v[k] = vec2_scale(v[k], 1e-3);
+    polygon_list l = {0};
+    int thin = 0;
+    assert_ok(overlay_triangulate(o, (polygon){v, 4}, &l, &error), error);
+    ck_assert_int_eq(polygon_list_count(&l), 2);
+    for (int32_t i = 0; i < 2; i++) {
+        ck_assert_int_eq(polygon_orientation(polygon_list_get(&l, i)), 1);
+        thin += polygon_area(polygon_list_get(&l, i)) <= 0;
+    }
+    ck_assert_int_eq(thin, 1);
+    polygon_list_free(&plain, &l);
+    overlay_free(o);
+}
+END_TEST
+
 static int32_t distinct_edges_on(polygon outline, const polygon_list *pieces)
 {
     int32_t found = 0;
@@ -207,4 +229,4 @@ START_TEST(no_memory)
 END_TEST
 
 TEST_MAIN("overlay_convex", triangles_as_geos_finds_them, triangles_of_degenerate_outlines,
-          pieces_keep_area_and_outline, known_pieces, no_memory)
+          a_triangle_may_be_thinner_than_its_area_tells, pieces_keep_area_and_outline, known_pieces, no_memory)
