@@ -1,6 +1,7 @@
 #include "sim/build_keep_out.h"
 
 #include "base/transcendental.h"
+#include "geometry/predicate.h"
 #include "ice/field_cells.h"
 #include "io/outline_file.h"
 #include "sim/build_ice.h"
@@ -31,6 +32,14 @@ static fram_status add_footprints(context *ctx, const scenario *s, const world *
     return status;
 }
 
+/* Does a zone lie where there is ice at the start?  Edges alone do not count. */
+static bool reaches_ice(const scenario *s, polygon zone)
+{
+    const scenario_domain *d = &s->domain;
+    const vec2 corner[4] = {{d->x_min, d->y_min}, {d->x_max, d->y_min}, {d->x_max, d->y_max}, {d->x_min, d->y_max}};
+    return polygon_overlap_area(zone, (polygon){corner, 4}) > 0;
+}
+
 static bool add_rectangle(context *ctx, const scenario_opening *z, polygon_list *out)
 {
     double c = real_cos(radians(z->angle_deg)), sn = real_sin(radians(z->angle_deg));
@@ -39,6 +48,36 @@ static bool add_rectangle(context *ctx, const scenario_opening *z, polygon_list 
     const vec2 corner[4] = {vec2_sub(near, across), vec2_sub(far, across), vec2_add(far, across),
                             vec2_add(near, across)};
     return polygon_list_push(ctx, out, (polygon){corner, 4});
+}
+
+static fram_status add_rectangles(context *ctx, const scenario *s, polygon_list *out, fram_error *error)
+{
+    for (int32_t i = 0; i < s->ice.open_water.count; i++) {
+        if (!add_rectangle(ctx, &s->ice.open_water.data[i], out))
+            return error_memory(error);
+        if (!reaches_ice(s, polygon_list_get(out, polygon_list_count(out) - 1)))
+            log_write(ctx, LOG_WARNING, "ice.open_water[%d]: it lies beside the domain and keeps no ice away", (int)i);
+    }
+    return FRAM_OK;
+}
+
+/* Zones in other coordinates than the scenario's keep nothing away. */
+static void tell_zones_elsewhere(context *ctx, const scenario *s, const polygon_list *zones)
+{
+    box2 all = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    for (int32_t i = 0; i < polygon_list_count(zones); i++) {
+        polygon zone = polygon_list_get(zones, i);
+        if (reaches_ice(s, zone))
+            return;
+        box2 box = polygon_bounds(zone);
+        all.lo = vec2_make(real_min(all.lo.x, box.lo.x), real_min(all.lo.y, box.lo.y));
+        all.hi = vec2_make(real_max(all.hi.x, box.hi.x), real_max(all.hi.y, box.hi.y));
+    }
+    if (polygon_list_count(zones) > 0)
+        log_write(ctx, LOG_WARNING,
+                  "ice.open_water_file: all of it lies beside the domain and keeps no ice away: x from %.6g to %.6g, y "
+                  "from %.6g to %.6g m",
+                  all.lo.x, all.hi.x, all.lo.y, all.hi.y);
 }
 
 static fram_status add_file(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
@@ -57,6 +96,8 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)
         status = overlay_convex_pieces(w->scratch.plane, polygon_list_get(&field.outlines, i), 0, ZONE_PIECE_VERTICES,
                                        out, NULL, error);
+    if (status == FRAM_OK)
+        tell_zones_elsewhere(ctx, s, &field.outlines);
     import_rings_free(ctx, &rings);
     import_field_free(ctx, &field);
     return status;
@@ -65,7 +106,7 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
 fram_status build_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
     fram_status status = add_footprints(ctx, s, w, out, error);
-    for (int32_t i = 0; status == FRAM_OK && i < s->ice.open_water.count; i++)
-        status = add_rectangle(ctx, &s->ice.open_water.data[i], out) ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK)
+        status = add_rectangles(ctx, s, out, error);
     return status == FRAM_OK ? add_file(ctx, s, w, out, error) : status;
 }

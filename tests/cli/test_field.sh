@@ -293,6 +293,17 @@ expect 2 "$FRAM" field zones.yaml
 says "ring 2: the ring is a hole; mend the file, as \"fram field\" does" err
 expect 2 "$FRAM" field zones.yaml --set ice.open_water_file=arctic.geojson
 says "only lengths are taken here" err
+# Zones that lie beside the domain, as in other coordinates, are told; of a file only when all of it does.
+printf '%s\n' 'run: {duration: 1}' 'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' \
+    'ice: {open_water: [{x: 60, y: 0, length: 99, width: 9}, {x: 3000, y: 0, length: 50, width: 20}]}' >elsewhere.yaml
+printf '%s\n' 'POLYGON ((400000 0, 400090 0, 400000 90, 400000 0))' >zones.wkt
+expect 0 "$FRAM" field elsewhere.yaml --set ice.open_water_file=zones.wkt
+says "ice.open_water[1]: it lies beside the domain and keeps no ice away" err
+says "ice.open_water_file: all of it lies beside the domain and keeps no ice away: x from 400000 to 400090" err
+! grep -qF "open_water[0]" err || fail "a zone inside the domain is said to lie beside it"
+echo 'POLYGON ((90 0, 140 0, 100 40, 90 0))' >>zones.wkt
+expect 0 "$FRAM" field elsewhere.yaml --set ice.open_water_file=zones.wkt
+! grep -qF open_water_file err || fail "a file with a zone inside the domain is said to lie beside it"
 # --centre of degrees; a field round the pole is centred in any case: the middle of its degrees lies beside the pole.
 expect 0 "$FRAM" field arctic.geojson --degrees --centre --x 7 --json
 same "$(value 'all(abs(j["bounds_m"][k] + j["bounds_m"][k + 2] - at) < 1e-6 for k, at in ((0, 14), (1, 0)))')" \
