@@ -439,23 +439,40 @@ static void name_fault(int number, char out[128])
         freelocale(plain);
 }
 
-fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error)
+/* A fault of the disk that a text names; false: none. */
+static bool find_fault(const char *text, char name[128])
 {
     static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};
-    char *text = NULL;
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
+        name_fault(faults[i], name);
+        if (strstr(text, name))
+            return true;
+    }
+    return false;
+}
+
+static fram_status check_disk_in(context *ctx, const char *path, uint64_t limit, fram_error *error)
+{
+    char *text = NULL, name[128];
     size_t size = 0;
     fram_status status = FRAM_OK;
-    if (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK) {
-        for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++) {
-            char name[128];
-            name_fault(faults[i], name);
-            if (strstr(text, name))
-                status = error_set(error, FRAM_ERROR_IO, log, 0, NULL,
-                                   "a run could not write: %s; what ended is kept: mend that, and give the same "
-                                   "command again",
-                                   name);
-        }
-    }
+    if (file_read(ctx, path, limit, &text, &size, NULL) == FRAM_OK && find_fault(text, name))
+        status = error_set(error, FRAM_ERROR_IO, path, 0, NULL,
+                           "a run could not write: %s; what ended is kept: mend that, and give the same command again",
+                           name);
     memory_free(ctx, text);
+    return status;
+}
+
+fram_status study_run_check_disk(context *ctx, const char *folder, const char *log, fram_error *error)
+{
+    fram_status status = check_disk_in(ctx, log, RUN_LOG_MOST, error);
+    if (status != FRAM_OK)
+        return status;
+    /* The log lies on the same disk: where that was full the run may have told its own record alone. */
+    text_buffer note = {0};
+    text_format(ctx, &note, "%s/run.json", folder);
+    status = note.failed ? error_memory(error) : check_disk_in(ctx, note.data, RUN_NOTE_MOST, error);
+    text_free(ctx, &note);
     return status;
 }

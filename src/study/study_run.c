@@ -225,7 +225,7 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     char *log = study_run_path(&w->folder, condition, seed, ".log");
     fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK && exit_code != 0)
-        status = study_log_check_disk(w->ctx, log, error);
+        status = study_run_check_disk(w->ctx, folder, log, error);
     /* Made when the other one has ended: a program of a study that was killed, here or on a node. */
     bool again = status == FRAM_OK && exit_code != 0 && study_run_met_another(w->ctx, folder, log);
     if (status == FRAM_OK && !again)

@@ -262,7 +262,7 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
     } else if (status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(ctx, folder, log)) {
         /* And this one when the other program has ended. */
     } else if (status == FRAM_OK && exit_code != 0) {
-        status = study_log_check_disk(ctx, log, error);
+        status = study_run_check_disk(ctx, folder, log, error);
         if (status == FRAM_OK && e->stage == WORST_RUN)
             status = error_set(error, FRAM_ERROR_IO, log, 0, "record_of_worst",
                                "made again for its record, a run ended with exit code %d; the tables are whole, and "

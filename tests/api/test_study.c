@@ -106,8 +106,18 @@ static void add_standing(void *user, const fram_study_standing *c)
     sum->wanted += c->wanted;
 }
 
+static void write_program(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "#!/bin/sh\n%s", text);
+    fclose(file);
+    ck_assert_int_eq(chmod(path, 0700), 0);
+}
+
 /* A program that cannot write, in place of the command: that is no result of its scenario, whatever the language of the
-   program that studies: German here, where the C library has its texts. */
+   program that studies: German here, where the C library has its texts.  A disk that was full for its log, too, had
+   room for its run.json. */
 START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
 {
     fram_error error = {0};
@@ -117,11 +127,7 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     write_study(folder, path);
     snprintf(out, sizeof out, "%s/out", folder);
     snprintf(program, sizeof program, "%s/full", folder);
-    FILE *file = fopen(program, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs("#!/bin/sh\necho 'fram: x/series.csv: cannot write: No space left on device' >&2\nexit 1\n", file);
-    fclose(file);
-    ck_assert_int_eq(chmod(program, 0700), 0);
+    write_program(program, "echo 'fram: x/series.csv: cannot write: No space left on device' >&2\nexit 1\n");
     ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
     standing_sum sum = {0};
     ck_assert_int_eq(fram_study_list(c, out, add_standing, &sum, &error), FRAM_ERROR_INPUT);
@@ -134,6 +140,9 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
         setenv("LANGUAGE", "de", 1);
     ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
     setlocale(LC_ALL, "C");
+    ck_assert_ptr_nonnull(strstr(error.message, "No space left"));
+    write_program(program, "mkdir -p $4\necho '{\"message\": \"No space left on device\"}' >$4/run.json\nexit 1\n");
+    ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
     ck_assert_ptr_nonnull(strstr(error.message, "No space left"));
     ck_assert_msg(fram_study_list(c, out, add_standing, &sum, &error) == FRAM_OK, "%s", error.message);
     ck_assert_int_eq(sum.conditions, 3);
