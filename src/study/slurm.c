@@ -371,18 +371,38 @@ void slurm_pause(double look)
     nanosleep(&pause, NULL);
 }
 
+/* Which tasks the scheduler has: by whatever name, which an option of sbatch or a variable of its environment may give;
+   in all partitions, also those that are hidden from the many; and whatever a user has set to see less at a terminal.
+ */
+static bool ask_scheduler(const slurm_pool *all, text_buffer *answer)
+{
+    static const char *const words[] = {"env",
+                                        "-uSQUEUE_STATES",
+                                        "-uSQUEUE_PARTITION",
+                                        "-uSQUEUE_NAMES",
+                                        "-uSQUEUE_ACCOUNT",
+                                        "-uSQUEUE_QOS",
+                                        "-uSQUEUE_LICENSES",
+                                        "squeue",
+                                        "--all",
+                                        "--noheader",
+                                        "--array",
+                                        "--me",
+                                        "--format=%i %t %r",
+                                        NULL};
+    int code = 0;
+    return capture(all->ctx, words, answer, &code, NULL) == FRAM_OK && code == 0;
+}
+
 void slurm_look(slurm_pool *all)
 {
     double poll = all->options->poll > 0 ? all->options->poll : POLL_USUAL;
     if (clock_wall() - all->asked < poll || all->runs.count == 0)
         return;
     all->asked = clock_wall();
-    /* By whatever name: an option of sbatch or a variable of its environment may give another one. */
-    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--format=%i %t %r", NULL};
     text_buffer answer = {0};
-    int code = 0;
     /* A scheduler that does not answer has lost nothing. */
-    if (capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK && code == 0) {
+    if (ask_scheduler(all, &answer)) {
         for (int32_t i = 0; i < all->runs.count; i++) {
             slurm_run *run = &all->runs.data[i];
             if (run->array < 0)
