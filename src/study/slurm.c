@@ -23,6 +23,8 @@ enum { TRIES_MOST = 4, MISSED_MOST = 2 };
 #define POLL_USUAL 30.0
 /* Exit code of a run that the cluster lost again and again: as if it had been killed. */
 enum { LOST = 137, SIGNAL_CODES = 128 };
+/* Of one whose folder another program holds: a run that is made twice, or a scenario that is none. */
+enum { MET_ANOTHER = 2 };
 
 /* ---- names ---- */
 
@@ -58,14 +60,35 @@ static fram_status put(const slurm_pool *all, int32_t array, const char *ending,
 
 /* ---- beginning and end ---- */
 
-static void cancel(slurm_pool *all, long long job)
+/* What a program says on several lines, as one. */
+static void one_line(text_buffer *b)
+{
+    while (b->data && b->count > 0 && b->data[b->count - 1] == '\n')
+        b->data[--b->count] = '\0';
+    for (int32_t i = 0; b->data && i < b->count; i++)
+        if ((unsigned char)b->data[i] < ' ')
+            b->data[i] = ' ';
+}
+
+/* Whether the scheduler has taken it: one that does not answer, as while it starts anew, goes on with the array.  Newer
+   ones call a job that they have forgotten a mistake. */
+static bool cancel(slurm_pool *all, long long job)
 {
     char number[32];
     snprintf(number, sizeof number, "%lld", job);
-    const char *const words[] = {"scancel", number, NULL};
+    /* Nobody is there to say yes. */
+    const char *const words[] = {"env", "-uSCANCEL_INTERACTIVE", "scancel", number, NULL};
     text_buffer answer = {0};
-    (void)capture(all->ctx, words, &answer, NULL, NULL);
+    int code = 0;
+    bool taken = capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK &&
+                 (code == 0 || (answer.data && strstr(answer.data, "Invalid job id")));
+    one_line(&answer);
+    if (!taken)
+        log_write(all->ctx, LOG_WARNING,
+                  "array %lld goes on at Slurm, which does not cancel it (%.200s): the same command tries again", job,
+                  answer.data ? answer.data : "scancel says nothing");
     text_free(all->ctx, &answer);
+    return taken;
 }
 
 /* Arrays of an earlier call: their numbers go on, and what is still queued is cancelled. */
@@ -85,8 +108,8 @@ static void cancel_earlier(slurm_pool *all)
         char *job = array_path(all, (int32_t)n, "job"), *text = NULL;
         size_t size = 0;
         if (job && file_read(all->ctx, job, 64, &text, &size, NULL) == FRAM_OK) {
-            cancel(all, strtoll(text, NULL, 10));
-            (void)unlink(job);
+            if (cancel(all, strtoll(text, NULL, 10)))
+                (void)unlink(job);
         }
         memory_free(all->ctx, text);
         memory_free(all->ctx, job);
@@ -94,16 +117,6 @@ static void cancel_earlier(slurm_pool *all)
     if (dir)
         closedir(dir);
     text_free(all->ctx, &path);
-}
-
-/* What a program says on several lines, as one. */
-static void one_line(text_buffer *b)
-{
-    while (b->data && b->count > 0 && b->data[b->count - 1] == '\n')
-        b->data[--b->count] = '\0';
-    for (int32_t i = 0; b->data && i < b->count; i++)
-        if ((unsigned char)b->data[i] < ' ')
-            b->data[i] = ' ';
 }
 
 static fram_status check_commands(slurm_pool *all, fram_error *error)
@@ -144,22 +157,27 @@ fram_status slurm_begin(context *ctx, const slurm_options *options, const char *
     text_free(ctx, &path);
     if (status == FRAM_OK)
         cancel_earlier(all);
+    all->earlier = all->arrays;
     if (status != FRAM_OK)
         slurm_free(all);
     return status;
 }
 
-void slurm_stop(slurm_pool *all)
+void slurm_end(slurm_pool *all, bool whole)
 {
-    for (int32_t i = 0; i < all->jobs.count; i++)
-        cancel(all, (long long)all->jobs.data[i]);
+    /* Of what was submitted twice one may go on when the other has ended; of all else nothing does, and what is
+       cancelled as it ends would be told so in the cluster's accounts. */
+    if (whole && !all->again)
+        return;
+    for (int32_t i = 0; i < all->jobs.count && !all->unstopped; i++)
+        all->unstopped = !cancel(all, (long long)all->jobs.data[i]);
 }
 
 /* The numbers of this call's arrays: told on, a later call would cancel what a cluster that was set up anew has given
-   the same number.  Those of a call that was killed stay, and are cancelled. */
+   the same number.  Those of a call that was killed, and those that go on, stay for the next one to cancel. */
 static void forget_jobs(const slurm_pool *all)
 {
-    for (int32_t i = all->arrays - all->jobs.count; all->jobs.count > 0 && i <= all->arrays; i++) {
+    for (int32_t i = all->earlier + 1; !all->unstopped && i <= all->arrays; i++) {
         char *job = array_path(all, i, "job");
         if (job)
             (void)unlink(job);
@@ -176,10 +194,36 @@ void slurm_free(slurm_pool *all)
     array_free(all->ctx, &all->jobs);
 }
 
+static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
+{
+    char *path = exit_path(all, run), *text = NULL;
+    size_t size = 0;
+    bool found =
+        path && access(path, F_OK) == 0 && file_read(all->ctx, path, 64, &text, &size, NULL) == FRAM_OK && size > 1;
+    if (found)
+        *code = (int)strtol(text, NULL, 10);
+    memory_free(all->ctx, text);
+    memory_free(all->ctx, path);
+    return found;
+}
+
+static void remove_exit(const slurm_pool *all, const slurm_run *run)
+{
+    char *path = exit_path(all, run);
+    if (path)
+        (void)unlink(path);
+    memory_free(all->ctx, path);
+}
+
 bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task, double frames)
 {
     slurm_run run = {.task = task, .seed = seed, .frames = frames, .array = -1};
+    int code = 0;
     snprintf(run.id, sizeof run.id, "%s", id);
+    /* What failed when nobody was there to hear why is tried again: what stopped the call before, a full disk perhaps,
+       stopped other tasks too. */
+    if (!all->options->dry_run && read_exit(all, &run, &code) && code != 0)
+        remove_exit(all, &run);
     return array_push(all->ctx, &all->runs, run);
 }
 
@@ -239,6 +283,7 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
             text_format(all->ctx, &list, " %s", frames);
         }
         text_add(all->ctx, &list, "\n");
+        all->again = all->again || run->tries > 0;
         run->array = all->jobs.count;
         run->place = n++ / each;
         run->tries++;
@@ -274,26 +319,14 @@ fram_status slurm_submit(slurm_pool *all, fram_error *error)
 
 /* ---- what became of them ---- */
 
-static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
-{
-    char *path = exit_path(all, run), *text = NULL;
-    size_t size = 0;
-    bool found =
-        path && access(path, F_OK) == 0 && file_read(all->ctx, path, 64, &text, &size, NULL) == FRAM_OK && size > 1;
-    if (found) {
-        *code = (int)strtol(text, NULL, 10);
-        (void)unlink(path);
-    }
-    memory_free(all->ctx, text);
-    memory_free(all->ctx, path);
-    return found;
-}
-
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
 {
     for (; all->looked < all->runs.count; all->looked++) {
         slurm_run *run = &all->runs.data[all->looked];
         bool ended = read_exit(all, run, exit_code);
+        if (ended)
+            remove_exit(all, run);
+        all->again = all->again || (ended && *exit_code == MET_ANOTHER);
         /* A signal is no answer of the run: the node was short of memory, or the task of time. */
         if (ended && *exit_code > SIGNAL_CODES && run->tries < TRIES_MOST) {
             run->array = -1;

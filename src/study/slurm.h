@@ -30,9 +30,12 @@ typedef struct slurm_pool {
     ARRAY(slurm_run) runs;
     ARRAY(int64_t) jobs; /* Slurm's numbers of the arrays of this call */
     int32_t arrays;      /* number of the last script in the folder */
+    int32_t earlier;     /* number of the last one of earlier calls */
     int32_t looked;      /* runs that slurm_ended has looked at since it last said that none ended */
     double asked;        /* when the scheduler was asked last [s] */
     char waits[96];      /* what it said of tasks that wait; "" */
+    bool again;          /* a run may be made twice: submitted again, or met by another */
+    bool unstopped;      /* the scheduler did not take that one of them is cancelled */
 } slurm_pool;
 
 /* FRAM_ERROR_USAGE when sbatch is not there.  Arrays that an earlier call left in the queue are cancelled. */
@@ -50,8 +53,8 @@ void slurm_look(slurm_pool *all);
 const char *slurm_waits(const slurm_pool *all);
 /* Waits between looks at the files, longer where looking at them takes long [s]. */
 void slurm_pause(double look);
-/* Cancels what is submitted. */
-void slurm_stop(slurm_pool *all);
+/* Cancels what is submitted and may go on; whole: all runs have ended. */
+void slurm_end(slurm_pool *all, bool whole);
 void slurm_free(slurm_pool *all);
 
 #endif

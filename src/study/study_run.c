@@ -359,8 +359,7 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
         if (status == FRAM_OK)
             status = submit_missing(w, &queue, error);
     }
-    if (status != FRAM_OK || queue.runs.count > 0)
-        slurm_stop(&queue);
+    slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
     slurm_free(&queue);
     if (status == FRAM_OK && asked_to_stop(w))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,

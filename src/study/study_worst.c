@@ -393,8 +393,7 @@ static fram_status record_by_slurm(worst_work *w, fram_error *error)
         if (status == FRAM_OK)
             status = slurm_submit(&queue, error);
     }
-    if (status != FRAM_OK || queue.runs.count > 0)
-        slurm_stop(&queue);
+    slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
     slurm_free(&queue);
     return status;
 }
