@@ -277,6 +277,27 @@ def check_tank(browser, folder):
     assert browser.run("fram.scene.station.thrusters[0].axis.x") > 0.9
 
 
+def check_late_contact(browser, folder):
+    """A few frames, ice in the last of them alone: its arrows are as long as they should, and named."""
+    run, _ = make_run(folder, "late", """
+run: {duration: 2, time_step: 0.02}
+vessel: {mode: towed, x: -20, speed: 4, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {source: floes, floes: [{x: 16.5, y: 0, length: 12, width: 12}]}
+domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
+output: {frame_interval: 0.25}
+""")
+    browser.open(run / "playback.html")
+    touched, kinds, longest, most, high = browser.run("""(() => {
+        const frames = fram.record.frames.map((_, i) => fram.store.get(i));
+        const pulls = frames.flatMap((f) => f.forces.map((one) => Math.hypot(...one.force)));
+        return [frames.map((f) => f.forces.length > 0), fram.kinds, Math.max(...pulls) * fram.arrowScale,
+                Math.max(...frames.map((f) => f.contact[1])), fram.ranges.force[1]]; })()""")
+    assert not any(touched[:6]) and any(touched), f"ice is to be met late: {touched}"
+    assert kinds == ["ice"], f"arrows without a name: {kinds}"
+    assert 5 < longest < 40, f"the longest arrow has {longest} m beside a ship of 48 m"
+    assert 0.5 * most < high <= most, f"colours end at {high} kN where {most} kN is the most"
+
+
 def check_waiting(browser, folder):
     """A page that follows a run says that it waits, and in the end that there was nothing to wait for."""
     page = folder / "follows.html"
@@ -510,6 +531,7 @@ def main():
         check_few(browser, pathlib.Path(folder))
         check_no_vessel(browser, pathlib.Path(folder))
         check_tank(browser, pathlib.Path(folder))
+        check_late_contact(browser, pathlib.Path(folder))
         check_waiting(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
     print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")

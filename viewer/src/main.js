@@ -7,7 +7,7 @@ import { Poses } from './poses.js';
 import { Loads } from './loads.js';
 import { PeakPanel } from './peaks.js';
 import { follow } from './live.js';
-import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
+import { bytesOf, Chunks, forcesOf, FrameStore, readRecord } from './record.js';
 import { readScenario, sizesOf, vesselsOf } from './scenario.js';
 import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
@@ -46,6 +46,7 @@ class Player {
     /** Loads by mechanism and peaks have come, after the end of a run that was looked at. */
     explain() {
         if (!this.ready) return; // begin tells them
+        this.findRanges();
         this.tellLoads();
         this.resize();
         this.dirty = true;
@@ -207,27 +208,21 @@ class Player {
         $('play').ariaLabel = this.playing ? 'pause' : 'play';
     }
 
-    /** Ends of the colours: the 99th percentile of some frames that need no file from beside the page. */
+    /** Ends of the colours and lengths of arrows: the 99th percentile of the frames that need no file from beside the
+     *  page; of speeds, which all bodies have, that of some of these. */
     findRanges() {
         this.ranged = this.record.frames.length;
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
-        const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
-        const kinds = new Set();
-        const pull = [];
+        const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [];
         const pairs = Array.from({ length: n - 1 }, (_, f) => f)
             .filter((f) => record.frames[f].view && record.frames[f + 1].view);
-        for (let k = 0; k < Math.min(pairs.length, 12); k++) {
-            poses.show(pairs[Math.floor(k * pairs.length / 12)]);
-            for (const b of ice) {
-                if (!poses.shown[b.index]) continue;
-                speed.push(poses.speed[b.index]);
-                if (poses.contact[b.index] > 0) force.push(poses.contact[b.index]);
-            }
-            for (const f of poses.forces) {
-                pull.push(Math.hypot(...f.force));
-                kinds.add(f.kind);
-            }
+        const looks = Math.min(pairs.length, 12);
+        for (let k = 0; k < looks; k++) {
+            poses.show(pairs[Math.floor(k * pairs.length / looks)]);
+            for (const b of ice) if (poses.shown[b.index]) speed.push(poses.speed[b.index]);
         }
+        // Contacts are rare: one that few frames have would be missed by looking at some of them.
+        const { contacts: force, pulls: pull, kinds } = forcesOf(record);
         const high = (all, least) => Math.max(least,
             Float64Array.from(all).sort()[Math.floor(0.99 * (all.length - 1))] || 0);
         const least = (all) => all.reduce((a, b) => Math.min(a, b), Infinity);

@@ -9,6 +9,7 @@ const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
 const BREAKS = ['', 'split', 'bending', 'loose']; // enum fracture_kind; loose: a part of level ice
 const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
+const MARKED = 32768; // of the last number of a pose: a contact force follows
 const NEVER = Infinity;
 
 /** Half floats of all 16-bit patterns. */
@@ -32,7 +33,7 @@ function unpackPose(view, at, out, to) {
     else if (largest === 1) { out[to + 6] = a; out[to + 3] = d; out[to + 4] = b; out[to + 5] = c; }
     else if (largest === 2) { out[to + 6] = a; out[to + 3] = b; out[to + 4] = d; out[to + 5] = c; }
     else { out[to + 6] = a; out[to + 3] = b; out[to + 4] = c; out[to + 5] = d; }
-    return w2 >= 32768;
+    return w2 >= MARKED;
 }
 
 /** Walks a DataView from front to back. */
@@ -270,6 +271,25 @@ function readForces(c) {
     c.i32();
     return Array.from({ length: count }, () => (
         { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
+}
+
+/** Of all frames that are in the page: contact forces of floes [kN] and forces on vessels [N], as many as there are, and
+ *  the kinds of the latter. Reads past the poses. */
+export function forcesOf(record) {
+    const { bodies, frames } = record, contacts = [], pulls = [], kinds = new Set();
+    for (const { view, at, order, forces } of frames) {
+        if (!view) continue;
+        for (let i = 0, pose = at; i < order.length; i++, pose += POSE) {
+            if (view.getUint16(pose + POSE - 2, true) < MARKED) continue;
+            if (bodies[order[i]].material === 'ice') contacts.push(HALF[view.getUint16(pose + POSE, true)]);
+            pose += 2;
+        }
+        for (const { kind, force } of forces < 0 ? [] : readForces(new Cursor(view, forces))) {
+            pulls.push(Math.hypot(...force));
+            kinds.add(kind);
+        }
+    }
+    return { contacts, pulls, kinds };
 }
 
 const KEPT = 4; // files beside the page that are held at once
