@@ -23,9 +23,9 @@ vessel:
   hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
   mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}
   thrusters: [{x: 18}]
-ice: {concentration: 0.7, mean_floe_area: 64, thickness: 0.5, breakable: true}
+ice: {concentration: 0.7, mean_floe_area: 64, thickness: 0.15, breakable: true}
 domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
-environment: {current_speed: 1.5, current_direction_deg: 180}
+environment: {current_speed: 3, current_direction_deg: 180}
 output: {frame_interval: 0.5}
 """
 
@@ -47,6 +47,11 @@ def fram(*words):
 
 def close(a, b, tolerance):
     assert abs(a - b) <= tolerance, (a, b)
+
+
+def rows_of(path):
+    head, *lines = path.read_text().splitlines()
+    return [dict(zip(head.split(","), map(float, line.split(",")))) for line in lines]
 
 
 def read_vtp(path):
@@ -82,6 +87,15 @@ def check_vtk(run, rows):
     forces = read_vtp(run / "vtk" / "data" / "forces_000012.vtp").GetCellData()
     lines = [i for i in range(forces.GetArray("kind").GetNumberOfTuples()) if forces.GetArray("kind").GetValue(i) == 2]
     assert len(lines) == 4, lines
+    number, size = forces.GetArray("number"), forces.GetArray("magnitude [N]")
+    assert [number.GetValue(i) for i in lines] == [1, 2, 3, 4]
+    for i in range(size.GetNumberOfTuples()):
+        close(size.GetValue(i), math.hypot(*forces.GetArray("force [N]").GetTuple3(i)), 1e-6 * size.GetValue(i))
+    hull = read_vtp(run / "vtk" / "data" / "hull_000012.vtp").GetCellData()
+    load = hull.GetArray("ice force, averaged [N]").GetTuple3(0)
+    for value, axis in zip(load, "xyz"):
+        close(value, rows[-1][f"ice_force_averaged_{axis}[N]"], 1e-6 * math.hypot(*load))
+    assert hull.GetArray("vessel").GetValue(0) == 1
     pull = sum(forces.GetArray("force [N]").GetTuple3(i)[0] for i in lines)
     close(pull, rows[-1]["mooring_force_x[N]"], 3000)
     before = sorted(p.name for p in (run / "vtk").rglob("*"))
@@ -114,6 +128,85 @@ def check_restart(folder, straight):
         assert (half / "run.nc").stat().st_size > 0
 
 
+def prisms(path):
+    """By number of the floe: its fields, and the corners of top and bottom."""
+    import numpy
+    from vtkmodules.vtkCommonCore import vtkIdList
+    floes, found, ids = read_vtp(path), {}, vtkIdList()
+    fields = [floes.GetCellData().GetArray(i) for i in range(floes.GetCellData().GetNumberOfArrays())]
+    for cell in range(floes.GetNumberOfCells()):
+        told = {a.GetName(): a.GetTuple(cell) for a in fields}
+        floes.GetCellPoints(cell, ids)
+        rings = found.setdefault(int(told["floe"][0]), (told, []))[1]
+        if len(rings) < 2:  # then come the sides
+            rings.append(numpy.array([floes.GetPoint(ids.GetId(i)) for i in range(ids.GetNumberOfIds())]))
+    return found
+
+
+def centre_of(ring):
+    """Of a flat ring: triangles of a fan, weighed by their areas."""
+    import numpy
+    arms = ring[1:] - ring[0]
+    areas = numpy.cross(arms[:-1], arms[1:])[:, 2]
+    return ring[0] + areas @ (arms[:-1] + arms[1:]) / 3 / areas.sum()
+
+
+def rotation(angles):
+    """Of axes that are rolled, then pitched, then turned, all in degrees."""
+    import numpy
+    (ch, sh), (cr, sr), (cp, sp) = ((math.cos(math.radians(a)), math.sin(math.radians(a))) for a in angles)
+    return numpy.array([[ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr],
+                        [sh * cp, sh * sp * sr + ch * cr, sh * sp * cr - ch * sr], [-sp, cp * sr, cp * cr]])
+
+
+def check_floes(data, run):
+    """Every column of the floes in run.nc by the prisms of the VTK files, whose corners know of no angles."""
+    begin, now = (prisms(run / "vtk" / "data" / f"floes_{frame:06d}.vtp") for frame in (0, 11))
+    angles = [[data[f"floe_{name}"].values[frame] for name in ("heading", "roll", "pitch")] for frame in (0, 11)]
+    at = {n: v.values[11] if v.ndim == 2 else v.values for n, v in data.items()}
+    time, tilted = data["frame"].values[11], 0
+    assert {n for n, v in enumerate(data["floe"].values) if math.isfinite(at["floe_x"][n])} == \
+        {n for n, v in enumerate(data["floe"].values) if int(v) in now}
+    for k, (told, (top, bottom)) in ((list(data["floe"].values).index(n), f) for n, f in now.items()):
+        centre, up = (centre_of(top) + centre_of(bottom)) / 2, centre_of(top) - centre_of(bottom)
+        for name, value in (("velocity_x", told["velocity [m/s]"][0]), ("velocity_y", told["velocity [m/s]"][1]),
+                            ("contact_force", told["contact force [N]"][0]), ("area", told["area [m2]"][0]),
+                            ("thickness", told["thickness [m]"][0]), ("mass", told["mass [kg]"][0]),
+                            ("birth", time - told["age [s]"][0]), ("parent", told["parent"][0])):
+            close(at[f"floe_{name}"][k], value, 1e-6 * max(1, abs(value)))
+        for axis, value in zip("xyz", centre):
+            close(at[f"floe_{axis}"][k], value, 1e-3)
+        turn = rotation([a[k] for a in angles[1]])
+        assert abs(turn[:, 2] * told["thickness [m]"][0] - up).max() < 1e-3, (k, turn, up)
+        tilted += abs(at["floe_roll"][k]) > 2 and abs(at["floe_pitch"][k]) > 2
+        if int(told["floe"][0]) in begin:
+            before = begin[int(told["floe"][0])][1][0]
+            edge = turn @ rotation([a[k] for a in angles[0]]).T @ (before[1] - before[0])
+            assert abs(edge - (top[1] - top[0])).max() < 5e-3, (k, edge)
+    assert tilted > 0, "no floe is rolled and pitched"
+
+
+def check_properties(data, run):
+    """What a feature of the GeoJSON file tells is what run.nc tells at that frame."""
+    import numpy
+    fram("export", run, "--geojson", "--time", 5.5, "-q")
+    row, broken = {int(n): k for k, n in enumerate(data["floe"].values)}, 0
+    for feature in json.loads((run / "field-5.5.geojson").read_text())["features"]:
+        told, (ring, *_) = feature["properties"], feature["geometry"]["coordinates"]
+        if told["kind"] != "floe":
+            continue
+        at = data.isel(frame=11, floe=row[told["floe"]])
+        for name in ("thickness", "area", "velocity_x", "velocity_y", "contact_force"):
+            close(told[name], float(at[f"floe_{name}"]), 1e-6 * max(1, abs(told[name])))
+        close(told["age"], 5.5 - float(at["floe_birth"]), 1e-9)
+        assert (told.get("parent") or -1) == int(at["floe_parent"]), told
+        broken += int(at["floe_parent"]) >= 0
+        centre = centre_of(numpy.array([[*p, 0] for p in ring[:-1]]))
+        for axis, value in zip("xy", centre):
+            close(float(at[f"floe_{axis}"]), value, 0.1)  # a tilted floe is seen from above
+    assert broken > 0, "no piece of a floe"
+
+
 def check_netcdf(run, rows):
     done = []
     fram("export", run, "--netcdf", "-q")
@@ -122,15 +215,22 @@ def check_netcdf(run, rows):
         with xarray.open_dataset(run / "run.nc") as data:
             assert data.sizes["time"] == len(rows) and data.sizes["frame"] == 13
             assert data["ice_force_x"].attrs["units"] == "N"
-            for name in ("position_x", "mooring_force_y", "kinetic_energy"):
-                unit = data[name].attrs["units"]
-                assert data[name].values[-1] == rows[-1][f"{name}[{unit}]"], name
+            breaks = rows_of(run / "fractures.csv")
+            assert breaks and data.sizes["fracture"] == len(breaks)
+            for table, prefix in ((rows, ""), (breaks, "fracture_")):
+                for head in table[0]:
+                    name, unit = head[:-1].split("[")
+                    column = data[prefix + name]
+                    assert column.attrs["units"] == unit and list(column.values) == [r[head] for r in table], head
             late = data["position_x"].sel(time=4.0, method="nearest")
             close(float(late), rows[199]["position_x[m]"], 0)
             assert int(data["floe_x"].isel(frame=-1).notnull().sum()) == rows[-1]["floes[1]"]
             speed = data["floe_velocity_x"].isel(frame=5, floe=0) * 0.5
             way = data["floe_x"].isel(floe=0)
             close(float(speed), float(way[6] - way[5]), 1e-4)
+            if have("vtkmodules"):
+                check_floes(data, run)
+            check_properties(data, run)
         done.append("xarray")
     if have("h5py"):
         import h5py
@@ -155,7 +255,8 @@ def check_geojson(run, rows):
     field = json.loads((run / "field-5.9.geojson").read_text())
     close(field["time"], 5.9, 1e-9)
     kinds = [f["properties"]["kind"] for f in field["features"]]
-    assert kinds.count("vessel") == 1 and abs(kinds.count("floe") - rows[-6]["floes[1]"]) <= 2
+    before = rows[-26]  # of the frame at 5.5 s: what breaks after it is whole until the next one
+    assert kinds.count("vessel") == 1 and abs(kinds.count("floe") - before["floes[1]"]) <= 2
     vessel = field["features"][kinds.index("vessel")]["geometry"]["coordinates"][0]
     xs = [p[0] for p in vessel]
     assert vessel[0] == vessel[-1] and 47 < max(xs) - min(xs) < 56
@@ -175,8 +276,7 @@ def main():
         run = pathlib.Path(folder) / "run"
         (pathlib.Path(folder) / "scene.yaml").write_text(SCENE)
         fram("run", pathlib.Path(folder) / "scene.yaml", "-o", run, "-q")
-        head, *lines = (run / "series.csv").read_text().splitlines()
-        rows = [dict(zip(head.split(","), map(float, line.split(",")))) for line in lines]
+        rows = rows_of(run / "series.csv")
         assert all(math.isfinite(v) for row in rows for v in row.values())
         done = [check_geojson(run, rows)]
         if have("vtkmodules"):
