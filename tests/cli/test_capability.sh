@@ -23,10 +23,19 @@ rows = list(csv.DictReader(open(a + "/capability.csv")))
 use = list(csv.DictReader(open(a + "/capability_use.csv")))
 assert j["ice_load"] == "formula" and len(j["directions"]) == len(rows) == 12 and len(use) == 60, "counts"
 for d, r in zip(j["directions"], rows):
-    assert d["intact"]["speed"] == float(r["speed_intact[m/s]"]), "speed"
+    assert d["from_bow_clockwise_deg"] == float(r["from_bow_clockwise[deg]"]), "direction"
+    for limit, speed, by in (("intact", "speed_intact[m/s]", "limited_by"),
+                             ("after_worst_failure", "speed_after_failure[m/s]", "then_limited_by")):
+        assert d[limit]["speed"] == float(r[speed]) and d[limit]["limited_by"] == r[by], (limit, r)
+    assert d["after_worst_failure"]["failure"] == r["failure"] and r["failure"].startswith("thruster "), r
     assert d["after_worst_failure"]["speed"] <= d["intact"]["speed"] + 1e-9, "a failure makes nothing better"
+    assert d["use"] == [float(u["use[1]"]) for u in use if u["from_bow_clockwise[deg]"] == r["from_bow_clockwise[deg]"]]
     assert len(d["use"]) == 5, "use"
-assert rows[0]["speed_intact[m/s]"] > rows[3]["speed_intact[m/s]"], "the bow holds more than the side"
+head = {"measuring_time_s": 120, "wind_speed_m_s": 0, "ice_thickness_m": 0.7, "ice_concentration": 0.7,
+        "allowance": 1.25, "line_safety_intact": 2, "line_safety_after_failure": 1.43, "speed_step_m_s": 0.2,
+        "speed_most_m_s": 1}
+assert {name: j[name] for name in head} == head, j
+assert float(rows[0]["speed_intact[m/s]"]) > float(rows[3]["speed_intact[m/s]"]), "the bow holds more than the side"
 END
 case $("$FRAM" --version) in
 *cairo*) for name in capability.png capability.svg; do

@@ -219,6 +219,72 @@ START_TEST(balances_are_those_of_a_run)
 }
 END_TEST
 
+/* Each column of capability_use.csv holds what its head says, in every cell. */
+START_TEST(use_as_it_is_written)
+{
+    static const char *const iced[] = {"ice.source=voronoi", "ice.thickness=0.5", "environment.wind_speed=15",
+                                       "environment.hull_drag.air_form=1", "vessel.centre_of_gravity_x=3"};
+    static const char thrusters[] = "  thrusters: [{x: 20, thrust: 4.0e4}, {x: -20, thrust: 5.0e4}]\n  mooring:";
+    char text[sizeof sprung + sizeof thrusters], folder[] = "/tmp/fram-capability-XXXXXX", path[PATH_ROOM];
+    const char *mooring = strstr(sprung, "  mooring:");
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(mooring - sprung), sprung, thrusters, strchr(mooring, ':') + 1);
+    scene k;
+    capability c;
+    csv_table t;
+    fram_error error = {0};
+    scene_open_with(&k, text, iced, sizeof iced / sizeof *iced);
+    capability_options o = plain;
+    o.formula = o.force = true;
+    o.folder = mkdtemp(folder);
+    assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
+    assert_ok(capability_write(&k.ctx, &k.s, &o, path, &error), error);
+    assert_ok(path_join(folder, "capability_use.csv", path, &error), error);
+    assert_ok(csv_table_read(&k.ctx, path, &t, &error), error);
+    ck_assert_int_eq(t.columns.count, 13);
+    ck_assert_int_eq(t.rows, c.loads.directions * c.loads.speeds);
+    bool differ = false;
+    for (int32_t i = 0; i < t.rows; i++) {
+        const holding *h = &c.use[i];
+        double from = 45 * (i / c.loads.speeds), speed = 0.25 * (1 + i % c.loads.speeds);
+        vec3 ice = c.loads.ice[i], load = capability_load_at(&c, radians(from), speed);
+        const struct {
+            const char *name, *unit;
+            double value;
+        } cell[] = {{"from_bow_clockwise", "deg", from},
+                    {"speed", "m/s", speed},
+                    {"use", "1", h->use},
+                    {"thruster_use", "1", h->thruster_use},
+                    {"line_use", "1", h->line_use},
+                    {"offset", "m", h->offset},
+                    {"turn", "deg", degrees(h->turn)},
+                    {"ice_surge", "N", ice.x},
+                    {"ice_sway", "N", ice.y},
+                    {"ice_yaw", "N m", ice.z},
+                    {"load_surge", "N", load.x},
+                    {"load_sway", "N", load.y},
+                    {"load_yaw", "N m", load.z}};
+        for (size_t n = 0; n < sizeof cell / sizeof *cell; n++) {
+            const csv_table_column *column = csv_table_find(&t, cell[n].name);
+            ck_assert_msg(column && strcmp(column->unit, cell[n].unit) == 0, "%s[%s]", cell[n].name, cell[n].unit);
+            ck_assert_msg(column->value.data[i] == cell[n].value, "%s of row %d is %.9g, not %.9g", cell[n].name,
+                          (int)i, column->value.data[i], cell[n].value);
+        }
+        differ = differ || (h->use != h->thruster_use && h->thruster_use > 0 && h->line_use > 0 && ice.z != 0);
+    }
+    ck_assert(differ);
+    csv_table_free(&k.ctx, &t);
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+    static const char *const files[] = {"capability.csv", "capability_use.csv", "capability.json", "capability.png",
+                                        "capability.svg"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        assert_ok(path_join(folder, files[i], path, &error), error);
+        unlink(path);
+    }
+    ck_assert_int_eq(rmdir(folder), 0);
+}
+END_TEST
+
 START_TEST(broken_ice_by_formula)
 {
     /* B 18, h 1, S .8, v 1.5, rho 910: 379.8 kN (docs/oracles.md, section 8). */
@@ -482,5 +548,5 @@ END_TEST
 
 TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
           out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run,
-          broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met, refusals,
-          a_stop_flag_is_seen)
+          use_as_it_is_written, broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met,
+          refusals, a_stop_flag_is_seen)
