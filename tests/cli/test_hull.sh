@@ -26,6 +26,32 @@ says "closed, 12 triangles, 8 vertices" out
 says "C35 0 N" out
 ! grep -q warning err || fail "a box of 40 m is warned of: $(cat err)"
 
+# Off its centre it lies down by the bow and to port, and the report tells the numbers of the JSON, each in its place.
+off=(box.stl --mass 1025e3 --kg 1 --lcg 0.5 --tcg 0.1)
+expect 0 "$FRAM" hull "${off[@]}"
+cp out report
+expect 0 "$FRAM" hull "${off[@]}" --json
+python3 - <<'END' || fail "the report of a box off its centre"
+import json, math, re
+j = json.load(open("out"))
+words = """level heel_deg trim_deg | volume displacement_t | enclosed_volume | draught draught_fore draught_aft |
+length_waterline breadth_waterline | length_overall breadth_overall depth | centre_of_buoyancy kb |
+centre_of_flotation | centre_of_mass kg | waterplane_area wetted_area | second_moment_transverse
+second_moment_longitudinal | bm_transverse gm_transverse | bm_longitudinal gm_longitudinal | c33 c35 | c44 c55 |
+block_coefficient waterplane_coefficient midship_coefficient prismatic_coefficient"""
+lines = open("report").read().split("\nFloating ")[1].splitlines()
+for names, line in zip(words.split("|"), lines):
+    told = [float(x) for x in re.findall(r"(?<![a-zA-Z0-9.])-?[0-9][0-9.]*(?:e[+-][0-9]+)?", line)]
+    wanted = [j[next(k for k in j if re.fullmatch(f"{name}(_m[234]?|_N.*)?", k))] for name in names.split()]
+    wanted = [x for value in wanted for x in (value if isinstance(value, list) else [value])]
+    if "centre_of_flotation" in names:
+        del wanted[2]  # it lies in the waterline
+    assert len(told) == len(wanted), (line, told, wanted)
+    assert all(abs(a - b) < 1e-4 * max(1, abs(b)) for a, b in zip(told, wanted)), (line, told, wanted)
+assert abs(j["draught_fore_m"] - j["draught_aft_m"] - 40 * math.tan(math.radians(j["trim_deg"]))) < 1e-3
+assert j["trim_deg"] > 0.5 and j["heel_deg"] < -1, j
+END
+
 # A ship of kilometres is one in millimetres; a model of a basin is small, and right.
 sed 's/^v \(.*\) \(.*\) \(.*\)/v \1e3 \2e3 \3e3/' >long.obj <<'END'
 v -20 -5 -3
