@@ -350,6 +350,9 @@ class Package(unittest.TestCase):
         other.step()
         gain = world.view().velocity[body[0], 0] - other.view().velocity[body[0], 0]
         self.assertAlmostEqual(gain / (2e6 * 0.02 / floes.mass[free]), 1, delta=0.1)
+        turn = world.view().angular_velocity[body[0]] - other.view().angular_velocity[body[0]]
+        inertia = floes.mass[free] * (40 ** 2 + 20 ** 2) / 12  # of a floe of 40 m by 20 m
+        self.assertAlmostEqual(turn[2] / (1e5 * 0.02 / inertia), 1, delta=0.3)
         with self.assertRaises(fram.UsageError):
             world.apply_wrench((body[0], 99), (1, 0, 0))
 
@@ -426,6 +429,13 @@ ice: {source: none}
         floes = mine.floes(1.0)
         self.assertGreaterEqual(len(floes), 3)
         self.assertEqual(floes[0].outline.shape[1], 2)
+        # Rings are not closed, as those of a world, and as large as the record says.
+        for floe in floes:
+            x, y = floe.outline.T
+            self.assertFalse(np.array_equal(floe.outline[0], floe.outline[-1]))
+            if floe.properties["kind"] == "floe":
+                area = 0.5 * (np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+                self.assertAlmostEqual(area / floe.properties["area"], 1, delta=0.01)
         with self.assertRaises(fram.InputError):
             mine.floes(99)
         self.assertTrue(os.path.exists(mine.report()))
@@ -478,17 +488,22 @@ ice: {source: none}
 
     def test_optional_libraries(self):
         run = towed().run(self.folder / "run")
+        columns = run.columns()
         try:
             import xarray  # noqa: F401
             data = run.to_xarray()
             self.assertEqual(data["ice_force_x"].attrs["units"], "N")
-            self.assertEqual(data.sizes["time"], 100)
+            np.testing.assert_array_equal(data["time"], columns["time"])
+            np.testing.assert_array_equal(data["ice_force_x"], columns["ice_force_x"])
         except ImportError:
             print("without xarray")
         try:
             import matplotlib  # noqa: F401
             self.assertEqual(len(run.plot(["ice_force_x", "ice_force_y"]).get_lines()), 2)
-            self.assertEqual(len(run.plot("yaw").get_lines()), 1)
+            for line, name in zip(run.plot(["yaw", "position_x"]).get_lines(), ("yaw", "position_x")):
+                drawn = np.transpose([columns["time"], columns[name]])
+                np.testing.assert_array_equal(line.get_xydata(), drawn)
+                self.assertEqual(line.get_label(), f"{name} [{run.units[name]}]")
             with self.assertRaises(fram.InputError):
                 run.plot("no_such")
             self.assertEqual(len(run.plot_field(0.5).collections), 1)
@@ -660,6 +675,26 @@ ice: {source: none}
         self.assertIn(box.sample(), box)
         self.assertNotIn([2, 0], box)
         self.assertIn("Box", repr(box))
+
+    def test_actions_are_parts_of_what_thrusters_can_do(self):
+        """-1 and 1 are the ends of each order, 0 lies between them; what is told back is the world's."""
+        text = FREE.replace("rudder_deg: 25}", "rudder_deg: 25, thrust_astern: 4.0e4}")
+        environment = fram.StationKeeping(fram.Scenario.from_text(text), interval=0.19)
+        self.assertEqual(environment.interval, 0.2)
+        ends = {"thruster_1_order": (0, 1e5), "thruster_1_order_angle": (-179.999, 179.999),
+                "thruster_2_order": (-4e4, 1e5), "thruster_2_order_angle": (-25, 25)}
+        for action in (-1, 1, 0.5, 0, 7):
+            environment.reset()
+            observed, reward, _, _, told = environment.step(np.full(len(environment.actions), float(action)))
+            world, part = environment.world, (min(action, 1) + 1) / 2
+            for name, (low, high) in ends.items():
+                self.assertAlmostEqual(world[name], low + part * (high - low), delta=1e-9 * high, msg=name)
+            np.testing.assert_array_equal(observed, [world[name] for name in environment.observations])
+            self.assertEqual((told["time"], world.steps), (world.time, 4))
+        self.assertEqual(environment.observations[:3], ("offset_x", "offset_y", "heading_deviation"))
+        x, y, turn = observed[:3]
+        self.assertTrue(x != 0 and y != 0 and turn != 0)
+        self.assertEqual(reward, -((x ** 2 + y ** 2) ** 0.5 + 0.1 * abs(turn)))
 
     def test_words(self):
         self.assertRegex(fram.version(), r"^\d+\.\d+\.\d+$")
