@@ -21,8 +21,9 @@ STAMPS = build/stamps
 # Every target with a line of help is a command, not a file.
 .PHONY: $(shell awk -F ':.*## ' '/^[a-z-]+:.*## / { print $$1 }' Makefile)
 
+# What `make install` installs, all of it: fram_fmu is what `fram fmu` puts into a unit.
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
-	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
+	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static fram_fmu
 
 build/%/build.ninja: CMakePresets.json | $(STAMPS)/core
 	@cmake --preset $* --log-level=WARNING

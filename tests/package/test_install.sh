@@ -9,6 +9,15 @@ fail() {
     exit 1
 }
 
+echo "make builds what make install installs"
+built=$(cd "$FRAM_SOURCE" && make -n build | sed -n 's/.*--preset release .*--target//p')
+for target in $(sed -n 's/^ *install(TARGETS \([a-z_]*\).*/\1/p' "$FRAM_SOURCE/CMakeLists.txt"); do
+    case " $built " in
+    *" $target "*) ;;
+    *) fail "make install needs $target, which make does not build" ;;
+    esac
+done
+
 version=$(sed -n 's/.*FRAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)/\2/p' "$FRAM_SOURCE/include/fram/version.h" |
     paste -sd.)
 prefix=$scratch/prefix
