@@ -170,7 +170,8 @@ slurm-thousand: build | $(STAMPS)/slurm ## the same with 1,002 runs (SLURM_SEEDS
 slurm-overhead: build | $(STAMPS)/slurm ## what scheduling by Slurm costs a study, of 20 tasks of 12 s (10 minutes)
 	@$(PYTHON) bench/slurm_overhead.py
 
-extremes-coverage: build ## how often intervals of extremes hold the truth: 1,000 trials of each sample (15 minutes)
+extremes-coverage: build/release/build.ninja ## how often intervals of extremes hold the truth: 1,000 trials of each sample (15 minutes)
+	@cmake --build --preset release -j$(JOBS) --target test_study_extremes_coverage test_study_annual_coverage
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_extremes_coverage
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_annual_coverage
 

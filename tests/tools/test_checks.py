@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -221,6 +222,17 @@ class House(unittest.TestCase):
         text = "double f(double a, double b, double c) { return a * b + c; }\n"
         self.assertIn("fused", self.objects(text, "-mfma", "-ffp-contract=fast"))
         self.assertEqual(self.objects(text, "-mfma", "-ffp-contract=off"), "")
+
+
+class Commands(unittest.TestCase):
+    def test_programs_that_make_runs_are_built_by_it(self):
+        ran = 0
+        for rule in re.split(r"\n(?=[a-z-]+:)", (TOOLS.parent / "Makefile").read_text()):
+            built = " ".join(re.findall(r"--target ((?:.*\\\n)*.*)", rule)).split()
+            for program in re.findall(r"\btests/(test_\w+)", rule):
+                self.assertIn(program, built, f"make {rule.split(':')[0]}")
+                ran += 1
+        self.assertGreater(ran, 4)
 
 
 if __name__ == "__main__":
