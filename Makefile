@@ -51,7 +51,7 @@ pictures: viewer build | $(STAMPS)/views ## screenshots of all pages at two widt
 scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/
 	@tools/scenes.sh
 
-management: build ## run the ready scenes of ice management to their end, with a page of each: half an hour of two cores
+management: build ## run the ready scenes of ice management to their end, with a page of each: most of an hour of two cores
 	@tools/management.sh
 
 readme-picture: viewer build | $(STAMPS)/views ## the moving picture of the README, docs/pictures/demo.webp (a minute)
