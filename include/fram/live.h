@@ -14,7 +14,10 @@
    Memory.  Arrays that a call fills belong to the caller and need no alignment beyond that of their type; a count that
    is larger than the room says that the rest was left out.  Pointers of a view (fram_world_view) belong to the world.
    Callbacks but `memory` are called from the thread that called the library, never from one of its own, and during that
-   call alone; their user pointer is handed back as it is.  They must not call functions on the same world or context.
+   call alone; their user pointer is handed back as it is.  They must not call functions on the same world or context,
+   and return: a C++ exception or longjmp that leaves one leaves the call half done, with its memory, a world that
+   counts as busy and a run folder that is locked for good.  Set a stop flag, and raise what happened when the call has
+   returned.
 
    Threads.  One world from one thread at a time.  A call on a world while another one changes it (steps, loads, tells
    or records it), on another thread or from a callback of it, is refused where it is seen: FRAM_ERROR_USAGE with key
