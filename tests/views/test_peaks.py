@@ -144,6 +144,20 @@ def check_odd_clicks(browser):
     assert browser.run("document.getElementById('peak').hidden && fram.peaks.peak === null && !fram.peakShown")
 
 
+def check_finger(browser):
+    """The timeline is dragged with a finger; the browser scrolls and goes nowhere for that."""
+    left, top, width, height = browser.box("timeline")
+    browser.run("fram.seek(0)")
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+    for k in range(11):
+        at = {"x": left + width * (0.1 + 0.07 * k), "y": top + height / 2}
+        browser.call("Input.dispatchTouchEvent", type="touchMove" if k else "touchStart", touchPoints=[at])
+    browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+    time = browser.run("fram.time / fram.timeline.span")
+    assert abs(time - 0.8) < 0.01, f"a finger leads to {time} of the timeline, not 0.8"
+
+
 def check_pressure(browser, run):
     folder = run.parent / "pressure"
     fram("pressure", run, "-o", folder, "--panel", "3", "--quiet")
@@ -297,6 +311,7 @@ def main():
         check_curve(browser, rows)
         check_click(browser, run)
         check_odd_clicks(browser)
+        check_finger(browser)
         pressure = check_pressure(browser, run)
         check_two(browser, folder, pressure)
         check_few_rows(browser, folder)

@@ -273,7 +273,7 @@ function readForces(c) {
         { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
 }
 
-/** Of all frames that are in the page: contact forces of floes [kN] and forces on vessels [N], as many as there are, and
+/** Of all frames that are in the page: contact forces of floes [kN] and forces on vessels [N], one by one, and
  *  the kinds of the latter. Reads past the poses. */
 export function forcesOf(record) {
     const { bodies, frames } = record, contacts = [], pulls = [], kinds = new Set();
