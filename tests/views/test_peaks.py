@@ -144,6 +144,22 @@ def check_odd_clicks(browser):
     assert browser.run("document.getElementById('peak').hidden && fram.peaks.peak === null && !fram.peakShown")
 
 
+def check_keys(browser):
+    """Without a mouse: the button that has the focus keeps it, Escape closes and leads back to the timeline."""
+    def press(code, text=""):
+        browser.call("Input.dispatchKeyEvent", type="keyDown", code=code, key=code, text=text,
+                     windowsVirtualKeyCode={"Enter": 13, "Escape": 27}[code])
+        browser.call("Input.dispatchKeyEvent", type="keyUp", code=code, key=code)
+    browser.run("(fram.peaks.open(fram.peaks.vessel.peaks[0]), document.getElementById('smaller').focus())")
+    for rank in (2, 1):  # there are two, and after the last comes the first
+        press("Enter", "\r")
+        told = browser.run("[fram.peaks.peak.rank, document.activeElement.id]")
+        assert told == [rank, "smaller"], f"after Enter on the button for smaller peaks: {told}"
+    press("Escape")
+    told = browser.run("[fram.peaks.peak, document.getElementById('peak').hidden, document.activeElement.id]")
+    assert told == [None, True, "timeline"], told
+
+
 def check_finger(browser):
     """The timeline is dragged with a finger; the browser scrolls and goes nowhere for that."""
     left, top, width, height = browser.box("timeline")
@@ -311,6 +327,7 @@ def main():
         check_curve(browser, rows)
         check_click(browser, run)
         check_odd_clicks(browser)
+        check_keys(browser)
         check_finger(browser)
         pressure = check_pressure(browser, run)
         check_two(browser, folder, pressure)

@@ -191,6 +191,7 @@ class Player {
         else if (e.code === 'Home') this.seek(frames[0].time);
         else if (e.code === 'End') this.seek(this.end);
         else if (e.code === 'Enter' && target === $('timeline')) this.timeline.openNearest(this.time);
+        else if (e.code === 'Escape') { this.peaks?.close(); this.pick(null); }
         else return;
         e.preventDefault();
     }

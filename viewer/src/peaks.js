@@ -34,6 +34,7 @@ export class PeakPanel {
     }
 
     close() {
+        if (this.focused) document.getElementById('timeline').focus();
         this.peak = null;
         this.panel.hidden = true;
         this.change();
@@ -47,8 +48,11 @@ export class PeakPanel {
         this.open(peaks[(at + by + peaks.length) % peaks.length]);
     }
 
+    /** The button of the panel that has the focus: it is made anew with the panel, and those without a mouse go on. */
+    get focused() { return this.panel.contains(document.activeElement) ? document.activeElement.id : ''; }
+
     tell() {
-        const { peak, loads, panel } = this, { detail } = peak;
+        const { peak, loads, panel, focused } = this, { detail } = peak;
         const order = loads.names.map((name, m) => [name, m, detail.mechanisms[name] / peak.load])
             .filter(([, , part]) => Math.abs(part) >= SHARED).sort((a, b) => b[2] - a[2]);
         panel.replaceChildren();
@@ -77,6 +81,7 @@ export class PeakPanel {
         if (chain) add('p', chain);
         if (absent) add('p', absent);
         panel.hidden = false;
+        if (focused) document.getElementById(focused).focus();
     }
 
     /** Floes that are not in the frame before the peak: born of a break after it. */
