@@ -174,6 +174,22 @@ def check_finger(browser):
     assert abs(time - 0.8) < 0.01, f"a finger leads to {time} of the timeline, not 0.8"
 
 
+def check_low(browser, run):
+    """A page seen at twice its size, a phone on its side and upright: the panel is clear of buttons and legend."""
+    for width, height in ((640, 400), (844, 390), (420, 720)):
+        browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                     mobile=False)
+        browser.open(run / "playback.html")
+        browser.run("(fram.peaks.open(fram.peaks.vessel.peaks[0]), fram.draw())")
+        clear = browser.run("""(() => {
+            const box = (q) => document.querySelector(q).getBoundingClientRect();
+            const panel = box('#peak'), legend = box('#legend'), foot = box('footer').top, gone = box('#letgo');
+            const apart = panel.right <= legend.left || panel.top >= legend.bottom;
+            return [panel.bottom <= foot, legend.bottom <= foot, apart, gone.bottom <= panel.bottom]; })()""")
+        assert clear == [True] * 4, f"at {width} x {height} pixels: panel, legend, apart, button to close: {clear}"
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
 def check_pressure(browser, run):
     folder = run.parent / "pressure"
     fram("pressure", run, "-o", folder, "--panel", "3", "--quiet")
@@ -333,6 +349,7 @@ def main():
         check_two(browser, folder, pressure)
         check_few_rows(browser, folder)
         check_narrow(browser, run)
+        check_low(browser, run)
         check_no_ice(browser, folder)
         check_earlier_layout(run)
         assert not browser.complaints, browser.complaints

@@ -15,6 +15,7 @@ import { Timeline } from './timeline.js';
 const $ = (id) => document.getElementById(id);
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 60];
 const MARKED = 10; // seconds that a fracture stays marked
+const GAP = 12, LEAST_PANEL = 150; // from the legend to the panel of a peak under it, and what that asks for [px]
 const COLOURS = {
     plain: { unit: null },
     speed: { unit: 'speed [m/s]' },
@@ -337,7 +338,7 @@ class Player {
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
             vessels: this.record.bodies.filter((b) => b.material === 'hull').length,
         });
-        $('peak').style.top = `${this.legend.height + 24}px`;
+        this.placePeak();
         this.dirty = true;
     }
 
@@ -432,8 +433,19 @@ class Player {
     resize() {
         const { width, height } = this.room();
         this.scene.resize(width, height);
-        $('peak').style.maxHeight = `${Math.max(60, height - this.legend.height - 56)}px`;
+        this.placePeak();
         this.dirty = true;
+    }
+
+    /** What a peak tells stands under the legend, in a low window beside it, and never under the buttons. */
+    placePeak() {
+        const legend = $('legend'), { style } = $('peak'), { height } = this.room();
+        const foot = legend.offsetTop + new DOMMatrix(getComputedStyle(legend).transform).a * this.legend.height;
+        const under = height - foot - GAP >= LEAST_PANEL, top = under ? foot + GAP : 8;
+        style.top = `${top}px`;
+        style.left = under ? '' : '8px';
+        style.right = under ? '' : 'auto';
+        style.maxHeight = `${height - top - 8}px`;
     }
 
     tick(now) {
