@@ -150,6 +150,8 @@ def check(name, run, pictures):
     zones = [number(rows[z][0]) for z in ZONES]
     check_shares(series, TRANSIENT[name], zones, [f"ice_force_{z}" for z in ZONES])
     assert abs(sum(zones) - 100) < 0.1 and zones[0] > 10, zones
+    check_channels(series, TRANSIENT[name], rows, {**ROWS, **(MOORED_ROWS if name == "feeding" else TOWED_ROWS)}, page)
+    check_breaks(run, rows, page)
     check_heads(page)
     assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
     if name == "level":
@@ -168,6 +170,50 @@ def check(name, run, pictures):
     for row in ("Fram", "scenario", "state at the end"):
         assert row in rows, (name, row)
     return number(rows["of the mass at the start"][0])
+
+
+ROWS = {"averaged, along X": "ice_force_averaged_x", "averaged, along Y": "ice_force_averaged_y",
+        "each step, along the vessel": "ice_force_body_x", "each step, across the vessel": "ice_force_body_y",
+        "each step, upwards": "ice_force_body_z", "bow, along X": "ice_force_bow_x",
+        "shoulder, along X": "ice_force_shoulder_x", "midbody, along X": "ice_force_midbody_x",
+        "stern, along X": "ice_force_stern_x", "bottom, along X": "ice_force_bottom_x",
+        "crushing, along X": "ice_force_capped_x", "below the limit, along X": "ice_force_below_cap_x",
+        "friction, along X": "ice_force_friction_x"}
+TOWED_ROWS = {"towing carriage, along X": "tow_force_x"}
+MOORED_ROWS = {"along X [m]": "offset_x", "along Y [m]": "offset_y", "heading [deg]": "heading_deviation",
+               "mooring, along X": "mooring_force_x", "mooring, along Y": "mooring_force_y",
+               "largest line tension": "line_tension_max",
+               **{f"tension of line {i}": f"line_{i}_tension" for i in range(1, 5)}}
+
+
+def check_channels(series, transient, rows, names, page):
+    """Mean, deviation, least and greatest of each row are those of the channel that its name tells."""
+    factor = {"MN": 1e-6, "kN": 1e-3, "N": 1}
+    loads, lines = (re.search(head + r" \[(.*?)\]", page) for head in ("load on the vessel", "lines and thrusters"))
+    for name, channel in names.items():
+        (head,) = [h for h in series[0] if h.startswith(channel + "[")]
+        unit = lines if re.search("mooring,|line", name) else loads
+        scale = factor[unit[1]] if head.endswith("[N]") else 1
+        values = [float(row[head]) * scale for row in series if float(row["time[s]"]) >= transient]
+        mean = sum(values) / len(values)
+        wanted = [mean, (sum((v - mean) ** 2 for v in values) / len(values)) ** 0.5, min(values), max(values)]
+        size = max(map(abs, wanted))
+        for told, value in zip(rows[name], wanted):
+            assert abs(number(told) - value) <= 5e-3 * size, (name, rows[name], wanted)
+
+
+def check_breaks(run, rows, page):
+    """The first of each kind, in the table as in fractures.csv."""
+    scale = {"MN": 1e-6, "kN": 1e-3, "N": 1}[re.search(r"load \[(\w+)\]</th>", page)[1]]
+    with open(run / "fractures.csv", newline="") as file:
+        events = list(csv.DictReader(file))[:25]
+    for kind, name in (("1", "split"), ("2", "bending")):
+        first = next((e for e in events if e["kind[1]"] == kind), None)
+        assert (name in rows) == (first is not None), name
+        for head, told in zip(("time[s]", "floe[1]", "place_x[m]", "place_y[m]", "load[N]", "crack_length[m]",
+                               "floe_area[m2]", "pieces[1]"), rows[name] if first else ()):
+            value = float(first[head]) * (scale if head == "load[N]" else 1)
+            assert abs(number(told) - value) <= 1e-3 * abs(value) + 1e-6, (name, head, told, value)
 
 
 def check_shares(series, transient, told, parts):
