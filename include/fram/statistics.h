@@ -58,7 +58,8 @@ typedef struct fram_level {
 } fram_level;
 
 typedef struct fram_threshold_fit {
-    double threshold, shape, shape_half, scale_star; /* scale_star: scale - shape x threshold */
+    /* shape_half: half the 95 % interval of the shape, at any confidence; scale_star: scale - shape x threshold */
+    double threshold, shape, shape_half, scale_star;
     int peaks;
 } fram_threshold_fit;
 

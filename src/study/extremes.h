@@ -52,7 +52,8 @@ typedef struct extreme_request {
 } extreme_request;
 void extreme_request_default(extreme_request *r);
 
-/* Threshold stability (Coles 2001, 4.3.1): shape and scale - shape x threshold do not change where the law holds. */
+/* Threshold stability (Coles 2001, 4.3.1): shape and scale - shape x threshold do not change where the law holds.
+   shape_half: half the 95 % interval of the shape, whatever the confidence of the levels. */
 typedef struct threshold_row {
     double threshold, shape, shape_half, scale_star;
     int32_t peaks;

@@ -39,6 +39,21 @@ class StudyTest(unittest.TestCase):
         with open(self.at / folder / name, newline="") as file:
             return list(csv.DictReader(file))
 
+    def check_means(self, folder):
+        """Each figure of conditions.csv is the mean of that figure of the condition's runs; returns their heads."""
+        runs, seen = self.rows(folder), set()
+        for row in self.rows(folder, "conditions.csv"):
+            of = [r for r in runs if r["condition"] == row["condition"]]
+            for head in (h for h in row if "[" in h and "_half[" not in h):
+                values = [float(r[head]) for r in of if r[head]]
+                if values:
+                    mean = sum(values) / len(values)
+                    self.assertAlmostEqual(float(row[head]), mean, delta=1e-9 * max(map(abs, values)), msg=head)
+                    seen.add(head)
+                else:
+                    self.assertEqual(row[head], "", head)
+        return seen
+
     def refused(self, text, *said):
         error = self.fram("check", self.write(text), code=2)["error"]
         for word in said:

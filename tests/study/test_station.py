@@ -1,4 +1,5 @@
 """In how many runs of a study a vessel keeps its station: station.csv and the page, by the runs themselves."""
+import csv
 import json
 import re
 import subprocess
@@ -168,13 +169,22 @@ class StationTest(StudyTest):
         self.assertRegex(page, r"<td>[0-9]\.[0-9]{2} ± 0\.00<")
 
     def test_lines_that_a_vessel_does_not_have_are_not_on_the_page(self):
-        gear = "  thrusters: [{kind: azimuth, x: 20, z: -3, thrust: 5e5}, {kind: azimuth, x: -20, thrust: 5e5}]\n"
+        gear = "  thrusters: [{kind: azimuth, x: 20, z: -3, thrust: 5e5, turn_rate_deg: 90}, {x: -20, thrust: 5e5}]\n"
         bare = MOORED[:MOORED.index("  mooring:")] + gear + "  positioning: {active: true}\n" + \
             MOORED[MOORED.index("ice:"):]
         self.plain()
         self.assertIn("Largest line tension", self.page("plain"))
         (self.at / "base.yaml").write_text(bare)
-        self.fram(self.write("seeds: 2\n"), "-o", self.at / "bare")
+        self.fram(self.write("seeds: 2\nkeep: series\n"), "-o", self.at / "bare")
+        (series,) = (self.at / "bare" / "runs").glob("*/1/series.csv")
+        with open(series, newline="") as file:
+            power = [float(r["thruster_power[W]"]) for r in csv.DictReader(file) if float(r["time[s]"]) >= 1]
+        told = float(self.rows("bare")[0]["thruster_power_mean[W]"])
+        self.assertAlmostEqual(told / (sum(power) / len(power)), 1, delta=1e-9)
+        self.assertTrue(told < 0.99 * max(power))
+        self.assertLessEqual({"load_mean[N]", "offset_largest[m]"}, self.check_means("bare"))
+        self.assertLessEqual({"line_tension_largest[N]", "line_tension_range_equivalent[N]", "offset_largest[m]"},
+                             self.check_means("plain"))
         self.assertIn("Largest offset", self.page("bare"))
         self.assertNotIn("tension", self.page("bare"))
         # Nor have the tables a 0 of them, or of thrusters where there are none.

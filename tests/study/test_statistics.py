@@ -110,7 +110,15 @@ class Statistics(unittest.TestCase):
             self.assertAlmostEqual(equivalent["range"], 4, delta=0.02)
         failed = self.fram("fatigue", file, "--channel", "x", "-o", self.at / "none" / "cycles.csv", code=2)
         self.assertIn("none/cycles.csv", failed["error"]["file"])
-        self.assertEqual((self.at / "cycles.csv").read_text().splitlines()[0], "range[m],mean[m],count[1]")
+        head, *cycles = (self.at / "cycles.csv").read_text().splitlines()
+        self.assertEqual(head, "range[m],mean[m],count[1]")
+        cycles = [[float(word) for word in line.split(",")] for line in cycles]
+        self.assertEqual(sum(count for _, _, count in cycles), got["cycles"])
+        for large, mean, _ in cycles[1:-1]:  # but for where it begins and ends
+            self.close((large, mean), (4, 5), 1e-6)
+        self.assertAlmostEqual(got["series"]["deviation"], 2 ** 0.5, delta=1e-3)
+        self.close([got["series"][name] for name in ("mean", "least", "greatest", "step_s", "time_s")],
+                   (5, 3, 7, 0.1, 400.1), 1e-3)
         self.assertAlmostEqual(self.fram("extremes", file, "--channel", "x", "--minima", "--method", "gumbel")
                                ["series"]["greatest"], -3, delta=1e-9)
 
@@ -194,6 +202,14 @@ class Statistics(unittest.TestCase):
                                 self.at / "one.svg")["methods"]
             self.assertEqual(len(told["thresholds"]) >= 10, method == "pot")
             heights.append(int(re.search(r'<svg[^>]* height="(\d+)', (self.at / "one.svg").read_text()).group(1)))
+            for row in told["thresholds"][3:9:5]:
+                # A fit over that threshold is the same one; its shape scatters as Smith (1984) has it.
+                (fit,) = self.fram("extremes", series, "--channel", "x", "--method", "pot", "--threshold",
+                                   repr(row["threshold"]))["methods"]
+                self.assertEqual((row["peaks"], row["shape"]), (fit["sample"], fit["shape"]))
+                star = fit["scale"] - fit["shape"] * fit["threshold"]
+                half = 1.96 * (1 + fit["shape"]) / row["peaks"] ** 0.5
+                self.close((row["scale_star"], row["shape_half"]), (star, half), 1e-3)
         # Below the probability plot stand shape and scale over the threshold.
         self.assertEqual(heights[0], 3 * heights[1])
         file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))

@@ -36,11 +36,21 @@ class Studies(StudyTest):
         note = json.loads((self.at / "one" / "run.json").read_text())
         self.assertEqual(rows[7]["state_hash"], note["state_hash"])
         with open(self.at / "one" / "series.csv", newline="") as file:
-            loads = [(float(r["ice_force_averaged_x[N]"]) ** 2 + float(r["ice_force_averaged_y[N]"]) ** 2) ** 0.5
-                     for r in csv.DictReader(file) if float(r["time[s]"]) >= 1]
+            forces = [[float(r[f"ice_force_averaged_{axis}[N]"]) for axis in "xy"] for r in csv.DictReader(file)
+                      if float(r["time[s]"]) >= 1]
+        loads = [math.hypot(*force) for force in forces]
+        for axis, values in zip("xy", zip(*forces)):
+            self.assertAlmostEqual(float(rows[7][f"force_{axis}_mean[N]"]), sum(values) / len(values),
+                                   delta=1e-9 * max(loads))
+        deviation = math.sqrt(sum((x - sum(loads) / len(loads)) ** 2 for x in loads) / len(loads))
+        self.assertAlmostEqual(float(rows[7]["load_deviation[N]"]) / deviation, 1, delta=1e-2)
+        self.assertTrue(sum(loads) / len(loads) < float(rows[7]["load_significant[N]"]) <= max(loads))
+        self.assertEqual(float(rows[7]["time[s]"]), 3)
         self.assertAlmostEqual(float(rows[7]["load_mean[N]"]), sum(loads) / len(loads), delta=1e-9 * max(loads))
         self.assertAlmostEqual(float(rows[7]["load_largest[N]"]), max(loads), delta=1e-9 * max(loads))
         means = self.rows("out", "conditions.csv")
+        self.assertLessEqual({"load_mean[N]", "load_significant[N]", "load_largest[N]", "load_range_equivalent[N]"},
+                             self.check_means("out"))
         pair = [float(r["load_mean[N]"]) for r in rows[6:]]
         self.assertAlmostEqual(float(means[3]["load_mean[N]"]), sum(pair) / 2, delta=1e-6)
         # Student's t of two values: 12.706 times the standard error.
@@ -110,6 +120,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         tension = max(float(r["moored.line_tension_max[N]"]) for r in lines)
         self.assertAlmostEqual(float(rows["moored"]["line_tension_largest[N]"]), tension, delta=1e-6 * tension)
         self.assertEqual(rows["east"]["line_tension_largest[N]"], "")
+        mean = sum(float(r["moored.line_tension_max[N]"]) for r in lines) / len(lines)
+        self.assertTrue(1.001 * mean < float(rows["moored"]["line_tension_significant[N]"]) <= tension)
+        offsets = [math.hypot(*(float(r[f"moored.offset_{axis}[m]"]) for axis in "xy")) for r in lines]
+        turns = [abs(float(r["moored.heading_deviation[deg]"])) for r in lines]
+        for name, value in (("offset_mean[m]", sum(offsets) / len(offsets)), ("offset_largest[m]", max(offsets)),
+                            ("heading_deviation_largest[deg]", max(turns))):
+            self.assertAlmostEqual(float(rows["moored"][name]) / value, 1, delta=1e-9)
 
     @WHOLE
     def test_a_ship_with_another_one_and_without_it(self):
