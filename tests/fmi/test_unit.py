@@ -3,6 +3,7 @@
 refuses what it cannot do."""
 
 import ctypes as c
+import math
 import os
 import pathlib
 import random
@@ -31,6 +32,10 @@ ice: {source: file, file: ice of mine.txt, thickness: 0.4, breakable: true}
 domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
 environment: {current_speed: 6, current_direction_deg: 180}
 """
+# Units of variables by base units of the SI, as importers convert them: a degree is pi / 180 of a radian.
+SI = {"s": {"s": 1}, "m": {"m": 1}, "kg": {"kg": 1}, "m/s": {"m": 1, "s": -1}, "rad/s": {"rad": 1, "s": -1},
+      "deg": {"rad": 1, "factor": math.pi / 180}, "N": {"kg": 1, "m": 1, "s": -2}, "N m": {"kg": 1, "m": 2, "s": -2},
+      "N s": {"kg": 1, "m": 1, "s": -1}, "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}}
 OUTPUTS = ("offset_x", "velocity_x", "yaw", "ice_force_x", "contacts", "kinetic_energy", "splits", "bendings")
 
 
@@ -74,6 +79,15 @@ class Units:
         units = {u.get("name") for u in unit.description.iter("Unit")}
         for variable in unit.variables:
             self.assertIn(unit.unit_of(variable), units | {None})
+        for element in unit.description.iter("Unit"):
+            base = element.find("BaseUnit")
+            self.assertEqual({k: float(v) for k, v in base.items()}, SI[element.get("name")], element.get("name"))
+        # What an importer finds before it tells anything: the scenario's own, 10 s of it in its steps.
+        for name, start in (("current_x", -6), ("current_y", 0), ("wind_x", 0)):
+            told = unit.variables[name].find("Real") if self.version == "2" else unit.variables[name]
+            self.assertAlmostEqual(float(told.get("start")), start, delta=1e-9, msg=name)
+        times = unit.description.find("DefaultExperiment")
+        self.assertEqual([float(times.get(k)) for k in ("startTime", "stopTime", "stepSize")], [0, 10, 0.05])
         for name, kind in (("thruster_1_order", "continuous"), ("positioning", "discrete"),
                            ("line_1_release", "discrete"), ("ice_force_x", "continuous")):
             self.assertEqual(unit.variables[name].get("variability"), kind)
