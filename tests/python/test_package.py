@@ -236,6 +236,17 @@ class Package(unittest.TestCase):
         sign = np.where(contacts["a"]["slot"] == slot, 1.0, np.where(contacts["b"]["slot"] == slot, -1.0, 0.0))
         load = (sign[:, None] * contacts["impulse"]).sum(axis=0) / world.scenario.time_step
         np.testing.assert_allclose(load, [world[f"ice_force_{axis}"] for axis in "xyz"], rtol=1e-9, atol=1e-3)
+        # They act where they say and along their normals: moments are those of the channels but for a step of way.
+        size = np.linalg.norm(contacts["impulse"], axis=1).sum() / world.scenario.time_step
+        self.assertGreater(size, 0)
+        arms = contacts["point"] - world.view().position[slot]
+        moment = np.cross(arms, sign[:, None] * contacts["impulse"]).sum(axis=0) / world.scenario.time_step
+        np.testing.assert_allclose(moment, [world[f"ice_moment_{axis}"] for axis in "xyz"], atol=0.1 * size)
+        self.assertGreater(abs(moment).max(), size)
+        np.testing.assert_allclose(np.linalg.norm(contacts["normal"], axis=1), 1, rtol=1e-12)
+        along = (contacts["normal"] * contacts["impulse"]).sum(axis=1)
+        np.testing.assert_allclose(along, contacts["normal_impulse"], atol=1e-9 * size)
+        self.assertAlmostEqual(contacts["depth"].max(), world["overlap_max"], delta=1e-12)
         with self.assertRaises(fram.UsageError):
             world.bodies("ship")
         for read in (world.bodies, world.outlines):
@@ -409,9 +420,10 @@ ice: {source: none}
             self.assertTrue(world.recorded)
             begun = fram.open(self.folder / "live")  # tables of no row, not files without heads
             self.assertEqual((len(begun.columns()["time"]), len(begun.fractures["time"])), (0, 0))
-            world.step(50)
+            broken = []
+            world.step(50, lambda w: broken.extend(w.fractures()))
             recording.checkpoint()
-            world.step(50)
+            world.step(50, lambda w: broken.extend(w.fractures()))
             with self.assertRaises(fram.UsageError):
                 world.record(self.folder / "other")
         self.assertFalse(world.recorded)
@@ -425,7 +437,14 @@ ice: {source: none}
         self.assertEqual(mine.units["ice_force_x"], "N")
         self.assertEqual(len(mine.columns()["time"]), 100)
         self.assertEqual(len(mine.series), 100 if hasattr(mine.series, "iloc") else len(mine.series))
-        self.assertGreater(len(mine.fractures["time"]), 0)
+        told = mine.columns("fractures")
+        self.assertGreater(len(told["time"]), 0)
+        for name in ("kind", "floe", "pieces", "first_piece", "load", "crack_length", "stress_ratio", "floe_area",
+                     "pieces_area", "area_lost", "area_gained"):
+            own = "stress_over_strength" if name == "stress_ratio" else name
+            np.testing.assert_allclose([event[name] for event in broken], told[own], rtol=1e-9, err_msg=name)
+        np.testing.assert_allclose([event["place"] for event in broken],
+                                   np.transpose([told[f"place_{axis}"] for axis in "xyz"]), rtol=1e-9)
         floes = mine.floes(1.0)
         self.assertGreaterEqual(len(floes), 3)
         self.assertEqual(floes[0].outline.shape[1], 2)
