@@ -57,6 +57,8 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
     rerun_result *again = NULL;
     why_check checked = {.done = false};
     fram_status status = find(y, d, &detail, error);
+    if (status == FRAM_OK && d->picture)
+        status = why_picture_check(y, d->picture, error);
     if (status == FRAM_OK && d->rerun) {
         again = memory_array(ctx, 1, sizeof *again);
         status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, y->vessel, again, error)

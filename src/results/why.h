@@ -38,5 +38,7 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
 /* Plan of the field near the vessel: the floes that carry the load by their part of it, the chains as lines, forces as
    arrows.  The field is that of the record, between frames by interpolation.  FRAM_ERROR_UNSUPPORTED without cairo. */
 fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const char *path, fram_error *error);
+/* Whether there is a frame to draw it from and a folder to write it into: asked before a moment is computed again. */
+fram_status why_picture_check(const why *y, const char *path, fram_error *error);
 
 #endif

@@ -5,7 +5,13 @@
 #include "results/report_parts.h"
 #include "results/why_labels.h"
 
+#include "io/file.h"
+#include "io/path.h"
+
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 enum { LONGEST_SIDE = 1400 };
 
@@ -205,4 +211,25 @@ fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const 
     replay_moment_free(y->ctx, &m);
     replay_close(&r);
     return status;
+}
+
+/* The picture's folder can be written into; a device needs none. */
+static fram_status check_folder(const char *path, fram_error *error)
+{
+    char folder[PATH_ROOM];
+    const char *slash = strrchr(path, '/');
+    if (!slash || access(path, F_OK) == 0)
+        return FRAM_OK;
+    snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
+    return access(folder, W_OK | X_OK) == 0 ? FRAM_OK : file_error(error, path, "open for writing", errno);
+}
+
+fram_status why_picture_check(const why *y, const char *path, fram_error *error)
+{
+    replay r;
+    fram_status status = replay_open(y->ctx, y->run.folder, &r, error);
+    if (status != FRAM_OK)
+        return status;
+    replay_close(&r);
+    return check_folder(path, error);
 }

@@ -135,6 +135,14 @@ expect 0 "$FRAM" why two --time 1 --vessel barge
 says "Vessel barge. " out
 expect 2 "$FRAM" why two --peak 1 --vessel 2
 says '--vessel: expected the name of a vessel, "tug", "barge"; found "2"' err
+# A picture that cannot be is told before a moment is computed again.
+expect 0 "$FRAM" run two.yaml -o frameless --quiet --set output.frame_interval=0
+for words in "why frameless --time 1 -o moment.svg" "why two --time 1 -o nowhere/moment.svg"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words
+    grep -q "computing again" err && fail "$words: computed again for a picture that cannot be: $(cat err)"
+done
+says "nowhere/moment.svg: cannot open for writing" err
 # Nothing touched.
 expect 0 "$FRAM" why two --time 0.1
 says "No ice touched the vessel in the 0.5 s up to then." out
