@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -92,11 +91,11 @@ class Arrays(unittest.TestCase):
         error = json.loads(self.fram("out", "--on", "slurm", code=2, environment=none))["error"]
         self.assertIn("sbatch", error["message"])
 
-    def scheduler(self, sbatch=SBATCH, squeue="#!/bin/sh\n", scancel="#!/bin/sh\n"):
+    def scheduler(self):
         """Programs by the names of Slurm's, in front of all others."""
         programs = self.at / "bin"
-        programs.mkdir(exist_ok=True)
-        for name, text in (("sbatch", sbatch), ("squeue", squeue), ("scancel", scancel)):
+        programs.mkdir()
+        for name, text in (("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "#!/bin/sh\n")):
             (programs / name).write_text(text)
             (programs / name).chmod(0o755)
         return dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
@@ -114,50 +113,6 @@ class Arrays(unittest.TestCase):
         self.assertEqual(failed.stat().st_mtime_ns, changed)
         again = json.loads(self.fram(*words, "--retry", environment=environment))
         self.assertEqual((again["failed"], again["made"]), (1, 1))
-
-    def test_arrays_that_a_scheduler_does_not_cancel_are_cancelled_by_the_next_call(self):
-        self.study.write_text(STUDY.format(seeds=1))
-        # It has none of the tasks for who asks with the user's environment, or not for hidden partitions too.
-        waits = f"""#!/bin/sh
-[ -n "$SQUEUE_STATES" ] || case "$*" in *--all*) printf "7_%d PD Priority\\n" 0 1 2;; esac
-: >{self.at}/asked
-"""
-        gone = "#!/bin/sh\necho scancel: error: Unable to contact slurm controller >&2\nexit 8\n"
-        environment = dict(self.scheduler("#!/bin/sh\necho 7\n", waits, gone),
-                           SQUEUE_STATES="RUNNING", SCANCEL_INTERACTIVE="1")
-        process = subprocess.Popen(self.words("out", "--on", "slurm", "--poll", "0.1"), env=environment,
-                                   stderr=subprocess.PIPE, text=True)
-        for _ in range(3):
-            while not (self.at / "asked").exists():
-                self.assertIsNone(process.poll())
-                time.sleep(0.01)
-            (self.at / "asked").unlink()
-        process.send_signal(signal.SIGINT)
-        error = process.communicate(timeout=60)[1]
-        self.assertEqual(process.returncode, 130, error)
-        self.assertIn("array 7 goes on at Slurm, which does not cancel it (scancel: error: Unable", error)
-        there = sorted(p.name for p in self.at.glob("out/slurm/*"))
-        self.assertEqual(there, ["1.job", "1.list", "1.sh"])
-        # Codes of tasks that a full disk stopped when nobody heard of it any more are none of the runs'.
-        for log in self.at.glob("out/conditions/*.yaml"):
-            mark = self.at / "out" / "runs" / log.stem / "1.exit"
-            mark.write_text("1\n")
-            mark.with_suffix(".log").write_text("fram: series.csv: cannot write: No space left on device\n")
-        cancels = f'#!/bin/sh\n[ -n "$SCANCEL_INTERACTIVE" ] || echo $* >>{self.at}/cancelled\n'
-        # Tasks that are killed at first: of a run that is submitted twice one may go on when all has ended.
-        killed = f"""#!/bin/bash
-if [ "$1" != --version ] && ! [ -e {self.at}/killed ]; then
-    : >{self.at}/killed
-    for run in {self.at}/out/runs/*; do echo 137 >$run/1.exit; done
-    echo 7
-    exit
-fi
-"""
-        environment = dict(self.scheduler(killed + SBATCH, scancel=cancels), SCANCEL_INTERACTIVE="1")
-        result = json.loads(self.fram("out", "--on", "slurm", environment=environment))
-        self.assertEqual((result["failed"], result["made"]), (1, 3))
-        self.assertEqual((self.at / "cancelled").read_text(), "7\n" * 3)
-        self.assertEqual(list(self.at.glob("out/slurm/*.job")), [])
 
     def test_what_a_limit_of_time_stopped_goes_on(self):
         self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")

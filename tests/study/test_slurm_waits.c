@@ -4,6 +4,7 @@
 #include "study/slurm.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct scheduler {
@@ -73,7 +74,7 @@ START_TEST(tasks_that_wait_are_told_with_their_reasons)
     ck_assert_str_eq(told(&s, &queue, "77_0 PD Dependency\n7_1 R None\n7_2 PD ReqNodeNotAvail, May be reserved\n"),
                      "1 task waits at Slurm: ReqNodeNotAvail, May be reserved");
     ck_assert_ptr_null(told(&s, &queue, "7_0 R None\n7_1 R None\n7_2 R None\n77_0 PD Resources\n"));
-    slurm_stop(&queue);
+    slurm_end(&queue, false);
     slurm_free(&queue);
     end(&s);
 }
@@ -144,5 +145,119 @@ START_TEST(tasks_are_known_by_their_number)
 }
 END_TEST
 
+/* Partitions may be hidden from who does not ask for all, and a user may have asked to see less at a terminal. */
+START_TEST(tasks_are_known_in_hidden_partitions)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    setenv("SQUEUE_STATES", "RUNNING", 1);
+    write_script(&s, "squeue",
+                 "#!/bin/sh\n[ -n \"$SQUEUE_STATES\" ] || case $* in *--all*) echo 7_0 PD None ;; esac\n");
+    for (int i = 0; i < 4; i++) {
+        queue.asked = -1e9;
+        slurm_look(&queue);
+    }
+    unsetenv("SQUEUE_STATES");
+    ck_assert_int_eq(queue.runs.data[0].array, 0);
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
+/* How many arrays the script below has cancelled. */
+static int cancelled(const scheduler *s)
+{
+    char path[128], line[16];
+    int count = 0;
+    snprintf(path, sizeof path, "%s/cancelled", s->folder);
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file))
+        count += strcmp(line, "7\n") == 0;
+    if (file)
+        fclose(file);
+    return count;
+}
+
+/* A scheduler that starts anew when a study ends goes on with its array: the next call cancels it, also for a user who
+   wants to be asked. */
+START_TEST(what_is_not_cancelled_is_cancelled_by_the_next_call)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    write_script(&s, "scancel", "#!/bin/sh\necho Unable to contact slurm controller >&2\nexit 8\n");
+    slurm_end(&queue, false);
+    slurm_free(&queue);
+    ck_assert(has_job(&s));
+    setenv("SCANCEL_INTERACTIVE", "1", 1);
+    write_script(&s, "scancel", "#!/bin/sh\n[ -n \"$SCANCEL_INTERACTIVE\" ] || echo $* >>${0%/*}/cancelled\n");
+    ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+    unsetenv("SCANCEL_INTERACTIVE");
+    ck_assert_int_eq(cancelled(&s), 1);
+    ck_assert(!has_job(&s));
+    slurm_end(&queue, true);
+    slurm_free(&queue);
+    ck_assert_int_eq(cancelled(&s), 1);
+    end(&s);
+}
+END_TEST
+
+/* The exit code that a task of the seed leaves. */
+static void write_exit(const scheduler *s, int seed, const char *code)
+{
+    char name[64];
+    snprintf(name, sizeof name, "runs/0123456789ab/%d.exit", seed);
+    write_script(s, name, code);
+}
+
+static void make_runs(const scheduler *s)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/runs", s->folder);
+    ck_assert_int_eq(mkdir(path, 0777), 0);
+    snprintf(path, sizeof path, "%s/runs/0123456789ab", s->folder);
+    ck_assert_int_eq(mkdir(path, 0777), 0);
+}
+
+/* What failed before the call, by a full disk that ended the one before, say, is tried again; what ended well is taken.
+   Of a run that is submitted twice one task may go on when the study ends. */
+START_TEST(failures_of_another_call_are_tried_again)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    write_script(&s, "scancel", "#!/bin/sh\necho $* >>${0%/*}/cancelled\n");
+    make_runs(&s);
+    write_exit(&s, 2, "1\n");
+    write_exit(&s, 3, "0\n");
+    ck_assert(slurm_add(&queue, "0123456789ab", 2, 6, 0) && slurm_add(&queue, "0123456789ab", 3, 7, 0));
+    int32_t task = -1;
+    int code = -1;
+    ck_assert(slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(task, 7);
+    ck_assert_int_eq(code, 0);
+    ck_assert(!slurm_ended(&queue, &task, &code));
+    slurm_end(&queue, true);
+    ck_assert_int_eq(cancelled(&s), 0);
+    write_exit(&s, 1, "137\n");
+    ck_assert(!slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    slurm_end(&queue, true);
+    ck_assert_int_eq(cancelled(&s), 2);
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
-          tasks_are_known_by_their_number)
+          tasks_are_known_by_their_number, tasks_are_known_in_hidden_partitions,
+          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again)
