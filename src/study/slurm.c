@@ -288,6 +288,7 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
         run->place = n++ / each;
         run->tries++;
         run->missed = 0;
+        run->excused = false;
     }
     const slurm_script_facts facts = {all->options, all->folder, all->program, all->arrays, n, each};
     slurm_script(all->ctx, &facts, &script);
@@ -319,6 +320,15 @@ fram_status slurm_submit(slurm_pool *all, fram_error *error)
 
 /* ---- what became of them ---- */
 
+/* A run of the task has ended: those behind it lose no try when the task is lost, whose time was not theirs. */
+static void excuse_others(slurm_pool *all, const slurm_run *ended)
+{
+    for (int32_t i = 0; i < all->runs.count; i++) {
+        slurm_run *run = &all->runs.data[i];
+        run->excused = run->excused || (run->array >= 0 && run->array == ended->array && run->place == ended->place);
+    }
+}
+
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
 {
     for (; all->looked < all->runs.count; all->looked++) {
@@ -338,6 +348,7 @@ bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
         }
         if (!ended)
             continue;
+        excuse_others(all, run);
         *task = run->task;
         *run = all->runs.data[--all->runs.count];
         return true;
@@ -443,8 +454,10 @@ void slurm_look(slurm_pool *all)
             run->missed = has_task(answer.data ? answer.data : "", (long long)all->jobs.data[run->array], run->place)
                               ? 0
                               : run->missed + 1;
-            if (run->missed >= MISSED_MOST)
+            if (run->missed >= MISSED_MOST) {
                 run->array = -1;
+                run->tries -= run->excused;
+            }
         }
         find_waits(all, answer.data ? answer.data : "");
     }

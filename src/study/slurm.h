@@ -20,6 +20,7 @@ typedef struct slurm_run {
     double frames;        /* of its record [s]; 0: an ordinary run */
     int32_t array, place; /* submitted as this; array -1: not yet */
     int tries, missed;    /* submissions; questions in a row whose answer lacks it */
+    bool excused;         /* another run of its task has ended since it was submitted */
 } slurm_run;
 
 typedef struct slurm_pool {

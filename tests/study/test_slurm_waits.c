@@ -258,6 +258,42 @@ START_TEST(failures_of_another_call_are_tried_again)
 }
 END_TEST
 
+/* Eight runs of one task whose limit of time lets it make one of them each time: none of the others has failed. */
+START_TEST(what_a_task_did_not_come_to_has_not_failed)
+{
+    enum { RUNS = 8 };
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = RUNS};
+    context_init(&ctx);
+    begin(&s);
+    make_runs(&s);
+    ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+    for (int i = 1; i <= RUNS; i++)
+        ck_assert(slurm_add(&queue, "0123456789ab", i, i, 0));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    int ended = 0;
+    for (int looks = 0; looks < 4 * RUNS && queue.runs.count > 0; looks++) {
+        int32_t task = -1;
+        int code = -1;
+        if (looks % 2 == 0)
+            write_exit(&s, (int)queue.runs.data[queue.runs.count - 1].seed, "0\n");
+        while (slurm_ended(&queue, &task, &code)) {
+            ck_assert_int_eq(code, 0);
+            ended++;
+        }
+        ck_assert_ptr_null(told(&s, &queue, ""));
+        ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    }
+    ck_assert_int_eq(ended, RUNS);
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
           tasks_are_known_by_their_number, tasks_are_known_in_hidden_partitions,
-          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again)
+          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
+          what_a_task_did_not_come_to_has_not_failed)
