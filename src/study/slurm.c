@@ -8,19 +8,18 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* Tasks of an array, by Slurm's own default limit (MaxArraySize 1001); of all, when nothing else is asked. */
 enum { ARRAY_MOST = 1000, TASKS_USUAL = 200 };
-/* Submissions of a run before it counts as failed; questions in a row that must lack it. */
-enum { TRIES_MOST = 4, MISSED_MOST = 2 };
-#define POLL_USUAL 30.0
+/* Submissions of a run before it counts as failed. */
+enum { TRIES_MOST = 4 };
+/* How long a scheduler may refuse what it took before [s]: longer than it takes to start anew, or to be mended. */
+#define REFUSED_MOST 3600.0
 /* Exit code of a run that the cluster lost again and again: as if it had been killed. */
 enum { LOST = 137, SIGNAL_CODES = 128 };
 /* Of one whose folder another program holds: a run that is made twice, or a scenario that is none. */
@@ -307,15 +306,47 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
     return status;
 }
 
+/* Whether the refusal of an array, the newest, is waited for: one of a scheduler that has taken others of this call may
+   be that of one which starts anew, or has its fill.  Its runs wait then, and no try of theirs is lost. */
+static bool may_wait(slurm_pool *all, const fram_error *error)
+{
+    double now = clock_wall();
+    if (all->jobs.count == 0 || (all->refused > 0 && now - all->refused > REFUSED_MOST))
+        return false;
+    for (int32_t i = 0; i < all->runs.count; i++) {
+        slurm_run *run = &all->runs.data[i];
+        if (run->array != all->jobs.count)
+            continue;
+        run->array = -1;
+        run->tries--;
+    }
+    if (all->refused <= 0) {
+        all->refused = now;
+        log_write(all->ctx, LOG_WARNING, "%s; it is tried again for an hour", error->message);
+    }
+    all->offered = now;
+    return true;
+}
+
 fram_status slurm_submit(slurm_pool *all, fram_error *error)
 {
     int32_t n = waiting(all), each = all->options->runs_per_task;
-    fram_status status = FRAM_OK;
+    fram_error own = {0};
+    if (all->refused > 0 && clock_wall() - all->offered < slurm_poll(all))
+        return FRAM_OK;
     if (each < 1)
         each = (n + TASKS_USUAL - 1) / TASKS_USUAL;
-    while (status == FRAM_OK && waiting(all) > 0)
-        status = submit_array(all, each, error);
-    return status;
+    while (waiting(all) > 0) {
+        fram_status status = submit_array(all, each, &own);
+        if (status == FRAM_ERROR_USAGE && may_wait(all, &own))
+            return FRAM_OK;
+        if (status != FRAM_OK && error)
+            *error = own;
+        if (status != FRAM_OK)
+            return status;
+        all->refused = 0;
+    }
+    return FRAM_OK;
 }
 
 /* ---- what became of them ---- */
@@ -355,111 +386,4 @@ bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
     }
     all->looked = 0;
     return false;
-}
-
-/* ---- what the scheduler says: "JOB_TASK STATE REASON" on a line ---- */
-
-/* Whether the answer has the task. */
-static bool has_task(const char *answer, long long job, int32_t place)
-{
-    char word[64];
-    int length = snprintf(word, sizeof word, "%lld_%d", job, (int)place);
-    for (const char *c = answer; c; c = strchr(c, '\n'), c = c ? c + 1 : NULL)
-        if (strncmp(c, word, (size_t)length) == 0 && (c[length] == ' ' || c[length] == '\n' || c[length] == '\0'))
-            return true;
-    return false;
-}
-
-/* Whether the line is of a job of this call. */
-static bool is_ours(const slurm_pool *all, const char *line)
-{
-    long long job = strtoll(line, NULL, 10);
-    for (int32_t i = 0; i < all->jobs.count; i++)
-        if ((long long)all->jobs.data[i] == job)
-            return true;
-    return false;
-}
-
-/* Tasks of ours that are pending, with the reasons in the order in which they come. */
-static void find_waits(slurm_pool *all, const char *answer)
-{
-    enum { REASON_MOST = 40 };
-    char reasons[64] = "", one[REASON_MOST + 1];
-    int32_t waiting_tasks = 0;
-    for (const char *c = answer; c && *c; c = strchr(c, '\n'), c = c ? c + 1 : NULL) {
-        char state[8] = "";
-        if (sscanf(c, "%*s %7s %40[^\n]", state, one) != 2 || strcmp(state, "PD") != 0 || !is_ours(all, c))
-            continue;
-        waiting_tasks++;
-        size_t used = strlen(reasons);
-        if (!strstr(reasons, one) && used + strlen(one) + 3 < sizeof reasons)
-            snprintf(reasons + used, sizeof reasons - used, "%s%s", used > 0 ? ", " : "", one);
-    }
-    all->waits[0] = '\0';
-    if (waiting_tasks > 0)
-        snprintf(all->waits, sizeof all->waits, "%d %s at Slurm: %s", (int)waiting_tasks,
-                 waiting_tasks == 1 ? "task waits" : "tasks wait", reasons);
-}
-
-const char *slurm_waits(const slurm_pool *all) { return *all->waits ? all->waits : NULL; }
-
-/* Between looks at the files of a shared folder, which may be far away, at least [s]; and times as long as a look took.
- */
-#define LOOK_SECONDS 1.0
-#define LOOK_SPARING 20
-
-void slurm_pause(double look)
-{
-    double seconds = fmax(LOOK_SECONDS, LOOK_SPARING * look), whole = floor(seconds);
-    const struct timespec pause = {(time_t)whole, (long)((seconds - whole) * 1e9)};
-    nanosleep(&pause, NULL);
-}
-
-/* Which tasks the scheduler has: by whatever name, which an option of sbatch or a variable of its environment may give;
-   in all partitions, also those that are hidden from the many; and whatever a user has set to see less at a terminal.
- */
-static bool ask_scheduler(const slurm_pool *all, text_buffer *answer)
-{
-    static const char *const words[] = {"env",
-                                        "-uSQUEUE_STATES",
-                                        "-uSQUEUE_PARTITION",
-                                        "-uSQUEUE_NAMES",
-                                        "-uSQUEUE_ACCOUNT",
-                                        "-uSQUEUE_QOS",
-                                        "-uSQUEUE_LICENSES",
-                                        "squeue",
-                                        "--all",
-                                        "--noheader",
-                                        "--array",
-                                        "--me",
-                                        "--format=%i %t %r",
-                                        NULL};
-    int code = 0;
-    return capture(all->ctx, words, answer, &code, NULL) == FRAM_OK && code == 0;
-}
-
-void slurm_look(slurm_pool *all)
-{
-    double poll = all->options->poll > 0 ? all->options->poll : POLL_USUAL;
-    if (clock_wall() - all->asked < poll || all->runs.count == 0)
-        return;
-    all->asked = clock_wall();
-    text_buffer answer = {0};
-    /* A scheduler that does not answer has lost nothing. */
-    if (ask_scheduler(all, &answer)) {
-        for (int32_t i = 0; i < all->runs.count; i++) {
-            slurm_run *run = &all->runs.data[i];
-            if (run->array < 0)
-                continue;
-            run->missed = has_task(answer.data ? answer.data : "", (long long)all->jobs.data[run->array], run->place)
-                              ? 0
-                              : run->missed + 1;
-            if (run->missed >= MISSED_MOST) {
-                run->array = -1;
-                run->tries -= run->excused;
-            }
-        }
-        find_waits(all, answer.data ? answer.data : "");
-    }
-    text_free(all->ctx, &answer);
 }

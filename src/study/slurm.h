@@ -34,6 +34,8 @@ typedef struct slurm_pool {
     int32_t earlier;     /* number of the last one of earlier calls */
     int32_t looked;      /* runs that slurm_ended has looked at since it last said that none ended */
     double asked;        /* when the scheduler was asked last [s] */
+    double refused;      /* since when sbatch refuses [s]; 0: it does not */
+    double offered;      /* when it refused last [s] */
     char waits[96];      /* what it said of tasks that wait; "" */
     bool again;          /* a run may be made twice: submitted again, or met by another */
     bool unstopped;      /* the scheduler did not take that one of them is cancelled */
@@ -48,6 +50,8 @@ bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task, doub
 fram_status slurm_submit(slurm_pool *all, fram_error *error);
 /* One run that ended, if any did: until it says no, each run is looked at once. */
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code);
+/* Between questions to the scheduler [s]. */
+double slurm_poll(const slurm_pool *all);
 /* Asks the scheduler, when it is time. */
 void slurm_look(slurm_pool *all);
 /* How many tasks the scheduler has not begun yet, and the reasons that it gives, as it said last; NULL: none. */

@@ -293,7 +293,40 @@ START_TEST(what_a_task_did_not_come_to_has_not_failed)
 }
 END_TEST
 
+/* A scheduler that has taken an array and does not answer for a while does not end the study; one that never took any
+   does. */
+START_TEST(a_scheduler_that_starts_anew_is_waited_for)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = 1, .poll = 1e-9};
+    static const char gone[] =
+        "#!/bin/sh\n[ $1 = --version ] || { echo Unable to contact slurm controller; exit 1; }\n";
+    begin_queue(&ctx, &s, &options, &queue);
+    write_script(&s, "sbatch", gone);
+    ck_assert(slurm_add(&queue, "0123456789ab", 2, 6, 0));
+    for (int i = 0; i < 2 * 4; i++)
+        ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    ck_assert_int_eq(queue.jobs.count, 1);
+    write_script(&s, "sbatch", "#!/bin/sh\necho 8\n");
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    ck_assert_int_eq(queue.jobs.count, 2);
+    ck_assert_int_eq(queue.runs.data[1].array, 1);
+    ck_assert_int_eq(queue.runs.data[1].tries, 1);
+    slurm_free(&queue);
+    write_script(&s, "sbatch", gone);
+    ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+    ck_assert(slurm_add(&queue, "0123456789ab", 2, 6, 0));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_ERROR_USAGE);
+    ck_assert_ptr_nonnull(strstr(error.message, "Unable to contact"));
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
           tasks_are_known_by_their_number, tasks_are_known_in_hidden_partitions,
           what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
-          what_a_task_did_not_come_to_has_not_failed)
+          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for)
