@@ -228,15 +228,28 @@ bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task, doub
 
 /* ---- submitting ---- */
 
-/* sbatch says the number of the job, ";CLUSTER" after it perhaps. */
+/* sbatch says the number of the job, ";CLUSTER" after it perhaps, on a line of its own among those that the cluster has
+   for who submits (an account that is taken, an option that is not), before it or behind.  0: it says none. */
+static long long job_in(const char *answer)
+{
+    long long job = 0;
+    for (const char *c = answer; c && job < 1; c = strchr(c, '\n'), c = c ? c + 1 : NULL) {
+        char *end = NULL;
+        long long number = strtoll(c, &end, 10);
+        if (end != c && (*end == ';' || *end == '\n' || *end == '\0'))
+            job = number;
+    }
+    return job;
+}
+
 static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *error)
 {
-    char *script = array_path(all, array, "sh"), *end = NULL;
+    char *script = array_path(all, array, "sh");
     const char *const words[] = {"sbatch", "--parsable", script, NULL};
     text_buffer answer = {0};
     int code = 0;
     fram_status status = script ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
-    long long job = status == FRAM_OK && answer.data ? strtoll(answer.data, &end, 10) : 0;
+    long long job = status == FRAM_OK ? job_in(answer.data) : 0;
     if (status == FRAM_OK && (code != 0 || job < 1))
         one_line(&answer);
     if (status == FRAM_OK && (code != 0 || job < 1))

@@ -145,6 +145,32 @@ START_TEST(tasks_are_known_by_their_number)
 }
 END_TEST
 
+/* What a cluster has to say to who submits comes with the number, on a line of its own. */
+START_TEST(the_number_of_an_array_is_found_among_words)
+{
+    static const char *const words[] = {"echo 'sbatch: 2 notes: your account is ice' >&2\necho 7",
+                                        "echo '7;far'\necho 'sbatch: ready' >&2"};
+    for (int i = 0; i < 2; i++) {
+        context ctx;
+        scheduler s;
+        slurm_pool queue;
+        fram_error error;
+        const slurm_options options = {.runs_per_task = 1};
+        char script[128];
+        context_init(&ctx);
+        begin(&s);
+        snprintf(script, sizeof script, "#!/bin/sh\n%s\n", words[i]);
+        write_script(&s, "sbatch", script);
+        ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+        ck_assert(slurm_add(&queue, "0123456789ab", 1, 0, 0));
+        ck_assert_msg(slurm_submit(&queue, &error) == FRAM_OK, "%s", error.message);
+        ck_assert_int_eq(queue.jobs.data[0], 7);
+        slurm_free(&queue);
+        end(&s);
+    }
+}
+END_TEST
+
 /* Partitions may be hidden from who does not ask for all, and a user may have asked to see less at a terminal. */
 START_TEST(tasks_are_known_in_hidden_partitions)
 {
@@ -327,6 +353,7 @@ START_TEST(a_scheduler_that_starts_anew_is_waited_for)
 END_TEST
 
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
-          tasks_are_known_by_their_number, tasks_are_known_in_hidden_partitions,
-          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
-          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for)
+          tasks_are_known_by_their_number, the_number_of_an_array_is_found_among_words,
+          tasks_are_known_in_hidden_partitions, what_is_not_cancelled_is_cancelled_by_the_next_call,
+          failures_of_another_call_are_tried_again, what_a_task_did_not_come_to_has_not_failed,
+          a_scheduler_that_starts_anew_is_waited_for)
