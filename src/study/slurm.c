@@ -242,13 +242,15 @@ static long long job_in(const char *answer)
     return job;
 }
 
-static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *error)
+static fram_status submit_script(slurm_pool *all, const slurm_script_facts *f, fram_error *error)
 {
-    char *script = array_path(all, array, "sh");
-    const char *const words[] = {"sbatch", "--parsable", script, NULL};
+    char *script = array_path(all, f->number, "sh"), array[32];
+    snprintf(array, sizeof array, "0-%d", (int)slurm_script_tasks(f) - 1);
+    const char **words = script ? slurm_submission(all->ctx, f, array, script) : NULL;
     text_buffer answer = {0};
     int code = 0;
-    fram_status status = script ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
+    fram_status status = words ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
+    memory_free(all->ctx, words);
     long long job = status == FRAM_OK ? job_in(answer.data) : 0;
     if (status == FRAM_OK && (code != 0 || job < 1))
         one_line(&answer);
@@ -260,7 +262,7 @@ static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *err
     text_buffer number = {0};
     text_format(all->ctx, &number, "%lld\n", job);
     if (status == FRAM_OK)
-        status = put(all, array, "job", &number, error);
+        status = put(all, f->number, "job", &number, error);
     text_free(all->ctx, &number);
     text_free(all->ctx, &answer);
     memory_free(all->ctx, script);
@@ -312,7 +314,7 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
         if (status == FRAM_OK)
             status = put(all, all->arrays, "sh", &script, error);
         if (status == FRAM_OK)
-            status = submit_script(all, all->arrays, error);
+            status = submit_script(all, &facts, error);
     }
     text_free(all->ctx, &list);
     text_free(all->ctx, &script);

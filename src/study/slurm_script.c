@@ -22,10 +22,49 @@ static void add_option(context *ctx, text_buffer *out, const char *option)
         text_format(ctx, out, "#SBATCH %s\n", option);
 }
 
+int32_t slurm_script_tasks(const slurm_script_facts *f) { return (f->runs + f->each - 1) / f->each; }
+
+/* Whether the option is one word, as it stands: what has quotation marks, or a blank before its value, is so for the
+   script, which alone takes that apart. */
+static bool is_word(const char *option)
+{
+    char end = option[strcspn(option, " \t=")];
+    return end != ' ' && end != '\t' && !strpbrk(option, "\"'\\");
+}
+
+/* Variables of the environment (SBATCH_PARTITION, SBATCH_TIMELIMIT, ...) go before what a script says, and options of
+   the command before both: what was asked for stands in the script, for whoever reads it, and here. */
+const char **slurm_submission(context *ctx, const slurm_script_facts *f, const char *array, const char *path)
+{
+    const slurm_options *o = f->options;
+    const char **words = memory_array(ctx, (size_t)o->option_count + 10, sizeof *words);
+    int count = 0;
+    if (!words)
+        return NULL;
+    words[count++] = "sbatch";
+    words[count++] = "--parsable";
+    words[count++] = "--array";
+    words[count++] = array;
+    if (o->partition) {
+        words[count++] = "--partition";
+        words[count++] = o->partition;
+    }
+    if (o->time) {
+        words[count++] = "--time";
+        words[count++] = o->time;
+    }
+    for (int i = 0; i < o->option_count; i++)
+        if (is_word(o->options[i]))
+            words[count++] = o->options[i];
+    words[count++] = path;
+    words[count] = NULL;
+    return words;
+}
+
 static void directives(context *ctx, const slurm_script_facts *f, text_buffer *out)
 {
     text_format(ctx, out, "#!/bin/bash\n#SBATCH --job-name=fram-study\n#SBATCH --array=0-%d\n",
-                (int)((f->runs + f->each - 1) / f->each - 1));
+                (int)slurm_script_tasks(f) - 1);
     text_add(ctx, out,
              "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n#SBATCH --requeue\n#SBATCH --output=/dev/null\n");
     if (f->options->partition)

@@ -23,4 +23,10 @@ typedef struct slurm_script_facts {
 
 void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out);
 
+/* How many tasks the array has. */
+int32_t slurm_script_tasks(const slurm_script_facts *f);
+
+/* The command that submits the script `path`, to be freed; NULL without memory.  array: "0-LAST". */
+const char **slurm_submission(context *ctx, const slurm_script_facts *f, const char *array, const char *path);
+
 #endif

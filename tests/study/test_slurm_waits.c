@@ -171,6 +171,36 @@ START_TEST(the_number_of_an_array_is_found_among_words)
 }
 END_TEST
 
+/* A variable as SBATCH_PARTITION goes before what a script says, an option of the command before both. */
+START_TEST(what_is_asked_for_stands_in_the_command_too)
+{
+    static const char *const more[] = {"--comment=two words", "--nice=5", "--account ice", "--qos=\"a\""};
+    const slurm_options options = {"long", "1:00:00", more, 4, 2, 0, false};
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    char path[128], line[256] = "";
+    context_init(&ctx);
+    begin(&s);
+    write_script(&s, "sbatch", "#!/bin/sh\nprintf '%s|' \"$@\" >${0%/*}/words\necho 7\n");
+    ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+    for (int i = 0; i < 3; i++)
+        ck_assert(slurm_add(&queue, "0123456789ab", i, i, 0));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    snprintf(path, sizeof path, "%s/words", s.folder);
+    FILE *file = fopen(path, "r");
+    ck_assert(file && fgets(line, sizeof line, file));
+    fclose(file);
+    char *script = strstr(line, s.folder);
+    ck_assert_ptr_nonnull(script);
+    *script = '\0';
+    ck_assert_str_eq(line, "--parsable|--array|0-1|--partition|long|--time|1:00:00|--comment=two words|--nice=5|");
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 /* Partitions may be hidden from who does not ask for all, and a user may have asked to see less at a terminal. */
 START_TEST(tasks_are_known_in_hidden_partitions)
 {
@@ -354,6 +384,6 @@ END_TEST
 
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
           tasks_are_known_by_their_number, the_number_of_an_array_is_found_among_words,
-          tasks_are_known_in_hidden_partitions, what_is_not_cancelled_is_cancelled_by_the_next_call,
-          failures_of_another_call_are_tried_again, what_a_task_did_not_come_to_has_not_failed,
-          a_scheduler_that_starts_anew_is_waited_for)
+          what_is_asked_for_stands_in_the_command_too, tasks_are_known_in_hidden_partitions,
+          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
+          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for)
