@@ -60,3 +60,12 @@ fram_status capture(context *ctx, const char *const *words, text_buffer *out, in
         *exit_code = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
     return out->failed ? error_memory(error) : FRAM_OK;
 }
+
+void capture_line(text_buffer *b)
+{
+    while (b->data && b->count > 0 && b->data[b->count - 1] == '\n')
+        b->data[--b->count] = '\0';
+    for (int32_t i = 0; b->data && i < b->count; i++)
+        if ((unsigned char)b->data[i] < ' ')
+            b->data[i] = ' ';
+}

@@ -59,16 +59,6 @@ static fram_status put(const slurm_pool *all, int32_t array, const char *ending,
 
 /* ---- beginning and end ---- */
 
-/* What a program says on several lines, as one. */
-static void one_line(text_buffer *b)
-{
-    while (b->data && b->count > 0 && b->data[b->count - 1] == '\n')
-        b->data[--b->count] = '\0';
-    for (int32_t i = 0; b->data && i < b->count; i++)
-        if ((unsigned char)b->data[i] < ' ')
-            b->data[i] = ' ';
-}
-
 /* Whether the scheduler has taken it: one that does not answer, as while it starts anew, goes on with the array.  Newer
    ones call a job that they have forgotten a mistake. */
 static bool cancel(slurm_pool *all, long long job)
@@ -81,7 +71,7 @@ static bool cancel(slurm_pool *all, long long job)
     int code = 0;
     bool taken = capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK &&
                  (code == 0 || (answer.data && strstr(answer.data, "Invalid job id")));
-    one_line(&answer);
+    capture_line(&answer);
     if (!taken)
         log_write(all->ctx, LOG_WARNING,
                   "array %lld goes on at Slurm, which does not cancel it (%.200s): the same command tries again", job,
@@ -124,7 +114,7 @@ static fram_status check_commands(slurm_pool *all, fram_error *error)
     text_buffer answer = {0};
     int code = 0;
     fram_status status = capture(all->ctx, words, &answer, &code, error);
-    one_line(&answer);
+    capture_line(&answer);
     if (status != FRAM_OK)
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
                            "the command sbatch is not there: run this on a machine that submits to Slurm");
@@ -253,7 +243,7 @@ static fram_status submit_script(slurm_pool *all, const slurm_script_facts *f, f
     memory_free(all->ctx, words);
     long long job = status == FRAM_OK ? job_in(answer.data) : 0;
     if (status == FRAM_OK && (code != 0 || job < 1))
-        one_line(&answer);
+        capture_line(&answer);
     if (status == FRAM_OK && (code != 0 || job < 1))
         status = error_set(error, FRAM_ERROR_USAGE, script, 0, "on", "sbatch refuses the script: %.300s",
                            answer.data ? answer.data : "");

@@ -36,6 +36,7 @@ typedef struct slurm_pool {
     double asked;        /* when the scheduler was asked last [s] */
     double refused;      /* since when sbatch refuses [s]; 0: it does not */
     double offered;      /* when it refused last [s] */
+    int silent;          /* questions in a row that it did not answer */
     char waits[96];      /* what it said of tasks that wait; "" */
     bool again;          /* a run may be made twice: submitted again, or met by another */
     bool unstopped;      /* the scheduler did not take that one of them is cancelled */

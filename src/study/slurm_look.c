@@ -13,6 +13,8 @@
 
 /* Questions in a row whose answer must lack a task before it is lost. */
 enum { MISSED_MOST = 2 };
+/* Questions in a row without an answer before that is told. */
+enum { SILENT_MOST = 5 };
 #define POLL_USUAL 30.0
 
 double slurm_poll(const slurm_pool *all) { return all->options->poll > 0 ? all->options->poll : POLL_USUAL; }
@@ -76,7 +78,7 @@ void slurm_pause(double look)
 /* Which tasks the scheduler has: by whatever name, which an option of sbatch or a variable of its environment may give;
    in all partitions, also those that are hidden from the many; and whatever a user has set to see less at a terminal.
  */
-static bool ask_scheduler(const slurm_pool *all, text_buffer *answer)
+static bool ask_scheduler(slurm_pool *all, text_buffer *answer)
 {
     static const char *const words[] = {"env",
                                         "-uSQUEUE_STATES",
@@ -93,7 +95,16 @@ static bool ask_scheduler(const slurm_pool *all, text_buffer *answer)
                                         "--format=%i %t %r",
                                         NULL};
     int code = 0;
-    return capture(all->ctx, words, answer, &code, NULL) == FRAM_OK && code == 0;
+    bool answered = capture(all->ctx, words, answer, &code, NULL) == FRAM_OK && code == 0;
+    all->silent = answered ? 0 : all->silent + 1;
+    /* One that starts anew answers soon; one without the command, or too old for it, never does. */
+    if (!answered)
+        capture_line(answer);
+    if (all->silent == SILENT_MOST)
+        log_write(all->ctx, LOG_WARNING,
+                  "squeue does not answer (%.200s): runs of tasks that are lost are not made again until it does",
+                  answer->data ? answer->data : "it says nothing");
+    return answered;
 }
 
 void slurm_look(slurm_pool *all)

@@ -145,6 +145,35 @@ START_TEST(tasks_are_known_by_their_number)
 }
 END_TEST
 
+static void count_silence(void *user, log_level level, const char *text)
+{
+    *(int *)user += level == LOG_WARNING &&
+                    strstr(text, "squeue does not answer (squeue: unrecognized option '--me' Try --help)") != NULL;
+}
+
+/* Of a scheduler that never answers nobody would know why lost tasks stay lost: it is told, once. */
+START_TEST(a_scheduler_that_does_not_answer_is_told)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    int told_of = 0;
+    const slurm_options options = {.runs_per_task = 1};
+    begin_queue(&ctx, &s, &options, &queue);
+    ctx.log = count_silence;
+    ctx.log_user = &told_of;
+    write_script(&s, "squeue", "#!/bin/sh\necho \"squeue: unrecognized option '--me'\nTry --help\" >&2\nexit 1\n");
+    for (int i = 0; i < 12; i++) {
+        ck_assert_int_eq(told_of, i >= 5);
+        queue.asked = -1e9;
+        slurm_look(&queue);
+    }
+    ck_assert_int_eq(queue.runs.data[0].array, 0);
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 /* What a cluster has to say to who submits comes with the number, on a line of its own. */
 START_TEST(the_number_of_an_array_is_found_among_words)
 {
@@ -386,4 +415,5 @@ TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lo
           tasks_are_known_by_their_number, the_number_of_an_array_is_found_among_words,
           what_is_asked_for_stands_in_the_command_too, tasks_are_known_in_hidden_partitions,
           what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
-          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for)
+          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for,
+          a_scheduler_that_does_not_answer_is_told)
