@@ -54,10 +54,29 @@ static bool ends_are_told(void)
            (child.sa_handler != SIG_IGN && (child.sa_flags & SA_NOCLDWAIT) == 0);
 }
 
+/* The program, with its log on standard error: 0, or the system's number. */
+static int start_program(const char *const *words, int log, pid_t *id)
+{
+    posix_spawn_file_actions_t files;
+    int bad = posix_spawn_file_actions_init(&files);
+    if (bad != 0)
+        return bad;
+    /* The log first: it has the number of one of the others where whoever started this program had closed that. */
+    bad = posix_spawn_file_actions_adddup2(&files, log, STDERR_FILENO);
+    if (bad == 0)
+        bad = posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (bad == 0)
+        bad = posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    /* posix_spawn does not change the words. */
+    if (bad == 0)
+        bad = posix_spawn(id, words[0], &files, NULL, (char *const *)(uintptr_t)words, environ);
+    posix_spawn_file_actions_destroy(&files);
+    return bad;
+}
+
 fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,
                             fram_error *error)
 {
-    posix_spawn_file_actions_t files;
     process p = {.task = task};
     if (!ends_are_told())
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "SIGCHLD",
@@ -65,17 +84,12 @@ fram_status processes_start(context *ctx, process_pool *all, const char *const *
                          "without SA_NOCLDWAIT, before a study runs");
     if (!array_reserve(ctx, &all->running, all->running.count + 1))
         return error_memory(error);
-    if (posix_spawn_file_actions_init(&files) != 0)
-        return error_memory(error);
-    int bad = posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    if (bad == 0)
-        bad = posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (bad == 0)
-        bad = posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    /* posix_spawn does not change the words. */
-    if (bad == 0)
-        bad = posix_spawn(&p.id, words[0], &files, NULL, (char *const *)(uintptr_t)words, environ);
-    posix_spawn_file_actions_destroy(&files);
+    /* Here and not by the system as it starts the program, whose fault it would then be. */
+    int file = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0)
+        return file_error(error, log, "open for writing", errno);
+    int bad = start_program(words, file, &p.id);
+    close(file);
     if (bad != 0)
         return file_error(error, words[0], "start the program", bad);
     all->running.data[all->running.count++] = p;

@@ -4,6 +4,7 @@
 #include "testing.h"
 
 #include <time.h>
+#include <unistd.h>
 
 enum { PATH = 256 };
 
@@ -123,6 +124,40 @@ START_TEST(processes_tell_how_they_ended)
 }
 END_TEST
 
+/* A log that cannot be written is told as that, not as a program that does not start; and a log has its text where who
+   started the study has closed standard input. */
+START_TEST(a_log_is_opened_by_its_own_name)
+{
+    static const char *const words[] = {"/bin/sh", "-c", "echo the reason >&2", NULL};
+    context ctx;
+    context_init(&ctx);
+    process_pool all = {0};
+    fram_error error = {0};
+    char log[PATH], said[64] = "";
+    ck_assert_int_ne(processes_start(&ctx, &all, words, "/nonexistent/log", 0, &error), FRAM_OK);
+    ck_assert_str_eq(error.file, "/nonexistent/log");
+    ck_assert_int_eq(all.running.count, 0);
+    scratch_path(log);
+    int kept = dup(STDIN_FILENO), code = -1;
+    int32_t task = -1;
+    close(STDIN_FILENO);
+    assert_ok(processes_start(&ctx, &all, words, log, 0, &error), error);
+    if (kept >= 0) {
+        ck_assert_int_eq(dup2(kept, STDIN_FILENO), STDIN_FILENO);
+        close(kept);
+    }
+    while (!processes_ended(&all, &task, &code))
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    FILE *file = fopen(log, "r");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_ptr_nonnull(fgets(said, sizeof said, file));
+    ck_assert_str_eq(said, "the reason\n");
+    fclose(file);
+    processes_free(&ctx, &all);
+    remove(log);
+}
+END_TEST
+
 /* A signal, and a stop, are told as what they are; there is no run.json that would say more. */
 START_TEST(failures_without_a_word_tell_how_they_ended)
 {
@@ -160,4 +195,5 @@ START_TEST(processes_fit_the_memory)
 END_TEST
 
 TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
-          processes_tell_how_they_ended, failures_without_a_word_tell_how_they_ended, processes_fit_the_memory)
+          processes_tell_how_they_ended, a_log_is_opened_by_its_own_name, failures_without_a_word_tell_how_they_ended,
+          processes_fit_the_memory)
