@@ -259,7 +259,10 @@ static void add_table(study_page *p, const bool *has)
     text_add(p->f->ctx, &p->page.text,
              "<style>.wide{overflow-x:auto}.wide td{overflow-wrap:normal;white-space:nowrap}"
              ".wide td.command{white-space:normal;min-width:9em}.wide code{overflow-wrap:anywhere}"
-             ".wide code i{font-style:normal;white-space:nowrap}</style>\n");
+             ".wide code i{font-style:normal;white-space:nowrap}"
+             /* Paper does not scroll: sheets lie on their long side. */
+             "@media print{@page{size:A4 landscape}.wide{overflow:visible}.wide table{font-size:8pt}"
+             ".grid{grid-template-columns:1fr 1fr}}</style>\n");
     for (int i = 0; i < PAGE_FIGURES; i++) {
         snprintf(names[i], sizeof names[i], "%s [%s]", page_figures[i].name, page_figures[i].unit);
         if (has[i])

@@ -4,9 +4,11 @@
 Lines must lead from the fairlead, which the run's own forces tell, to the anchor, which follows from the scenario, and
 hang as a catenary does; what parted or failed is told.  Skipped (77) without Chromium or without the viewer's page.
 """
+import base64
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -220,6 +222,48 @@ def check_end(browser):
     assert go(browser, 1)["gone"] == 0
 
 
+STUDIED = """
+run: {duration: 0.2, time_step: 0.02}
+vessel:
+  mode: free
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+  mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}
+ice: {source: floes, floes: [{x: 30.5, y: 0, length: 12, width: 12}]}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+environment: {current_speed: 2, current_direction_deg: 180}
+output: {frame_interval: 0}
+"""
+STUDY = """
+scenario: studied.yaml
+seeds: 2
+vary:
+  grid: {ice.thickness: [0.5, 1], ice.density: [900, 910], environment.current_speed: [2], environment.wind_speed: [0]}
+"""
+
+
+def check_study_printed(browser, folder):
+    """Of the page of a study, whose tables are wide, paper has every column."""
+    (folder / "studied.yaml").write_text(STUDIED)
+    (folder / "study.yaml").write_text(STUDY)
+    subprocess.run([FRAM, "study", folder / "study.yaml", "-o", folder / "study", "--quiet"], check=True,
+                   stdout=subprocess.DEVNULL)
+    browser.call("Page.navigate", url=(folder / "study" / "study.html").as_uri())
+    browser.until("document.readyState === 'complete' && document.title === 'Study'", "a study's page does not load")
+    # Without shrinking the page as a whole, at the width of its own paper less the margins of 14 mm.
+    sheet = base64.b64decode(browser.call("Page.printToPDF", preferCSSPageSize=True)["data"])
+    points = float(re.search(rb"/MediaBox ?\[0 0 ([0-9.]+)", sheet)[1])
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    browser.call("Emulation.setDeviceMetricsOverride", width=int(points / 72 * 96 - 2 * 14 / 25.4 * 96), height=700,
+                 deviceScaleFactor=1, mobile=False)
+    beyond = browser.run("""[...document.querySelectorAll('table')].map((t) => t.getBoundingClientRect().right)
+        .filter((right) => right > document.documentElement.clientWidth)""")
+    heads = browser.run("document.querySelector('table').rows[0].cells.length")
+    assert heads >= 11, f"a table of {heads} columns is not wide enough for this test to tell"
+    assert beyond == [], f"tables go on beyond the paper, to {beyond} pixels"
+    browser.call("Emulation.setEmulatedMedia", media="")
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
 def main():
     if not chromium.path():
         skip("Chromium is not installed")
@@ -235,6 +279,7 @@ def main():
         calls = check_start(browser)
         for check in (check_pixels, check_between, check_end):
             check(browser)
+        check_study_printed(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
     print(f"six lines, two thrusters and two propellers stand where the run has them, in {calls} draw calls")
 
