@@ -47,8 +47,9 @@ static void list_names(const scenario *s, char *out, size_t room)
 {
     size_t at = 0;
     for (int32_t v = 0; v < scenario_vessel_count(s) && at < room; v++) {
-        int written = snprintf(out + at, room - at, "%s\"%s\"", v > 0 ? ", " : "", scenario_vessel_name(s, v));
-        at += written > 0 ? (size_t)written : room;
+        const char *name = scenario_vessel_entry(s, v).keys->name; /* a single vessel may have one too */
+        int written = *name ? snprintf(out + at, room - at, "%s\"%s\"", v > 0 ? ", " : "", name) : 0;
+        at += written >= 0 ? (size_t)written : room;
     }
 }
 
@@ -61,7 +62,7 @@ fram_status scenario_choose_vessel(const scenario *s, const char *place, const c
     if (*index >= 0)
         return FRAM_OK;
     char names[160] = "";
-    list_names(s, names, scenario_names_vessels(s) ? sizeof names : 0);
+    list_names(s, names, sizeof names);
     return error_set(error, FRAM_ERROR_INPUT, place, 0, "vessel", "expected the name of a vessel, %s; found \"%.60s\"",
                      names[0] ? names : "of which the only one has none", name);
 }

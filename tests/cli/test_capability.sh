@@ -98,5 +98,8 @@ expect 2 "$FRAM" capability bare.yaml -o bare --formula
 says "bare.yaml: vessel: expected a vessel of mode free" err
 expect 2 "$FRAM" capability bare.yaml -o bare --formula --vessel nobody
 says "fram: --vessel: expected" err
+echo "vessel: {name: tug, mode: free}" >named.yaml
+expect 2 "$FRAM" capability named.yaml -o bare --formula --vessel nobody
+says '--vessel: expected the name of a vessel, "tug"; found "nobody"' err
 
 finish "fram capability: as it should be"
