@@ -58,6 +58,24 @@ number "j['run']['upstream']['windows']" 8
 number "j['run']['behind']['windows']" 0
 number "j['run']['upstream']['concentration']" "$(python3 -c 'print((9 + (52 + 56 + 60 + 5 * 64) / 8) / 200)')"
 
+# People are told the numbers that programs are, each under its head.
+cp out told.json
+expect 0 "$FRAM" manage alone --limit 5 --depth 20 -q
+python3 - <<'PY' || fail "the table of fram manage"
+import json, re
+j, text = json.load(open("told.json"))["run"], open("out").read()
+for words, key in (("upstream", "upstream"), ("at the vessel", "at_vessel")):
+    row = [float(x.rstrip("%")) for x in re.search(rf"^{words} +(.*)$", text, re.M)[1].split()]
+    place = j[key]
+    wanted = [place["windows"], place["concentration"], 100 * place["managed"], 100 * place["unbroken"],
+              place["mean_size"], place["largest"]]
+    assert len(row) == 6 and all(abs(a - b) <= 0.006 * max(1, b) for a, b in zip(row, wanted)), (row, wanted)
+for words, key in (("nearest", "unmanaged"), ("largest", "largest_unmanaged")):
+    least, median = re.search(rf"until the {words} .* median +(\S+) s +(\S+) s", text).groups()
+    assert [float(least), float(median)] == [j[f"{key}_comes_in_least"], j[f"{key}_comes_in_median"]], text
+assert len({place["managed"], place["unbroken"], place["concentration"]}) == 3, place
+PY
+
 # The tender is within reach of the ice until its window's middle is 2.1 m before its place at the bow (a half diagonal
 # and half a length, 21.2 m, from it): ice that comes in the first 4 s it never reaches, the rest has been behind it.
 expect 0 "$FRAM" manage both --vessel ship --limit 5 --depth 20 --json -q
