@@ -19,6 +19,16 @@ near 'j["wedge_stress"]' 0.5e6 1e-5 "stress"
 near 'j["breaking_radius"]' 4.14196 1e-5 "radius"
 expect 0 "$FRAM" ice break --thickness 0.8
 says breaking_radius out
+# Stresses and capacities go together, of the radial crack and of the wedges each by itself.
+expect 0 "$FRAM" ice break --force 2e5 --contact-area 0.5 --thickness 0.8 --elastic-modulus 4e9 --nu 0.25 --thin-plate \
+    --flexural-strength 6e5 --crushing-strength 3e6 --water-density 1010 --gravity 9.7 --json
+near 'j["characteristic_length"]' '(4e9 * 0.8 ** 3 / (12 * (1 - 0.25 ** 2) * 1010 * 9.7)) ** 0.25' 1e-9 "l"
+near 'j["radial_stress"] * j["radial_capacity"]' '6e5 * 2e5' 1e-9 "radial crack"
+near 'j["wedge_stress"] * j["wedge_capacity"]' '6e5 * 2e5' 1e-9 "wedges"
+near 'j["radial_radius"]' '(2 * 0.5 / 3.141592653589793) ** 0.5' 1e-9 "half disc"
+near 'j["crushing_force"]' '0.5 * 3e6' 1e-9 "crushing"
+[ "$(tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin)
+print(j["radial_capacity"] < j["wedge_capacity"])')" = True ] || fail "an edge cracks before it breaks off: $(cat out)"
 
 expect 0 "$FRAM" ice break --thin-plate --json
 near 'j["wedge_capacity"]' '0.5e6 / 6 * 2 * 3**0.5' 1.1e-2 "an edge, a point"
@@ -66,6 +76,7 @@ expect 0 "$FRAM" ice split --length 40 --width 60 --thickness 0.5 --toughness 10
 near 'j["splitting_load"]' '0.2077 * 0.5 * 100e3 * 40 ** 0.5' 2e-3 "splitting, width over length 1.5"
 expect 0 "$FRAM" ice split --length 50 --width 50 --place -18.75 --json
 near 'j["smaller_side"]' 6.25 1e-12 "side"
+near 'j["larger_side"]' 43.75 1e-12 "other side"
 near 'j["factor"]' 0.106 6e-3 "splitting near a corner"
 expect 0 "$FRAM" ice split
 says splitting_load out
