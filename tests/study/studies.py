@@ -39,6 +39,16 @@ class StudyTest(unittest.TestCase):
         with open(self.at / folder / name, newline="") as file:
             return list(csv.DictReader(file))
 
+    def netcdf(self, folder):
+        """Units and values of all variables of study.nc."""
+        read = ("import sys, json, xarray; d = xarray.open_dataset(sys.argv[1]); print(json.dumps("
+                "{n: [v.attrs.get('units'), v.values.tolist()] for n, v in d.variables.items()}))")
+        done = subprocess.run(["/usr/bin/python3", "-c", read, self.at / folder / "study.nc"], capture_output=True,
+                              text=True)
+        if done.returncode:
+            self.skipTest("python3-xarray or python3-netcdf4 is not installed")
+        return json.loads(done.stdout)
+
     def check_means(self, folder):
         """Each figure of conditions.csv is the mean of that figure of the condition's runs; returns their heads."""
         runs, seen = self.rows(folder), set()
