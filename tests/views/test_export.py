@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -207,6 +208,61 @@ def check_properties(data, run):
     assert broken > 0, "no piece of a floe"
 
 
+# The reader of the playback page by itself; it needs no browser.
+READ_RECORD = """
+import { readFileSync } from 'node:fs';
+import { FrameStore, readRecord } from './record.mjs';
+const record = readRecord(Uint8Array.from(readFileSync(process.argv[2])).buffer), store = new FrameStore(record, null);
+const frames = record.frames.map((f, n) => {
+    const { poses, contact, forces } = store.get(n);
+    return { time: f.time, force: f.force, order: [...f.order], poses: [...poses], contact: [...contact], forces };
+});
+console.log(JSON.stringify({ frames, fractures: record.fractures,
+    bodies: record.bodies.map((b) => ({ ...b, outline: 0, vertices: 0, triangles: 0 })) }));
+"""
+
+
+def check_viewer(data, run, rows):
+    """The playback page reads of a record what the library reads of it."""
+    import numpy
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(pathlib.Path(os.environ["FRAM_SOURCE"]) / "viewer/src/record.js", f"{folder}/record.mjs")
+        (pathlib.Path(folder) / "read.mjs").write_text(READ_RECORD)
+        record = json.loads(subprocess.run(["node", f"{folder}/read.mjs", run / "record.fram"], check=True,
+                                           capture_output=True, text=True).stdout)
+    frame, row = record["frames"][11], {int(n): k for k, n in enumerate(data["floe"].values)}
+    assert [f["time"] for f in record["frames"]] == list(data["frame"].values)
+    at, floes = {n: v.values[11] if v.ndim == 2 else v.values for n, v in data.items()}, 0
+    for place, index in enumerate(frame["order"]):
+        body, (*centre, x, y, z, w) = record["bodies"][index], frame["poses"][7 * place:7 * place + 7]
+        if body["material"] != "ice":
+            continue
+        k, floes = row[body["number"]], floes + 1
+        for name, value in zip(("x", "y", "z", "contact_force", "area", "thickness", "mass", "parent", "birth"),
+                               (*centre, 1e3 * frame["contact"][place], body["area"], body["thickness"],
+                                body["area"] * body["thickness"] * body["density"], body["parent"],
+                                record["frames"][body["birth"]]["time"])):
+            close(at[f"floe_{name}"][k], value, 1e-5 * max(1, abs(value)))
+        turn = rotation([at[f"floe_{name}"][k] for name in ("heading", "roll", "pitch")])
+        own = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                           [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                           [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+        assert abs(turn - own).max() < 1e-5, (body["number"], turn, own)
+    assert floes == numpy.isfinite(at["floe_x"]).sum()
+    for axis, value in zip("xyz", frame["force"]):
+        close(value, rows[274][f"ice_force_averaged_{axis}[N]"], 1e-6)
+    lines = [f for f in frame["forces"] if f["kind"] == "line"]
+    assert [f["which"] for f in lines] == [1, 2, 3, 4]
+    close(sum(f["force"][0] for f in lines), rows[274]["mooring_force_x[N]"], 3000)
+    for told, event in zip(record["fractures"], rows_of(run / "fractures.csv"), strict=True):
+        assert told["kind"] == ("", "split", "bending", "loose")[int(event["kind[1]"])]
+        for name, head in (("time", "time[s]"), ("floe", "floe[1]"), ("pieces", "pieces[1]"), ("load", "load[N]"),
+                           ("crack", "crack_length[m]"), ("area", "floe_area[m2]")):
+            close(told[name], event[head], 1e-6 * abs(event[head]))
+        for axis, value in zip("xyz", told["place"]):
+            close(value, event[f"place_{axis}[m]"], 1e-5)
+
+
 def check_netcdf(run, rows):
     done = []
     fram("export", run, "--netcdf", "-q")
@@ -231,6 +287,9 @@ def check_netcdf(run, rows):
             if have("vtkmodules"):
                 check_floes(data, run)
             check_properties(data, run)
+            if shutil.which("node"):
+                check_viewer(data, run, rows)
+                done.append("the playback page")
         done.append("xarray")
     if have("h5py"):
         import h5py
