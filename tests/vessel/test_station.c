@@ -243,6 +243,46 @@ START_TEST(noise_of_the_sensors)
 }
 END_TEST
 
+/* Every kind of event, for programs and for people: newtons as kN, radians as degrees, numbers from 1. */
+START_TEST(events_in_words)
+{
+    static const struct {
+        station_event kind;
+        double value;
+        const char *name, *text;
+    } told[] = {
+        {EVENT_LINE_BREAK, 2.1e6, "line_break", "mooring line 3 broke at a tension of 2100 kN"},
+        {EVENT_LINE_RELEASE, 5e5, "line_release", "mooring line 3 was let go at a tension of 500 kN"},
+        {EVENT_THRUSTER_FAILURE, -4e4, "thruster_failure", "thruster 3 failed at a thrust of -40 kN"},
+        {EVENT_POSITION_LOST, 5.5, "position_lost", "position lost: the offset is 5.5 m"},
+        {EVENT_POSITION_REGAINED, 4.5, "position_regained", "position regained: the offset is 4.5 m"},
+        {EVENT_HEADING_LOST, 0.125 * PI, "heading_lost", "heading lost: it is off by 22.5 deg"},
+        {EVENT_HEADING_REGAINED, -0.05 * PI, "heading_regained", "heading regained: it is off by -9 deg"},
+        {EVENT_BESET, 8e5, "beset", "beset under a net thrust of 800 kN"},
+        {EVENT_RAM, 60, "ram", "backed 60 m, and rams"},
+        {EVENT_APPROACH, 40, "approach", "vessel tug is going to pass at 40 m, in 90 s at present velocities"},
+        {EVENT_APPROACH_OVER, 35, "approach_over", "vessel tug is clear again: it came as near as 35 m"},
+        {EVENT_WALL, 7e5, "wall", "the hull runs into a wall of the domain, with 700 kN"},
+        {EVENT_OFF_TRACK, 12, "off_track", "off its track by 12 m"},
+        {EVENT_ON_TRACK, 15, "on_track", "back on its track: it was off by 15 m at most"},
+    };
+    context ctx;
+    event_table events = {0};
+    char text[160];
+    context_init(&ctx);
+    ck_assert_int_eq(sizeof told / sizeof *told, EVENT_COUNT);
+    for (int32_t i = 0; i < EVENT_COUNT; i++) {
+        ck_assert(event_add(&ctx, &events, told[i].kind, 1, 0, 2, told[i].value));
+        events.ahead[i] = 90;
+        ck_assert_str_eq(event_name(told[i].kind), told[i].name);
+        event_text(&events, i, "tug", text, sizeof text);
+        ck_assert_str_eq(text, told[i].text);
+        ck_assert(event_is_of_two(told[i].kind) == (strstr(text, "tug") != NULL));
+    }
+    table_free(&ctx, &events, &event_table_info);
+}
+END_TEST
+
 TEST_MAIN("station", the_load_that_turns_the_heading, the_load_that_is_fed_forward,
           orders_and_measurements_have_their_own_rates, lost_and_regained, the_watched_point, the_watched_point_turns,
-          noise_of_the_sensors)
+          noise_of_the_sensors, events_in_words)
