@@ -148,15 +148,16 @@ static bool is_same(double a, double b)
     return fabs(a - b) <= SAME_PART * fmax(fabs(a), fabs(b)) || (isnan(a) && isnan(b)) || a == b;
 }
 
+/* With all digits of a row: fewer may show one number twice. */
 static fram_status tell_difference(const rerun_check *c, int32_t column, double run, fram_error *error)
 {
     char before[WORD_SIZE + NUMBER_TEXT_SIZE] = "";
     if (c->same >= 0)
         snprintf(before, sizeof before, "up to t = %g s it is the same; ", c->same);
     return error_set(error, FRAM_ERROR_INPUT, c->path, c->line, c->layout.columns.data[column].name,
-                     "at t = %g s it was %.6g in the run and is %.6g when that is computed again from its scenario; "
+                     "at t = %g s it was %.*g in the run and is %.*g when that is computed again from its scenario; "
                      "%sa program told the run what stands in no file, or another Fram made it, or a file was changed",
-                     c->time, run, c->value.data[column], before);
+                     c->time, CSV_DIGITS, run, CSV_DIGITS, c->value.data[column], before);
 }
 
 static fram_status check_row(rerun_check *c, const world *w, fram_error *error)

@@ -34,6 +34,9 @@ static void close_all(void)
     ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
 }
 
+/* The other speed of the tow that a run is told. */
+static double told_speed = 1.5;
+
 /* The run, told another speed of the tow after `told` of 150 steps. */
 static void record(const char *const *overrides, int count, int told)
 {
@@ -49,7 +52,7 @@ static void record(const char *const *overrides, int count, int told)
     assert_ok(fram_world_record(w, &d, &e), e);
     for (int i = 0; i < 150; i++) {
         if (i == told)
-            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), 1.5, &e), e);
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), told_speed, &e), e);
         assert_ok(fram_world_step(w, &e), e);
     }
     assert_ok(fram_world_record_end(w, &result, &e), e);
@@ -102,6 +105,21 @@ START_TEST(steered)
     assert_fails(why(2.5, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
     assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
     assert_ok(why(1, 0), e);
+    close_all();
+}
+END_TEST
+
+/* Two numbers that differ in their tenth digit are not shown as one. */
+START_TEST(steered_a_little)
+{
+    double was = 0, is = 0;
+    open_all();
+    told_speed = 1 + 1e-6;
+    record(no_checkpoints, 1, 75);
+    told_speed = 1.5;
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    ck_assert_int_eq(sscanf(e.message, "at t = 1.52 s it was %lf in the run and is %lf", &was, &is), 2);
+    ck_assert_double_ne(was, is);
     close_all();
 }
 END_TEST
@@ -218,4 +236,5 @@ START_TEST(without_memory)
 }
 END_TEST
 
-TEST_MAIN("rerun", steered, from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, without_memory)
+TEST_MAIN("rerun", steered, steered_a_little, from_a_checkpoint, rows_far_apart, no_row_behind, last_step,
+          beyond_the_end, without_memory)
