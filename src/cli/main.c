@@ -11,11 +11,11 @@ static const command_row commands[] = {
     {"run", "SCENARIO -o DIR", "simulate a scenario and write its results to a folder",
      "  fram run scenes/demo.yaml -o out/demo\n"
      "  fram run scenes/demo.yaml -o out/thick --set ice.thickness=1.5 --threads 2\n"
-     "  fram run scenes/demo.yaml -o out/demo --until 30     stop at 30 s with a checkpoint\n",
+     "  fram run scenes/demo.yaml -o out/half --until 30     stop at 30 s with a checkpoint\n",
      command_run},
     {"resume", "DIR", "continue a run from its newest checkpoint",
-     "  fram resume out/demo\n"
-     "  fram resume out/demo --until 45\n",
+     "  fram resume out/half --until 45\n"
+     "  fram resume out/half\n",
      command_resume},
     {"check", "SCENARIO", "check a scenario; print it with every default filled in, and what follows from it",
      "  fram check scenes/demo.yaml\n"
