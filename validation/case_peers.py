@@ -88,7 +88,7 @@ def case(out):
                 ax.plot([at] * len(values), values, ".", color="grey")
                 ax.errorbar([at + 0.2], [mean], yerr=[1.96 * error], fmt="o", capsize=4)
             short = [n.replace("Fram, ", "").replace(" (double)", "") for n in loads]
-            ax.set_xticks(range(len(loads)), ["judge", *short[1:]], rotation=25)
+            ax.set_xticks(range(len(loads)), ["reference", *short[1:]], rotation=25)
             ax.set(ylabel="mean load [kN]", title=f"{cover} %", ylim=(0, None))
 
     ladder.figure(c, out, "peers", "Each seed (grey), mean and 95 % interval; the reference is the table's first row.",

@@ -17,7 +17,8 @@ def case(out):
     c = ladder.Case(
         "Thickness, speed, friction",
         7,
-        "Mean resistance of the managed field's hull, 4 seeds each, one parameter changed at a time.",
+        "Mean resistance of the managed field's hull, 4 seeds each, one parameter changed at a time; of friction on "
+        "the hull the kinetic one, with a static one of 0.15.",
         "Published model tests and formulas of resistance in broken ice (Zuev, Huang 2021) agree on the signs.",
         "The mean grows from the first to the last value by more than 2 standard errors of the difference.",
     )
