@@ -6,8 +6,8 @@ now.
   validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
 
 Told by content, not by date: the code of a part is the hash of its files without comments and white space, with numbers
-for names that a .c file has for itself, and without assertions, which the build that makes the book leaves out: so a page
-does not age by a better comment, name or assertion.
+for names that a .c file has for itself, and without assertions, which the build that makes the book leaves out: so a
+page does not age by a better comment, name or assertion.
 """
 
 import fnmatch
