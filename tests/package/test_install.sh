@@ -11,7 +11,8 @@ fail() {
 
 echo "make builds what make install installs"
 built=$(cd "$FRAM_SOURCE" && make -n build | sed -n 's/.*--preset release .*--target//p')
-for target in $(sed -n 's/^ *install(TARGETS \([a-z_]*\).*/\1/p' "$FRAM_SOURCE/CMakeLists.txt"); do
+installed=$(sed -n 's/^ *install(TARGETS \([a-z_]*\).*/\1/p' "$FRAM_SOURCE/CMakeLists.txt")
+for target in $installed; do
     case " $built " in
     *" $target "*) ;;
     *) fail "make install needs $target, which make does not build" ;;
