@@ -2,7 +2,6 @@
 """Studies: the same bytes however they were run, stopped, killed and widened; mistakes told at their place."""
 import base64
 import csv
-import fcntl
 import hashlib
 import json
 import math
@@ -238,27 +237,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.write(f"set: {{run.duration: 0.1, run.transient: 0}}\nkeep: {keep}\n")
             done = subprocess.run([FRAM, "study", study, "-o", self.at / "kept"], capture_output=True, text=True)
             self.assertEqual("1 run was made while the study kept less" in done.stderr, said, done.stderr)
-
-    def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
-        """The first file of a study is there under another name for a moment, which is no leftover then."""
-        path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
-        folder.mkdir()
-        first = folder / "study.yaml.0123456789abcdef.new"
-        first.write_text("half of it")
-        lock = os.open(folder, os.O_RDONLY)
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        self.assertIn("another study is writing", self.fram(path, "-o", folder, code=2)["error"]["message"])
-        self.assertEqual(first.read_text(), "half of it")
-        os.close(lock)
-        self.assertEqual(self.fram(path, "-o", folder)["runs"], 1)
-        self.assertFalse(first.exists())
-        # Beside something else it is no folder of a study.
-        shutil.rmtree(folder)
-        folder.mkdir()
-        first.write_text("half of it")
-        (folder / "mine").write_text("mine")
-        self.fram(path, "-o", folder, code=2)
-        self.assertTrue(first.exists())
 
     @WHOLE
     def test_the_effective_study_is_the_study(self):

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Folders of studies: of another scenario they are told, of something else they are left alone; who starts a study may
 ignore how programs end; and what is told meanwhile is of the study."""
+import fcntl
+import os
+import shutil
 import signal
 import subprocess
 import unittest
@@ -36,6 +39,27 @@ class Folders(StudyTest):
         error = self.fram(study, "-o", self.at / "mine", "--force", code=2)["error"]
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
+
+    def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
+        """The first file of a study is there under another name for a moment, which is no leftover then."""
+        path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
+        folder.mkdir()
+        first = folder / "study.yaml.0123456789abcdef.new"
+        first.write_text("half of it")
+        lock = os.open(folder, os.O_RDONLY)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        self.assertIn("another study is writing", self.fram(path, "-o", folder, code=2)["error"]["message"])
+        self.assertEqual(first.read_text(), "half of it")
+        os.close(lock)
+        self.assertEqual(self.fram(path, "-o", folder)["runs"], 1)
+        self.assertFalse(first.exists())
+        # Beside something else it is no folder of a study.
+        shutil.rmtree(folder)
+        folder.mkdir()
+        first.write_text("half of it")
+        (folder / "mine").write_text("mine")
+        self.fram(path, "-o", folder, code=2)
+        self.assertTrue(first.exists())
 
     def test_runs_end_well_where_the_starter_ignored_sigchld(self):
         study = self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n")
