@@ -89,8 +89,8 @@ static const struct {
     {"crushing_work", "energy dissipated in crushing so far"},
     {"solver_residual", "largest residual of a contact's normal condition after the last iteration"},
     {"solver_iterations", "sweeps over all contacts that the velocities of the step took"},
-    {"overlap_mean", "of the contacts that overlap"},
-    {"overlap_max", "of the contacts that overlap"},
+    {"overlap_mean", "of the contacts that overlap, crushed ice included"},
+    {"overlap_max", "of the contacts that overlap, crushed ice included"},
     {"kinetic_energy", "of all bodies that move freely"},
     {"step_wall_time", "wall-clock time that the step took"},
 };
