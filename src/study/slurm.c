@@ -59,8 +59,13 @@ static fram_status put(const slurm_pool *all, int32_t array, const char *ending,
 
 /* ---- beginning and end ---- */
 
-/* Whether the scheduler has taken it: one that does not answer, as while it starts anew, goes on with the array.  Newer
-   ones call a job that they have forgotten a mistake. */
+/* Words of a scheduler by which there is nothing left to cancel: some call that a mistake. */
+static bool is_gone(const char *answer)
+{
+    return answer && (strstr(answer, "Invalid job id") || strstr(answer, "already complet"));
+}
+
+/* Whether the scheduler has taken it: one that does not answer, as while it starts anew, goes on with the array. */
 static bool cancel(slurm_pool *all, long long job)
 {
     char number[32];
@@ -69,8 +74,7 @@ static bool cancel(slurm_pool *all, long long job)
     const char *const words[] = {"env", "-uSCANCEL_INTERACTIVE", "scancel", number, NULL};
     text_buffer answer = {0};
     int code = 0;
-    bool taken = capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK &&
-                 (code == 0 || (answer.data && strstr(answer.data, "Invalid job id")));
+    bool taken = capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK && (code == 0 || is_gone(answer.data));
     capture_line(&answer);
     if (!taken)
         log_write(all->ctx, LOG_WARNING,

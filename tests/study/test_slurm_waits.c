@@ -289,6 +289,19 @@ START_TEST(what_is_not_cancelled_is_cancelled_by_the_next_call)
     slurm_end(&queue, true);
     slurm_free(&queue);
     ck_assert_int_eq(cancelled(&s), 1);
+    /* What has ended meanwhile is no array that goes on. */
+    static const char *const words[] = {"Invalid job id specified", "Job/step already completing or completed"};
+    for (int i = 0; i < 2; i++) {
+        char script[128];
+        snprintf(script, sizeof script, "#!/bin/sh\necho scancel: error: %s >&2\nexit 1\n", words[i]);
+        write_script(&s, "scancel", script);
+        ck_assert_int_eq(slurm_begin(&ctx, &options, s.folder, "/bin/fram", &queue, &error), FRAM_OK);
+        ck_assert(slurm_add(&queue, "0123456789ab", 1, 5, 0));
+        ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+        slurm_end(&queue, false);
+        ck_assert(!queue.unstopped);
+        slurm_free(&queue);
+    }
     end(&s);
 }
 END_TEST
