@@ -7,6 +7,7 @@
 #include "sim/build_level.h"
 #include "sim/build_media.h"
 #include "sim/build_wash.h"
+#include "sim/ice_kinds.h"
 
 static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
 {
@@ -62,12 +63,11 @@ fracture_settings build_fracture_settings(const scenario *s)
 
 double build_wedge_area(const scenario *s)
 {
-    const scenario_ice *i = &s->ice;
-    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
-                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    const ice_kind k = ice_range_of(&s->ice).thinnest;
+    const ice_material m = ice_kind_material(&s->ice, &k);
     fracture_settings f = build_fracture_settings(s);
     double radius =
-        fracture_edge_stress(&f, &m, i->thickness, 1, i->thickness * i->thickness, EDGE_STRAIGHT).breaking_radius;
+        fracture_edge_stress(&f, &m, k.thickness, 1, k.thickness * k.thickness, EDGE_STRAIGHT).breaking_radius;
     double side = fracture_wedge_side(&f, radius);
     return 0.5 * side * side * real_sin(PI / (double)f.wedges);
 }

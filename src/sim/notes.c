@@ -7,6 +7,7 @@
 #include "sim/build.h"
 #include "sim/build_model.h"
 #include "sim/effective.h"
+#include "sim/ice_kinds.h"
 #include "sim/recording.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
@@ -48,21 +49,29 @@ static void note_warning(const note_taker *n, const char *format, ...)
         log_write(n->ctx, LOG_WARNING, "%s", text);
 }
 
+static void note_kind(const note_taker *n, const scenario *s, const ice_kind *k)
+{
+    const scenario_environment *e = &s->environment;
+    ice_material m = ice_kind_material(&s->ice, k);
+    note_fact(n, "ice: %.4g m thick, %.4g m of it under water; characteristic length l = %.4g m", k->thickness,
+              k->thickness * s->ice.density / e->water_density,
+              ice_characteristic_length(&m, k->thickness, e->water_density, e->gravity));
+    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g kN per metre of width",
+              ice_crushing_pressure(&m, 1), ice_crushing_pressure(&m, k->thickness) * k->thickness * 1e-3);
+}
+
 static void note_ice(const note_taker *n, const scenario *s)
 {
     const scenario_ice *i = &s->ice;
-    const scenario_environment *e = &s->environment;
     if (i->source == ICE_NONE)
         return;
-    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
-                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    ice_range kinds = ice_range_of(i);
     double area = (s->domain.x_max - s->domain.x_min) * (s->domain.y_max - s->domain.y_min);
-    note_fact(n, "ice: floats with %.4g m under water; characteristic length l = %.4g m",
-              i->thickness * i->density / e->water_density,
-              ice_characteristic_length(&m, i->thickness, e->water_density, e->gravity));
-    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g kN per metre of width",
-              ice_crushing_pressure(&m, 1), ice_crushing_pressure(&m, i->thickness) * i->thickness * 1e-3);
-    if (i->source == ICE_VORONOI)
+    note_kind(n, s, &kinds.thinnest);
+    if (kinds.thickest.thickness > kinds.thinnest.thickness)
+        note_kind(n, s, &kinds.thickest);
+    /* Those of a population are as large as its law says. */
+    if (i->source == ICE_VORONOI && i->populations.count == 0)
         note_fact(n, "ice: about %.0f cells of %.4g m2 in a domain of %.4g m2", area / i->mean_floe_area,
                   i->mean_floe_area, area);
     note_fact(n, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)", i->smallest_floe_area,
@@ -114,9 +123,10 @@ static void note_fracture(const note_taker *n, const scenario *s)
         note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
         return;
     }
-    double h = i->thickness, sigma = i->crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
-    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
-                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    /* The thinnest ice breaks after the least of crushing. */
+    const ice_kind kind = ice_range_of(i).thinnest;
+    double h = kind.thickness, sigma = kind.crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
+    ice_material m = ice_kind_material(i, &kind);
     fracture_settings f = build_fracture_settings(s);
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
@@ -173,11 +183,12 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
     double speed = speed_in_ice(s, v), way = speed * s->run.time_step;
-    if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * s->ice.thickness)
+    double thickness = ice_range_of(&s->ice).thinnest.thickness;
+    if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * thickness)
         note_warning(n,
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
                      "patches grow in jumps. Take run.time_step under %.3g s",
-                     title.text, way / s->ice.thickness, speed, THICKNESS_STEP * s->ice.thickness / speed);
+                     title.text, way / thickness, speed, THICKNESS_STEP * thickness / speed);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;

@@ -1,3 +1,4 @@
+#include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
@@ -170,16 +171,6 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
 
 /* ---- numbers that belong together ---- */
 
-static double thinnest(const scenario_ice *i)
-{
-    double h = i->source == ICE_FLOES && i->floes.count > 0 ? HUGE_VAL : i->thickness;
-    for (int32_t k = 0; k < i->populations.count; k++)
-        h = fmin(h, automatic_or(i->populations.data[k].thickness, i->thickness));
-    for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
-        h = fmin(h, automatic_or(i->floes.data[k].thickness, i->thickness));
-    return h;
-}
-
 /* A floe heaves at the root of rho_w g / (rho_i h); see the stiffness of hulls in vessel_check.c for the bounds. */
 static void tell_heave(const teller *t)
 {
@@ -187,7 +178,7 @@ static void tell_heave(const teller *t)
     const scenario_environment *e = &t->s->environment;
     if (i->source == ICE_NONE || !e->water)
         return;
-    double h = thinnest(i), frequency = sqrt(e->water_density * e->gravity / (i->density * h));
+    double h = ice_range_of(i).thinnest.thickness, frequency = sqrt(e->water_density * e->gravity / (i->density * h));
     if (frequency * t->s->run.time_step > 1)
         sanity_say(
             t->tell, t->to,
@@ -320,9 +311,10 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    "%s.centre_of_gravity_z: %.4g m is above the deck at %.4g m: give metres above the design "
                    "waterline, not above the keel",
                    e->path, e->keys->centre_of_gravity_z, h->freeboard);
-    if (t->s->ice.source != ICE_NONE && t->s->ice.thickness > h->draught)
-        sanity_say(t->tell, t->to, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m",
-                   t->s->ice.thickness, h->draught);
+    double thickest = ice_range_of(&t->s->ice).thickest.thickness;
+    if (t->s->ice.source != ICE_NONE && thickest > h->draught)
+        sanity_say(t->tell, t->to, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m", thickest,
+                   h->draught);
     if (e->keys->mooring.lines.count > 0 && e->keys->mooring.depth < h->draught)
         sanity_say(t->tell, t->to, "%s.mooring.depth: the hull of draught %.4g m lies on the bottom at %.4g m", e->path,
                    h->draught, e->keys->mooring.depth);

@@ -36,8 +36,8 @@ bool event_add(context *ctx, event_table *events, station_event kind, double tim
                double value);
 /* Whether its number is the row of another vessel. */
 bool event_is_of_two(station_event kind);
-/* "mooring line 3 broke at a tension of 2100 kN", for people; numbers count from 1.  other: how the other vessel of an event of
-   two is called; NULL: by its number. */
+/* "mooring line 3 broke at a tension of 2100 kN", for people; numbers count from 1.  other: how the other vessel of an
+   event of two is called; NULL: by its number. */
 void event_text(const event_table *events, int32_t row, const char *other, char *out, size_t size);
 /* "line_break", for machines. */
 const char *event_name(station_event kind);

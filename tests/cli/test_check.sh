@@ -167,4 +167,24 @@ expect 2 "$FRAM" run sheet.yaml -o none --set "ice.level.openings[0].length=300"
 says "sheet.yaml:3:" err
 says "nothing is left of the sheet of 130 m by 120 m" err
 
+# What ice does and what is warned of it goes by the ice that there is: populations have their own, and their own size.
+cat >thin.yaml <<'END'
+run: {duration: 10, time_step: 0.02}
+vessel: {mode: towed, speed: 1, hull: {length: 40, beam: 10, draught: 4}}
+ice: {source: voronoi, concentration: 0.6, populations: [{size: constant, diameter: 8, thickness: 0.15}]}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}
+END
+expect 0 "$FRAM" check thin.yaml
+says "ice: 0.15 m thick, 0.1346 m of it under water" err
+says "a vertical face loads 300 kN per metre" err
+says "move 0.13 of its thickness past each other in a step" err
+grep -e 'cells of' -e '1 m thick' err && fail "told of ice that there is not"
+sed 's/voronoi/packed/; s/thickness: 0.15}/thickness: 0.5}, {size: constant, diameter: 9, thickness: 5}/' \
+    thin.yaml >two.yaml
+expect 0 "$FRAM" check two.yaml
+says "ice: 0.5 m thick, 0.4488 m of it" err
+says "ice: 5 m thick, 4.488 m of it" err
+says "ice.thickness: 5 m is more than the draught" err
+expect 0 "$FRAM" check thin.yaml --set ice.thickness=9
+grep 'more than the draught' err && fail "told of a thickness that no floe has"
 finish "what cannot be is refused, what will be is told"

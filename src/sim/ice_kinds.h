@@ -1,0 +1,21 @@
+/* How thick and strong the ice of a scenario is, as far as its keys tell: floes and populations may have their own.
+   Knows nothing of what files tell of their floes, nor of scatter. */
+#ifndef SIM_ICE_KINDS_H
+#define SIM_ICE_KINDS_H
+
+#include "ice/material.h"
+#include "model/scenario.h"
+
+typedef struct ice_kind {
+    double thickness, flexural_strength, crushing_strength; /* [m], [Pa] */
+} ice_kind;
+
+/* Of all ice that the scenario makes the thinnest and the thickest kind. */
+typedef struct ice_range {
+    ice_kind thinnest, thickest;
+} ice_range;
+ice_range ice_range_of(const scenario_ice *i);
+/* With the rest of what all ice has in common. */
+ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k);
+
+#endif
