@@ -77,6 +77,7 @@ typedef struct model {
     bool drift_given;           /* an endless field goes with `drift`, otherwise with the current at the surface */
     vec2 drift;                 /* [m/s] */
     double speed_limit;         /* a faster body means that the run went wrong [m/s] */
+    double course_speed;        /* a ship slower than this over the ground has a heading and no course [m/s] */
     solid_array solids;         /* worlds refer to them: a model stays where it is in memory as long as it has worlds */
     vessel_model_array vessels; /* row i belongs to vessel i */
 } model;

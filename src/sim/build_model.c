@@ -9,6 +9,8 @@
 #include "sim/build_wash.h"
 #include "sim/ice_kinds.h"
 
+#include <math.h>
+
 static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
 {
     p->of[a][b] = p->of[b][a] =
@@ -17,6 +19,9 @@ static void set_pair(pair_policies *p, material a, material b, double mu_static,
 
 /* Boxes of moving bodies reach ahead by this many steps: they are then renewed about as often as those of slow ones. */
 #define LOOKAHEAD_STEPS 25
+
+/* A ship slower than this over the ground has a heading and no course, in full size [m/s]. */
+static const double COURSE_SPEED = 0.3;
 
 static strength_field strength_of(const scenario *s)
 {
@@ -119,6 +124,7 @@ static model settings_of(const scenario *s)
         .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
         .drift_given = !is_automatic(s->domain.drift_speed),
         .speed_limit = s->run.speed_limit,
+        .course_speed = COURSE_SPEED * sqrt(scenario_size(s)),
     };
     if (out.drift_given) {
         vec3 drift = scenario_velocity(s->domain.drift_speed, s->domain.drift_direction_deg);

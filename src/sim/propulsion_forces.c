@@ -59,7 +59,8 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
                                     drift,
                                     propulsion_comes(m, w, i, w->clock.time[0], away),
                                     m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
-                                    drag_now(m, w, vessel)};
+                                    drag_now(m, w, vessel),
+                                    m->course_speed};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);
     }

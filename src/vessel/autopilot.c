@@ -11,8 +11,6 @@ static const double COURSE_LAGS = 3;
 static const double LEAST_LOOKAHEAD = 2;
 /* A ship slower than this part of the speed that its data are for is taken to have it: stopped in ice it has no lag. */
 static const double SLOWEST = 0.25;
-/* Slower than this over the ground a ship has a heading and no course [m/s]. */
-static const double NO_COURSE = 0.3;
 /* The mean of the drift that is not the turn's goes over the time in which the ship goes so many reaches. */
 static const double DRIFT_REACHES = 2;
 /* Within an arc the nearer its centre the faster a ship goes round; up to so much. */
@@ -52,7 +50,7 @@ static vec2 ground_velocity(const autopilot_view *v, vec2 place, vec2 past)
 
 static bool has_course(const autopilot_view *v)
 {
-    return vec2_length(ground_velocity(v, v->place, v->velocity)) > NO_COURSE && v->ahead > 0;
+    return vec2_length(ground_velocity(v, v->place, v->velocity)) > v->course_speed && v->ahead > 0;
 }
 
 static vec2 heading_vector(double angle) { return vec2_make(real_cos(angle), real_sin(angle)); }
@@ -85,7 +83,7 @@ static crab crab_of(const autopilot_view *v, const turning_ability *t, vec2 over
    at this rate. */
 static double turn_over_ground(const autopilot_view *v, vec2 place, const track_place *foot, double speed, double rate)
 {
-    vec2 along = vec2_scale(heading_vector(foot->heading), fmax(speed, NO_COURSE)),
+    vec2 along = vec2_scale(heading_vector(foot->heading), fmax(speed, v->course_speed)),
          over = ground_velocity(v, place, along);
     return (rate + v->frame_turn) * vec2_dot(over, along) / vec2_dot(over, over);
 }
@@ -105,7 +103,7 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     double curvature = (track_turned(path, to) - track_turned(path, from)) / bend;
     double change = (track_at(path, to).curvature - track_at(path, from).curvature) / bend;
     /* Back to the track, with the frame, and askew as the ship is in a turn; in as long as in still water. */
-    double least = fmax(speed, NO_COURSE);
+    double least = fmax(speed, v->course_speed);
     double reach = fmax(v->lookahead, fmax(t->reach, LEAST_LOOKAHEAD * u * COURSE_LAGS * v->lag));
     reach *= crab_of(v, t, ground_velocity(v, there, vec2_scale(heading_vector(foot.heading), least))).way;
     vec2 over = ground_velocity(v, there, vec2_scale(heading_vector(foot.heading - real_atan2(off, reach)), least));

@@ -35,6 +35,7 @@ typedef struct autopilot_view {
     double thrust;       /* gross [N] */
     double lookahead;    /* [m] */
     double lag;          /* in which it is to turn as it is told [s] */
+    double course_speed; /* slower over the ground it has a heading and no course [m/s] */
 } autopilot_view;
 
 /* What a ship with this steering gear can be told to need for it [s]. */

@@ -127,7 +127,8 @@ static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double f
         .drag_moment = drag->moment.z,
         .thrust = thrust,
         .lookahead = p->s->lookahead,
-        .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate)};
+        .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate),
+        .course_speed = p->now->course_speed};
 }
 
 /* How far a place on a closed track is from where the ship joined it, as it goes. */

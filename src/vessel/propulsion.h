@@ -85,12 +85,13 @@ fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pa
 /* What the step looks like to a propulsion. */
 typedef struct propulsion_moment {
     double time, dt;
-    vec2 water;        /* velocity of the water [m/s] */
-    vec2 drift;        /* velocity of the ice far away [m/s] */
-    track_place comes; /* where the ice is, from the place of the pattern, that is going to come there, and the way on
-                          which it does, outward; at (0, 0): the pattern keeps its axis */
-    double resistance; /* of the water to the hull, against its way ahead [N] */
-    wrench drag;       /* of the water on the hull, without its lift: what the autopilot reckons with */
+    vec2 water;          /* velocity of the water [m/s] */
+    vec2 drift;          /* velocity of the ice far away [m/s] */
+    track_place comes;   /* where the ice is, from the place of the pattern, that is going to come there, and the way on
+                            which it does, outward; at (0, 0): the pattern keeps its axis */
+    double resistance;   /* of the water to the hull, against its way ahead [N] */
+    wrench drag;         /* of the water on the hull, without its lift: what the autopilot reckons with */
+    double course_speed; /* slower over the ground a ship has a heading and no course [m/s] */
 } propulsion_moment;
 
 /* Steer, set the thrust, and add it to the load on the hull (about its centre of mass). */

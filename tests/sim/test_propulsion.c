@@ -79,7 +79,7 @@ START_TEST(lift_acts_against_sliding_and_turning)
         scene_open_with(&k, SHIP, units, 1);
         int32_t body = k.w.vessels.body[0];
         wrench load = {0};
-        propulsion_moment now = {.dt = 1e-9, .water = {0.3, 0.1}};
+        propulsion_moment now = {.dt = 1e-9, .water = {0.3, 0.1}, .course_speed = 0.3};
         k.w.bodies.velocity[body] = vec3_make(ahead[n] + 0.3, 0.5 + 0.1, 0);
         k.w.bodies.angular_velocity[body] = vec3_make(0, 0, -0.01);
         hull_lift l = k.w.propulsion.settings[0].ship.whole;

@@ -469,8 +469,46 @@ START_TEST(ice_comes_along_its_arc)
 }
 END_TEST
 
+/* The ship of the ready scenes at a length, in a wind aside. */
+static void open_at_size(scene *k, double size)
+{
+    char text[1000];
+    double mass = size * size * size, speed = sqrt(size);
+    snprintf(text, sizeof text,
+             "run: {duration: 9000, time_step: %.17g, scale: %.17g}\n"
+             "vessel:\n  mode: free\n  mass: %.17g\n  speed: %.17g\n"
+             "  hull: {form: icebreaker, length: %.17g, beam: %.17g, draught: %.17g, freeboard: %.17g}\n"
+             "  propulsion: {bollard_pull: %.17g, open_water_speed: %.17g, speed: %.17g,\n"
+             "               waypoints: [{x: %.17g, y: 0}]}\n"
+             "ice: {source: none}\n"
+             "domain: {x_min: -1000, x_max: 1000, y_min: -1000, y_max: 1000, boundary: open}\n"
+             "environment: {hull_drag: {water_form: 1}, wind_speed: %.17g, wind_direction_deg: 90}\n",
+             STEP * speed, 30 * size, 1.49e7 * mass, speed, 121 * size, 25 * size, 8.75 * size, 5 * size, 2.5e6 * mass,
+             8.5 * speed, speed, 900 * size, 7 * speed);
+    scene_open(k, text);
+}
+
+/* A model in a tank is steered as the ship is, also where its speed is less than that at which a ship has a course. */
+START_TEST(a_model_is_steered_as_its_ship)
+{
+    enum { SECONDS = 400 };
+    scene ship, tank;
+    open_at_size(&ship, 1);
+    open_at_size(&tank, 0.0625);
+    scene_steps(&ship, (int64_t)(SECONDS / STEP));
+    scene_steps(&tank, (int64_t)(SECONDS / STEP));
+    vec3 at = ship.w.bodies.position[ship.w.vessels.body[0]], as = tank.w.bodies.position[tank.w.vessels.body[0]];
+    ck_assert(fabs(at.y) > 0.1);
+    assert_relative(as.x, 0.0625 * at.x, 1e-12);
+    assert_relative(as.y, 0.0625 * at.y, 1e-9);
+    scene_close(&ship);
+    scene_close(&tank);
+}
+END_TEST
+
 TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, patterns_are_kept_in_a_current,
           the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
           slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
           rounds_begin_where_the_ship_joined, a_leg_along_a_current_is_kept_as_in_still_water,
-          a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
+          a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes,
+          a_model_is_steered_as_its_ship)
