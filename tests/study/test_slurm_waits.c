@@ -356,10 +356,10 @@ START_TEST(failures_of_another_call_are_tried_again)
 }
 END_TEST
 
-/* Eight runs of one task whose limit of time lets it make one of them each time: none of the others has failed. */
+/* Six runs of one task whose limit of time lets it make one of them each time: none of the others has failed. */
 START_TEST(what_a_task_did_not_come_to_has_not_failed)
 {
-    enum { RUNS = 8 };
+    enum { RUNS = 6 };
     context ctx;
     scheduler s;
     slurm_pool queue;
