@@ -286,6 +286,13 @@ ice: {source: floes, floes: [{x: 16.5, y: 0, length: 12, width: 12}]}
 domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
 output: {frame_interval: 0.25}
 """)
+    # Of a page with its frames in files beside it too, of which few are looked at.
+    beside = ["--page-limit", "0.1", "-o", run / "beside.html"]
+    subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet", *beside], check=True)
+    browser.open(run / "beside.html")
+    met, kinds, longest = browser.run("[fram.record.frames.some((f) => !f.view && f.force[0] < 0), fram.kinds,"
+                                      "Math.max(...fram.record.frames.map((f) => -f.force[0])) * fram.arrowScale]")
+    assert met and kinds == ["ice"] and 5 < longest < 40, (met, kinds, longest)
     browser.open(run / "playback.html")
     touched, kinds, longest, most, high = browser.run("""(() => {
         const frames = fram.record.frames.map((_, i) => fram.store.get(i));

@@ -273,10 +273,10 @@ function readForces(c) {
         { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
 }
 
-/** Of all frames that are in the page: contact forces of floes [kN] and forces on vessels [N], one by one, and
- *  the kinds of the latter. Reads past the poses. */
-export function forcesOf(record) {
-    const { bodies, frames } = record, contacts = [], pulls = [], kinds = new Set();
+/** Contact forces of floes [kN] and forces on vessels [N] of all frames that are in the page, one by one, and the kinds
+ *  of the latter. Reads past the poses. Where none of them meets ice, frames in files beside tell by their load. */
+export function forcesOf({ bodies, frames }) {
+    const contacts = [], pulls = [], kinds = new Set();
     for (const { view, at, order, forces } of frames) {
         if (!view) continue;
         for (let i = 0, pose = at; i < order.length; i++, pose += POSE) {
@@ -288,6 +288,12 @@ export function forcesOf(record) {
             pulls.push(Math.hypot(...force));
             kinds.add(kind);
         }
+    }
+    const loads = frames.map(({ view, force }) => (view ? 0 : Math.hypot(...force))).filter((load) => load > 0);
+    if (!kinds.has('ice') && loads.length) {
+        pulls.push(...loads);
+        contacts.push(...loads.map((load) => load / 1000));
+        kinds.add('ice');
     }
     return { contacts, pulls, kinds };
 }
