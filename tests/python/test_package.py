@@ -692,6 +692,9 @@ ice: {source: none}
             fram.StationKeeping(fram.Scenario.from_text(FREE), observations=["no_such"])
         box = fram.Box([0, -1], [1, 1])
         self.assertIn(box.sample(), box)
+        for low, high in ((5, np.inf), (-np.inf, -5), (-np.inf, np.inf)):
+            half = fram.Box([low], [high])
+            self.assertIn(half.sample(), half)
         self.assertNotIn([2, 0], box)
         self.assertIn("Box", repr(box))
 

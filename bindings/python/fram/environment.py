@@ -24,9 +24,9 @@ class Box:
         self._random = np.random.default_rng(seed)
 
     def sample(self) -> np.ndarray:
-        """A random point; a side without end counts from -1 to 1."""
-        low = np.where(np.isfinite(self.low), self.low, -1)
-        high = np.where(np.isfinite(self.high), self.high, 1)
+        """A random point; a side without end counts from -1 to 1, or to 1 beyond its other end."""
+        low = np.where(np.isfinite(self.low), self.low, np.minimum(-1, self.high - 1))
+        high = np.where(np.isfinite(self.high), self.high, np.maximum(1, self.low + 1))
         return self._random.uniform(low, high).astype(self.dtype)
 
     def contains(self, x: Any) -> bool:
