@@ -45,8 +45,8 @@
       "scaling factor lambda of full size to ice tank; 1 is tank size. Sets the defaults of thresholds")             \
     X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                                \
     X(collision_margin, SCALED(0.3, 30, 1, 0, 1e3), "m",                                                             \
-      "margin by which bounding boxes are enlarged so that pairs last for several steps; changes speed "             \
-      "only")                                                                                                        \
+      "margin by which bounding boxes are enlarged so that pairs last for several steps; changes speed only, and "   \
+      "with ice.sleep_speed from how far off a hull wakes what sleeps")                                              \
     X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong") \
     X(memory_limit, REAL(16, 0.01, 1e6), "GB",                                                                       \
       "a scenario that is estimated to take more memory is refused before it is built")                              \
