@@ -148,4 +148,29 @@ START_TEST(both_together)
 }
 END_TEST
 
-TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together)
+/* A moment that is least, but not nothing, as the ship lies, and vanishes with a turn of 0.3 rad. */
+static vec3 moment_with_a_hollow(const void *user, double heading)
+{
+    double most = *(const double *)user, way = heading < 0.2 ? 1 + heading * heading : 10.4 * (0.3 - heading);
+    return vec3_make(1e5, 0, most * way);
+}
+
+/* Lines that end in one point do not turn a ship: its load alone tells where it comes to rest. */
+START_TEST(turned_by_the_load_alone)
+{
+    held h;
+    double most = 4e6;
+    hold_begin(&h);
+    add_springs(&h, 4, 5e4, 1e6);
+    holding at = holding_find(&h.c, moment_with_a_hollow, &most);
+    assert_relative(at.turn, 0.3, 1e-6);
+    assert_relative(at.offset, 1e5 / (2 * 5e4 + 2 * 4e5 / 600), 1e-3);
+    most = -most; /* the other way round it turns for ever */
+    at = holding_find(&h.c, moment_with_a_hollow, &most);
+    ck_assert_int_eq(at.item, HOLDING_NOTHING);
+    ck_assert(isinf(at.use));
+    hold_end(&h);
+}
+END_TEST
+
+TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, turned_by_the_load_alone)
