@@ -1,4 +1,3 @@
-#define _GNU_SOURCE
 /* What the scheduler says of tasks: "JOB_TASK STATE REASON" on a line. */
 #include "study/slurm.h"
 
