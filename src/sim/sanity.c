@@ -311,9 +311,13 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    "%s.centre_of_gravity_z: %.4g m is above the deck at %.4g m: give metres above the design "
                    "waterline, not above the keel",
                    e->path, e->keys->centre_of_gravity_z, h->freeboard);
-    double thickest = ice_range_of(&t->s->ice).thickest.thickness;
-    if (t->s->ice.source != ICE_NONE && thickest > h->draught)
-        sanity_say(t->tell, t->to, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m", thickest,
+    const scenario_ice *i = &t->s->ice;
+    double thickest = ice_range_of(i).thickest.thickness;
+    const char *key = thickest == i->thickness ? "ice.thickness"
+                      : i->source == ICE_FLOES ? "ice.floes[].thickness"
+                                               : "ice.populations[].thickness";
+    if (i->source != ICE_NONE && thickest > h->draught)
+        sanity_say(t->tell, t->to, "%s: %.4g m is more than the draught of the vessel, %.4g m", key, thickest,
                    h->draught);
     if (e->keys->mooring.lines.count > 0 && e->keys->mooring.depth < h->draught)
         sanity_say(t->tell, t->to, "%s.mooring.depth: the hull of draught %.4g m lies on the bottom at %.4g m", e->path,

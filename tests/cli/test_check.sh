@@ -184,7 +184,7 @@ sed 's/voronoi/packed/; s/thickness: 0.15}/thickness: 0.5}, {size: constant, dia
 expect 0 "$FRAM" check two.yaml
 says "ice: 0.5 m thick, 0.4488 m of it" err
 says "ice: 5 m thick, 4.488 m of it" err
-says "ice.thickness: 5 m is more than the draught" err
+says "ice.populations[].thickness: 5 m is more than the draught" err
 expect 0 "$FRAM" check thin.yaml --set ice.thickness=9
 grep 'more than the draught' err && fail "told of a thickness that no floe has"
 finish "what cannot be is refused, what will be is told"

@@ -88,6 +88,22 @@ START_TEST(quotation_marks_are_doubled_in_a_line)
 }
 END_TEST
 
+static void assert_log(const char *path, const char *first_line)
+{
+    char line[64] = "";
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
+    ck_assert_str_eq(line, first_line);
+    fclose(file);
+}
+
+static void wait_for(process_pool *all, int32_t *task, int *code)
+{
+    while (!processes_ended(all, task, code))
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
 /* How a process ended: by its own code, or by a signal; what it said is in its log. */
 START_TEST(processes_tell_how_they_ended)
 {
@@ -97,7 +113,7 @@ START_TEST(processes_tell_how_they_ended)
     } cases[] = {{"exit 0", 0}, {"echo the reason >&2; exit 7", 7}, {"kill -9 $$", 128 + 9}, {"kill -15 $$", 128 + 15}};
     context ctx;
     context_init(&ctx);
-    char log[PATH], said[64] = "";
+    char log[PATH];
     scratch_path(log);
     for (int32_t i = 0; i < 4; i++) {
         process_pool all = {0};
@@ -106,18 +122,12 @@ START_TEST(processes_tell_how_they_ended)
         int32_t task = -1;
         int code = -1;
         assert_ok(processes_start(&ctx, &all, words, log, 10 + i, &error), error);
-        while (!processes_ended(&all, &task, &code))
-            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        wait_for(&all, &task, &code);
         ck_assert_int_eq(task, 10 + i);
         ck_assert_int_eq(code, cases[i].code);
         ck_assert_int_eq(all.running.count, 0);
-        if (cases[i].code == 7) {
-            FILE *file = fopen(log, "r");
-            ck_assert_ptr_nonnull(file);
-            ck_assert_ptr_nonnull(fgets(said, sizeof said, file));
-            ck_assert_str_eq(said, "the reason\n");
-            fclose(file);
-        }
+        if (cases[i].code == 7)
+            assert_log(log, "the reason\n");
         processes_free(&ctx, &all);
     }
     remove(log);
@@ -133,7 +143,7 @@ START_TEST(a_log_is_opened_by_its_own_name)
     context_init(&ctx);
     process_pool all = {0};
     fram_error error = {0};
-    char log[PATH], said[64] = "";
+    char log[PATH];
     ck_assert_int_ne(processes_start(&ctx, &all, words, "/nonexistent/log", 0, &error), FRAM_OK);
     ck_assert_str_eq(error.file, "/nonexistent/log");
     ck_assert_int_eq(all.running.count, 0);
@@ -146,13 +156,8 @@ START_TEST(a_log_is_opened_by_its_own_name)
         ck_assert_int_eq(dup2(kept, STDIN_FILENO), STDIN_FILENO);
         close(kept);
     }
-    while (!processes_ended(&all, &task, &code))
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
-    FILE *file = fopen(log, "r");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_ptr_nonnull(fgets(said, sizeof said, file));
-    ck_assert_str_eq(said, "the reason\n");
-    fclose(file);
+    wait_for(&all, &task, &code);
+    assert_log(log, "the reason\n");
     processes_free(&ctx, &all);
     remove(log);
 }

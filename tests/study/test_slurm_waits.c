@@ -41,14 +41,22 @@ static void end(scheduler *s)
     ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
 }
 
+/* So many questions to the scheduler, however soon. */
+static void look(slurm_pool *queue, int times)
+{
+    for (int i = 0; i < times; i++) {
+        queue->asked = -1e9;
+        slurm_look(queue);
+    }
+}
+
 /* What the study says when squeue answers so. */
 static const char *told(scheduler *s, slurm_pool *queue, const char *answer)
 {
     char script[400];
     snprintf(script, sizeof script, "#!/bin/sh\ncat <<'END'\n%sEND\n", answer);
     write_script(s, "squeue", script);
-    queue->asked = -1e9;
-    slurm_look(queue);
+    look(queue, 1);
     return slurm_waits(queue);
 }
 
@@ -133,10 +141,7 @@ START_TEST(tasks_are_known_by_their_number)
     begin_queue(&ctx, &s, &options, &queue);
     ck_assert(has_job(&s));
     write_script(&s, "squeue", "#!/bin/sh\ncase $* in *--name*) ;; *) echo 7_0 R None ;; esac\n");
-    for (int i = 0; i < 4; i++) {
-        queue.asked = -1e9;
-        slurm_look(&queue);
-    }
+    look(&queue, 4);
     ck_assert_int_eq(queue.runs.data[0].array, 0);
     ck_assert_int_eq(queue.runs.data[0].missed, 0);
     slurm_free(&queue);
@@ -165,8 +170,7 @@ START_TEST(a_scheduler_that_does_not_answer_is_told)
     write_script(&s, "squeue", "#!/bin/sh\necho \"squeue: unrecognized option '--me'\nTry --help\" >&2\nexit 1\n");
     for (int i = 0; i < 12; i++) {
         ck_assert_int_eq(told_of, i >= 5);
-        queue.asked = -1e9;
-        slurm_look(&queue);
+        look(&queue, 1);
     }
     ck_assert_int_eq(queue.runs.data[0].array, 0);
     slurm_free(&queue);
@@ -241,10 +245,7 @@ START_TEST(tasks_are_known_in_hidden_partitions)
     setenv("SQUEUE_STATES", "RUNNING", 1);
     write_script(&s, "squeue",
                  "#!/bin/sh\n[ -n \"$SQUEUE_STATES\" ] || case $* in *--all*) echo 7_0 PD None ;; esac\n");
-    for (int i = 0; i < 4; i++) {
-        queue.asked = -1e9;
-        slurm_look(&queue);
-    }
+    look(&queue, 4);
     unsetenv("SQUEUE_STATES");
     ck_assert_int_eq(queue.runs.data[0].array, 0);
     slurm_free(&queue);
