@@ -1,4 +1,4 @@
-/* The names of floes that the picture of a peak cannot colour; with why.h. */
+/* Words in the picture of a peak, and names of floes that it cannot colour; with why.h. */
 #ifndef RESULTS_WHY_LABELS_H
 #define RESULTS_WHY_LABELS_H
 
@@ -11,5 +11,8 @@
    push comes from, its colour the part of the load up to `most` [%].  Returns how many. */
 int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d, double most, double length,
                    plan_label labels[PEAK_FLOES]);
+/* What bears most of the load, if any does, and what the marks are; labels: how many there are. */
+enum { WHY_CAPTION = 200 };
+void why_caption(const peak_detail *d, int32_t labels, char out[WHY_CAPTION]);
 
 #endif

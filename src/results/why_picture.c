@@ -140,6 +140,14 @@ static box2 peak_window(const peak_detail *d, double reach)
     return box;
 }
 
+void why_caption(const peak_detail *d, int32_t labels, char out[WHY_CAPTION])
+{
+    snprintf(out, WHY_CAPTION,
+             "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %d s%s",
+             d->floe_count > 0 ? mechanism_text(peak_main_mechanism(d->mechanism)) : "no ice touches the vessel",
+             PEAK_BEFORE, labels > 0 ? "; discs: floes that no frame shows" : "");
+}
+
 static fram_status draw_peak(const why *y, const replay *r, const replay_moment *m, const peak_detail *d, int32_t rank,
                              const char *path, fram_error *error)
 {
@@ -157,7 +165,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
     fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, PEAK_BEFORE, &plan, error);
     if (status == FRAM_OK) {
         double length = force > 0 ? 0.3 * reach / force : 0;
-        char title[120], caption[200];
+        char title[120], caption[WHY_CAPTION];
         plan_label labels[PEAK_FLOES];
         int32_t label_count = why_labels(r, m, d, most, length, labels);
         show_under_hull(&plan);
@@ -170,10 +178,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         const char *on = scenario_vessel_name(&y->run.s, y->vessel);
         snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
                  d->load * unit.factor, unit.name, d->time);
-        snprintf(caption, sizeof caption,
-                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %d s%s",
-                 mechanism_text(peak_main_mechanism(d->mechanism)), PEAK_BEFORE,
-                 label_count > 0 ? "; discs: floes that no frame shows" : "");
+        why_caption(d, label_count, caption);
         plan_view view = {.window = peak_window(d, reach),
                           .title = title,
                           .caption = caption,
@@ -186,7 +191,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
                           .labels = labels,
                           .label_count = label_count,
                           .arrow_scale = length,
-                          .scale_name = "part of the load [%]",
+                          .scale_name = most > 0 ? "part of the load [%]" : NULL,
                           .scale_hi = most};
         if (status == FRAM_OK)
             status = plan_view_write(y->ctx, &view, path, LONGEST_SIDE, error);

@@ -1,6 +1,7 @@
 /* Floes that a frame does not show are named in the picture of a peak, by their part of the load. */
 #include "results/why_labels.h"
 #include "testing.h"
+#include <string.h>
 
 static peak_floe floe(int32_t number, double part, double x)
 {
@@ -40,4 +41,20 @@ START_TEST(floes_without_an_outline)
 }
 END_TEST
 
-TEST_MAIN("why_labels", floes_without_an_outline)
+/* A moment that nothing bears on has no mechanism, not the first of their list. */
+START_TEST(the_caption_tells_what_bears)
+{
+    static peak_detail d;
+    char caption[WHY_CAPTION];
+    why_caption(&d, 0, caption);
+    ck_assert_msg(strncmp(caption, "no ice touches the vessel; arrows", 33) == 0, "%s", caption);
+    ck_assert_ptr_null(strstr(caption, "discs"));
+    d.floe_count = 1;
+    d.mechanism[MECHANISM_BENDING] = 10;
+    why_caption(&d, 1, caption);
+    ck_assert_msg(strncmp(caption, "bending of ice", 14) == 0, "%s", caption);
+    ck_assert_ptr_nonnull(strstr(caption, "; discs: floes that no frame shows"));
+}
+END_TEST
+
+TEST_MAIN("why_labels", floes_without_an_outline, the_caption_tells_what_bears)
