@@ -139,10 +139,10 @@ static double pair_pressure(const crushing_job *j, const crushing_pair *p, vec3 
 /* ---- contacts ---- */
 
 /* Neither a hull nor a wall that crushes it pushes a floe out of itself, nor a floe another one: the overlap is ice
-   that is crushed or about to break. */
-static bool pair_corrects(const crushing_job *j, const crushing_pair *p)
+   that is crushed or about to break. What slides where something else has crushed its way is not deep in the ice. */
+static bool patch_corrects(const crushing_job *j, const crushing_pair *p, const patch_component *c)
 {
-    return j->bodies->material[p->surface_body] == MATERIAL_HULL && j->settings->correct_unbreakable &&
+    return !c->slides && j->bodies->material[p->surface_body] == MATERIAL_HULL && j->settings->correct_unbreakable &&
            !j->floes->breakable[p->floe];
 }
 
@@ -199,8 +199,9 @@ static bool push_patch(const crushing_job *j, const crushing_pair *p, const patc
     assert(patch.contact_count >= 1 && patch.contact_count <= PATCH_MOST_POINTS);
     assert(fabs(vec3_length(patch.normal) - 1) < UNIT_SLACK);
     assert(c->way >= 0 && patch.area > 0 && patch.horizontal_area <= c->surface * (1 + UNIT_SLACK));
+    bool corrects = patch_corrects(j, p, c);
     for (int i = 0; i < patch.contact_count; i++)
-        if (!push_contact(j, p, &patch, i, point[i], c->way, 1.0 / patch.contact_count, pair_corrects(j, p)))
+        if (!push_contact(j, p, &patch, i, point[i], c->way, 1.0 / patch.contact_count, corrects))
             return false;
     return array_push(j->ctx, j->patches, patch);
 }

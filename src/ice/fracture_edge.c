@@ -1,5 +1,5 @@
 /* The ice that a load stands on (docs/decisions/0044): what of the sectors of its stencil is ice, out to about
-   R_bending along their axes, or to where the floe ends along the first crack if that is nearer. */
+   R_bending along their axes, or as far as the floe goes in any direction if that is nearer (decision 0578). */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"
@@ -24,11 +24,11 @@ static void add_strip(const crack_start *start, double radius, double width, sec
     out->size[out->count++] = 4;
 }
 
-/* length: of the ice along the first crack [m]. */
-static void make_sectors(const fracture_job *j, const crack_start *start, double radius, double length, double width,
-                         sectors *out)
+/* length, farthest: of the ice along the first crack, and in any direction [m]. */
+static void make_sectors(const fracture_job *j, const crack_start *start, double radius, double length, double farthest,
+                         double width, sectors *out)
 {
-    const break_size size = {.side = fmin(fracture_wedge_side(j->settings, radius), length), .width = width};
+    const break_size size = {.side = fmin(fracture_wedge_side(j->settings, radius), farthest), .width = width};
     break_shape shape;
     fracture_shape(j->settings->wedges, start, &size, &shape);
     out->wedges = out->count = 2 * j->settings->wedges;
@@ -51,6 +51,19 @@ static double part_of(const sectors *s, const double *area)
         whole += polygon_area((polygon){s->corner + 3 * i, 3});
     }
     return whole > 0 ? 2 * sum / whole : 0;
+}
+
+/* Rays of a fan from the start into the ice, at the middles of as many even parts of the half turn that is inside of an
+   edge: none runs along the edge.  A corner of more than half a part has one that stays in it. */
+enum { FAN_RAYS = 12 };
+
+static crack_start fan_ray(const crack_start *start, int i)
+{
+    double angle = PI * ((i + 0.5) / FAN_RAYS - 0.5), c = real_cos(angle), s = real_sin(angle);
+    vec2 d = start->direction;
+    crack_start ray = *start;
+    ray.direction = (vec2){c * d.x - s * d.y, s * d.x + c * d.y};
+    return ray;
 }
 
 /* Rays across a strip besides the crack's own, at even distances. */
@@ -201,7 +214,8 @@ static double ice_beside(polygon outline, const crack_start *start, int32_t corn
 }
 
 /* The stencil with cracks of length s has the area N s^2 sin(pi/N) in its N whole wedges and a disc of s cos(pi/2N) in
-   it.  Two triangles of that depth have the part sum h / (2 N s sin(pi/2N)) of it, and N sin(pi/2N) < pi/2. */
+   it.  Two triangles of that depth have the part sum h / (2 N s sin(pi/2N)) of it, and N sin(pi/2N) < pi/2.  Where the
+   first crack ends within the stencil, triangles as deep as that stand in the whole one. */
 double fracture_least_ice(const fracture_job *j, fracture_load *l)
 {
     if (j->settings->sharing == SHARING_EQUAL)
@@ -212,13 +226,13 @@ double fracture_least_ice(const fracture_job *j, fracture_load *l)
     double reach = fracture_reach(j, l), angle = PI / 2 / j->settings->wedges;
     crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * reach);
     int32_t end, at = start.edge, next = at + 1 < outline.count ? at + 1 : 0;
-    double side = fmin(fracture_wedge_side(j->settings, reach), crack_length(outline, &start, &end));
+    double whole = fracture_wedge_side(j->settings, reach), side = fmin(whole, crack_length(outline, &start, &end));
     double depth = side * (1 - angle * angle / 2);
     vec2 first = outline.vertex[at];
     bool on_vertex = first.x == start.point.x && first.y == start.point.y;
     int32_t before = !on_vertex ? at : at > 0 ? at - 1 : outline.count - 1;
     double both = ice_beside(outline, &start, next, depth, 1) + ice_beside(outline, &start, before, depth, -1);
-    return side > 0 ? both / (PI * side) : 0;
+    return side > 0 ? both * side / (PI * whole * whole) : 0;
 }
 
 /* ---- all of it ---- */
@@ -227,6 +241,31 @@ double fracture_least_ice(const fracture_job *j, fracture_load *l)
 static bool is_equal_everywhere(const fracture_job *j, const fracture_load *l)
 {
     return j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts && !(l->near > 0);
+}
+
+/* How far the ice goes from the start along the first crack, `length`, or along any ray of the fan where that ends
+   within the sectors. */
+static double floe_farthest(const fracture_job *j, polygon outline, const crack_start *start, double radius,
+                            double length)
+{
+    double side = fracture_wedge_side(j->settings, radius);
+    for (int i = 0; i < FAN_RAYS && length < side; i++) {
+        crack_start ray = fan_ray(start, i);
+        int32_t end;
+        length = fmax(length, crack_length(outline, &ray, &end));
+    }
+    return length;
+}
+
+/* The same in a sheet. */
+static double sheet_farthest(const fracture_job *j, const crack_start *start, double radius, double length)
+{
+    double side = fracture_wedge_side(j->settings, radius);
+    for (int i = 0; i < FAN_RAYS && length < side; i++) {
+        crack_start ray = fan_ray(start, i);
+        length = fmax(length, fracture_sheet_crack_length(j, &ray, CRACK_CORNER_REACH * radius, false));
+    }
+    return length;
 }
 
 edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
@@ -241,7 +280,8 @@ edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
     double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
     sectors s;
     l->width = fracture_contact_width(j, l, start.direction);
-    make_sectors(j, &start, radius, length, l->width, &s);
+    double farthest = floe_farthest(j, outline, &start, radius, length);
+    make_sectors(j, &start, radius, length, farthest, l->width, &s);
     const vec2 *at = s.corner;
     for (int i = 0; i < s.count; at += s.size[i], i++)
         area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
@@ -268,7 +308,7 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
     double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius, false);
     sectors s;
     l->width = fracture_contact_width(j, l, start.direction);
-    make_sectors(j, &start, radius, length, l->width, &s);
+    make_sectors(j, &start, radius, length, sheet_farthest(j, &start, radius, length), l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
     if (status == FRAM_OK && l->width > 0)
         status = sheet_strip_length(j, l, CRACK_CORNER_REACH * radius, &length);

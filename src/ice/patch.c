@@ -18,6 +18,7 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
     array_free(ctx, &s->parts);
     array_free(ctx, &s->corners);
     array_free(ctx, &s->components);
+    array_free(ctx, &s->wholes);
     array_free(ctx, &s->lines);
     array_free(ctx, &s->rays);
     array_free(ctx, &s->ways);
@@ -30,18 +31,6 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
 
 /* ---- components ---- */
 
-/* A part slides along the ice where the way that it goes in is under this part of its whole way: 6 degrees, more than a
-   shoulder turns from facet to facet, less than most bows stand to their way [1].  Range 0.01 to 0.2. */
-static const double SLIDING = 0.1;
-
-/* Whether a part of the surface goes into the ice, not along it or away.  At rest none goes anywhere. */
-static bool part_enters(const patch_surface *surface, const patch_part *part)
-{
-    vec3 u = vec3_add(surface->slip, vec3_cross(surface->turn, part->centre));
-    double speed = vec3_length(u);
-    return speed > surface->rest && vec3_dot(u, part->area) > SLIDING * speed * part->surface;
-}
-
 static int32_t find_root(patch_scratch *s, int32_t part)
 {
     patch_part *all = s->parts.data;
@@ -52,15 +41,36 @@ static int32_t find_root(patch_scratch *s, int32_t part)
     return part;
 }
 
-/* The lower root stays: a component is named by its first part. */
+static int32_t find_whole(patch_scratch *s, int32_t part)
+{
+    patch_part *all = s->parts.data;
+    while (all[part].whole != part) {
+        all[part].whole = all[all[part].whole].whole;
+        part = all[part].whole;
+    }
+    return part;
+}
+
+/* Whether two parts that touch have been joined. */
+static bool are_joined(patch_scratch *s, int32_t a, int32_t b)
+{
+    if (s->parts.data[a].enters != s->parts.data[b].enters)
+        return find_whole(s, a) == find_whole(s, b);
+    return find_root(s, a) == find_root(s, b);
+}
+
+/* Two parts that touch are of one patch, and of one component if they move alike.  The lower root stays: a component is
+   named by its first part. */
 static void join(patch_scratch *s, int32_t a, int32_t b)
 {
+    patch_part *all = s->parts.data;
+    int32_t whole_a = find_whole(s, a), whole_b = find_whole(s, b);
+    all[whole_a > whole_b ? whole_a : whole_b].whole = whole_a > whole_b ? whole_b : whole_a;
+    if (all[a].enters != all[b].enters)
+        return;
     a = find_root(s, a);
     b = find_root(s, b);
-    if (a < b)
-        s->parts.data[b].root = a;
-    else
-        s->parts.data[a].root = b;
+    all[a > b ? a : b].root = a > b ? b : a;
 }
 
 static bool piece_holds(const piece_sides *piece, vec3 point, double tolerance)
@@ -96,34 +106,35 @@ static bool parts_touch(const patch_scratch *s, const patch_floe *floe, const pa
     return false;
 }
 
-/* Cuts the range [*lo, *hi] of the parameter of the segment from a to b down to what lies inside a half space. */
-static void segment_cut(vec3 a, vec3 b, half_space h, double tolerance, double *lo, double *hi)
+/* What a part has of an edge of its face, from a along the unit vector: *lo > *hi where that is nothing. */
+static void part_on_edge(const patch_scratch *s, const patch_part *part, vec3 a, vec3 along, double tolerance,
+                         double *lo, double *hi)
 {
-    double da = vec3_dot(h.n, a) - h.d - tolerance, db = vec3_dot(h.n, b) - h.d - tolerance;
-    if (da > 0 && db > 0) {
-        *hi = -1;
-    } else if (da > 0) {
-        double t = da / (da - db);
-        *lo = t > *lo ? t : *lo;
-    } else if (db > 0) {
-        double t = da / (da - db);
-        *hi = t < *hi ? t : *hi;
+    *lo = HUGE_VAL;
+    *hi = -HUGE_VAL;
+    for (int32_t i = part->first; i < part->first + part->count; i++) {
+        vec3 d = vec3_sub(s->corners.data[i], a);
+        double at = vec3_dot(d, along);
+        if (vec3_length(vec3_mad(d, along, -at)) > tolerance)
+            continue;
+        *lo = at < *lo ? at : *lo;
+        *hi = at > *hi ? at : *hi;
     }
 }
 
-/* Something of a mesh edge runs inside the piece. */
-static bool edge_in_piece(const patch_floe *floe, int32_t piece_index, vec3 a, vec3 b, double tolerance)
+/* Two parts have something of the edge from a to b between their faces in common. */
+static bool parts_share(const patch_scratch *s, const patch_part *p, const patch_part *q, vec3 a, vec3 b,
+                        double tolerance)
 {
-    double lo = 0, hi = 1, half_height = half_height_of(floe);
-    piece_sides piece = sides_of(floe, piece_index);
-    for (int k = 0; k < 2; k++)
-        segment_cut(a, b, prism_cap(half_height, k), tolerance, &lo, &hi);
-    for (int32_t k = 0; k < piece.count && lo < hi; k++)
-        segment_cut(a, b, piece_side(&piece, k), tolerance, &lo, &hi);
-    return (hi - lo) * vec3_length(vec3_sub(b, a)) > 4 * tolerance;
+    double p_lo, p_hi, q_lo, q_hi;
+    vec3 along = vec3_unit(vec3_sub(b, a));
+    part_on_edge(s, p, a, along, tolerance, &p_lo, &p_hi);
+    part_on_edge(s, q, a, along, tolerance, &q_lo, &q_hi);
+    return fmin(p_hi, q_hi) - fmax(p_lo, q_lo) > 4 * tolerance;
 }
 
-/* The part of a face in a piece, -1 without: parts are in order of face, then piece. */
+/* The first of the parts of a face in a piece, the number of all parts without: parts are in order of face, then
+   piece. */
 static int32_t find_part(const patch_scratch *s, int32_t face, int32_t piece)
 {
     int32_t lo = 0, hi = s->parts.count;
@@ -135,35 +146,38 @@ static int32_t find_part(const patch_scratch *s, int32_t face, int32_t piece)
         else
             hi = middle;
     }
-    if (lo == s->parts.count || s->parts.data[lo].face != face || s->parts.data[lo].piece != piece)
-        return -1;
     return lo;
+}
+
+/* Joins a part to those across edge k of its face. */
+static void connect_across(patch_scratch *s, const patch_surface *surface, const patch_floe *floe, int32_t number,
+                           int k)
+{
+    const patch_part *all = s->parts.data, *part = all + number;
+    patch_face face = face_of(surface, part->face);
+    int32_t across = face.neighbour[k];
+    int32_t other = across > part->face ? find_part(s, across, part->piece) : s->parts.count;
+    for (; other < s->parts.count && all[other].face == across && all[other].piece == part->piece; other++) {
+        if (are_joined(s, number, other))
+            continue;
+        const vec3 *vertex = surface->surface->vertex.data;
+        vec3 a = to_floe(surface, vertex[face.corner[k]]);
+        vec3 b = to_floe(surface, vertex[face.corner[k + 1 < face.count ? k + 1 : 0]]);
+        if (parts_share(s, part, &all[other], a, b, tolerance_of(floe)))
+            join(s, number, other);
+    }
 }
 
 static void connect_parts(patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
 {
     double tolerance = tolerance_of(floe);
-    patch_part *part = s->parts.data;
-    bool moves = vec3_dot(surface->slip, surface->slip) > 0 || vec3_dot(surface->turn, surface->turn) > 0;
-    for (int32_t i = 0; i < s->parts.count; i++)
-        part[i].enters = moves && part_enters(surface, &part[i]);
+    const patch_part *part = s->parts.data;
     for (int32_t i = 0; i < s->parts.count; i++) {
         for (int32_t j = i + 1; j < s->parts.count && part[j].face == part[i].face; j++)
-            if (part[i].enters == part[j].enters && find_root(s, i) != find_root(s, j) &&
-                parts_touch(s, floe, &part[i], &part[j], tolerance))
+            if (!are_joined(s, i, j) && parts_touch(s, floe, &part[i], &part[j], tolerance))
                 join(s, i, j);
-        patch_face face = face_of(surface, part[i].face);
-        for (int32_t k = 0; k < face.count; k++) {
-            int32_t across = face.neighbour[k];
-            int32_t other = across > part[i].face ? find_part(s, across, part[i].piece) : -1;
-            if (other < 0 || part[i].enters != part[other].enters || find_root(s, i) == find_root(s, other))
-                continue;
-            const vec3 *vertex = surface->surface->vertex.data;
-            vec3 a = to_floe(surface, vertex[face.corner[k]]);
-            vec3 b = to_floe(surface, vertex[face.corner[k + 1 < face.count ? k + 1 : 0]]);
-            if (edge_in_piece(floe, part[i].piece, a, b, tolerance))
-                join(s, i, other);
-        }
+        for (int k = 0; k < face_of(surface, part[i].face).count; k++)
+            connect_across(s, surface, floe, i, k);
     }
 }
 
@@ -173,6 +187,7 @@ static bool sum_components(context *ctx, patch_scratch *s)
     for (int32_t i = 0; i < s->parts.count; i++) {
         int32_t root = find_root(s, i);
         patch_part *part = &s->parts.data[i];
+        part->whole = find_whole(s, i);
         if (root == i) {
             part->component = s->components.count;
             if (!array_push(ctx, &s->components, (patch_component){.plan = box_of_nothing()}))
@@ -218,6 +233,8 @@ bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surfa
         return false;
     if (s->parts.count == 0)
         return true;
+    if (!patch_divide_by_motion(ctx, s, surface, floe))
+        return false;
     connect_parts(s, surface, floe);
     return sum_components(ctx, s) && patch_measure_ways(ctx, s, surface, floe);
 }

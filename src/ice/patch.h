@@ -36,6 +36,7 @@ typedef struct patch_component {
     sym3 spread;    /* mean of (r - centre)(r - centre)^T over the area [m2] */
     double way;     /* mean way of the overlap along N, see patch_components [m] */
     box2 plan;      /* bounds in the floe's plane [m] */
+    bool slides;    /* beside something of the same patch that goes into the ice */
 } patch_component;
 typedef ARRAY(patch_component) patch_component_array;
 

@@ -78,12 +78,7 @@ void patch_part_measure(const vec3 *v, int32_t count, patch_part *part)
 static bool push_part(context *ctx, patch_scratch *s, const facet *f, int32_t face, int32_t piece, double tolerance)
 {
     const vec3 *v = f->corner[f->side];
-    patch_part part = {.face = face,
-                       .piece = piece,
-                       .first = s->corners.count,
-                       .count = f->count,
-                       .root = s->parts.count,
-                       .component = -1};
+    patch_part part = {.face = face, .piece = piece, .first = s->corners.count, .count = f->count, .component = -1};
     patch_part_measure(v, f->count, &part);
     if (!(part.surface > tolerance * tolerance))
         return true;

@@ -1,5 +1,5 @@
-/* What patch.c, patch_clip.c, patch_left.c, patch_way.c and patch_top.c share: one module with patch.h.  Not for
- * others. */
+/* What patch.c, patch_clip.c, patch_motion.c, patch_left.c, patch_way.c and patch_top.c share: one module with patch.h.
+ * Not for others. */
 #ifndef ICE_PATCH_PARTS_H
 #define ICE_PATCH_PARTS_H
 
@@ -10,8 +10,8 @@
 #define PATCH_SAME_PLACE 1e-10
 
 /* Corners of a clipped part at most: a face, cut by top and bottom and the edges of a piece, each of which adds
-   one; and one more that facet_clip may write. */
-enum { PATCH_MOST_CORNERS = PRISM_FACE_MOST_CORNERS + 2 + PIECE_MOST_VERTICES + 1 };
+   one; one more where the motion changes kind; and one more that facet_clip may write. */
+enum { PATCH_MOST_CORNERS = PRISM_FACE_MOST_CORNERS + 2 + PIECE_MOST_VERTICES + 2 };
 
 /* A face of a surface: its corners among the vertices, and the faces across the edges from each to the next. */
 typedef struct patch_face {
@@ -28,16 +28,17 @@ static inline patch_face face_of(const patch_surface *s, int32_t face)
                         s->faces->first.data[face + 1] - first};
 }
 
-/* What one face has inside one piece. */
+/* What one face has inside one piece, of one kind of motion. */
 typedef struct patch_part {
     int32_t face, piece;
     int32_t first, count; /* corners in the pool */
     vec3 area;            /* area vector */
     double surface;       /* its length */
     vec3 centre;
-    sym3 moment;  /* integral of (r - centre)(r - centre)^T over the area [m4] */
-    bool enters;  /* moves into the ice */
-    int32_t root; /* union-find: a part of the same component, itself at the root; always the least in the end */
+    sym3 moment;   /* integral of (r - centre)(r - centre)^T over the area [m4] */
+    bool enters;   /* moves into the ice */
+    int32_t root;  /* union-find: a part of the same component, itself at the root; always the least in the end */
+    int32_t whole; /* likewise of the same patch, whatever moves into the ice */
     int32_t component;
 } patch_part;
 
@@ -47,6 +48,13 @@ typedef struct patch_line {
     double weight; /* area along the normal [m2] */
     int32_t part;
 } patch_line;
+
+/* A patch before its motion divides it. */
+typedef struct patch_whole {
+    vec3 area;
+    double way;
+    bool enters; /* in a part */
+} patch_whole;
 
 struct patch_scratch {
     int32_array faces;  /* triangles near the floe, where not all are looked at */
@@ -60,6 +68,7 @@ struct patch_scratch {
     ARRAY(patch_part) parts;
     ARRAY(vec3) corners;
     patch_component_array components;
+    ARRAY(patch_whole) wholes; /* under the number of the part at the root */
     ARRAY(patch_line) lines;
     ARRAY(double) rays, ways;
     mesh turned; /* the surface in the floe's frame */
@@ -111,10 +120,14 @@ static inline box2 box_of_nothing(void) { return (box2){{HUGE_VAL, HUGE_VAL}, {-
 /* The parts of all faces in all pieces of the floe, by face and piece. */
 bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
 
+/* Tells of each part whether it goes into the ice, and cuts those in two of which some does: then parts are by face,
+   piece and kind.  Each is its own root. */
+bool patch_divide_by_motion(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
+
 /* Area vector, centroid and second moments of a plane convex part, by its triangles about the first corner. */
 void patch_part_measure(const vec3 *v, int32_t count, patch_part *part);
 
-/* The mean way of the overlap of each component, from its parts. */
+/* The mean way of the overlap of each component: that of its patch before motion divided it, from all its parts. */
 bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
 
 #endif

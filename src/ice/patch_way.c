@@ -200,26 +200,39 @@ static bool measure_lines(context *ctx, patch_scratch *s, const patch_surface *s
     return true;
 }
 
-/* Volumes under parts over the areas of their components; lines stand in the order of parts. */
+/* Volumes under parts over the areas of their patches; lines stand in the order of parts. */
 static void add_volumes(patch_scratch *s)
 {
     for (int32_t i = 0; i < s->lines.count;) {
         int32_t part = s->lines.data[i].part;
-        patch_component *c = &s->components.data[s->parts.data[part].component];
+        patch_whole *whole = &s->wholes.data[s->parts.data[part].whole];
         double volume = 0;
         for (; i < s->lines.count && s->lines.data[i].part == part; i++)
             volume += s->lines.data[i].weight * s->ways.data[i];
-        c->way += volume / vec3_length(c->area);
+        whole->way += volume / vec3_length(whole->area);
     }
 }
 
+/* What slides beside what enters has no back of its own: the way along its normal would be that through all of the
+   floe (decision 0579). */
 bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
 {
+    const patch_part *part = s->parts.data;
     array_clear(&s->lines);
+    array_clear(&s->wholes);
+    if (!array_resize(ctx, &s->wholes, s->parts.count))
+        return false;
+    for (int32_t i = 0; i < s->parts.count; i++)
+        s->wholes.data[i] = (patch_whole){{0, 0, 0}, 0, false};
     for (int32_t i = 0; i < s->parts.count; i++) {
-        const patch_component *c = &s->components.data[s->parts.data[i].component];
-        double area = vec3_length(c->area);
-        if (area > 0 && !add_lines(ctx, s, surface, i, vec3_scale(c->area, 1 / area)))
+        patch_whole *whole = &s->wholes.data[part[i].whole];
+        whole->area = vec3_add(whole->area, part[i].area);
+        whole->enters = whole->enters || part[i].enters;
+    }
+    for (int32_t i = 0; i < s->parts.count; i++) {
+        vec3 normal = s->wholes.data[part[i].whole].area;
+        double area = vec3_length(normal);
+        if (area > 0 && !add_lines(ctx, s, surface, i, vec3_scale(normal, 1 / area)))
             return false;
     }
     if (s->lines.count > 0) {
@@ -228,7 +241,10 @@ bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *sur
         add_volumes(s);
     }
     double most = 2 * floe->shapes->shapes.radius[floe->shape];
-    for (int32_t i = 0; i < s->components.count; i++)
-        s->components.data[i].way = fmin(fmax(s->components.data[i].way, 0), most);
+    for (int32_t i = 0; i < s->parts.count; i++) {
+        patch_component *c = &s->components.data[part[i].component];
+        c->way = fmin(fmax(s->wholes.data[part[i].whole].way, 0), most);
+        c->slides = s->wholes.data[part[i].whole].enters && !part[i].enters;
+    }
     return true;
 }

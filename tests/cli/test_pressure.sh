@@ -180,7 +180,8 @@ rm part/series.csv
 expect 0 "$FRAM" pressure part -o half --panel 2 --force --to 0.2
 says "is not known" err
 # A vertical ship among floes that turn away: patches of which some points carry.  Behind the stem, where patches are
-# flat, panels bear hardly more than the ice does: the hull bends a little, and a piece of 1/16 is on one panel.
+# flat, a panel bears what the ice does, or with two patches that the motion divides, as rectangles that overlap, less
+# than twice that.
 cat >wedge.yaml <<'YAML'
 run: {duration: 8, time_step: 0.02}
 vessel:
@@ -199,7 +200,7 @@ from tables import balance, loads, table
 panels = table("wedged/panels.csv")
 balance(panels, loads("wedge", "", 0)[0])
 worst = max((p["pressure_largest"], p["x"]) for p in panels if p["x"] < 28)
-assert 1e6 < worst[0] <= 2.2e6, worst
+assert 1e6 < worst[0] <= 3e6, worst
 PYTHON
 expect 2 "$FRAM" pressure run
 expect 2 "$FRAM" pressure run -o map

@@ -182,6 +182,20 @@ START_TEST(wall_driven_into_a_static_floe)
 }
 END_TEST
 
+/* All contacts of a box that has crushed its way into the edge of a plate are as deep as its overlap over the area of
+   front and side together, w s / hypot(w, s), however the motion divides them; what slides is not pushed out. */
+static void check_depths(const ice_rig *r, vec3 ahead, double width, double way)
+{
+    ck_assert_int_eq(r->patches.count, 2);
+    for (int32_t i = 0; i < r->contacts.count; i++) {
+        const contact *c = &r->contacts.data[i];
+        double depth = way * width / sqrt(way * way + width * width);
+        assert_absolute(c->depth, depth, 0.01 * depth + 1e-12); /* a few lines stand for the volume */
+        bool is_hull = r->bodies.material[c->b] == MATERIAL_HULL;
+        ck_assert(c->correct == (is_hull && fabs(vec3_dot(c->normal, ahead)) > 0.5));
+    }
+}
+
 /* A box whose front crushes half of a plate's edge, and whose side slides along what it has cut, askew in the world:
    the front carries sigma_c w h and nothing to rub against, the side nothing, however far the box has come. */
 START_TEST(a_side_that_slides_carries_nothing)
@@ -189,7 +203,7 @@ START_TEST(a_side_that_slides_carries_nothing)
     for (int kind = 0; kind < 2; kind++) {
         ice_rig r;
         ice_rig_make(&r, 0.01);
-        r.settings.parts_by_motion = true;
+        r.settings.parts_by_motion = r.settings.correct_unbreakable = true;
         r.settings.skin = 1e-4;
         for (int i = 0; i < MATERIAL_COUNT; i++)
             for (int k = 0; k < MATERIAL_COUNT; k++)
@@ -198,6 +212,7 @@ START_TEST(a_side_that_slides_carries_nothing)
         mat3 turn = quat_matrix(quat_from_roll_pitch_yaw(0, 0, yaw));
         vec3 ahead = mat3_column(turn, 0);
         int32_t row = ice_rig_plate(&r, 30, 20, thickness, MOTION_STATIC);
+        r.floes.breakable[row] = false;
         ice_rig_place(&r, r.floes.body[row], mat3_mul_vec(turn, (vec3){15, 10, 0}), 0, 0, yaw);
         int32_t box = ice_rig_box(&r, (vec3){-20, -3, -10}, (vec3){0, width, 10}, MOTION_PRESCRIBED,
                                   kind ? MATERIAL_WALL : MATERIAL_HULL);
@@ -207,6 +222,8 @@ START_TEST(a_side_that_slides_carries_nothing)
         for (int step = 0; step < 600; step++) {
             ice_rig_step(&r);
             assert_vec3_close(ice_rig_force(&r), vec3_scale(ahead, 2e6 * width * thickness), 1);
+            if (step < 60)
+                check_depths(&r, ahead, width, 0.5 * 0.01 * step);
         }
         /* By a hair into the ice aside: nothing stops such a box, so that its side crushes too, each with its own
            normal and friction along the other. */
@@ -221,6 +238,35 @@ START_TEST(a_side_that_slides_carries_nothing)
         ice_rig_step(&r);
         ck_assert_int_eq(r.patches.count, 1);
         ck_assert(vec3_dot(ice_rig_force(&r), mat3_column(turn, 1)) > 2e6 * thickness * side * 0.5);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* A side in a plate that turns about a place `aside` of it goes into the ice from x / hypot(x, aside) = 1/10 on, and
+   carries sigma_c h times what of it does, exactly, with a triangle or two across that place; the other way likewise.
+ */
+START_TEST(a_side_that_turns_carries_what_enters)
+{
+    const double aside = 3, half = 15, thickness = 0.8, from = 0.1 * aside / sqrt(1 - 0.1 * 0.1);
+    for (int way = -1; way <= 1; way += 2) {
+        ice_rig r;
+        ice_rig_make(&r, 0.01);
+        r.settings.parts_by_motion = true;
+        r.settings.skin = 1e-4;
+        int32_t row = ice_rig_plate(&r, 2 * half, 20, thickness, MOTION_STATIC);
+        ice_rig_place(&r, r.floes.body[row], (vec3){0, aside + 10 - 0.1, 0}, 0, 0, 0);
+        int32_t box =
+            ice_rig_box(&r, (vec3){-20, -aside, -10}, (vec3){20, aside, 10}, MOTION_PRESCRIBED, MATERIAL_HULL);
+        ice_rig_place(&r, box, (vec3){0, 0, 0}, 0, 0, 0);
+        r.bodies.angular_velocity[box] = (vec3){0, 0, 0.1 * way};
+        ice_rig_pair(&r, r.floes.body[row], box);
+        ice_rig_step(&r);
+        ck_assert_int_eq(r.patches.count, 2);
+        assert_vec3_close(ice_rig_force(&r), ((vec3){0, 2e6 * thickness * (half - from), 0}), 1);
+        double first = r.patches.data[0].centre.x * way, other = r.patches.data[1].centre.x * way;
+        assert_absolute(fmax(first, other), (half + from) / 2, 1e-9);
+        assert_absolute(fmin(first, other), (from - half) / 2, 1e-9);
         ice_rig_free(&r);
     }
 }
@@ -294,4 +340,5 @@ END_TEST
 
 TEST_MAIN("crushing oracles", corner_into_wall, corner_with_pressure_area_law, flat_face_into_wall,
           flat_face_with_a_long_step, wall_driven_into_a_static_floe, a_side_that_slides_carries_nothing,
-          a_side_bears_what_presses_on_it, crushed_overlap_moves_nothing, askew_impact_in_pieces)
+          a_side_that_turns_carries_what_enters, a_side_bears_what_presses_on_it, crushed_overlap_moves_nothing,
+          askew_impact_in_pieces)

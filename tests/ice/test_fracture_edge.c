@@ -151,14 +151,76 @@ START_TEST(beside_a_bite)
 }
 END_TEST
 
-/* A band narrower than the breaking radius is measured as far as it goes: it does not break more easily for that. */
-START_TEST(narrow_band)
+/* A hull's contact lies beside the tip: there too a corner has its angle's part of an edge, where the first crack ends
+   at its other side at once, but for what the tip adds.  Sharper than half a ray's part of the half turn none is
+   measured. */
+START_TEST(beside_the_tip)
+{
+    static const double DEGREES[5] = {20, 30, 45, 60, 80};
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.wedges = 16;
+    for (int i = 0; i < 5; i++) {
+        vec2 corner;
+        double angle = radians(DEGREES[i]), part = DEGREES[i] / 180;
+        int32_t row = corner_floe(&r, angle, &corner);
+        for (int side = -1; side <= 1; side += 2) {
+            vec2 along = {real_cos(angle / 2), side * real_sin(angle / 2)};
+            double near = ice_under(&r, row, vec2_add(corner, vec2_scale(along, 0.02)), 0.3).wedges;
+            ck_assert_msg(near >= part && near < part + 0.01, "%g degrees: %g of an edge, expected %g", DEGREES[i],
+                          near, part);
+        }
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The same corner between two openings of a sheet. */
+START_TEST(beside_the_tip_of_a_sheet)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    const vec2 ring[4] = {{-50, -1}, {50, -1}, {50, 1}, {-50, 1}};
-    int32_t row = fracture_rig_floe(&r, (polygon){ring, 4}, 1, MOTION_DYNAMIC);
-    assert_relative(ice_under(&r, row, (vec2){0, -0.9}, 0.3).wedges, 1, 1e-9);
+    polygon_list openings = {0};
+    const vec2 below[4] = {{-80, -80}, {80, -80}, {80, 30}, {-80, 30}}, left[3] = {{-80, -50}, {80, 110}, {-80, 110}};
+    ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){below, 4}));
+    ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){left, 3}));
+    sheet_make(&r, (box2){{-60, 0}, {60, 90}}, 25, &openings);
+    r.settings.wedges = 16;
+    double near = ice_under(&r, sheet_tile_at(&r, (vec2){5, 32}), (vec2){0.02, 30}, 0.3).wedges;
+    ck_assert_msg(near >= 0.25 && near < 0.26, "%g of an edge, expected a quarter", near);
+    polygon_list_free(&r.ctx, &openings);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A long band bears what of it is in the whole stencil; a floe that is small every way is measured no farther than it
+   goes: it does not break the more easily the smaller it is. */
+START_TEST(narrow_ice)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    const vec2 band[4] = {{-50, -1}, {50, -1}, {50, 1}, {-50, 1}};
+    int32_t row = fracture_rig_floe(&r, (polygon){band, 4}, 1, MOTION_DYNAMIC);
+    double radius = fracture_edge_reach(&r.settings, &FRACTURE_RIG_ICE, 1, 0.3);
+    double side = fracture_wedge_side(&r.settings, radius);
+    vec2 stencil[MOST_STENCIL];
+    int count =
+        fracture_stencil(r.settings.wedges, side, &(crack_start){.point = {0, -1}, .direction = {0, 1}}, stencil);
+    ck_assert_double_gt(side, 4);
+    assert_relative(ice_under(&r, row, (vec2){0, -0.9}, 0.3).wedges,
+                    2 * polygon_overlap_area((polygon){stencil, count}, (polygon){band, 4}) /
+                        polygon_area((polygon){stencil, count}),
+                    1e-9);
+    double part[2];
+    for (int i = 0; i < 2; i++) {
+        double half = i ? 0.2 : 1;
+        const vec2 square[4] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+        row = fracture_rig_floe(&r, (polygon){square, 4}, 1, MOTION_DYNAMIC);
+        part[i] = ice_under(&r, row, (vec2){0, -half}, 0.3).wedges;
+    }
+    ck_assert_double_gt(part[0], 0.5);
+    assert_relative(part[1], part[0], 1e-9);
     fracture_rig_free(&r);
 }
 END_TEST
@@ -223,4 +285,5 @@ START_TEST(at_least)
 }
 END_TEST
 
-TEST_MAIN("fracture_edge", at_least, corners, corner_capacity, edges, beside_a_bite, narrow_band)
+TEST_MAIN("fracture_edge", at_least, corners, corner_capacity, edges, beside_the_tip, beside_the_tip_of_a_sheet,
+          beside_a_bite, narrow_ice)

@@ -233,7 +233,7 @@ START_TEST(curved_drift)
 END_TEST
 
 /* The sheet drifts onto the ship for 30 s, goes back until the channel has left the window, and comes again: the
-   ship meets its own channel, open, and next to nothing breaks. */
+   ship meets its own channel, open, and next to nothing breaks: sharp tips of its walls, which bear little. */
 START_TEST(reversal_keeps_the_channel)
 {
     if (getenv("FRAM_TEST_SHORT"))
@@ -252,7 +252,7 @@ START_TEST(reversal_keeps_the_channel)
     k.m.media.current = vec3_make(2, 0, 0);
     scene_steps(&k, 1800);
     ck_assert(k.w.drift.moved[0].x > 40 && k.w.drift_cells.count > 0);
-    ck_assert_msg(k.w.clock.bendings[0] <= breaks + 3, "%lld breaks on the way back",
+    ck_assert_msg(k.w.clock.bendings[0] <= breaks + forth.breaks / 5, "%lld breaks on the way back",
                   (long long)(k.w.clock.bendings[0] - breaks));
     ck_assert(k.w.clock.ice_crushed[0] <= crushed + 2000);
     /* And onto the ship again: the channel is there to where it ended. */
@@ -263,7 +263,7 @@ START_TEST(reversal_keeps_the_channel)
     double again = ice_in(&k, 22, -6, 6, 12);
     ck_assert_msg(again <= cut + 1e-6 && again > cut - 2, "%g m2 of ice in the channel, before %g", again, cut);
     assert_absolute(ice_in(&k, 22, 16, 6, 10), beside, 1e-6);
-    ck_assert_msg(k.w.clock.bendings[0] <= breaks + 6, "%lld breaks in the old channel",
+    ck_assert_msg(k.w.clock.bendings[0] <= breaks + forth.breaks / 5, "%lld breaks in the old channel",
                   (long long)(k.w.clock.bendings[0] - breaks));
     scene_close(&k);
 }
