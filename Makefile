@@ -97,19 +97,20 @@ WORDS = idle_keys|sanity|sanity_gear|sanity_units|verdict|faults|vessel_list
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
 	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm|views|python)$$' \
-		-E '^($(MANY_TRIALS)|ice/crushing_oracles|dynamics/oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability|channels|pressure|why|inputs|hull|manage|ice))$$'
+		-E '^($(MANY_TRIALS)|ice/crushing_oracles|dynamics/oracles|cli/($(WORDS)|bench|packed_field|tutorials|capability_met|effective|check|field|hull_files|json|tracks|capability|channels|pressure|why|inputs|hull|manage|ice|results))$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS) --target tests_threads
 	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^threads$$' -LE '^runs$$'
 
-# What is left out: scripts around the program, readers, which fuzzers built by clang walk further, and runs that are
-# stopped, which are of the system and not of the compiler. What is not run is not built: lint has clang's warnings on it.
-CLANG_ROOMS = base geometry bodies fluid dynamics ice vessel model sim results runs study api
+# What is left out: scripts around the program, readers, which fuzzers built by clang walk further, what is made of runs
+# that are there, and runs that are stopped, which are of the system and not of the compiler. What is not run is not
+# built: lint has clang's warnings on it.
+CLANG_ROOMS = base geometry bodies fluid dynamics ice vessel model sim runs api
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS) --target fram_command example_controller $(CLANG_ROOMS:%=tests_%)
-	@cd build/clang && $(CTEST) -LE '^(package|tools|slurm|python|fmi|views|cli|io|fuzz)$$' \
-		-E '^($(MANY_TRIALS)|study/study|sim/(build_stopped|kill))$$'
+	@cd build/clang && $(CTEST) -LE '^(package|tools|slurm|python|fmi|views|cli|io|fuzz|study|results)$$' \
+		-E '^(ice/field_sized|sim/(build_stopped|kill))$$'
 
 test-bare: build/bare/build.ninja ## build without the optional libraries, and run the tests that meet them
 	@cmake --build --preset bare -j$(JOBS) --target fram_command example_controller \
