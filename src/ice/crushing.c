@@ -114,9 +114,9 @@ static fram_status set_pair(const crushing_job *j, int32_t a, int32_t b, const p
     return FRAM_OK;
 }
 
-/* Pressure on a patch about a centre in the frame of the floe; between two floes that of the weaker one, and no more
-   than builds a ridge or a raft: the width of the patch along the plane is its area, seen level, over the thickness of
-   the thinner floe. */
+/* Pressure on a patch about a centre in the frame of the floe, of which a part or all bears; between two floes that of
+   the weaker one, and no more than builds a ridge or a raft: the width of the patch along the plane is its area, seen
+   level, over the thickness of the thinner floe. */
 static double pair_pressure(const crushing_job *j, const crushing_pair *p, vec3 centre, double area, double level_area)
 {
     pack_floe floe[2];
@@ -170,7 +170,7 @@ static bool push_contact(const crushing_job *j, const crushing_pair *p, const cr
 double crushing_component_pressure(const crushing_job *j, const crushing_pair *p, const patch_component *c, double area)
 {
     double z = vec3_unit(c->area).z;
-    return pair_pressure(j, p, c->centre, area, sqrt(fmax(1 - z * z, 0)) * area);
+    return pair_pressure(j, p, c->centre, area + c->beside, sqrt(fmax(1 - z * z, 0)) * area);
 }
 
 static bool push_patch(const crushing_job *j, const crushing_pair *p, const patch_component *c, int32_t number,

@@ -106,6 +106,33 @@ static bool parts_touch(const patch_scratch *s, const patch_floe *floe, const pa
     return false;
 }
 
+/* Cuts the range [*lo, *hi] of the parameter of the segment from a to b down to what lies inside a half space. */
+static void segment_cut(vec3 a, vec3 b, half_space h, double tolerance, double *lo, double *hi)
+{
+    double da = vec3_dot(h.n, a) - h.d - tolerance, db = vec3_dot(h.n, b) - h.d - tolerance;
+    if (da > 0 && db > 0) {
+        *hi = -1;
+    } else if (da > 0) {
+        double t = da / (da - db);
+        *lo = t > *lo ? t : *lo;
+    } else if (db > 0) {
+        double t = da / (da - db);
+        *hi = t < *hi ? t : *hi;
+    }
+}
+
+/* Something of a mesh edge runs inside the piece. */
+static bool edge_in_piece(const patch_floe *floe, int32_t piece_index, vec3 a, vec3 b, double tolerance)
+{
+    double lo = 0, hi = 1, half_height = half_height_of(floe);
+    piece_sides piece = sides_of(floe, piece_index);
+    for (int k = 0; k < 2; k++)
+        segment_cut(a, b, prism_cap(half_height, k), tolerance, &lo, &hi);
+    for (int32_t k = 0; k < piece.count && lo < hi; k++)
+        segment_cut(a, b, piece_side(&piece, k), tolerance, &lo, &hi);
+    return (hi - lo) * vec3_length(vec3_sub(b, a)) > 4 * tolerance;
+}
+
 /* What a part has of an edge of its face, from a along the unit vector: *lo > *hi where that is nothing. */
 static void part_on_edge(const patch_scratch *s, const patch_part *part, vec3 a, vec3 along, double tolerance,
                          double *lo, double *hi)
@@ -122,7 +149,8 @@ static void part_on_edge(const patch_scratch *s, const patch_part *part, vec3 a,
     }
 }
 
-/* Two parts have something of the edge from a to b between their faces in common. */
+/* Two parts, one of which is not all that its face has in the piece, have something of the edge from a to b between
+   their faces in common. */
 static bool parts_share(const patch_scratch *s, const patch_part *p, const patch_part *q, vec3 a, vec3 b,
                         double tolerance)
 {
@@ -163,7 +191,9 @@ static void connect_across(patch_scratch *s, const patch_surface *surface, const
         const vec3 *vertex = surface->surface->vertex.data;
         vec3 a = to_floe(surface, vertex[face.corner[k]]);
         vec3 b = to_floe(surface, vertex[face.corner[k + 1 < face.count ? k + 1 : 0]]);
-        if (parts_share(s, part, &all[other], a, b, tolerance_of(floe)))
+        if (!edge_in_piece(floe, part->piece, a, b, tolerance_of(floe)))
+            continue;
+        if ((!part->divided && !all[other].divided) || parts_share(s, part, &all[other], a, b, tolerance_of(floe)))
             join(s, number, other);
     }
 }

@@ -37,6 +37,7 @@ typedef struct patch_component {
     double way;     /* mean way of the overlap along N, see patch_components [m] */
     box2 plan;      /* bounds in the floe's plane [m] */
     bool slides;    /* beside something of the same patch that goes into the ice */
+    double beside;  /* area along N of the rest of its patch, which moves otherwise [m2] */
 } patch_component;
 typedef ARRAY(patch_component) patch_component_array;
 

@@ -55,7 +55,11 @@ patch_component patch_left(const patch_scratch *s, const patch_floe *floe, int32
 {
     half_space h = face_that_gives(floe, give);
     const patch_component *whole = &s->components.data[component];
-    patch_component left = {.centre = whole->centre, .way = whole->way, .plan = whole->plan, .slides = whole->slides};
+    patch_component left = {.centre = whole->centre,
+                            .way = whole->way,
+                            .plan = whole->plan,
+                            .slides = whole->slides,
+                            .beside = whole->beside};
     vec3 v[PATCH_MOST_CORNERS + 1], first = {0, 0, 0};
     sym3 about = {0};
     /* About the whole's centre first, which is near, so that few digits are lost on the way to the own one. */

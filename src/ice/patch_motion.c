@@ -67,6 +67,7 @@ static void cut_by_motion(const patch_surface *surface, const patch_part *part, 
 static bool take_kind(const motion_cut *cut, int kind, double tolerance, patch_part *part)
 {
     part->enters = kind == 1;
+    part->divided = true;
     part->count = cut->count[kind];
     patch_part_measure(cut->corner[kind], part->count, part);
     return part->surface > tolerance * tolerance;

@@ -37,6 +37,7 @@ typedef struct patch_part {
     vec3 centre;
     sym3 moment;   /* integral of (r - centre)(r - centre)^T over the area [m4] */
     bool enters;   /* moves into the ice */
+    bool divided;  /* the rest of what the face has in the piece moves otherwise */
     int32_t root;  /* union-find: a part of the same component, itself at the root; always the least in the end */
     int32_t whole; /* likewise of the same patch, whatever moves into the ice */
     int32_t component;
@@ -53,7 +54,7 @@ typedef struct patch_line {
 typedef struct patch_whole {
     vec3 area;
     double way;
-    bool enters; /* in a part */
+    bool enters, slides; /* in a part */
 } patch_whole;
 
 struct patch_scratch {

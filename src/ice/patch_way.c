@@ -213,6 +213,17 @@ static void add_volumes(patch_scratch *s)
     }
 }
 
+/* The rest of the patch that a component is of, as it looks along that one's normal. */
+static void add_beside(patch_scratch *s, int32_t root)
+{
+    const patch_part *all = s->parts.data;
+    patch_component *c = &s->components.data[all[root].component];
+    double area = vec3_length(c->area);
+    for (int32_t i = 0; i < s->parts.count && area > 0; i++)
+        if (all[i].whole == all[root].whole && all[i].component != all[root].component)
+            c->beside += fmax(vec3_dot(all[i].area, c->area) / area, 0);
+}
+
 /* What slides beside what enters has no back of its own: the way along its normal would be that through all of the
    floe (decision 0579). */
 bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
@@ -223,11 +234,12 @@ bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *sur
     if (!array_resize(ctx, &s->wholes, s->parts.count))
         return false;
     for (int32_t i = 0; i < s->parts.count; i++)
-        s->wholes.data[i] = (patch_whole){{0, 0, 0}, 0, false};
+        s->wholes.data[i] = (patch_whole){{0, 0, 0}, 0, false, false};
     for (int32_t i = 0; i < s->parts.count; i++) {
         patch_whole *whole = &s->wholes.data[part[i].whole];
         whole->area = vec3_add(whole->area, part[i].area);
         whole->enters = whole->enters || part[i].enters;
+        whole->slides = whole->slides || !part[i].enters;
     }
     for (int32_t i = 0; i < s->parts.count; i++) {
         vec3 normal = s->wholes.data[part[i].whole].area;
@@ -245,6 +257,8 @@ bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *sur
         patch_component *c = &s->components.data[part[i].component];
         c->way = fmin(fmax(s->wholes.data[part[i].whole].way, 0), most);
         c->slides = s->wholes.data[part[i].whole].enters && !part[i].enters;
+        if (part[i].root == i && s->wholes.data[part[i].whole].enters && s->wholes.data[part[i].whole].slides)
+            add_beside(s, i);
     }
     return true;
 }

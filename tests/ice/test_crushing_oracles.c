@@ -245,16 +245,19 @@ END_TEST
 
 /* A side in a plate that turns about a place `aside` of it goes into the ice from x / hypot(x, aside) = 1/10 on, and
    carries sigma_c h times what of it does, exactly, with a triangle or two across that place; the other way likewise.
- */
+   Where pressure falls with area it is that of the whole side, which the motion alone divides. */
 START_TEST(a_side_that_turns_carries_what_enters)
 {
     const double aside = 3, half = 15, thickness = 0.8, from = 0.1 * aside / sqrt(1 - 0.1 * 0.1);
-    for (int way = -1; way <= 1; way += 2) {
+    for (int turn = 0; turn < 4; turn++) {
+        int way = turn % 2 ? 1 : -1;
+        double exponent = turn < 2 ? 0 : -0.1, pressure = 2e6 * pow(2 * half * thickness, exponent);
         ice_rig r;
         ice_rig_make(&r, 0.01);
         r.settings.parts_by_motion = true;
         r.settings.skin = 1e-4;
         int32_t row = ice_rig_plate(&r, 2 * half, 20, thickness, MOTION_STATIC);
+        r.floes.material[row].crushing_exponent = exponent;
         ice_rig_place(&r, r.floes.body[row], (vec3){0, aside + 10 - 0.1, 0}, 0, 0, 0);
         int32_t box =
             ice_rig_box(&r, (vec3){-20, -aside, -10}, (vec3){20, aside, 10}, MOTION_PRESCRIBED, MATERIAL_HULL);
@@ -263,7 +266,7 @@ START_TEST(a_side_that_turns_carries_what_enters)
         ice_rig_pair(&r, r.floes.body[row], box);
         ice_rig_step(&r);
         ck_assert_int_eq(r.patches.count, 2);
-        assert_vec3_close(ice_rig_force(&r), ((vec3){0, 2e6 * thickness * (half - from), 0}), 1);
+        assert_vec3_close(ice_rig_force(&r), ((vec3){0, pressure * thickness * (half - from), 0}), 1);
         double first = r.patches.data[0].centre.x * way, other = r.patches.data[1].centre.x * way;
         assert_absolute(fmax(first, other), (half + from) / 2, 1e-9);
         assert_absolute(fmin(first, other), (from - half) / 2, 1e-9);
