@@ -191,9 +191,12 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
     return FRAM_OK;
 }
 
-static fram_body_id id_of(const body_table *b, int32_t slot)
+/* The body that a contact of the last step was with: a piece that has come since may stand in its slot. */
+static fram_body_id id_of(const world *w, int32_t slot)
 {
-    return slot >= 0 && slot < b->count ? (fram_body_id){slot, b->generation[slot]} : (fram_body_id){-1, 0};
+    if (slot < 0 || slot >= w->bodies.count)
+        return (fram_body_id){-1, 0};
+    return (fram_body_id){slot, w->bodies.generation[slot] - (world_came_since_contacts(w, slot) ? 1 : 0)};
 }
 
 int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, size_t size)
@@ -204,7 +207,7 @@ int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, 
     for (int32_t i = 0; contacts && i < count && i < room; i++) {
         const contact *c = &w->inner.scratch.contacts.data[i];
         fram_contact full, *out = &full;
-        full = (fram_contact){.a = id_of(&w->inner.bodies, c->a), .b = id_of(&w->inner.bodies, c->b)};
+        full = (fram_contact){.a = id_of(&w->inner, c->a), .b = id_of(&w->inner, c->b)};
         copy3(out->point, c->point);
         copy3(out->normal, c->normal);
         copy3(out->impulse, contact_impulse(c));

@@ -27,13 +27,23 @@ context *kept_context(kept_memory *kept, context *ctx, const body_table *bodies)
     return &kept->through;
 }
 
+/* Rows beyond those that are loaded become those of no body: a view that was given before still shows them. */
+static void replace_rows(char *rows, const char *loaded, size_t size, int32_t count, int32_t loaded_count)
+{
+    if (loaded_count > 0)
+        memcpy(rows, loaded, (size_t)loaded_count * size);
+    if (count > loaded_count)
+        memset(rows + (size_t)loaded_count * size, 0, (size_t)(count - loaded_count) * size);
+}
+
 void kept_replace(kept_memory *kept, context *ctx, body_table *bodies, body_table *loaded)
 {
     context *through = kept_context(kept, ctx, bodies);
     if (kept->shown && loaded->count <= bodies->capacity) {
-        for (int f = 0; f < body_table_info.field_count && loaded->count > 0; f++) {
+        for (int f = 0; f < body_table_info.field_count; f++) {
             const field_info *field = &body_table_info.fields[f];
-            memcpy(table_field(bodies, field), table_field(loaded, field), (size_t)loaded->count * field->size);
+            replace_rows(table_field(bodies, field), table_field(loaded, field), field->size, bodies->count,
+                         loaded->count);
         }
         bodies->count = loaded->count;
         table_free(through, loaded, &body_table_info);

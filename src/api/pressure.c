@@ -59,11 +59,8 @@ fram_status fram_pressure(fram_context *c, const char *run, const fram_pressure_
                                       .to = d.to,
                                       .vessel = d.vessel,
                                       .force = d.force};
-    context *ctx = &c->inner;
-    const volatile int *stop = ctx->stop;
+    context own = c->inner; /* other threads may be at work in the program's */
     if (d.stop)
-        ctx->stop = d.stop;
-    status = hull_pressure_write(ctx, &options, error);
-    ctx->stop = stop;
-    return status;
+        own.stop = d.stop;
+    return hull_pressure_write(&own, &options, error);
 }

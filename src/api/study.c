@@ -360,7 +360,8 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
                              .failed_seed = inner.failed_seed};
     _Static_assert(sizeof out.reason == sizeof inner.reason, "a reason is told whole");
     memcpy(out.reason, inner.reason, sizeof out.reason);
-    result_give(result, size, &out);
+    if (status == FRAM_OK || status == FRAM_INTERRUPTED)
+        result_give(result, size, &out);
     return status;
 }
 

@@ -87,8 +87,7 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     if (status != FRAM_OK)
         return status;
     why y;
-    context *ctx = &c->inner;
-    const volatile int *stop = ctx->stop;
+    context own = c->inner, *ctx = &own; /* other threads may be at work in the program's */
     status = why_open(ctx, run, d->vessel, &y, error);
     if (status != FRAM_OK)
         return status;
@@ -96,7 +95,6 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     if (d->stop)
         ctx->stop = d->stop;
     status = explain(ctx, &y, d, &out, error);
-    ctx->stop = stop;
     why_close(&y);
     if (status == FRAM_OK)
         *text = out.data;

@@ -186,6 +186,12 @@ void world_forget(world *w)
     w->shapes.is_counted = false;
 }
 
+bool world_came_since_contacts(const world *w, int32_t slot)
+{
+    bool is_floe = w->bodies.material[slot] == MATERIAL_ICE && w->bodies.owner[slot] >= 0;
+    return is_floe && w->floes.number[w->bodies.owner[slot]] >= w->scratch.contact_floes;
+}
+
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
 {
     world_table to[WORLD_TABLE_COUNT], from[WORLD_TABLE_COUNT];
@@ -214,6 +220,7 @@ static bool copy_bytes(void *to, const void *from, int32_t count, size_t size)
 static bool copy_reports(context *ctx, const world *src, world *dst)
 {
     dst->scratch.solver = src->scratch.solver;
+    dst->scratch.contact_floes = src->scratch.contact_floes;
     return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(patches) && COPY_ARRAY(ice_loads) &&
            COPY_ARRAY(responses) && COPY_ARRAY(wash_force) && COPY_ARRAY(fractures);
 }

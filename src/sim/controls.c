@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "sim/feed.h"
 #include "sim/media_now.h"
+#include "vessel/path.h"
 
 #include <stdio.h>
 
@@ -144,6 +145,15 @@ static vec3 force_told(const world *w, const control *c)
     return c->role == CONTROL_FORCE ? w->inputs.first[row] : w->inputs.second[row];
 }
 
+/* What a carriage or driven hull goes by: its path, while it has one. */
+static vec3 tow_velocity(const world *w, int32_t vessel)
+{
+    if (isnan(path_place(&w->waypoints, vessel, w->clock.time[0]).z))
+        return w->vessels.tow_velocity[vessel];
+    vec3 along = path_velocity(&w->waypoints, vessel, w->clock.time[0]);
+    return vec3_make(along.x, along.y, 0);
+}
+
 double control_get(const model *m, const world *w, const control *c)
 {
     switch (c->role) {
@@ -155,7 +165,7 @@ double control_get(const model *m, const world *w, const control *c)
     case CONTROL_MOMENT:
         return axis_value(force_told(w, c), c->axis);
     case CONTROL_TOW:
-        return axis_value(w->vessels.tow_velocity[c->which], c->axis);
+        return axis_value(tow_velocity(w, c->which), c->axis);
     case CONTROL_SET_POINT:
         return c->axis == 2 ? degrees(target_of(w, c->which).z) : axis_value(target_of(w, c->which), c->axis);
     case CONTROL_POSITIONING:
@@ -308,6 +318,7 @@ fram_status control_set(context *ctx, const model *m, world *w, const control *c
     case CONTROL_TOW:
         if (fabs(value) > m->speed_limit)
             return refuse(c, value, -m->speed_limit, m->speed_limit, error);
+        w->vessels.tow_velocity[c->which] = tow_velocity(w, c->which);
         drop_path(w, c->which);
         *axis_of(&w->vessels.tow_velocity[c->which], c->axis) = value;
         return FRAM_OK;
@@ -375,6 +386,9 @@ fram_status control_path(context *ctx, world *w, int32_t vessel, const double *t
     waypoint_table *t = &w->waypoints;
     bool free = w->vessels.mode[vessel] == VESSEL_FREE;
     vec3 from = free && vessel < w->stations.count ? target_of(w, vessel) : place_now(w, vessel);
+    /* Where it heads now is known but for whole turns: it takes the shorter way to the first place. */
+    if (!free && count > 0)
+        from.z = places[0].z + plane_angle(from.z - places[0].z);
     if (count > 0 && !table_reserve(ctx, t, &waypoint_table_info, t->count + count + 1))
         return error_memory(error);
     drop_path(w, vessel);

@@ -189,7 +189,8 @@ static bool put_pose(recorder *r, const world *w, int32_t slot)
 static bool put_touched_pose(recorder *r, const world *w, int32_t slot)
 {
     unsigned char packed[RECORD_POSE_SIZE];
-    uint16_t touched = half_from_real(r->sums.data[slot].magnitude * 1e-3);
+    bool here = !world_came_since_contacts(w, slot); /* else they are those of what stood there before */
+    uint16_t touched = here ? half_from_real(r->sums.data[slot].magnitude * 1e-3) : 0;
     record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
     if (touched)
         record_pose_mark(packed);

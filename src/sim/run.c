@@ -13,7 +13,8 @@
 
 /* Everything a running simulation holds. */
 typedef struct run {
-    context *ctx;
+    context own;  /* a copy: other threads of a program may be at work in the one it comes from */
+    context *ctx; /* that */
     const run_options *options;
     recording record;
     model model;
@@ -24,8 +25,8 @@ typedef struct run {
 
 static fram_status run_init(context *ctx, const scenario *s, const run_options *options, run *r, fram_error *error)
 {
-    *r = (run){.ctx = ctx, .options = options};
-    fram_status status = recording_init(ctx, s, options->folder, &r->record, error);
+    *r = (run){.own = *ctx, .ctx = &r->own, .options = options};
+    fram_status status = recording_init(r->ctx, s, options->folder, &r->record, error);
     r->record.force = options->force;
     r->record.with_paths = options->with_paths;
     r->record.finish = options->finish;

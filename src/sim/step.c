@@ -184,6 +184,7 @@ static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_
         return status;
     rest_wake_near(&m->rest, &w->bodies, &w->pairs, &w->rest);
     array_clear(&w->scratch.contacts);
+    w->scratch.contact_floes = w->clock.next_floe[0];
     array_clear(&w->scratch.patch_pairs);
     return narrow_phase_run(ctx, &w->bodies, &w->shapes, &m->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
                             &w->scratch.patch_pairs, w->scratch.collision, error);

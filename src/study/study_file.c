@@ -325,10 +325,9 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
 fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, hull_store *store,
                               fram_error *error)
 {
-    log_level usual = ctx->verbosity;
-    ctx->verbosity = LOG_ERROR;
-    fram_status status = build_check(ctx, one, store, error);
-    ctx->verbosity = usual;
+    context quiet = *ctx;
+    quiet.verbosity = LOG_ERROR;
+    fram_status status = build_check(&quiet, one, store, error);
     if (status == FRAM_ERROR_INPUT)
         study_place_error(s, condition, error);
     return status;

@@ -453,6 +453,8 @@ static fram_status write_results(const study_work *w, bool whole, study_result *
 fram_status study_run(context *ctx, const study *s, const study_options *options, study_result *result,
                       fram_error *error)
 {
+    context own = *ctx; /* other threads of a program may be at work in its own */
+    ctx = &own;
     study_work w = {.ctx = ctx, .s = s, .options = options, .started = clock_wall()};
     const volatile int *stop = ctx->stop;
     if (options->stop)

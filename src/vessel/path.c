@@ -20,6 +20,21 @@ vec3 path_place(const waypoint_table *path, int32_t vessel, double time)
     return place;
 }
 
+vec3 path_velocity(const waypoint_table *path, int32_t vessel, double time)
+{
+    int32_t before = -1;
+    for (int32_t i = 0; i < path->count; i++) {
+        if (path->vessel[i] != vessel)
+            continue;
+        if (path->time[i] > time && before < 0)
+            break;
+        if (path->time[i] > time)
+            return vec3_scale(vec3_sub(path->place[i], path->place[before]), 1 / (path->time[i] - path->time[before]));
+        before = i;
+    }
+    return (vec3){0, 0, 0};
+}
+
 void vessel_follow(const vessel_table *vessels, const waypoint_table *path, body_table *bodies, double time, double dt)
 {
     for (int32_t i = 0; i < vessels->count; i++) {

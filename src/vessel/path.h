@@ -9,6 +9,9 @@
    last after it; a NaN heading without points of the vessel. */
 vec3 path_place(const waypoint_table *path, int32_t vessel, double time);
 
+/* How fast it goes there from this time on [m/s, rad/s]: nothing before its first point and after its last. */
+vec3 path_velocity(const waypoint_table *path, int32_t vessel, double time);
+
 /* Velocities of prescribed bodies (carriage or driven hull) whose vessel has a path, for the step that ends at `time`,
    such that they stand on it then: in the place of vessel_drive's.  The hull turns about its centre of mass as the
    heading of the path does. */

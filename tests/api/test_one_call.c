@@ -5,6 +5,7 @@
 
 #include <pthread.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 enum { STEPS = 8 };
 
@@ -201,4 +202,43 @@ START_TEST(a_world_in_a_call_refuses_another)
 }
 END_TEST
 
-TEST_MAIN("one call", a_world_in_a_call_refuses_another)
+/* While a run with a stop flag of its own is made, another call in its context goes on when that flag is set. */
+static int runs_stop, others;
+static const fram_scenario *others_scene;
+
+static void make_another(void *user, const char *what, double done, double total)
+{
+    (void)user, (void)what, (void)done, (void)total;
+    if (others++ > 0)
+        return;
+    fram_stop_set(&runs_stop, 1);
+    fram_world *other;
+    assert_ok(fram_world_create(others_scene, &other, &e), e);
+    fram_world_destroy(other);
+}
+
+START_TEST(a_runs_stop_stops_nothing_else)
+{
+    fram_context *ctx;
+    fram_scenario *s;
+    fram_context_definition d;
+    fram_context_default(&d);
+    d.work = make_another;
+    assert_ok(fram_context_create(&d, &ctx, &e), e);
+    assert_ok(fram_scenario_parse(ctx, scene, NULL, NULL, 0, &s, &e), e);
+    others_scene = s;
+    fram_run_definition run;
+    fram_run_default(&run);
+    char folder[] = "/tmp/fram_one_call_XXXXXX";
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    run.folder = folder;
+    run.stop = &runs_stop;
+    ck_assert_int_eq(fram_run(s, &run, NULL, &e), FRAM_INTERRUPTED);
+    ck_assert_int_gt(others, 1);
+    ck_assert_int_eq(rmdir(folder), 0); /* it is left as it was */
+    fram_scenario_destroy(s);
+    fram_context_destroy(ctx);
+}
+END_TEST
+
+TEST_MAIN("one call", a_world_in_a_call_refuses_another, a_runs_stop_stops_nothing_else)

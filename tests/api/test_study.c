@@ -135,11 +135,12 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     fram_study_default(&d);
     d.folder = out;
     d.program = program;
-    fram_study_result result = {0};
+    fram_study_result result = {.conditions = -77};
     if (setlocale(LC_ALL, "C.UTF-8"))
         setenv("LANGUAGE", "de", 1);
     ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
     setlocale(LC_ALL, "C");
+    ck_assert_int_eq(result.conditions, -77); /* a failure leaves it alone */
     ck_assert_ptr_nonnull(strstr(error.message, "No space left"));
     write_program(program, "mkdir -p $4\necho '{\"message\": \"No space left on device\"}' >$4/run.json\nexit 1\n");
     ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
