@@ -30,7 +30,8 @@ double plan_colour_value(plan_colour colour, const replay_body *b, const replay_
     case PLAN_COLOUR_THICKNESS:
         return b->thickness;
     case PLAN_COLOUR_AGE:
-        return b->parent >= 0 ? time - b->birth : nothing;
+        /* What is left of a tile that broke has not broken off. */
+        return b->parent >= 0 && !b->level ? time - b->birth : nothing;
     default:
         return nothing;
     }

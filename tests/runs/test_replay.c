@@ -144,6 +144,19 @@ START_TEST(level_ice_is_known)
 }
 END_TEST
 
+/* What a break leaves of a tile has a parent as its pieces have, but did not break off itself. */
+START_TEST(pieces_have_an_age_and_tiles_none)
+{
+    replay_pose p = {0};
+    replay_body piece = {.material = MATERIAL_ICE, .parent = 3, .birth = 2}, tile = piece, whole = piece;
+    tile.level = true;
+    whole.parent = -1;
+    assert_absolute(plan_colour_value(PLAN_COLOUR_AGE, &piece, &p, 5), 3, 0);
+    ck_assert(isnan(plan_colour_value(PLAN_COLOUR_AGE, &tile, &p, 5)));
+    ck_assert(isnan(plan_colour_value(PLAN_COLOUR_AGE, &whole, &p, 5)));
+}
+END_TEST
+
 START_TEST(a_moment_lies_between_its_frames)
 {
     context ctx;
@@ -352,6 +365,6 @@ START_TEST(records_that_lie_are_refused)
 }
 END_TEST
 
-TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, a_moment_lies_between_its_frames,
-          a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
+TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, pieces_have_an_age_and_tiles_none,
+          a_moment_lies_between_its_frames, a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
           frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
