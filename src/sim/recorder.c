@@ -326,7 +326,7 @@ static bool put_thruster_forces(recorder *r, const world *w, int32_t vessel, int
         number += w->thrusters.vessel[i] == vessel;
         if (w->thrusters.vessel[i] != vessel || w->thrusters.failed[i])
             continue;
-        double thrust = w->thrusters.thrust[i], angle = w->thrusters.angle[i];
+        double thrust = w->thrusters.thrust[i], angle = thruster_push_angle(&w->thrusters, i);
         vec3 force = vec3_make(thrust * real_cos(angle), thrust * real_sin(angle), 0);
         good = put_force(r, RECORD_FORCE_THRUSTER, number, body_to_global(&w->bodies, body, w->thrusters.place[i]),
                          mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force));

@@ -157,6 +157,35 @@ START_TEST(pieces_have_an_age_and_tiles_none)
 }
 END_TEST
 
+/* Astern a main propeller pushes along the ship, whatever its rudder does: so it is recorded. */
+START_TEST(a_propeller_astern_pushes_along_the_ship)
+{
+    static const char backing[] =
+        "run: {duration: 0.4, time_step: 0.1}\nice: {source: none}\n"
+        "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44, boundary: open}\n"
+        "vessel:\n  mode: free\n  hull: {form: box, length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+        "  thrusters: [{kind: main, x: -22, thrust: 3.0e5, rudder_deg: 30, setting: -0.8, direction_deg: 25}]\n"
+        "output: {frame_interval: 0.1}\n";
+    context ctx;
+    char folder[PATH];
+    replay r;
+    replay_moment m = {0};
+    fram_error error = {0};
+    context_init(&ctx);
+    run_scene(&ctx, backing, folder);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    assert_ok(replay_moment_at(&r, 0.4, &m, &error), error);
+    ck_assert_int_eq(r.frame.forces.count, 1);
+    const replay_force *f = &r.frame.forces.data[0];
+    ck_assert_int_eq(f->kind, RECORD_FORCE_THRUSTER);
+    ck_assert_double_lt(f->force.x, -100);
+    assert_absolute(f->force.y / f->force.x, 0, 1e-4);
+    replay_moment_free(&ctx, &m);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
 START_TEST(a_moment_lies_between_its_frames)
 {
     context ctx;
@@ -366,5 +395,6 @@ START_TEST(records_that_lie_are_refused)
 END_TEST
 
 TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, pieces_have_an_age_and_tiles_none,
-          a_moment_lies_between_its_frames, a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
+          a_propeller_astern_pushes_along_the_ship, a_moment_lies_between_its_frames,
+          a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
           frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
