@@ -85,11 +85,23 @@ static void tell_late(const teller *t)
     }
 }
 
+/* Way points that no controller follows move the place that limits and offsets count from. */
+static void tell_unsteered(const teller *t)
+{
+    if (t->e->keys->mode == VESSEL_FREE && t->e->keys->positioning.waypoints.count > 0)
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.waypoints: the vessel is not steered there, since positioning.active is false, but "
+                   "its offset counts from them",
+                   t->e->path);
+}
+
 static void tell_positioning(const teller *t)
 {
     const scenario_positioning *p = &t->e->keys->positioning;
-    if (!p->active)
+    if (!p->active) {
+        tell_unsteered(t);
         return;
+    }
     tell_reach(t);
     tell_late(t);
     tell_interval(t, "interval", p->interval);

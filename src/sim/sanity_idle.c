@@ -15,7 +15,8 @@ typedef struct question {
 } question;
 
 /* A key, or all keys of a section where it ends with a dot (without indices, vessels in a list as the one), what leaves
-   them idle, and the sentence about it.  The first rule that fits counts. */
+   them idle, and the sentence about it, or none where the key has an effect all the same.  The first rule that fits
+   counts. */
 typedef struct idle_rule {
     const char *key;
     bool (*idle)(const question *q);
@@ -118,7 +119,10 @@ static bool keeps_heading(const question *q) { return q->v->positioning.heading 
 static bool drives_not(const question *q) { return is_automatic(q->v->propulsion.bollard_pull); }
 static bool has_no_pattern(const question *q) { return q->v->propulsion.pattern.kind == PATTERN_NONE; }
 static bool goes_ahead(const question *q) { return q->v->propulsion.pattern.kind == PATTERN_AHEAD; }
-static bool has_period(const question *q) { return !is_automatic(q->v->propulsion.pattern.period); }
+static bool has_period(const question *q)
+{
+    return !has_no_pattern(q) && !is_automatic(q->v->propulsion.pattern.period);
+}
 static bool watches_not(const question *q) { return is_automatic(q->v->approach.limit); }
 static bool has_no_wash(const question *q) { return !q->v->wash.active; }
 static bool has_no_table(const scenario_flow *c) { return c->table.count == 0 && !c->table_file[0]; }
@@ -286,6 +290,7 @@ static const idle_rule rules[] = {
     {"vessel.thrusters[].diameter", has_no_wash, NO_WASH},
     {"vessel.thrusters[].direction_deg", is_tunnel, TUNNEL},
     {"vessel.station.", is_moved, "mode is not free"},
+    {"vessel.positioning.waypoints", is_free, NULL}, /* its offset counts from them, whoever steers */
     {"vessel.positioning.", is_not_positioned, "positioning.active is false"},
     {"vessel.positioning.bias_rate", is_passive, "positioning.observer is not kalman"},
     {"vessel.positioning.force_noise", is_passive, "positioning.observer is not kalman"},
@@ -343,7 +348,7 @@ static const idle_rule *idle_rule_of(const char *pattern, const question *q)
 {
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (fits(rules[i].key, pattern) && rules[i].idle(q))
-            return &rules[i];
+            return rules[i].why ? &rules[i] : NULL;
     return NULL;
 }
 

@@ -193,6 +193,10 @@ told fleet.yaml "vessels[1].propulsion.propeller_z: without effect, since wash.a
 told fleet.yaml "vessels[1].propulsion.speed: without effect, since propulsion.pattern.period gives the speed" \
     --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.pattern.kind=circle \
     --set vessels.two.propulsion.pattern.period=600 --set vessels.two.propulsion.speed=3
+told fleet.yaml "vessels[1].propulsion.pattern.period: without effect, since propulsion.pattern.kind is none" \
+    --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.pattern.period=600 \
+    --set vessels.two.propulsion.speed=3
+grep 'propulsion.speed: without effect' err && fail "a period without a pattern gives the speed"
 
 # What has an effect, and what says no more than its default.
 silent field.yaml --set ice.fracture.under_ice_contacts=true

@@ -104,6 +104,12 @@ sed "s/^  thrusters.*/&\n  $goes/" held.yaml >late.yaml
 told late.yaml "vessel.positioning.waypoints[1].time: 6000 s is after the end of the run, 600 s"
 expect 0 "$FRAM" check late.yaml --set "vessel.positioning.waypoints[1].time=600"
 grep 'waypoints' err && fail "a way point of the end is told"
+told late.yaml "vessel.positioning.waypoints: the vessel is not steered there, since positioning.active is false" \
+    --set vessel.positioning.active=false
+grep 'waypoints: without effect' err && fail "way points that the offset counts from are told to be idle"
+sed '/thrusters:/d' late.yaml >towed.yaml
+told towed.yaml "vessel.positioning.waypoints: without effect, since positioning.active is false" \
+    --set vessel.positioning.active=false --set vessel.mode=towed
 for options in vessel.positioning.active=true vessel.positioning.control=heading; do
     expect 0 "$FRAM" check held.yaml --set vessel.positioning.active=true --set "$options"
     grep 'warning: vessel.positioning: ' err && fail "thrusters that do it are told: $options"
