@@ -106,7 +106,7 @@ bool controls_list(context *ctx, const scenario *s, const model *m, const world 
         add_vector(&l, CONTROL_CURRENT, -1, 2, "current", "m/s",
                    "velocity of the current at the surface, towards, global frame");
     }
-    if (w->feeding.count > 0)
+    if (w->feeding.count > 0 || w->drift.count > 0)
         add_vector(&l, CONTROL_DRIFT, -1, 2, "ice_drift", "m/s", "velocity of the ice far away, global frame");
     for (int32_t v = 0; v < w->vessels.count; v++) {
         list_vessel(&l, w, v);

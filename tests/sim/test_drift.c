@@ -3,9 +3,11 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "sim/controls.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 /* A ship that stands still, and a sheet whose edge is 2 m before its bow. */
@@ -426,7 +428,40 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
-TEST_MAIN("drift", whichever_moves, nothing_gets_lost, pieces_have_the_velocity_of_the_sheet, curved_drift,
-          reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy, no_load_before_the_old_face,
-          a_limited_drive, an_ample_drive, water_takes_a_floe_along, water_takes_a_sheet_along_at_its_depth,
-          refusals_name_their_key)
+static control control_named(const control_array *list, const char *name)
+{
+    int32_t i = 0;
+    while (i < list->count && strcmp(list->data[i].name, name) != 0)
+        i++;
+    ck_assert_msg(i < list->count, "no input %s", name);
+    return list->data[i];
+}
+
+/* A program turns the drift about, as it may that of an endless field: the sheet goes there, and comes in from there.
+ */
+START_TEST(drifts_as_it_is_told)
+{
+    scene k;
+    fram_error error = {0};
+    control_array list = {0};
+    scene_open(&k, ALONE);
+    ck_assert(controls_list(&k.ctx, &k.s, &k.m, &k.w, &list));
+    control x = control_named(&list, "ice_drift_x"), y = control_named(&list, "ice_drift_y");
+    assert_absolute(control_get(&k.m, &k.w, &x), 1, 1e-12);
+    assert_absolute(control_get(&k.m, &k.w, &y), 0, 1e-12);
+    assert_ok(control_set(&k.ctx, &k.m, &k.w, &x, -4, &error), error);
+    assert_ok(control_set(&k.ctx, &k.m, &k.w, &y, 0.5, &error), error);
+    double entered = k.w.drift.entered[0];
+    scene_steps(&k, 200);
+    assert_absolute(k.w.drift.moved[0].x, -40, 1e-6);
+    assert_absolute(k.w.drift.moved[0].y, 5, 1e-6);
+    ck_assert_double_gt(k.w.drift.entered[0], entered);
+    array_free(&k.ctx, &list);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("drift", drifts_as_it_is_told, whichever_moves, nothing_gets_lost, pieces_have_the_velocity_of_the_sheet,
+          curved_drift, reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy,
+          no_load_before_the_old_face, a_limited_drive, an_ample_drive, water_takes_a_floe_along,
+          water_takes_a_sheet_along_at_its_depth, refusals_name_their_key)
