@@ -130,7 +130,9 @@ static fram_status wash_of_propulsion(context *ctx, const model *m, world *w, co
     const wash_model *wash = &m->vessels.data[vessel].wash;
     vec3 current = media_current(now, 0);
     double gross = t->thrust[row] + propulsion_resistance(m, w, vessel, vec2_make(current.x, current.y));
-    double angle = t->thrust[row] < 0 ? 0 : t->steering[row];
+    /* A ship that brakes a little still pushes ahead against the water. */
+    bool turns = t->phase[row] != PROPULSION_ASTERN && gross > 0;
+    double angle = turns ? t->steering[row] : 0;
     fram_status status = FRAM_OK;
     for (int32_t k = 0; k < wash->propellers && status == FRAM_OK; k++) {
         double y = wash->spacing * (k - 0.5 * (wash->propellers - 1));

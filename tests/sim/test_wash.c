@@ -115,6 +115,33 @@ START_TEST(propulsion_washes_too)
 }
 END_TEST
 
+/* Units that turn push with the gross thrust as long as it is ahead, though the ship brakes a little; braking hard, or
+   backing, they push along the ship, and so goes the jet: as the load on the hull has it (propulsion_step). */
+START_TEST(the_jet_turns_as_the_thrust_does)
+{
+    static const char *const text =
+        "run: {time_step: 0.02, scale: 30}\n"
+        "vessel:\n  mode: free\n"
+        "  hull: {form: box, length: 60, beam: 14, draught: 6, freeboard: 4}\n"
+        "  propulsion: {bollard_pull: 4.0e5, open_water_speed: 7, speed: 2, rudder_area: 0}\n"
+        "  wash: {active: true}\n" FLOES "domain: {x_min: -200, x_max: 200, y_min: -200, y_max: 200, boundary: open}\n";
+    static const double speeds[] = {1.9, 2.02, 4};
+    static const bool turned[] = {true, true, false};
+    for (int i = 0; i < 3; i++) {
+        scene k;
+        scene_open(&k, text);
+        k.w.propulsion.steering[0] = 0.1;
+        k.w.bodies.velocity[k.w.vessels.body[0]].x = speeds[i];
+        scene_steps(&k, 1);
+        ck_assert((k.w.propulsion.thrust[0] < 0) == (i > 0));
+        vec3 force = k.w.scratch.wash_force.data[0];
+        ck_assert_msg(turned[i] ? force.y > 0.01 * fabs(force.x) : fabs(force.y) < 1e-9,
+                      "%g N aside, %g N along at %g m/s", force.y, force.x, speeds[i]);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* At a quarter of full size, by Froude: discs bear a quarter of the pressure, a newton takes half of the power. */
 START_TEST(propellers_left_to_fram_go_with_scale)
 {
@@ -186,5 +213,5 @@ START_TEST(refuses_wash_that_cannot_be)
 END_TEST
 
 TEST_MAIN("wash", pushes_the_floe_behind_and_no_other, pushes_with_the_floes_own_drag, turns_round_with_the_thrust,
-          gives_no_more_than_the_thrust, propulsion_washes_too, off_changes_nothing,
+          gives_no_more_than_the_thrust, propulsion_washes_too, the_jet_turns_as_the_thrust_does, off_changes_nothing,
           propellers_left_to_fram_go_with_scale, goes_on_from_a_copy_with_more_threads, refuses_wash_that_cannot_be)
