@@ -56,7 +56,10 @@ static fram_status follow(rerun *r, const model *m, world *w, bool same, double 
 {
     fram_status status = FRAM_OK;
     int64_t end = step_at(r->time, m->time_step);
+    /* From where the window holds nothing but the method's own steps; from the run's start on it never holds others. */
     int64_t first = w->clock.step[0] + load_window_length(w), last = end + load_window_length(w) / 2;
+    if (first > end)
+        first = end;
     *largest = 0;
     while (status == FRAM_OK && w->clock.step[0] < last) {
         status = same ? step_same(r, m, w, error) : step_once(r, m, w, error);

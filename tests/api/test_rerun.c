@@ -203,6 +203,39 @@ START_TEST(beyond_the_end)
 }
 END_TEST
 
+/* A number in what fram_why tells of a moment as JSON. */
+static double told_number(const char *text, const char *name)
+{
+    char key[40];
+    snprintf(key, sizeof key, "\"%s\": ", name);
+    const char *found = strstr(text, key);
+    ck_assert_msg(found != NULL, "no %s in %s", name, text);
+    return strtod(found + strlen(key), NULL);
+}
+
+/* A moment sooner after the start than the averaging window is long: each method has a load there, too, and the run's
+   own has that of the moment. */
+START_TEST(before_a_window_has_passed)
+{
+    static const char *const words[] = {"output.checkpoint_interval=0", "vessel.x=-21.5"};
+    fram_why_definition d;
+    char *text = NULL;
+    open_all();
+    record(words, 2, -1);
+    fram_why_default(&d);
+    d.time = 0.2;
+    d.json = true;
+    assert_ok(fram_why(ctx, run, &d, &text, &e), e);
+    double load = told_number(text, "load");
+    ck_assert_double_gt(load, 0);
+    ck_assert_double_ge(told_number(text, "same"), load * (1 - 1e-9));
+    ck_assert_double_gt(told_number(text, "half_step"), 0.5 * load);
+    ck_assert_double_gt(told_number(text, "accurate"), 0.5 * load);
+    fram_text_free(ctx, text);
+    close_all();
+}
+END_TEST
+
 START_TEST(without_memory)
 {
     open_all();
@@ -237,4 +270,4 @@ START_TEST(without_memory)
 END_TEST
 
 TEST_MAIN("rerun", steered, steered_a_little, from_a_checkpoint, rows_far_apart, no_row_behind, last_step,
-          beyond_the_end, without_memory)
+          beyond_the_end, before_a_window_has_passed, without_memory)
