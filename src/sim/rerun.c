@@ -8,6 +8,7 @@
 #include "sim/peak_watch.h"
 #include "sim/recording.h"
 #include "sim/rerun_check.h"
+#include "sim/rerun_step.h"
 #include "sim/run_folder.h"
 #include "sim/run_inputs.h"
 #include "sim/step.h"
@@ -90,14 +91,14 @@ static fram_status explain(const rerun *r, const model *m, world *w, fram_error 
     return status;
 }
 
-/* A copy of the world goes on by another method. */
-static fram_status follow_other(rerun *r, const world *from, double time_step, bool accurate, double *largest,
+/* A copy of the world goes on by another method, with its time step or a part of that. */
+static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool accurate, double *largest,
                                 fram_error *error)
 {
     scenario s = r->s;
     model m = {0};
     world w = {0};
-    s.run.time_step = time_step;
+    s.run.time_step /= parts;
     if (accurate) {
         s.run.solver.kind = SOLVER_ACCURATE;
         s.run.solver.most_iterations = ACCURATE_SWEEPS;
@@ -107,12 +108,10 @@ static fram_status follow_other(rerun *r, const world *from, double time_step, b
         return status;
     status = world_copy(r->ctx, from, &w, error);
     if (status == FRAM_OK) {
-        double steps = r->s.run.time_step / time_step;
-        w.clock.step[0] = (int64_t)floor((double)w.clock.step[0] * steps + 0.5);
-        if (time_step != r->s.run.time_step)
-            status = build_load_window(r->ctx, &s, w.vessels.count, &w, error);
+        if (parts > 1)
+            status = rerun_divide_step(r->ctx, &s, from, parts, &w, error);
         if (status == FRAM_OK)
-            status = follow(r, &m, &w, !accurate && time_step == r->s.run.time_step, largest, error);
+            status = follow(r, &m, &w, !accurate && parts == 1, largest, error);
         world_free(r->ctx, &w);
     }
     model_free(r->ctx, &m);
@@ -122,13 +121,12 @@ static fram_status follow_other(rerun *r, const world *from, double time_step, b
 /* From the fork: the run's own method twice, for the moment and for the largest load, then the others. */
 static fram_status compare(rerun *r, const model *m, world *w, fram_error *error)
 {
-    double dt = r->s.run.time_step;
     world again = {0};
-    fram_status status = follow_other(r, w, dt, false, &r->out->same, error);
+    fram_status status = follow_other(r, w, 1, false, &r->out->same, error);
     if (status == FRAM_OK)
-        status = follow_other(r, w, dt / 2, false, &r->out->half_step, error);
+        status = follow_other(r, w, 2, false, &r->out->half_step, error);
     if (status == FRAM_OK)
-        status = follow_other(r, w, dt, true, &r->out->accurate, error);
+        status = follow_other(r, w, 1, true, &r->out->accurate, error);
     if (status == FRAM_OK)
         status = world_copy(r->ctx, w, &again, error);
     if (status != FRAM_OK)

@@ -1,6 +1,10 @@
 /* A world is copied with all that its next steps depend on: original and copy go the same way, each by itself, stepped
-   by one model. */
+   by one model.  One that goes on with half the time step finds the loads and the instants of the controller that the
+   original has. */
 #include "scene.h"
+
+#include "sim/ice_loads.h"
+#include "sim/rerun_step.h"
 
 static const char moored_in_ice[] =
     "run: {time_step: 0.02, duration: 10}\nvessel:\n  mode: free\n"
@@ -46,4 +50,36 @@ START_TEST(original_and_copy_go_the_same_way)
 }
 END_TEST
 
-TEST_MAIN("copy", original_and_copy_go_the_same_way)
+/* 60 steps of 0.02 s are 120 of 0.01; the controller measures each 0.5 s, next at 1.5 s. */
+START_TEST(a_copy_goes_on_with_half_the_step)
+{
+    scene k;
+    world copy;
+    model fine;
+    fram_error error = {0};
+    scene_open(&k, moored_in_ice);
+    scene_steps(&k, 60);
+    scenario s = k.s;
+    s.run.time_step = 0.01;
+    assert_ok(build_model(&k.ctx, &s, &fine, &error), error);
+    assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
+    assert_ok(rerun_divide_step(&k.ctx, &s, &k.w, 2, &copy, &error), error);
+    ck_assert_int_eq(copy.clock.step[0], 120);
+    ck_assert_int_eq(load_window_length(&copy), 2 * load_window_length(&k.w));
+    vec3 last = last_ice_load(&k.w, 0).force, mean = load_window_average(&k.w, 0).force;
+    ck_assert(vec3_length(last) > 0 && vec3_length(vec3_sub(last, mean)) > 0.01 * vec3_length(mean));
+    assert_vec3_close(last_ice_load(&copy, 0).force, last, 0);
+    assert_vec3_close(load_window_average(&copy, 0).force, mean, 1e-9 * vec3_length(mean));
+    vec3 measured = copy.stations.measured[0];
+    for (int i = 0; i < 30; i++)
+        assert_ok(world_step(&k.ctx, &fine, &copy, &error), error);
+    assert_vec3_close(copy.stations.measured[0], measured, 0);
+    assert_ok(world_step(&k.ctx, &fine, &copy, &error), error);
+    ck_assert(vec3_length(vec3_sub(copy.stations.measured[0], measured)) > 0);
+    world_free(&k.ctx, &copy);
+    model_free(&k.ctx, &fine);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("copy", original_and_copy_go_the_same_way, a_copy_goes_on_with_half_the_step)

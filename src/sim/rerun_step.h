@@ -1,0 +1,14 @@
+/* A world goes on with a fraction of its time step: what is counted in steps is so in the new ones.  Knows no runs and
+   no folders. */
+#ifndef SIM_RERUN_STEP_H
+#define SIM_RERUN_STEP_H
+
+#include "model/scenario.h"
+#include "model/world.h"
+
+/* w: a copy of from, whose steps become `parts` each; s: its scenario with the new time step.  The load window has the
+   loads that it had, each `parts` times, and controllers act and measure at the instants at which they would have. */
+fram_status rerun_divide_step(context *ctx, const scenario *s, const world *from, int32_t parts, world *w,
+                              fram_error *error);
+
+#endif
