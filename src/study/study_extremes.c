@@ -201,6 +201,18 @@ typedef struct year_work {
     double_array student[STUDY_LEVELS_MOST];      /* of replicates from the fits: error over deviation */
 } year_work;
 
+/* Conditions of the very same values met the same ice: as independent samples they would make the interval depend on
+   how the table divides hours into rows.  The first one before c that occurs, or -1. */
+static int32_t find_same(const year_work *w, const condition_maxima *of, int32_t c)
+{
+    size_t size = (size_t)of[c].value.count * sizeof *of[c].value.data;
+    for (int32_t k = 0; k < c; k++)
+        if (w->source[k].occurs && of[k].block == of[c].block && of[k].value.count == of[c].value.count &&
+            memcmp(of[k].value.data, of[c].value.data, size) == 0)
+            return k;
+    return -1;
+}
+
 /* The fits.  The first condition that occurs and has none, or -1. */
 static int32_t fit_year(year_work *w, const condition_maxima *of)
 {
@@ -214,6 +226,12 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
         if (n < LAW_VALUES_LEAST)
             return c;
         values_sort(&(double_array){.data = of[c].value.data, .count = n});
+        int32_t same = find_same(w, of, c);
+        if (same >= 0) {
+            w->part[same].blocks += w->part[c].blocks;
+            w->part[c].blocks = 0;
+            continue;
+        }
         /* Runs without any load: nothing to exceed. */
         if (s->value[0] == 0 && s->value[n - 1] == 0)
             w->part[c].blocks = 0;

@@ -30,7 +30,8 @@ typedef struct annual_lack {
    1993, J. Am. Stat. Assoc. 88, 899) from the exact joint law of location and scale of each condition, widened to what
    a studentized bootstrap from the fits allows (Davison and Hinkley 1997, 5.2.1), and the exact ones where one
    condition alone occurs; by the generalized law they are a bootstrap over the runs, of those levels that enough runs
-   carry.  out and lack: ask->annuals each; NaN where lack says why.  The values of `of` are left in ascending order. */
+   carry.  Conditions of the same values and block are one of all their hours, others independent samples.  out and
+   lack: ask->annuals each; NaN where lack says why.  The values of `of` are left in ascending order. */
 fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
                           level_interval *out, annual_lack *lack, fram_error *error);
 

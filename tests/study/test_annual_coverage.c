@@ -194,8 +194,37 @@ START_TEST(hours_of_conditions_add_up)
     ask.hours.data = &all;
     ask.hours.count = 1;
     assert_ok(annual_levels(&ctx, &ask, of, 1, together, lack, &error), error);
-    for (int l = 0; l < LEVELS; l++)
+    for (int l = 0; l < LEVELS; l++) {
         assert_relative(apart[l].level, together[l].level, 1e-9);
+        assert_relative(apart[l].low, together[l].low, 1e-9);
+        assert_relative(apart[l].high, together[l].high, 1e-9);
+    }
+}
+END_TEST
+
+/* Their tail takes as many runs as that of the one, 0.4767 log(2000/0.01005)^2 = 71.0; of 1,000 blocks alone 63.1. */
+START_TEST(hours_of_conditions_add_up_for_the_shape_of_a_tail)
+{
+    const diagram two = {"", true, 70, 2, {500, 500}, {GEV(10, 2, -0.1), GEV(10, 2, -0.1)}, true};
+    double value[2][RUNS_MOST], hours[2] = {500, 500};
+    condition_maxima of[2];
+    for (int32_t c = 0; c < 2; c++)
+        of[c] = (condition_maxima){.value = {.data = value[c], .count = two.runs}, .block = BLOCK};
+    draw(&two, 0, of);
+    memcpy(value[1], value[0], sizeof value[0]);
+    study_extremes ask = {.gev = true,
+                          .confidence = 0.95,
+                          .annual = {probability[0]},
+                          .annuals = 1,
+                          .hours = {.data = hours, .count = 2}};
+    level_interval got;
+    annual_lack lack;
+    fram_error error = {0};
+    context ctx;
+    context_init(&ctx);
+    assert_ok(annual_levels(&ctx, &ask, of, 2, &got, &lack, &error), error);
+    ck_assert_int_eq(lack.condition, 0);
+    ck_assert_int_eq(lack.runs, 71);
 }
 END_TEST
 
@@ -242,4 +271,5 @@ START_TEST(the_shape_of_a_tail_takes_enough_runs)
 END_TEST
 
 TEST_MAIN("annual_coverage", levels_of_a_year_are_held_as_often_as_they_say, one_condition_has_the_exact_interval,
-          hours_of_conditions_add_up, the_shape_of_a_tail_takes_enough_runs)
+          hours_of_conditions_add_up, hours_of_conditions_add_up_for_the_shape_of_a_tail,
+          the_shape_of_a_tail_takes_enough_runs)
