@@ -71,7 +71,7 @@ static fram_status key_figures(report *r, fram_error *error)
     figure(r, "simulated", r->d.note.time, "s");
     if (r->d.frames > 0)
         figure(r, "floes at the start", r->d.before.areas.count, "");
-    figure(r, "floes that broke", report_broken(r, FRACTURE_BENDING) + report_broken(r, FRACTURE_SPLIT), "");
+    figure(r, "floes that broke", run_fractures(&r->d, FRACTURE_BENDING) + run_fractures(&r->d, FRACTURE_SPLIT), "");
     for (int32_t v = 0; v < vessels; v++)
         station_figure(r, v);
     html_figures_end(&r->page);

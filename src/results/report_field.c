@@ -191,14 +191,6 @@ static int broken_kind(const report *r, int32_t row)
     return kind > 0 && kind < BROKEN_KINDS ? (int)kind : 0;
 }
 
-int32_t report_broken(const report *r, int kind)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < r->d.fractures.rows; i++)
-        count += broken_kind(r, i) == kind;
-    return count;
-}
-
 static void event_table_of(report *r, load_unit unit)
 {
     char load[32];
@@ -228,8 +220,9 @@ static void event_table_of(report *r, load_unit unit)
 fram_status report_fractures(report *r, fram_error *error)
 {
     int32_t rows = r->d.fractures.rows;
-    int32_t bent = report_broken(r, FRACTURE_BENDING), split = report_broken(r, FRACTURE_SPLIT), broke = bent + split;
-    int32_t loose = report_broken(r, FRACTURE_RELEASE);
+    int32_t bent = run_fractures(&r->d, FRACTURE_BENDING), split = run_fractures(&r->d, FRACTURE_SPLIT),
+            broke = bent + split;
+    int32_t loose = run_fractures(&r->d, FRACTURE_RELEASE);
     double most = 0;
     if (!r->d.s.ice.breakable && rows == 0)
         return FRAM_OK;

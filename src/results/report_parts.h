@@ -52,9 +52,6 @@ void report_statistics(report *r, const char *channel, const char *name, double 
 /* A number as a person writes it: three digits, all those before the point, no exponent up to 1e6. */
 void report_number(double value, char out[32]);
 
-/* Events of a kind in fractures.csv, enum fracture_kind. */
-int32_t report_broken(const report *r, int kind);
-
 /* The sections, in files of their own. */
 fram_status report_verdict(report *r, fram_error *error);
 fram_status report_loads(report *r, fram_error *error);

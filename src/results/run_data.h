@@ -61,6 +61,8 @@ const double *run_channel(const run_data *d, const char *name);
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
 /* Lines of a vessel that parted, whenever that was, but not those that the scenario let go. */
 int32_t run_lines_broken(const run_data *d, int32_t vessel);
+/* Events of a kind in fractures.csv, enum fracture_kind. */
+int32_t run_fractures(const run_data *d, int kind);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
 /* That the series has no rows. */

@@ -2,6 +2,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/number_text.h"
+#include "ice/fracture.h"
 #include "io/atomic_file.h"
 #include "model/scenario_vessel.h"
 #include "results/load_shares.h"
@@ -170,7 +171,7 @@ static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row
     out->figure[ROW_load_largest] = load.greatest;
     out->figure[ROW_force_x_mean] = channel_mean(d, vessel, "ice_force_averaged_x");
     out->figure[ROW_force_y_mean] = channel_mean(d, vessel, "ice_force_averaged_y");
-    out->figure[ROW_fractures] = d->fractures.rows;
+    out->figure[ROW_fractures] = run_fractures(d, FRACTURE_SPLIT) + run_fractures(d, FRACTURE_BENDING);
     fill_shares(d, vessel, out);
     snprintf(out->state_hash, sizeof out->state_hash, "%s", d->note.state_hash);
     if (vessel < scenario_vessel_count(&d->s))
@@ -296,7 +297,7 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 6";
+static const char mark[] = "fram study row 7";
 
 static void number(context *ctx, text_buffer *out, double value)
 {

@@ -12,7 +12,8 @@
    mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order).  range_equivalent: of the
    largest tension of a line and of the load, the range that does the damage of all rainflow cycles with one cycle a
    second and the slope FATIGUE_CHAIN_SLOPE (results/rainflow.h).  Counts are of the whole run, its transient too:
-   lines_parted with those that were let go, as the channel of this name, lines_broken without them. */
+   lines_parted with those that were let go, as the channel of this name, lines_broken without them; fractures: floes
+   that split or broke in bending, without parts of a sheet that came loose. */
 #define RUN_ROW_FIGURES(X)                \
     X(time, "s")                          \
     X(load_mean, "N")                     \

@@ -3,6 +3,7 @@
 #include "study/run_row.h"
 #include "testing.h"
 
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -163,6 +164,44 @@ START_TEST(a_log_is_opened_by_its_own_name)
 }
 END_TEST
 
+static void write_file(const char *folder, const char *name, const char *text)
+{
+    char path[PATH + 16];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_ge(fputs(text, file), 0);
+    fclose(file);
+}
+
+/* One split, two that bent, and a part of a sheet that came loose, which is no floe that broke. */
+START_TEST(parts_that_came_loose_are_no_floes_that_broke)
+{
+    static const char *const files[][2] = {{"run.json", "{\"status\": \"finished\", \"time_s\": 4}\n"},
+                                           {"scenario.yaml", "vessel: {present: false}\n"},
+                                           {"series.csv", "time[s]\n4\n"},
+                                           {"fractures.csv", "time[s],kind[1]\n1,2\n2,1\n3,3\n4,2\n"}};
+    context ctx;
+    context_init(&ctx);
+    char folder[PATH], path[PATH + 16];
+    run_rows rows = {0};
+    fram_error error = {0};
+    scratch_path(folder);
+    ck_assert_int_eq(mkdir(folder, 0700), 0);
+    for (int i = 0; i < 4; i++)
+        write_file(folder, files[i][0], files[i][1]);
+    assert_ok(run_rows_of(&ctx, folder, &rows, &error), error);
+    ck_assert_int_eq(rows.count, 1);
+    ck_assert_double_eq(rows.data[0].figure[ROW_fractures], 3);
+    array_free(&ctx, &rows);
+    for (int i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, files[i][0]);
+        remove(path);
+    }
+    rmdir(folder);
+}
+END_TEST
+
 /* A signal, and a stop, are told as what they are; there is no run.json that would say more. */
 START_TEST(failures_without_a_word_tell_how_they_ended)
 {
@@ -201,4 +240,4 @@ END_TEST
 
 TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
           processes_tell_how_they_ended, a_log_is_opened_by_its_own_name, failures_without_a_word_tell_how_they_ended,
-          processes_fit_the_memory)
+          parts_that_came_loose_are_no_floes_that_broke, processes_fit_the_memory)
