@@ -121,9 +121,10 @@ peak_breaks peak_breaks_before(const run_data *d, double time)
         double t = when->value.data[i], slack = 1e-9 * (1 + fabs(time));
         if (t > time + slack || t < time - PEAK_BEFORE)
             continue;
-        b.splits += kind->value.data[i] == 1;
-        b.bendings += kind->value.data[i] == 2;
-        b.last = t;
+        bool split = kind->value.data[i] == FRACTURE_SPLIT, bending = kind->value.data[i] == FRACTURE_BENDING;
+        b.splits += split;
+        b.bendings += bending;
+        b.last = split || bending ? t : b.last;
     }
     return b;
 }

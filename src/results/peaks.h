@@ -20,7 +20,7 @@ void peak_list_free(context *ctx, peak_list *list);
 /* How far before a peak it is told what broke [s]. */
 enum { PEAK_BEFORE = 5 };
 
-/* The floes that broke in that span up to a time: how many by kind (1 split, 2 bending). */
+/* The floes that broke in that span up to a time: how many by kind.  Parts of a sheet that came loose did not break. */
 typedef struct peak_breaks {
     int32_t splits, bendings;
     double last; /* time of the latest; NaN without [s] */

@@ -21,4 +21,21 @@ START_TEST(breaks_are_one_or_many)
 }
 END_TEST
 
-TEST_MAIN("peaks", breaks_are_one_or_many)
+/* Parts of a sheet that came loose are no breaks, neither as a number nor as the last one. */
+START_TEST(parts_that_came_loose_are_no_breaks)
+{
+    static double time[] = {1, 7, 8, 9, 9.5, 12}, kind[] = {2, 1, 2, 2, 3, 2};
+    csv_table_column columns[] = {{.name = "time", .value = {time, 6, 6}}, {.name = "kind", .value = {kind, 6, 6}}};
+    run_data d = {.fractures = {.columns = {columns, 2, 2}, .rows = 6}};
+    peak_breaks b = peak_breaks_before(&d, 10);
+    ck_assert_int_eq(b.splits, 1);
+    ck_assert_int_eq(b.bendings, 2);
+    ck_assert_double_eq(b.last, 9);
+    kind[1] = kind[2] = kind[3] = 3;
+    b = peak_breaks_before(&d, 10);
+    ck_assert_int_eq(b.splits + b.bendings, 0);
+    ck_assert(isnan(b.last));
+}
+END_TEST
+
+TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks)
