@@ -32,7 +32,7 @@ static void say_lack(const annual_lack *lack, annual_answer *out)
                  (int)lack->condition + 1);
 }
 
-/* Where lines part, tensions go no further, and offsets depend on when a run ends. */
+/* Where lines part, tensions go on as those of a mooring with fewer lines, and offsets depend on when a run ends. */
 static void check_parting(const study *s, const condition_rows *conditions, run_figure figure, annual_answer *out)
 {
     bool tension = figure == ROW_line_tension_largest;
@@ -47,7 +47,9 @@ static void check_parting(const study *s, const condition_rows *conditions, run_
                         (int)parted.runs, (int)at + 1);
     if (tension)
         snprintf(out->why + used, sizeof out->why - (size_t)used,
-                 "and hold no more than %.3g kN there; lines without breaking_load tell it.", parted.least * 1e-3);
+                 "whose tensions from there on are those of a mooring with fewer lines: none from %.3g kN on is told; "
+                 "lines without breaking_load tell it.",
+                 parted.least * 1e-3);
     else
         snprintf(out->why + used, sizeof out->why - (size_t)used,
                  "and the vessel drifted on from there; lines without breaking_load tell it.");

@@ -57,20 +57,21 @@ static fram_status ask_extreme(const study_folder *f, const double_array *of, do
                               error);
 }
 
-/* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs.
-   And a vessel whose line has parted is held by the others, or drifts: its offsets are those of the time until a run
-   ends. */
+/* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs,
+   which tell no holding load either: one that parts in the transient leaves those of the other lines alone.  And a
+   vessel whose line has parted is held by the others, or drifts: its offsets are those of the time until a run ends. */
 static void cut_at_parting(const condition_rows *of, run_figure figure, int levels, extreme_result *out)
 {
     bool tension = figure == ROW_line_tension_largest;
     const parted_lines parted = study_parted_lines(of);
-    char why[200];
+    char why[240];
     if (parted.runs == 0)
         return;
     int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs, (int)out->sample);
     if (tension)
         snprintf(why + used, sizeof why - (size_t)used,
-                 "and hold no more: levels from %.3g kN on are not told. Lines without breaking_load tell them.",
+                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.3g kN on are not "
+                 "told. Lines without breaking_load tell them.",
                  parted.least * 1e-3);
     else
         snprintf(why + used, sizeof why - (size_t)used,

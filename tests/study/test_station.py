@@ -116,7 +116,9 @@ class StationTest(StudyTest):
         self.assertNotIn("parted", told["load_largest"]["note"])
         tension = told["line_tension_largest"]
         self.assertEqual([tension[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
-        self.assertIn(f"Lines parted in {len(parted)} of 14 runs", tension["note"])
+        # They state no load that a line holds: of one that parts in the transient the others' tensions are left.
+        self.assertIn(f"Lines parted in {len(parted)} of 14 runs, whose tensions from there on are those of a mooring "
+                      "with fewer lines", tension["note"])
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs", self.page("out"))
         # A vessel whose line has parted drifts on: its offset is what the run's end leaves of that.
         offset = told["offset_largest"]
@@ -146,6 +148,7 @@ class StationTest(StudyTest):
         for figure in ("line_tension_largest", "offset_largest"):
             self.assertEqual(year[figure]["level"], "")
             self.assertIn("lines parted in", year[figure]["note"])
+        self.assertIn("of a mooring with fewer lines", year["line_tension_largest"]["note"])
         # The page has them too: a level of the load, and why there is none of the others.
         page = self.page("out")
         self.assertIn("Levels that are exceeded with a probability in a year", page)
