@@ -3,11 +3,14 @@
 the run stands still.
 
 The page must show frames while the run goes, go on with it, know floes that broke off meanwhile, and play the whole
-run afterwards, with nothing to complain of.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
+run afterwards, with nothing to complain of.  The record is then given frame by frame to a page that is looked at
+each time.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
 """
+import base64
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -29,6 +32,14 @@ output: {frame_interval: 0.1}
 STATE = """({ frames: fram.record.frames.length, broke: fram.record.fractures.length, floes: fram.poses.floes,
     born: fram.record.bodies.filter((b) => b.parent >= 0).length,
     clock: document.getElementById('clock').textContent })"""
+
+
+# Of a page that has just got a frame; the camera is the one that follows.
+SHOWN = """(fram.prepare(), (() => {
+    const centre = fram.centre(), at = fram.controls.target;
+    return { time: fram.time, end: fram.end, off: Math.hypot(at.x - centre.x, at.y - centre.y),
+             born: fram.record.bodies.length }; })())"""
+FRAME = 11  # type of the block of a frame, src/io/record_layout.h
 
 
 def skip(reason):
@@ -57,6 +68,48 @@ def check_peak(browser, run):
     panel = browser.run("document.getElementById('peak').textContent")
     assert browser.run("fram.loads.vessels[0].peaks[0].sentence") in panel, panel
     browser.run("fram.peaks.close()")
+
+
+def frames_of(record):
+    """Where each frame ends (src/io/record.h)."""
+    at, ends = 24, []
+    while at < len(record):
+        kind, size = struct.unpack_from("<IQ", record, at + 4)
+        end = at + 24 + (size + 7) // 8 * 8
+        if kind == FRAME:
+            ends.append(end)
+        at = end
+    return ends
+
+
+def follow(browser, folder, page):
+    """A page that waits for what the page around it gives: no server."""
+    alone = folder / "follows.html"
+    alone.write_text(page.read_text().replace("<!--BESIDE-->", "").replace("<!--RECORD-->", ""))
+    browser.call("Page.navigate", url=alone.as_uri())
+    browser.until("location.pathname.endsWith('follows.html') && window.framAppend", "the page follows nothing")
+
+
+def give(browser, data):
+    text = base64.b64encode(data).decode()
+    browser.run(f"framAppend(Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0)).buffer)")
+
+
+def check_frames(browser, folder, page):
+    """Frame by frame, the view at the end: the camera stays with the ship."""
+    record = (folder / "run" / "record.fram").read_bytes()
+    ends = frames_of(record)[:61]
+    follow(browser, folder, page)
+    give(browser, record[:ends[0]])
+    browser.until("window.fram?.ready === true", "the page does not get ready")
+    browser.run("fram.scene.render = () => {}")  # what is looked at here is what is drawn, not how
+    seen = [browser.run(SHOWN)]
+    for begin, end in zip(ends, ends[1:]):
+        give(browser, record[begin:end])
+        seen.append(browser.run(SHOWN))
+    assert all(s["time"] == s["end"] for s in seen) and seen[-1]["born"] > seen[0]["born"], seen[-1]
+    away = max(seen, key=lambda s: s["off"])
+    assert away["off"] < 0.01, f"the camera that follows is {away['off']} m off the ship at {away['time']} s"
 
 
 def check(browser, folder, page):
@@ -89,6 +142,7 @@ def check(browser, folder, page):
     assert state["frames"] == 121 and state["floes"] == floes, (state, floes)
     assert state["broke"] > before["broke"] and state["born"] > 0, (before, state)
     assert chromium.colours(browser.picture()) > 50, "the picture is empty"
+    check_frames(browser, folder, page)
     assert not browser.complaints, browser.complaints
     print(f"{state['frames']} frames, {state['broke']} floes broke, {state['clock']}")
 

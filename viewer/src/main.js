@@ -277,6 +277,7 @@ class Player {
         camera.position.copy(target).add(new THREE.Vector3(...offset));
         this.controls.target.copy(target);
         this.controls.update();
+        this.hullAt = this.hull && this.centre();
         this.dirty = true;
     }
 
@@ -472,13 +473,14 @@ class Player {
     }
 
     prepare() {
-        const before = this.hull && this.centre();
+        const before = this.hullAt; // where it was drawn last: the poses may be of another moment by now
         const state = this.poses.show(this.frameAt(this.time));
         this.waiting = !state;
         $('waiting').hidden = !this.waiting;
         if (!state) return false;
+        this.hullAt = this.hull && this.centre();
         if (['follow', 'below'].includes($('camera').value) && before) {
-            const moved = this.centre().sub(before);
+            const moved = this.hullAt.clone().sub(before);
             this.scene.camera.position.add(moved);
             this.controls.target.add(moved);
         }
