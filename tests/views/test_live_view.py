@@ -36,9 +36,11 @@ STATE = """({ frames: fram.record.frames.length, broke: fram.record.fractures.le
 
 # Of a page that has just got a frame; the camera is the one that follows.
 SHOWN = """(fram.prepare(), (() => {
-    const centre = fram.centre(), at = fram.controls.target;
+    const centre = fram.centre(), at = fram.controls.target, { forces, marked } = fram.legend.content;
+    const pulls = fram.poses.forces.map((f) => Math.hypot(...f.force));
     return { time: fram.time, end: fram.end, off: Math.hypot(at.x - centre.x, at.y - centre.y),
-             born: fram.record.bodies.length }; })())"""
+             longest: fram.arrowScale * Math.max(0, ...pulls), kinds: fram.poses.forces.map((f) => f.kind),
+             named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length }; })())"""
 FRAME = 11  # type of the block of a frame, src/io/record_layout.h
 
 
@@ -96,7 +98,8 @@ def give(browser, data):
 
 
 def check_frames(browser, folder, page):
-    """Frame by frame, the view at the end: the camera stays with the ship."""
+    """Frame by frame, the view at the end: the camera stays with the ship, arrows have a length and a name as soon as
+    there are forces, and marks are explained with the first one."""
     record = (folder / "run" / "record.fram").read_bytes()
     ends = frames_of(record)[:61]
     follow(browser, folder, page)
@@ -110,6 +113,12 @@ def check_frames(browser, folder, page):
     assert all(s["time"] == s["end"] for s in seen) and seen[-1]["born"] > seen[0]["born"], seen[-1]
     away = max(seen, key=lambda s: s["off"])
     assert away["off"] < 0.01, f"the camera that follows is {away['off']} m off the ship at {away['time']} s"
+    assert all(set(s["kinds"]) <= set(s["named"]) for s in seen), "arrows without a name"
+    assert any(s["kinds"] for s in seen[:20]) and not seen[0]["kinds"], "ice is to be met soon, and not at once"
+    longest = max(seen, key=lambda s: s["longest"])
+    # 24 m is the length of the 99th percentile, which may double; one hard blow may be longer.
+    assert longest["longest"] < 300, f"an arrow of {longest['longest']} m at {longest['time']} s"
+    assert all((s["broke"] > 0) == (s["marked"] > 0) for s in seen), "marks without a word, or a word without marks"
 
 
 def check(browser, folder, page):

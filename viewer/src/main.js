@@ -143,8 +143,7 @@ class Player {
             this.coloured = null;
         }
         this.poses.frame = -1;
-        // The ends of the colours follow while there is little to go by.
-        if (frames.length >= 2 * this.ranged) {
+        if (this.outgrown()) {
             this.findRanges();
             this.setLegend();
         }
@@ -210,10 +209,23 @@ class Player {
         $('play').ariaLabel = this.playing ? 'pause' : 'play';
     }
 
+    /** Whether ends of colours and lengths of arrows have to be found again: at twice as many frames, and when a frame
+     *  brings what they do not know: a kind of force, the first fracture, or so many large forces that an end more than
+     *  doubles.  Each new frame is read once. */
+    outgrown() {
+        const { bodies, frames, fractures } = this.record, { ends } = this;
+        const { contacts, pulls, kinds } = forcesOf({ bodies, frames: frames.slice(this.looked) });
+        this.looked = frames.length;
+        const rise = [ends.contacts.add(contacts), ends.pulls.add(pulls)].some(Boolean);
+        return rise || frames.length >= 2 * this.ranged || fractures.length > 0 !== this.marked ||
+            [...kinds].some((kind) => !this.kinds.includes(kind));
+    }
+
     /** Ends of the colours and lengths of arrows: the 99th percentile of the frames that need no file from beside the
      *  page; of speeds, which all bodies have, that of some of these. */
     findRanges() {
-        this.ranged = this.record.frames.length;
+        this.ranged = this.looked = this.record.frames.length;
+        this.marked = this.record.fractures.length > 0;
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
         const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [];
         const pairs = Array.from({ length: n - 1 }, (_, f) => f)
@@ -225,20 +237,19 @@ class Player {
         }
         // Contacts are rare: one that few frames have would be missed by looking at some of them.
         const { contacts: force, pulls: pull, kinds } = forcesOf(record);
-        const high = (all, least) => Math.max(least,
-            Float64Array.from(all).sort()[Math.floor(0.99 * (all.length - 1))] || 0);
+        this.ends = { contacts: new End(force, this.sizes.force), pulls: new End(pull, this.sizes.force) };
         const least = (all) => all.reduce((a, b) => Math.min(a, b), Infinity);
         const most = (all) => all.reduce((a, b) => Math.max(a, b), -Infinity);
         this.ranges = {
-            speed: [0, high(speed, 0.05 * this.sizes.speed)],
-            force: [0, high(force, this.sizes.force)],
+            speed: [0, new End(speed, 0.05 * this.sizes.speed).value],
+            force: [0, this.ends.contacts.value],
             thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
             age: [0, Math.max(10, 0.25 * (this.end - record.frames[0].time))],
         };
         this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
         // A few arrows may be longer: one hard blow must not make all others vanish.
-        this.arrowScale = 0.12 * Math.max(size.x, size.y) / high(pull, this.sizes.force);
+        this.arrowScale = 0.12 * Math.max(size.x, size.y) / this.ends.pulls.value;
         this.scene.arrowWidth = 0.05 * Math.max(size.x, size.y);
     }
 
@@ -515,6 +526,24 @@ class Player {
         const [name, numbers] = $('load').children;
         name.textContent = this.hull ? `averaged ice force${this.ofVessel}: ` : '';
         numbers.textContent = this.hull ? `X ${x}, Y ${y}` : '';
+    }
+}
+
+/** The 99th percentile of numbers, or `least` where that is more. */
+class End {
+    constructor(all, least) {
+        this.count = all.length;
+        this.value = Math.max(least, Float64Array.from(all).sort()[this.rank] || 0);
+        this.above = all.filter((v) => v > 2 * this.value).length;
+    }
+
+    get rank() { return Math.floor(0.99 * (this.count - 1)); }
+
+    /** Whether that of these too is more than twice as large. */
+    add(more) {
+        this.count += more.length;
+        this.above += more.filter((v) => v > 2 * this.value).length;
+        return this.above > 0 && this.count - this.above <= this.rank;
     }
 }
 
