@@ -3,8 +3,8 @@
 the run stands still.
 
 The page must show frames while the run goes, go on with it, know floes that broke off meanwhile, and play the whole
-run afterwards, with nothing to complain of.  The record is then given frame by frame to a page that is looked at
-each time.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
+run afterwards, with nothing to complain of.  The record is then given frame by frame, and cut where it should not
+matter, to a page that is looked at each time.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
 """
 import base64
 import json
@@ -73,13 +73,13 @@ def check_peak(browser, run):
 
 
 def frames_of(record):
-    """Where each frame ends (src/io/record.h)."""
+    """Of each frame: where its payload ends, and where the zeros after it do (src/io/record.h)."""
     at, ends = 24, []
     while at < len(record):
         kind, size = struct.unpack_from("<IQ", record, at + 4)
         end = at + 24 + (size + 7) // 8 * 8
         if kind == FRAME:
-            ends.append(end)
+            ends.append((at + 24 + size, end))
         at = end
     return ends
 
@@ -101,7 +101,7 @@ def check_frames(browser, folder, page):
     """Frame by frame, the view at the end: the camera stays with the ship, arrows have a length and a name as soon as
     there are forces, and marks are explained with the first one."""
     record = (folder / "run" / "record.fram").read_bytes()
-    ends = frames_of(record)[:61]
+    ends = [end for _, end in frames_of(record)][:61]
     follow(browser, folder, page)
     give(browser, record[:ends[0]])
     browser.until("window.fram?.ready === true", "the page does not get ready")
@@ -119,6 +119,19 @@ def check_frames(browser, folder, page):
     # 24 m is the length of the 99th percentile, which may double; one hard blow may be longer.
     assert longest["longest"] < 300, f"an arrow of {longest['longest']} m at {longest['time']} s"
     assert all((s["broke"] > 0) == (s["marked"] > 0) for s in seen), "marks without a word, or a word without marks"
+
+
+def check_cuts(browser, folder, page):
+    """An answer may end anywhere: between the payload of a frame and the zeros after it, and within these too."""
+    record = (folder / "run" / "record.fram").read_bytes()
+    frames = frames_of(record)
+    cuts = [cut for payload, end in frames if end - payload > 1 for cut in (payload, end - 1)][:20]
+    assert len(cuts) > 4, "no frame has zeros after it"
+    follow(browser, folder, page)
+    for begin, end in zip([0, *cuts], [*cuts, len(record)]):
+        give(browser, record[begin:end])
+    count = browser.run("fram.record.frames.length")
+    assert count == len(frames), f"{count} of {len(frames)} frames of a record that came in {len(cuts) + 1} pieces"
 
 
 def check(browser, folder, page):
@@ -152,6 +165,7 @@ def check(browser, folder, page):
     assert state["broke"] > before["broke"] and state["born"] > 0, (before, state)
     assert chromium.colours(browser.picture()) > 50, "the picture is empty"
     check_frames(browser, folder, page)
+    check_cuts(browser, folder, page)
     assert not browser.complaints, browser.complaints
     print(f"{state['frames']} frames, {state['broke']} floes broke, {state['clock']}")
 

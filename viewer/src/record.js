@@ -117,7 +117,8 @@ function padded(size) { return Math.ceil(size / 8) * 8; }
 function eachBlock(view, at, visit) {
     while (at + HEAD <= view.byteLength && view.getUint32(at, true) === BLOCK_MAGIC) {
         const type = view.getUint32(at + 4, true), size = Number(view.getBigUint64(at + 8, true));
-        if (at + HEAD + size > view.byteLength) return; // cut short: what came before is good
+        // Cut short, be it in the zeros after the payload: what came before is good.
+        if (at + HEAD + padded(size) > view.byteLength) return;
         if (visit(type, at + HEAD, size)) return;
         at += HEAD + padded(size);
     }
