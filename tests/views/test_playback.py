@@ -399,6 +399,28 @@ def check_colours(browser):
     browser.choose("colour", "plain")
 
 
+def check_speeds(browser):
+    """Where there is no next pose, at the end and of a floe that breaks, a speed is that of the way from the frame
+    before."""
+    at_end, at_break, off = browser.run("""(() => {
+        const { poses, record } = fram, { frames, bodies } = record, last = frames.length - 1, speeds = [[], []];
+        const show = (f) => (poses.show(f), poses.pose.slice());
+        let off = 0;
+        for (let f = 1; f <= last; f++) {
+            const before = show(f - 1), now = show(f), span = frames[f].time - frames[f - 1].time;
+            for (const b of bodies) {
+                if (!b.moves || b.birth >= f || (f === last ? b.death <= f : b.death !== f + 1)) continue;
+                const k = 7 * b.index, way = Math.hypot(now[k] - before[k], now[k + 1] - before[k + 1]);
+                speeds[f === last ? 0 : 1].push(poses.speed[b.index]);
+                off = Math.max(off, Math.abs(poses.speed[b.index] - way / span));
+            }
+        }
+        return [...speeds, off]; })()""")
+    assert len(at_end) > 30 and max(at_end) > 0.5, "all is at rest in the last frame"
+    assert len(at_break) > 2 and max(at_break) > 0.5, f"floes rest before they break: {at_break}"
+    assert off < 1e-5, off
+
+
 def check_arrows_and_marks(browser):
     go(browser, "fram.end")
     kinds = browser.run("fram.poses.forces.map((f) => f.kind)")
@@ -464,7 +486,8 @@ POSES = """(async (times) => {
         fram.seek(t);
         for (fram.draw(); fram.waiting; fram.draw()) await new Promise((done) => setTimeout(done, 10));
         const there = fram.record.bodies.map((b) => b.index).filter((k) => fram.poses.shown[k]);
-        out.push(there.map((k) => [k, fram.poses.contact[k], ...fram.poses.pose.subarray(7 * k, 7 * k + 7)]),
+        out.push(there.map((k) => [k, fram.poses.contact[k], fram.poses.speed[k],
+                                   ...fram.poses.pose.subarray(7 * k, 7 * k + 7)]),
                  fram.poses.forces);
     }
     return out;
@@ -473,7 +496,7 @@ POSES = """(async (times) => {
 
 def check_files_beside(browser, run):
     """Frames in files beside the page are those of the page that holds all; they come as they are needed."""
-    times = "[7.9, 0.3, 4.1, 2.2, 6.03, 0]"
+    times = "[7.9, 0.3, 4.1, 2.2, 6.03, 0, fram.end]"
     whole = browser.run(POSES + f"({times})")
     page = run / "in pieces.html"
     answer = subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "--json", "--page-limit", "0.63"],
@@ -529,7 +552,7 @@ def main():
         browser.choose("colour", "plain")
         assert browser.run("document.getElementById('title').textContent") == TITLE
         for check in (check_blank, check_names, check_play, check_seek, check_keyboard, check_long_title, check_pick,
-                      check_colours, check_arrows_and_marks, check_cameras, check_still, check_video):
+                      check_colours, check_speeds, check_arrows_and_marks, check_cameras, check_still, check_video):
             check(browser)
         calls = browser.run("(fram.draw(), fram.scene.renderer.info.render.calls)")
         assert calls <= 20, calls

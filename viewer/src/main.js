@@ -232,8 +232,9 @@ class Player {
             .filter((f) => record.frames[f].view && record.frames[f + 1].view);
         const looks = Math.min(pairs.length, 12);
         for (let k = 0; k < looks; k++) {
-            poses.show(pairs[Math.floor(k * pairs.length / looks)]);
-            for (const b of ice) if (poses.shown[b.index]) speed.push(poses.speed[b.index]);
+            const f = pairs[Math.floor(k * pairs.length / looks)];
+            poses.show(f, false);
+            for (const b of ice) if (poses.shown[b.index] && b.death > f + 1) speed.push(poses.speed[b.index]);
         }
         // Contacts are rare: one that few frames have would be missed by looking at some of them.
         const { contacts: force, pulls: pull, kinds } = forcesOf(record);

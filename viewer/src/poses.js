@@ -17,29 +17,29 @@ export class Poses {
         this.contact = new Float32Array(n);
         this.forces = [];
         this.forcesAt = null; // poses and order of the frame that they are of
-        this.place = new Int32Array(n).fill(-1); // of each body in the order of the later frame
-        this.placedOrder = null;
+        this.later = new Places(n);
+        this.earlier = new Places(n);
         this.frame = -1;
         this.floes = this.tiles = 0; // that are there: floes, and tiles of level ice
         for (const b of record.bodies) if (b.pose) this.pose.set(b.pose, 7 * b.index);
     }
 
-    placesIn(order) {
-        if (this.placedOrder !== order) {
-            this.place.fill(-1);
-            for (let i = 0; i < order.length; i++) this.place[order[i]] = i;
-            this.placedOrder = order;
-        }
-        return this.place;
+    /** Whether a body that moves is in frame f and in none after it. */
+    someEnd(f, g) {
+        const { frames, bodies } = this.record;
+        return f === g || frames[f].order !== frames[g].order && bodies.some((b) => b.moves && b.death === g);
     }
 
-    /** Go to a frame number with a fraction; false when the frames are not there yet. */
-    show(when) {
+    /** Go to a frame number with a fraction; false when the frames are not there yet.  Speeds are of the way to the
+     *  next frame, of a body that is not in it of the way from the frame before (as in src/results/replay.c); without
+     *  `ends` the latter are 0, and that frame is not asked for. */
+    show(when, ends = true) {
         const { frames, bodies } = this.record;
         const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last);
-        const one = this.store.get(f), two = this.store.get(g);
-        if (!one || !two) return null;
-        const part = when - f, a = frames[f], b = frames[g], place = this.placesIn(b.order);
+        const e = ends && this.someEnd(f, g) ? Math.max(f - 1, 0) : f;
+        const zero = this.store.get(e), one = this.store.get(f), two = this.store.get(g);
+        if (!zero || !one || !two) return null;
+        const part = when - f, a = frames[f], b = frames[g], place = this.later.of(b.order);
         const span = b.time - a.time || 1;
         if (f !== this.frame) {
             this.floes = this.tiles = 0;
@@ -54,13 +54,24 @@ export class Poses {
         for (let i = 0; i < a.order.length; i++) {
             const k = a.order[i], j = place[k];
             blend(P, 7 * i, j < 0 ? P : Q, 7 * (j < 0 ? i : j), part, out, 7 * k);
-            this.speed[k] = j < 0 ? 0 : Math.hypot(Q[7 * j] - P[7 * i], Q[7 * j + 1] - P[7 * i + 1]) / span;
+            this.speed[k] = j < 0 ? 0 : way(P, 7 * i, Q, 7 * j) / span;
             this.contact[k] = one.contact[i];
         }
+        if (e < f) this.endSpeeds(zero.poses, frames[e], P, a, f === g ? null : place);
         this.forces = part < 0.5 ? one.forces : two.forces;
         this.forcesAt = part < 0.5 ? [P, a.order] : [Q, b.order];
         const force = a.force.map((v, i) => v + part * (b.force[i] - v));
         return { time: a.time + part * (b.time - a.time), force, frame: f };
+    }
+
+    /** Of the bodies of a frame that have no place in the next one: by their way there from the frame before. */
+    endSpeeds(before, from, poses, to, place) {
+        const earlier = this.earlier.of(from.order), span = to.time - from.time || 1;
+        for (let i = 0; i < to.order.length; i++) {
+            const k = to.order[i];
+            if (place && place[k] >= 0) continue;
+            this.speed[k] = earlier[k] < 0 ? 0 : way(before, 7 * earlier[k], poses, 7 * i) / span;
+        }
     }
 
     /** Of a body that moves, at the frame of the forces. */
@@ -69,6 +80,26 @@ export class Poses {
         return i < 0 ? this.pose.subarray(7 * index, 7 * index + 7) : poses.subarray(i, i + 7);
     }
 }
+
+/** Places of bodies in the order of a frame, -1: not there; kept until another order is asked for. */
+class Places {
+    constructor(count) {
+        this.place = new Int32Array(count);
+        this.order = null;
+    }
+
+    of(order) {
+        if (this.order !== order) {
+            this.place.fill(-1);
+            for (let i = 0; i < order.length; i++) this.place[order[i]] = i;
+            this.order = order;
+        }
+        return this.place;
+    }
+}
+
+/** In plan [m]. */
+function way(a, i, b, j) { return Math.hypot(b[j] - a[i], b[j + 1] - a[i + 1]); }
 
 /** Positions on a straight line, quaternions on the shorter way, normalised. */
 function blend(a, i, b, j, part, out, to) {
