@@ -40,7 +40,8 @@ SHOWN = """(fram.prepare(), (() => {
     const pulls = fram.poses.forces.map((f) => Math.hypot(...f.force));
     return { time: fram.time, end: fram.end, off: Math.hypot(at.x - centre.x, at.y - centre.y),
              longest: fram.arrowScale * Math.max(0, ...pulls), kinds: fram.poses.forces.map((f) => f.kind),
-             named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length }; })())"""
+             named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length,
+             text: document.getElementById('history').innerText, told: fram.history.sorted?.at(-1)?.time }; })())"""
 FRAME = 11  # type of the block of a frame, src/io/record_layout.h
 
 
@@ -97,15 +98,16 @@ def give(browser, data):
     browser.run(f"framAppend(Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0)).buffer)")
 
 
-def check_frames(browser, folder, page):
+def check_frames(browser, folder, page, broken):
     """Frame by frame, the view at the end: the camera stays with the ship, arrows have a length and a name as soon as
-    there are forces, and marks are explained with the first one."""
+    there are forces, marks are explained with the first one, and what is told of a floe that breaks goes on with it."""
     record = (folder / "run" / "record.fram").read_bytes()
     ends = [end for _, end in frames_of(record)][:61]
     follow(browser, folder, page)
     give(browser, record[:ends[0]])
     browser.until("window.fram?.ready === true", "the page does not get ready")
     browser.run("fram.scene.render = () => {}")  # what is looked at here is what is drawn, not how
+    browser.run(f"fram.pick(fram.record.bodies.find((b) => b.number === {broken}))")
     seen = [browser.run(SHOWN)]
     for begin, end in zip(ends, ends[1:]):
         give(browser, record[begin:end])
@@ -119,6 +121,10 @@ def check_frames(browser, folder, page):
     # 24 m is the length of the 99th percentile, which may double; one hard blow may be longer.
     assert longest["longest"] < 300, f"an arrow of {longest['longest']} m at {longest['time']} s"
     assert all((s["broke"] > 0) == (s["marked"] > 0) for s in seen), "marks without a word, or a word without marks"
+    alive = [s for s in seen if "to the end" in s["text"]]
+    assert 10 < len(alive) < len(seen) and all(f"Floe {broken}" in s["text"] for s in seen), len(alive)
+    assert all(s["told"] == s["end"] for s in alive[1:]), "curves of a picked floe do not go on with the run"
+    assert "broke at" in seen[-1]["text"], seen[-1]["text"]
 
 
 def check_cuts(browser, folder, page):
@@ -164,7 +170,9 @@ def check(browser, folder, page):
     assert state["frames"] == 121 and state["floes"] == floes, (state, floes)
     assert state["broke"] > before["broke"] and state["born"] > 0, (before, state)
     assert chromium.colours(browser.picture()) > 50, "the picture is empty"
-    check_frames(browser, folder, page)
+    broken = browser.run("fram.record.fractures.find((f) => f.time > 3 && fram.record.bodies.some("
+                         "(b) => b.number === f.floe && b.birth === 0)).floe")
+    check_frames(browser, folder, page, broken)
     check_cuts(browser, folder, page)
     assert not browser.complaints, browser.complaints
     print(f"{state['frames']} frames, {state['broke']} floes broke, {state['clock']}")

@@ -305,6 +305,35 @@ output: {frame_interval: 0.25}
     assert 0.5 * most < high <= most, f"colours end at {high} kN where {most} kN is the most"
 
 
+def check_level(browser, folder):
+    """What is told of a tile of level ice that is no more: of those that break together one has a fracture, and what a
+    hull cuts has none.  None of them left."""
+    scene = """
+run: {{duration: 6, time_step: 0.02}}
+vessel: {{mode: towed, x: -24, speed: 4, hull: {{length: 48, beam: 12, draught: 4, freeboard: 2}}}}
+ice: {{source: level, level: {{x_min: 0, tile_size: 16}}, thickness: 0.4, breakable: {breaks}}}
+domain: {{x_min: -64, x_max: 64, y_min: -32, y_max: 32}}
+output: {{frame_interval: 0.25}}
+"""
+    for name, breaks, fates, origin in (
+            ("breaks", "true", ["broke with a neighbour, or was cut by a hull"], "what the break of tile "),
+            ("cut", "false", ["cut by a hull by ", "or was cut by a hull"], "what is left of tile ")):
+        run, _ = make_run(folder, name, scene.format(breaks=breaks))
+        browser.open(run / "playback.html")
+        told = browser.run("""(() => {
+            const { bodies, fractures, frames } = fram.record, broke = new Set(fractures.map((f) => f.floe));
+            const tell = (b) => (fram.pick(b), document.getElementById('history').innerText);
+            const tiles = bodies.filter((b) => b.level), gone = tiles.filter((b) => b.death < frames.length);
+            return [gone.filter((b) => !broke.has(b.number)).map(tell), tiles.filter((b) => b.parent >= 0).map(tell),
+                    gone.filter((b) => broke.has(b.number)).map(tell)]; })()""")
+        unnamed, pieces, named = told
+        assert len(unnamed) > 1 and len(pieces) > 1 and (len(named) > 1) == (breaks == "true"), told
+        assert all(any(fate in text for fate in fates) and "\nleft at " not in text for text in unnamed), unnamed
+        assert all(any(fate in text for text in unnamed) for fate in fates), unnamed
+        assert all(origin in text for text in pieces), pieces
+        assert all("broke at " in text or "came loose at " in text for text in named), named
+
+
 def check_waiting(browser, folder):
     """A page that follows a run says that it waits, and in the end that there was nothing to wait for."""
     page = folder / "follows.html"
@@ -562,6 +591,7 @@ def main():
         check_no_vessel(browser, pathlib.Path(folder))
         check_tank(browser, pathlib.Path(folder))
         check_late_contact(browser, pathlib.Path(folder))
+        check_level(browser, pathlib.Path(folder))
         check_waiting(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
     print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")

@@ -19,22 +19,45 @@ export class History {
         this.body = body;
         this.panel.hidden = !body;
         if (!body) return;
-        const { frames, fractures } = this.record, born = frames[body.birth].time;
-        const death = body.death < frames.length ? frames[body.death].time : null;
-        const origin = body.parent >= 0 ? `broke from floe ${body.parent} at ${born.toFixed(1)} s` : 'original';
-        const crack = fractures.find((f) => f.floe === body.number);
-        const fate = crack?.kind === 'loose' ? `came loose at ${crack.time.toFixed(1)} s`
-            : crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${forceText(crack.load / 1000)})`
-            : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
-        const name = body.level ? 'Level ice, tile' : 'Floe';
         const canvas = '<canvas role="img" aria-label="speed and contact force over time"></canvas>';
-        this.panel.innerHTML = `<b>${name} ${body.number}</b> ${origin}<br>${short(body.area)} m², ${
-            short(body.thickness)} m thick, ${short(body.area * body.thickness * body.density / 1000)} t<br>${
-            fate}${body.moves ? '' : '<br>fixed'}${canvas}<button id="whole" hidden></button>`;
+        this.panel.innerHTML = `<div></div>${canvas}<button id="whole" hidden></button>`;
         this.rows = new Map(); // by frame
         this.loading = null;
         this.panel.querySelector('button').onclick = () => this.load();
+        this.grow();
+    }
+
+    /** What the record tells of it by now. */
+    grow() {
+        const { body } = this, name = body.level ? 'Level ice, tile' : 'Floe';
+        this.panel.firstChild.innerHTML = `<b>${name} ${body.number}</b> ${this.origin()}<br>${short(body.area)} m², ${
+            short(body.thickness)} m thick, ${short(body.area * body.thickness * body.density / 1000)} t<br>${
+            this.fate()}${body.moves ? '' : '<br>fixed'}`;
         this.more();
+    }
+
+    crack(number) { return this.record.fractures.find((f) => f.floe === number); }
+
+    /** Of tiles of level ice that break together one is told, and all that comes of them has its number; of what a hull
+     *  cuts from held ice nothing is told. */
+    origin() {
+        const { body, record } = this, { parent } = body, born = record.frames[body.birth].time.toFixed(1);
+        if (parent < 0) return 'original';
+        if (body.moves && !body.level) return `broke from floe ${parent} at ${born} s`;
+        const from = `${body.level ? 'tile' : 'floe'} ${parent}`;
+        return this.crack(parent) ? `what the break of ${from} left at ${born} s`
+            : `what is left of ${from} since ${born} s`;
+    }
+
+    fate() {
+        const { body } = this, { bodies, frames } = this.record, crack = this.crack(body.number);
+        if (crack?.kind === 'loose') return `came loose at ${crack.time.toFixed(1)} s`;
+        if (crack) return `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${forceText(crack.load / 1000)})`;
+        if (body.death >= frames.length) return 'there to the end';
+        const until = frames[body.death].time.toFixed(1), how = 'broke with a neighbour, or was cut by a hull';
+        if (bodies.some((b) => b.parent === body.number)) return `cut by a hull by ${until} s`;
+        if (!body.level) return `left at ${until} s`;
+        return body.moves ? `gone by ${until} s: left, ${how}` : `changed by ${until} s: ${how}`;
     }
 
     /** Frames of the body's life that are not in the curves because their files were not fetched. */

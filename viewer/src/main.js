@@ -148,6 +148,7 @@ class Player {
             this.setLegend();
         }
         this.timeline.grow();
+        if (this.picked) this.history.grow();
         if (atEnd && !this.playing) this.time = this.end;
         this.dirty = true;
     }
