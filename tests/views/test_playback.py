@@ -195,6 +195,16 @@ def check_seek(browser):
     browser.call("Input.dispatchKeyEvent", type="keyDown", code="ArrowRight", key="ArrowRight")
     step = browser.run("fram.time") - before
     assert 0 < step <= 0.5, f"an arrow key goes on by {step} s"
+    # Between two frames to the one that is next; at a frame, be it to rounding, to that after it.
+    times = browser.run("fram.record.frames.map((f) => f.time)")
+    last, five, six = len(times) - 1, times[5], times[6]
+    for at, back, on in ((five + 0.4 * (six - five), 5, 6), (five + 0.6 * (six - five), 5, 6), (six, 5, 7),
+                         (six + 1e-9, 5, 7), (six - 1e-9, 5, 7), (0, 0, 1), (times[last], last - 1, last)):
+        for key, expected in (("ArrowLeft", back), ("ArrowRight", on)):
+            browser.run(f"fram.seek({at})")
+            browser.call("Input.dispatchKeyEvent", type="keyDown", code=key, key=key)
+            time = browser.run("fram.time")
+            assert time == times[expected], f"{key} leads from {at} s to {time} s, not to {times[expected]} s"
 
 
 def check_keyboard(browser):

@@ -185,16 +185,22 @@ class Player {
         // A control that has the focus keeps the keys it works by: without a mouse there is no other way.
         const { target } = e, own = e.code === 'Space' ? 'button, input, select' : 'select';
         if (e.ctrlKey || e.altKey || e.metaKey || target.matches?.(own)) return;
-        const frames = this.record.frames, now = Math.round(this.frameAt(this.time));
+        const { frames } = this.record, [before, after] = this.beside();
         if (e.code === 'Space') this.toggle();
-        else if (e.code === 'ArrowRight') this.seek(frames[Math.min(now + 1, frames.length - 1)].time);
-        else if (e.code === 'ArrowLeft') this.seek(frames[Math.max(now - 1, 0)].time);
+        else if (e.code === 'ArrowRight') this.seek(frames[after].time);
+        else if (e.code === 'ArrowLeft') this.seek(frames[before].time);
         else if (e.code === 'Home') this.seek(frames[0].time);
         else if (e.code === 'End') this.seek(this.end);
         else if (e.code === 'Enter' && target === $('timeline')) this.timeline.openNearest(this.time);
         else if (e.code === 'Escape') { this.peaks?.close(); this.pick(null); }
         else return;
         e.preventDefault();
+    }
+
+    /** The frames before and after the time, which may be that of a frame to rounding. */
+    beside() {
+        const at = this.frameAt(this.time), near = Math.round(at), now = Math.abs(at - near) < 1e-6 ? near : at;
+        return [Math.max(Math.ceil(now) - 1, 0), Math.min(Math.floor(now) + 1, this.record.frames.length - 1)];
     }
 
     seek(time) {
