@@ -9,22 +9,43 @@ static vec3 place_error(vec3 measured, vec3 place)
     return e;
 }
 
+/* What an error of the place adds to the rates of place, velocity and bias [1/s, 1/s2, 1/s3]. */
+typedef struct passive_gains {
+    double place, velocity, bias;
+} passive_gains;
+
+/* A triple pole at -w.  The step is explicit: it is that of the rates while w dt is small, rings as that grows, and
+   diverges from 0.536 on. */
+#define PASSIVE_SMALL_STEP 0.25
+
+/* Beyond, the gains are those with which the error of the step has its triple pole at exp(-w dt): with v' = v + dt b -
+   ..., x' = x + dt v' - ... it is that of q^3 + (g + dt h) q^2 + dt (h + dt k) q + dt^2 k, q = z - 1, of the gains
+   g, h, k times dt. */
+static passive_gains passive_gains_of(double w, double dt)
+{
+    if (w * dt <= PASSIVE_SMALL_STEP)
+        return (passive_gains){3 * w, 3 * w * w, w * w * w};
+    double a = 1 - real_exp(-w * dt);
+    return (passive_gains){a * (3 - 3 * a + a * a) / dt, a * a * (3 - a) / (dt * dt), a * a * a / (dt * dt * dt)};
+}
+
 void passive_observer_step(const plane_model *m, const passive_tuning *tuning, motion_estimate *e, vec3 tau,
                            vec3 measured, double dt)
 {
-    double w = tuning->bandwidth, heading = e->place.z;
+    const passive_gains gain = passive_gains_of(tuning->bandwidth, dt);
+    double heading = e->place.z;
     vec3 error = place_error(measured, e->place), mass = plane_diagonal(m->mass);
     vec3 weighted = plane_times(mass, plane_to_vessel(heading, error));
     vec3 force = vec3_add(tau, plane_to_vessel(heading, e->bias));
     force = vec3_sub(force, mat3_mul_vec(m->damping, e->velocity));
-    force = vec3_mad(force, weighted, 3 * w * w);
+    force = vec3_mad(force, weighted, gain.velocity);
     vec3 acceleration = mat3_mul_vec(mat3_inverse(m->mass), force);
     vec3 bias_rate =
-        vec3_mad(plane_to_global(heading, vec3_scale(weighted, w * w * w)), e->bias, -1 / tuning->bias_time);
+        vec3_mad(plane_to_global(heading, vec3_scale(weighted, gain.bias)), e->bias, -1 / tuning->bias_time);
     /* Semi-implicit: the new velocity moves the place. */
     e->bias = vec3_mad(e->bias, bias_rate, dt);
     e->velocity = vec3_mad(e->velocity, acceleration, dt);
-    vec3 rate = vec3_mad(plane_to_global(heading, e->velocity), error, 3 * w);
+    vec3 rate = vec3_mad(plane_to_global(heading, e->velocity), error, gain.place);
     e->place = vec3_mad(e->place, rate, dt);
 }
 

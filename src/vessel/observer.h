@@ -17,7 +17,8 @@ typedef struct motion_estimate {
        place' = R velocity + 3 w e
        M velocity' = -D velocity + R^T bias + tau + 3 w^2 diag(M) R^T e
        bias' = -bias / T + R w^3 diag(M) R^T e            e = measured - place
-   whose error has a triple pole at -w where damping and T are left out. */
+   whose error has a triple pole at -w where damping and T are left out; at steps that are not small against 1/w the
+   gains are less, so that the error of a step has it at exp(-w dt), however large w dt is. */
 typedef struct passive_tuning {
     double bandwidth; /* w [rad/s] */
     double bias_time; /* T [s] */

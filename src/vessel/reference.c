@@ -25,9 +25,9 @@ static void hold_within(double most, vec3 *v, vec3 *a)
 }
 
 /* Semi-implicit: the new acceleration moves the speed, the new speed the place. */
-void reference_step(const reference_filter *f, reference_state *s, vec3 target, double dt)
+static void reference_part(const reference_filter *f, double w, reference_state *s, vec3 target, double dt)
 {
-    double w = f->frequency, k = 2 * f->damping + 1;
+    double k = 2 * f->damping + 1;
     vec3 left = vec3_sub(target, s->place);
     left.z = plane_angle(left.z);
     vec3 jerk = vec3_scale(left, w * w * w);
@@ -42,4 +42,17 @@ void reference_step(const reference_filter *f, reference_state *s, vec3 target, 
     s->velocity = vec3_make(v.x, v.y, turn.z);
     s->acceleration = vec3_make(a.x, a.y, spin.z);
     s->place = vec3_mad(s->place, s->velocity, dt);
+}
+
+/* Largest product of frequency and step of a part: a critically damped filter diverges from 0.52 on. */
+#define REFERENCE_PART 0.25
+/* A filter that could do with more parts is where it is sent to by the end of a step, whatever its frequency. */
+#define REFERENCE_PARTS 64
+
+void reference_step(const reference_filter *f, reference_state *s, vec3 target, double dt)
+{
+    double parts = fmin(fmax(ceil(f->frequency * dt / REFERENCE_PART), 1), REFERENCE_PARTS);
+    double part = dt / parts, w = fmin(f->frequency, REFERENCE_PART / part);
+    for (int i = 0; i < (int)parts; i++)
+        reference_part(f, w, s, target, part);
 }

@@ -91,9 +91,11 @@ all_told held.yaml vessel.positioning.interval=1000 vessel.positioning.sample_in
     "sample_interval: 0.001 s is shorter than run.time_step" "damping: a controlled vessel of relative damping 0" \
     "mass_surge: 5000 kg is|about 6.73e+06 kg" "bias_time: 1 s|give seconds" "noise_position: 20 m is outside|metres" \
     "noise_position: a standard deviation of 20 m is more than station.offset_limit, 5 m"
-all_told held.yaml vessel.positioning.interval=30 vessel.positioning.mass_sway=6e9 \
+all_told held.yaml vessel.positioning.interval=8 vessel.positioning.sample_interval=7 \
+    vessel.positioning.mass_sway=6e9 \
     vessel.positioning.observer_bandwidth=20 vessel.positioning.noise_heading_deg=30 vessel.station.watch_x=500 \
-    vessel.station.heading_limit_deg=0.26 vessel.station.offset_limit=150 -- "once in 30 s is too seldom|62.8 s" \
+    vessel.station.heading_limit_deg=0.26 vessel.station.offset_limit=150 -- \
+    "positioning.interval: once in 8 s is too seldom|62.8 s" "positioning.sample_interval: once in 7 s is too seldom" \
     "mass_sway: 6e+09 kg is 891" "observer_bandwidth: 20 rad/s" "noise_heading_deg: 30 deg" \
     "watch_x: (500, 0) m is outside of a hull" "heading_limit_deg: 0.26 deg|not radians" \
     "offset_limit: 150 m is more than the depth|not a percentage"

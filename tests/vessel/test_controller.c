@@ -184,6 +184,50 @@ START_TEST(observers_find_place_and_load)
 }
 END_TEST
 
+/* However long the time between calls: the error of a place that does not change, seen without noise, has a triple pole
+   at exp(-w dt), where there is neither damping nor forgetting. */
+START_TEST(poles_of_a_passive_observer_that_is_called_seldom)
+{
+    static const double products[] = {0.3, 0.8, 1.5, 10}, calls[] = {0.5, 4};
+    const plane_model model = {supply_mass, {{{0}}}};
+    for (int i = 0; i < 8; i++) {
+        double wdt = products[i / 2], dt = calls[i % 2], pole = real_exp(-wdt);
+        const passive_tuning tuning = {wdt / dt, 1e30};
+        motion_estimate e = {{1, 0, 0}, {0.1, 0, 0}, {1e4, 0, 0}};
+        const vec3 none = {0, 0, 0};
+        double x[12];
+        for (int n = 0; n < 12; n++) {
+            x[n] = e.place.x;
+            passive_observer_step(&model, &tuning, &e, none, none, dt);
+        }
+        for (int n = 3; n < 12; n++)
+            assert_absolute(x[n], 3 * pole * x[n - 1] - 3 * pole * pole * x[n - 2] + pole * pole * pole * x[n - 3],
+                            1e-9);
+    }
+}
+END_TEST
+
+/* A filter that is faster than its calls arrives without going past, and no later. */
+START_TEST(reference_of_a_filter_that_is_called_seldom)
+{
+    static const double frequency[] = {0.05, 0.5, 1, 5, 1e6};
+    for (int i = 0; i < 5; i++) {
+        const reference_filter f = {frequency[i], 1, 0.5, radians(0.5)};
+        reference_state s = {0};
+        double dt = 8;
+        for (int n = 0; n < 100; n++) {
+            reference_step(&f, &s, vec3_make(20, 0, radians(10)), dt);
+            ck_assert_msg(fabs(s.place.x) < 22 && fabs(s.velocity.x) < 0.5 * (1 + 1e-12), "%g rad/s: at %g m",
+                          frequency[i], s.place.x);
+            /* 20 m at 0.5 m/s, and what the filter takes to get under way and to stop. */
+            ck_assert(frequency[i] < 0.5 || n < 7 || fabs(s.place.x - 20) < 0.5);
+        }
+        assert_vec3_close(s.place, vec3_make(20, 0, radians(10)), 1e-3);
+        assert_vec3_close(s.velocity, vec3_make(0, 0, 0), 1e-3);
+    }
+}
+END_TEST
+
 START_TEST(vaning_turns_the_bow_into_the_ice)
 {
     const vaning v = {radians(1), 60, 1e4};
@@ -198,4 +242,5 @@ END_TEST
 
 TEST_MAIN("controller", open_loop_poles_of_the_oracle, pid_step_of_the_oracle, pid_works_in_the_frame_of_the_vessel,
           reference_is_smooth_and_arrives, reference_goes_straight, waypoints_in_their_time,
-          observers_find_place_and_load, vaning_turns_the_bow_into_the_ice)
+          observers_find_place_and_load, poles_of_a_passive_observer_that_is_called_seldom,
+          reference_of_a_filter_that_is_called_seldom, vaning_turns_the_bow_into_the_ice)
