@@ -354,7 +354,11 @@ fram_status build_station(context *ctx, const scenario *s, const vessel_entry *e
         return status;
     station_definition d = definition_of(s, v, vessel, w);
     status = station_add(ctx, &d, vessel, &w->vessels, &w->bodies, &w->stations, error);
-    if (status == FRAM_OK)
-        find_equilibrium(ctx, entry, m, vessel, w);
-    return status;
+    if (status != FRAM_OK)
+        return status;
+    find_equilibrium(ctx, entry, m, vessel, w);
+    /* Who is not on positioning believes nothing until it is switched on. */
+    if (d.positioning)
+        station_begin(&w->stations, &d, vessel, &w->vessels, &w->bodies);
+    return FRAM_OK;
 }

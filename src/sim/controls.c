@@ -241,16 +241,8 @@ static void set_positioning(world *w, int32_t v, bool on)
     s->positioning[v] = on;
     if (was || !on)
         return;
-    int32_t body = w->vessels.body[v];
-    vec3 r = w->bodies.position[body], velocity = w->bodies.velocity[body];
-    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
-    vec3 place = vec3_make(r.x, r.y, heading);
-    s->reference[v] = (reference_state){.place = place};
-    s->measured[v] = place;
-    s->estimate[v] = (motion_estimate){.place = place, .velocity = plane_to_vessel(heading, velocity)};
-    s->estimate[v].velocity.z = w->bodies.angular_velocity[body].z;
+    station_believe(s, v, &w->vessels, &w->bodies);
     s->integral[v] = s->demand[v] = s->missed[v] = s->load[v] = vec3_make(0, 0, 0);
-    s->vane_heading[v] = heading;
     s->saturated[v] = 0;
 }
 

@@ -38,6 +38,24 @@ bool station_is_kept(const station_table *stations, const vessel_table *vessels,
     return vessel < stations->count && vessels->mode[vessel] == VESSEL_FREE;
 }
 
+void station_believe(station_table *s, int32_t row, const vessel_table *vessels, const body_table *bodies)
+{
+    int32_t body = vessels->body[row];
+    vec3 place = place_of(bodies, body);
+    s->reference[row] = (reference_state){.place = place};
+    s->measured[row] = place;
+    s->estimate[row] = (motion_estimate){.place = place, .velocity = plane_to_vessel(place.z, bodies->velocity[body])};
+    s->estimate[row].velocity.z = bodies->angular_velocity[body].z;
+    s->vane_heading[row] = place.z;
+}
+
+void station_begin(station_table *s, const station_definition *d, int32_t row, const vessel_table *vessels,
+                   const body_table *bodies)
+{
+    station_believe(s, row, vessels, bodies);
+    s->covariance[row] = kalman_begin(&d->kalman, s->estimate[row].place.z, d->first_speed, d->first_bias);
+}
+
 fram_status station_add(context *ctx, const station_definition *d, int32_t vessel, const vessel_table *vessels,
                         const body_table *bodies, station_table *s, fram_error *error)
 {
@@ -70,11 +88,7 @@ fram_status station_add(context *ctx, const station_definition *d, int32_t vesse
     s->feed_time[row] = d->feed_time;
     s->noise[row] = d->noise;
     s->seed[row] = d->seed;
-    s->reference[row].place = s->estimate[row].place = s->measured[row] = place;
-    s->estimate[row].velocity = plane_to_vessel(place.z, bodies->velocity[body]);
-    s->estimate[row].velocity.z = 0;
-    s->covariance[row] = kalman_begin(&d->kalman, place.z, d->first_speed, d->first_bias);
-    s->vane_heading[row] = place.z;
+    station_begin(s, d, row, vessels, bodies);
     return FRAM_OK;
 }
 

@@ -85,6 +85,12 @@ typedef struct station_definition {
  */
 fram_status station_add(context *ctx, const station_definition *d, int32_t vessel, const vessel_table *vessels,
                         const body_table *bodies, station_table *stations, fram_error *error);
+/* What its controller believes and wants begins at the vessel as it lies and moves now; where it shall be, and where
+   offsets count from, stay. */
+void station_believe(station_table *stations, int32_t row, const vessel_table *vessels, const body_table *bodies);
+/* So does how sure it is: of a vessel that was moved after station_add. */
+void station_begin(station_table *stations, const station_definition *d, int32_t row, const vessel_table *vessels,
+                   const body_table *bodies);
 /* Whether a vessel keeps station. */
 bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel);
 

@@ -63,5 +63,46 @@ START_TEST(the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
 }
 END_TEST
 
-TEST_MAIN("build_station", thrusters_are_as_their_keys_say, intervals_are_whole_steps_and_samples_fall_on_calls,
+/* A moored ship on positioning, which the current turns about its turret. */
+static const char *const MOORED =
+    "run: {duration: 10, time_step: 0.1, scale: 30}\n"
+    "vessel:\n  mode: free\n  heading_deg: 60\n"
+    "  hull: {form: box, length: 100, beam: 20, draught: 7, freeboard: 4}\n"
+    "  hydrodynamics: {source: estimate}\n"
+    "  mooring:\n    depth: 100\n    turret: true\n    x: 30\n"
+    "    lines:\n      - {count: 4, spacing_deg: 90, direction_deg: 10, distance: 600, pretension: 5e5, weight: 1000}\n"
+    "  thrusters:\n"
+    "    - {kind: tunnel, x: 40, z: -5, thrust: 3.0e5}\n"
+    "    - {kind: tunnel, x: -40, z: -5, thrust: 3.0e5}\n"
+    "  positioning: {active: true, control: heading, heading: vaning, observer: kalman, noise_position: 0,\n"
+    "                noise_heading_deg: 0}\n"
+    "ice: {source: none}\ndomain: {boundary: open}\n"
+    "environment: {current_speed: 0.8, current_direction_deg: 180}\n";
+
+/* One that begins at the equilibrium believes and wants what is so, and is watched from where it was put. */
+START_TEST(a_ship_believes_that_it_lies_at_its_equilibrium)
+{
+    scene k;
+    scene_open(&k, MOORED);
+    const station_table *s = &k.w.stations;
+    int32_t body = k.w.vessels.body[0];
+    double heading = quat_roll_pitch_yaw(k.w.bodies.orientation[body]).z;
+    vec3 r = k.w.bodies.position[body], place = {r.x, r.y, heading};
+    ck_assert_msg(fabs(degrees(heading) - 60) > 10, "begins at heading %g", degrees(heading));
+    assert_vec3_close(s->estimate[0].place, place, 0);
+    assert_vec3_close(s->reference[0].place, place, 0);
+    assert_vec3_close(s->measured[0], place, 0);
+    assert_absolute(s->vane_heading[0], heading, 0);
+    assert_absolute(degrees(s->home[0].z), 60, 1e-9);
+    /* The noise of the bias is along and across the ship as it lies. */
+    ck_assert(fabs(s->covariance[0].of[9 * 6 + 7]) < 0.1 * s->covariance[0].of[9 * 6 + 6]);
+    scene_steps(&k, 50);
+    assert_absolute(s->vane_heading[0], heading, radians(1));
+    ck_assert(fabs(k.w.bodies.angular_velocity[body].z) < radians(0.01));
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("build_station", a_ship_believes_that_it_lies_at_its_equilibrium, thrusters_are_as_their_keys_say,
+          intervals_are_whole_steps_and_samples_fall_on_calls,
           the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
