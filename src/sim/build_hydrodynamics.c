@@ -87,7 +87,7 @@ static hydrodynamics estimate(const scenario *s, const scenario_vessel *v, const
 fram_status build_hydrodynamics(const scenario *s, const vessel_entry *entry, vessel_model *vessel, fram_error *error)
 {
     hydrodynamics_source source = entry->keys->hydrodynamics.source;
-    vessel->has_hydrodynamics = source != HYDRODYNAMICS_NONE;
+    vessel->has_hydrodynamics = source != HYDRODYNAMICS_NONE && s->environment.water;
     vessel->hydrodynamics = (hydrodynamics){0};
     if (source == HYDRODYNAMICS_GIVEN)
         return given(s, entry, vessel->centre, &vessel->hydrodynamics, error);

@@ -63,6 +63,20 @@ START_TEST(the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
 }
 END_TEST
 
+/* Water that is not there moves with nothing. */
+START_TEST(without_water_no_added_mass)
+{
+    scene k;
+    scene_open_with(&k, SHIP, (const char *const[]){"environment.water=false"}, 1);
+    int32_t body = k.w.vessels.body[0];
+    const vec3 none = {0, 0, 0};
+    assert_vec3_close(k.w.bodies.added_mass[body], none, 0);
+    assert_vec3_close(k.w.bodies.added_inertia[body], none, 0);
+    assert_absolute(plane_diagonal(k.w.stations.model[0].mass).x, k.w.bodies.mass[body], 0);
+    scene_close(&k);
+}
+END_TEST
+
 /* A moored ship on positioning, which the current turns about its turret. */
 static const char *const MOORED =
     "run: {duration: 10, time_step: 0.1, scale: 30}\n"
@@ -103,6 +117,6 @@ START_TEST(a_ship_believes_that_it_lies_at_its_equilibrium)
 }
 END_TEST
 
-TEST_MAIN("build_station", a_ship_believes_that_it_lies_at_its_equilibrium, thrusters_are_as_their_keys_say,
-          intervals_are_whole_steps_and_samples_fall_on_calls,
+TEST_MAIN("build_station", without_water_no_added_mass, a_ship_believes_that_it_lies_at_its_equilibrium,
+          thrusters_are_as_their_keys_say, intervals_are_whole_steps_and_samples_fall_on_calls,
           the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
