@@ -40,13 +40,19 @@ static double away_from_place(const world *w, int32_t row)
     return vec2_length(vec2_make(at.x - s->x, at.y - s->y));
 }
 
+/* Velocity of the water, which stands still where there is none. */
+static vec2 water_now(const model *m, const world *w)
+{
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
+    vec3 current = media_current(&now, 0);
+    return m->forces == FORCES_NONE ? vec2_make(0, 0) : vec2_make(current.x, current.y);
+}
+
 fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (w->propulsion.count == 0)
         return FRAM_OK;
-    media now = media_now(m, &w->inputs, w->clock.time[0]);
-    vec3 current = media_current(&now, 0);
-    vec2 water = {current.x, current.y};
+    vec2 water = water_now(m, w);
     bool drifts = m->boundary == DOMAIN_FEEDING;
     vec2 drift = drifts ? feed_drift(m, &w->inputs, w->clock.time[0]) : vec2_make(0, 0);
     fram_status status = FRAM_OK;

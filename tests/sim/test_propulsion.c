@@ -46,6 +46,24 @@ START_TEST(runs_at_its_open_water_speed)
 }
 END_TEST
 
+/* Water that is not there has no current, past which propellers would turn slower or faster. */
+START_TEST(without_water_no_current)
+{
+    double speed[2];
+    for (int flows = 0; flows < 2; flows++) {
+        const char *const dry[] = {"environment.water=false",
+                                   flows ? "environment.current_speed=1.5" : "environment.current_speed=0"};
+        scene k;
+        scene_open_with(&k, SHIP, dry, 2);
+        scene_steps(&k, 100);
+        speed[flows] = speed_of(&k);
+        scene_close(&k);
+    }
+    ck_assert(speed[0] > 0.1);
+    assert_absolute(speed[1], speed[0], 0);
+}
+END_TEST
+
 START_TEST(net_thrust_is_the_published_curve)
 {
     assert_relative(propulsion_net_thrust(1e6, 8, 0), 1e6, 1e-15);
@@ -311,7 +329,7 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
-TEST_MAIN("propulsion", runs_at_its_open_water_speed, net_thrust_is_the_published_curve,
+TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
           keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
           speed_falls_with_thickness, backs_and_rams, refusals_name_their_key)
