@@ -24,6 +24,8 @@ enum { VESSEL = 0 };
 
 static void find_media_loads(const model *m, const world *w, capability *c)
 {
+    if (m->forces != FORCES_FLUID)
+        return; /* none, as in a run */
     for (int32_t i = 0; i < c->loads.directions; i++) {
         double from = direction_of(c, i);
         media still = m->media;

@@ -100,6 +100,28 @@ START_TEST(loads_of_wind_and_damping)
 }
 END_TEST
 
+/* Where there is no water there is neither current nor wind to hold against, as in a run. */
+START_TEST(no_loads_without_water)
+{
+    static const char *const dry[] = {"environment.wind_speed=20", "environment.hull_drag.air_form=1",
+                                      "environment.water=false", "vessel.hydrodynamics.source=estimate"};
+    scene k;
+    scene_open_with(&k, box, dry, sizeof dry / sizeof *dry);
+    capability c;
+    fram_error error = {0};
+    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    const vec3 none = {0, 0, 0};
+    for (int i = 0; i < plain.directions; i++) {
+        assert_vec3_close(c.loads.wind[i], none, 0);
+        assert_vec3_close(c.loads.drag[i], none, 0);
+        assert_vec3_close(c.loads.damping[i], none, 0);
+        ck_assert_msg(c.intact[i].beyond && c.intact[i].at.use < 1e-3, "use %g", c.intact[i].at.use);
+    }
+    capability_free(&k.ctx, &c);
+    scene_close(&k);
+}
+END_TEST
+
 /* Thrusters that fail, and lines that are let go, at the start of a run hold nothing, nor are they what is lost. */
 START_TEST(out_of_order_from_the_start)
 {
@@ -547,6 +569,6 @@ START_TEST(a_stop_flag_is_seen)
 END_TEST
 
 TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
-          out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run,
-          use_as_it_is_written, broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met,
-          refusals, a_stop_flag_is_seen)
+          no_loads_without_water, out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn,
+          balances_are_those_of_a_run, use_as_it_is_written, broken_ice_by_formula, measured_ice,
+          speeds_that_are_measured, ice_that_was_met, refusals, a_stop_flag_is_seen)
