@@ -92,7 +92,9 @@ static void history_free(context *ctx, load_history *h)
         array_free(ctx, &h->force[i]);
 }
 
-/* The scenario with its hull held fast and its field driven in one direction; what it points to is only read. */
+/* The scenario with its hull held fast and its field driven in one direction; what it points to is only read.  A hull
+   that is held neither drives itself, which would have it back and ram as one that is beset, nor washes ice away: what
+   its propellers do is on the other side of the balance. */
 static scenario driven(const scenario *s, double from, double speed)
 {
     scenario d = *s;
@@ -100,6 +102,8 @@ static scenario driven(const scenario *s, double from, double speed)
     towards -= 360 * floor(towards / 360);
     d.vessel.mode = VESSEL_PRESCRIBED;
     d.vessel.speed = 0;
+    d.vessel.propulsion.bollard_pull = (double)NAN;
+    d.vessel.wash.active = false;
     d.domain.drift_speed = speed;
     d.domain.drift_direction_deg = towards;
     d.domain.drift_file[0] = '\0';

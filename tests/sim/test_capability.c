@@ -351,6 +351,8 @@ static vec3 load_from_starboard(scene *k, double speed, double seconds)
     fram_error error = {0};
     double_array time = {0}, part[3] = {{0}, {0}, {0}};
     d.vessel.mode = VESSEL_PRESCRIBED;
+    d.vessel.propulsion.bollard_pull = (double)NAN;
+    d.vessel.wash.active = false;
     d.domain.drift_speed = d.environment.current_speed = speed;
     d.domain.drift_direction_deg = d.environment.current_direction_deg = 30 - 90 + 180;
     d.environment.wind_speed = 0;
@@ -382,7 +384,7 @@ static vec3 load_from_starboard(scene *k, double speed, double seconds)
 }
 
 /* Ice that drifts onto a hull from ahead pushes it astern, from starboard to port; mirrored from port.  Neither wind
-   nor what the current has on top at a depth are in it. */
+   nor what the current has on top at a depth are in it, and a hull that is held neither drives nor washes ice away. */
 START_TEST(measured_ice)
 {
     char path[] = "/tmp/fram-profile-XXXXXX", profile[80];
@@ -402,6 +404,9 @@ START_TEST(measured_ice)
                                "domain.y_max=70",
                                "vessel.hull.length=40",
                                "environment.wind_speed=15",
+                               "vessel.propulsion.bollard_pull=2e5",
+                               "vessel.propulsion.open_water_speed=6",
+                               "vessel.wash.active=true",
                                "run.time_step=0.05",
                                profile};
     scene_open_with(&k, box, ice, sizeof ice / sizeof *ice);
