@@ -81,7 +81,7 @@ def case(out):
                                 "errors")
     c.found = ("At 60 % squares load more, as published. At 80 % the closed field jams: floes of a metre that can "
                "neither break nor be pushed under a vertical side carry the walls' reaction up to the crushing limit "
-               "(40 MN), and squares load as polygons do, within chance. A prescribed speed and walls make this worse; "
+               "(40 MN), and squares load no more than polygons. A prescribed speed and walls make this worse; "
                "read it as a limit of such a set-up.")
 
     def draw(axes):
