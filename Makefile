@@ -54,6 +54,9 @@ scenes: build ## run the ready scenes of vessels on station for ten minutes each
 management: build ## run the ready scenes of ice management to their end, with a page of each: most of an hour of two cores
 	@tools/management.sh
 
+answers: build ## what README and tutorials say of ready scenes beside what these give now (minutes; ANSWERS_FLAGS="--long --write")
+	@$(PYTHON) tools/answers.py $(ANSWERS_FLAGS)
+
 readme-picture: viewer build | $(STAMPS)/views ## the moving picture of the README, docs/pictures/demo.webp (a minute)
 	@$(PYTHON) tools/readme_picture.py
 

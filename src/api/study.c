@@ -107,9 +107,9 @@ static step_look step_look_of(const bench_look *l)
 }
 
 /* Time and bytes of a run of one condition, added to those of the others. */
-static fram_status measure_condition(const fram_study *s, int32_t condition, fram_study_extent *out, fram_error *error)
+static fram_status measure_condition(context *ctx, const fram_study *s, int32_t condition, fram_study_extent *out,
+                                     fram_error *error)
 {
-    context *ctx = &s->context->inner;
     scenario one = {0};
     bench_look found[LOOKS] = {{0}};
     double build = 0;
@@ -134,10 +134,9 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
 }
 
 /* Builds the vessels of a condition, and takes its name and the most that a run may take of memory. */
-static fram_status look_at_condition(const fram_study *s, int32_t condition, hull_store *store, char id[CONDITION_ID],
-                                     double *bytes, fram_error *error)
+static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t condition, hull_store *store,
+                                     char id[CONDITION_ID], double *bytes, fram_error *error)
 {
-    context *ctx = &s->context->inner;
     scenario one = {0};
     char hash[SHA256_TEXT_SIZE] = "";
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
@@ -154,9 +153,8 @@ static fram_status look_at_condition(const fram_study *s, int32_t condition, hul
 }
 
 /* All conditions, for those that are not measured: how many differ, and how many of their runs go at a time. */
-static fram_status look_at_conditions(const fram_study *s, int32_t *differ, int *jobs, fram_error *error)
+static fram_status look_at_conditions(context *ctx, const fram_study *s, int32_t *differ, int *jobs, fram_error *error)
 {
-    context *ctx = &s->context->inner;
     int32_t count = s->inner.conditions;
     double bytes = 0;
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)count, CONDITION_ID);
@@ -165,7 +163,7 @@ static fram_status look_at_conditions(const fram_study *s, int32_t *differ, int 
     for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
         status = work_continue(ctx, "looking at the conditions", c, count, error);
         if (status == FRAM_OK)
-            status = look_at_condition(s, c, &store, id[c], &bytes, error);
+            status = look_at_condition(ctx, s, c, &store, id[c], &bytes, error);
     }
     hull_store_free(ctx, &store);
     int32_t *first = status == FRAM_OK ? twins_find(ctx, id, count) : NULL;
@@ -191,14 +189,13 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     fram_study_extent e = {.conditions = inner->conditions, .seen = 1};
     int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1, differ = 0;
     /* What a run says of its start is not asked here. */
-    log_level usual = s->context->inner.verbosity;
-    s->context->inner.verbosity = usual > LOG_WARNING ? LOG_WARNING : usual;
-    status = look_at_conditions(s, &differ, &e.jobs, error);
+    context quiet = s->context->inner;
+    quiet.verbosity = quiet.verbosity > LOG_WARNING ? LOG_WARNING : quiet.verbosity;
+    status = look_at_conditions(&quiet, s, &differ, &e.jobs, error);
     if (status == FRAM_OK)
-        status = measure_condition(s, 0, &e, error);
+        status = measure_condition(&quiet, s, 0, &e, error);
     if (status == FRAM_OK && last > 0)
-        status = measure_condition(s, last, &e, error);
-    s->context->inner.verbosity = usual;
+        status = measure_condition(&quiet, s, last, &e, error);
     if (status != FRAM_OK)
         return status;
     e.differ = differ;
