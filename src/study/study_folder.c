@@ -166,39 +166,6 @@ static fram_status write_condition(study_folder *f, int32_t condition, hull_stor
     return status;
 }
 
-/* A study that was killed while it wrote its first file left a part of that; one that has just begun has it there for a
-   moment.  Which of them it is shows when the folder is locked: then it is swept. */
-static bool has_leftovers_only(const char *path)
-{
-    DIR *dir = opendir(path);
-    bool only = dir != NULL;
-    int failure = 0;
-    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name && only; name = folder_next(dir, &failure))
-        only = temporary_is_of(name, "study.yaml");
-    if (dir)
-        closedir(dir);
-    return only && failure == 0;
-}
-
-/* A folder that holds something else is left alone. */
-static fram_status check_folder(context *ctx, const char *path, fram_error *error)
-{
-    text_buffer b = {0};
-    text_format(ctx, &b, "%s/study.yaml", path);
-    fram_status status = b.failed ? error_memory(error) : FRAM_OK;
-    if (status == FRAM_OK && !file_is_readable(b.data)) {
-        status = run_folder_check(path, has_leftovers_only(path), error);
-        /* Another study that begins may have made folder and file between these looks. */
-        if (status == FRAM_ERROR_USAGE && (has_leftovers_only(path) || file_is_readable(b.data)))
-            status = FRAM_OK;
-        else if (status == FRAM_ERROR_USAGE)
-            status = error_set(error, status, path, 0, NULL,
-                               "the folder holds something else than a study; name another one");
-    }
-    text_free(ctx, &b);
-    return status;
-}
-
 /* A study of another scenario in the folder: nothing that was computed is lost, but the tables are.  The record of the
    study before has the whole path of its scenario, its file only that from where it lay. */
 static void tell_other(const study_folder *f)
@@ -284,7 +251,7 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
     char **files = memory_array(ctx, (size_t)s->conditions, sizeof *files);
     *f = (study_folder){.ctx = ctx, .s = s, .path = path, .id = id, .files = files, .lock = -1};
     study_index_heads(f);
-    fram_status status = id && files ? check_folder(ctx, path, error) : error_memory(error);
+    fram_status status = id && files ? study_folder_check(ctx, s, path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = run_folder_make(path, error);
     if (status == FRAM_OK)
@@ -299,6 +266,8 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
         status = make_folder(f, "runs", NULL, error);
     if (status == FRAM_OK)
         status = write_conditions(f, error);
+    if (status == FRAM_OK)
+        status = study_folder_check_inputs(f, error);
     if (status == FRAM_OK)
         status = study_record_write(f, error);
     text_free(ctx, &f->index);

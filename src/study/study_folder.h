@@ -19,9 +19,15 @@ typedef struct study_folder {
 } study_folder;
 
 /* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
-   in it, or when it holds something else. */
+   in it, when it holds something else, or a file that the study reads in the place of one that it writes. */
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error);
 void study_folder_close(study_folder *f);
+
+/* Before that, in study_folder_check.c: whether the folder is empty or a study's, and no file stands in the place of
+   one that is to be written which the study names; FRAM_ERROR_USAGE otherwise, and nothing is touched. */
+fram_status study_folder_check(context *ctx, const study *s, const char *path, fram_error *error);
+/* The same of the files that the scenarios of its conditions name, when all of them were looked at. */
+fram_status study_folder_check_inputs(const study_folder *f, fram_error *error);
 
 /* Processes at a time: `jobs` where that is not 0, else the cores of this machine, or as many as its memory holds. */
 int study_folder_jobs(const study_folder *f, int jobs);

@@ -7,15 +7,19 @@
 #include "base/number_text.h"
 #include "fram/version.h"
 #include "io/file.h"
+#include "io/path.h"
 #include "sim/run_inputs.h"
 #include "study/study_file.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- index.csv ---- */
 
-void study_index_heads(study_folder *f) { text_add(f->ctx, &f->index, "condition,id,scenario_sha256,inputs_sha256\n"); }
+#define INDEX_HEADS "condition,id,scenario_sha256,inputs_sha256\n"
+
+void study_index_heads(study_folder *f) { text_add(f->ctx, &f->index, INDEX_HEADS); }
 
 void study_index_row(study_folder *f, int32_t condition, const char *scenario_hash, const char *inputs)
 {
@@ -28,6 +32,8 @@ void study_index_row(study_folder *f, int32_t condition, const char *scenario_ha
 }
 
 /* ---- effective.yaml ---- */
+
+#define RECORD_BEGINS "# A study with every key and condition, as Fram "
 
 /* The name of a file that was read and the hash of what is in it now. */
 static fram_status add_file(context *ctx, text_buffer *b, const char *what, const char *path, fram_error *error)
@@ -124,8 +130,7 @@ static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *
     static const char *const keeps[] = {[KEEP_SUMMARY] = "summary", [KEEP_SERIES] = "series", [KEEP_ALL] = "all"};
     const study *s = f->s;
     context *ctx = f->ctx;
-    text_format(ctx, b, "# A study with every key and condition, as Fram %s (%s; %s) read it.\n", FRAM_VERSION,
-                build_compiler(), build_parts());
+    text_format(ctx, b, RECORD_BEGINS "%s (%s; %s) read it.\n", FRAM_VERSION, build_compiler(), build_parts());
     fram_status status = add_file(ctx, b, "study file", s->file, error);
     if (status == FRAM_OK)
         status = add_file(ctx, b, "scenario", s->scenario, error);
@@ -163,4 +168,26 @@ fram_status study_record_write(const study_folder *f, fram_error *error)
         status = study_table_write(f, "index.csv", &f->index, error);
     text_free(f->ctx, &b);
     return status;
+}
+
+static bool begins_with(const char *folder, const char *name, const char *text)
+{
+    enum { BEGINNING_ROOM = 64 };
+    char path[PATH_ROOM], found[BEGINNING_ROOM];
+    size_t length = strlen(text);
+    uint64_t size;
+    int descriptor;
+    if (path_join(folder, name, path, NULL) != FRAM_OK ||
+        file_open_regular(path, UINT64_MAX, &descriptor, &size, NULL) != FRAM_OK)
+        return false;
+    bool same = length <= sizeof found && file_read_at(descriptor, path, 0, found, length, NULL) == FRAM_OK &&
+                memcmp(found, text, length) == 0;
+    close(descriptor);
+    return same;
+}
+
+bool study_record_is_there(const char *folder)
+{
+    return begins_with(folder, "study.yaml", "") &&
+           (begins_with(folder, "effective.yaml", RECORD_BEGINS) || begins_with(folder, "index.csv", INDEX_HEADS));
 }

@@ -14,6 +14,8 @@ void study_index_row(study_folder *f, int32_t condition, const char *scenario_ha
 char *study_scenario_whole(context *ctx, const study *s);
 /* Both files, of a folder whose conditions all have their names. */
 fram_status study_record_write(const study_folder *f, fram_error *error);
+/* Whether a folder has one of them, as Fram writes it, beside a study.yaml: it is a study's then. */
+bool study_record_is_there(const char *folder);
 
 /* How a condition stands, by the rows of runs that are there. */
 typedef struct condition_standing {

@@ -40,6 +40,56 @@ class Folders(StudyTest):
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
 
+    def contents(self, folder):
+        return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+    def test_what_a_study_reads_is_not_written_over(self):
+        own, out, begun = self.at / "own", self.at / "out", self.at / "begun"
+        short = f"scenario: {self.at}/base.yaml\nset: {{run.duration: 0.1, run.transient: 0}}\n"
+        # A study file of one's own, with other files or without, makes no folder of a study.
+        own.mkdir()
+        (own / "study.yaml").write_text(short + "vary: {table: conditions.csv}\n")
+        (own / "conditions.csv").write_text("ice.thickness\n1\n")
+        other = self.at / "other.yaml"
+        other.write_text(short)
+        for effective in (None, short):
+            if effective:
+                (own / "effective.yaml").write_text(effective)
+            before = self.contents(own)
+            for path in (own / "study.yaml", other):
+                error = self.fram(path, "-o", own, code=2)["error"]
+                self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
+            self.assertEqual(self.contents(own), before)
+        begun.mkdir()
+        (begun / "study.yaml").write_text(short + "seeds: 1\n")
+        for path in (begun / "study.yaml", other):
+            self.fram(path, "-o", begun, code=2)
+        # One that was killed with its first file, or refused in its conditions, goes on, corrected or not.
+        (begun / "study.yaml").write_text(short)
+        self.fram(other, "-o", begun, "--on", "slurm", "--dry-run")
+        other.write_text(short + "vary: {grid: {vessel.mass: [1.0e8]}}\n")
+        self.fram(other, "-o", out, code=2)
+        other.write_text(short)
+        self.assertEqual(self.fram(other, "-o", out)["made"], 1)
+        # Files in the places of results: the table, the scenario, one that the scenario names.
+        (out / "annual.csv").write_text("time[s],x[m/s],y[m/s]\n0,1,0\n")
+        (out / "extremes.csv").write_bytes((self.at / "base.yaml").read_bytes())
+        os.link(out / "conditions.csv", self.at / "table.csv")
+        (self.at / "table.csv").write_text("ice.thickness\n1\n")
+        before = self.contents(out)
+        for text, name in ((short + "vary: {table: table.csv}\n", "conditions.csv"),
+                           ("scenario: out/extremes.csv\n", "extremes.csv"),
+                           (short.replace("0}", "0, environment.wind_file: out/annual.csv}"), "annual.csv")):
+            other.write_text(text)
+            error = self.fram(other, "-o", out, code=2)["error"]
+            self.assertIn(f"would write its own {name} over it", error["message"])
+            after = self.contents(out)
+            self.assertEqual({p: after[p] for p in before if p.name != "study.yaml"},
+                             {p: before[p] for p in before if p.name != "study.yaml"})
+        # The study of the folder itself is no such file.
+        for name in ("effective.yaml", "study.yaml"):
+            self.assertEqual(self.fram(out / name, "-o", out)["made"], 0)
+
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
         path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
