@@ -3,15 +3,35 @@
 
 #include "fram/results.h"
 
+#include <limits.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
+/* The folder that a file is to be made in, and the rest of its name. */
+static bool find_place(const char *path, struct stat *folder, const char **name)
+{
+    char above[PATH_MAX] = ".";
+    const char *slash = strrchr(path, '/');
+    *name = slash ? slash + 1 : path;
+    if (slash && snprintf(above, sizeof above, "%.*s", (int)(*name - path), path) >= (int)sizeof above)
+        return false;
+    return stat(above, folder) == 0;
+}
+
+/* However the names are spelt; of files that are not there yet, whether they would be one. */
 static bool is_one_file(const char *a, const char *b)
 {
     struct stat one, other;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
+    const char *name, *other_name;
+    bool there = stat(a, &one) == 0, other_there = stat(b, &other) == 0;
+    if (strcmp(a, b) == 0)
+        return true;
+    if (there != other_there)
+        return false;
+    if (!there && !(find_place(a, &one, &name) && find_place(b, &other, &other_name) && strcmp(name, other_name) == 0))
+        return false;
+    return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
 /* Whether a name ends in one of the endings, "png svg". */

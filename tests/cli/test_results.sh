@@ -49,7 +49,8 @@ echo "<html>" >page.html
 "$FRAM" hull --length 40 --beam 10 --draught 4 --box -o b.stl >/dev/null
 cp b.stl kept.stl
 for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "hull b.stl --draw b.stl --force" \
-    "hull b.stl --draw two.png -o two.png" "bench --scene b.stl --dump b.stl"; do
+    "hull b.stl --draw two.png -o two.png" "hull b.stl --draw two.png -o ./two.png" \
+    "bench --scene b.stl --dump b.stl"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words
     says "of its own" err
