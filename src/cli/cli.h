@@ -125,8 +125,11 @@ typedef struct command_files {
 /* A usage error, else -1: what is read is never written over, nor one output by another; a file that is there is
    replaced when its name has an ending of the kind that is written, otherwise with --force only. */
 int refuse_outputs(const common_options *common, const command_files *files);
-/* The same for the folder of a run: its files must not be the scenario that is read. */
-int refuse_run_folder(const common_options *common, const char *scenario, const char *folder);
+/* The same for the files that a scenario names, when it has been read. */
+int refuse_scenario_files(const common_options *common, const command_files *files, const fram_scenario *scenario);
+/* The same for the folder of a run: its files must not be the scenario that is read, nor what that names. */
+int refuse_run_folder(const common_options *common, const char *path, const fram_scenario *scenario,
+                      const char *folder);
 
 /* --- session.c --- */
 

@@ -106,6 +106,15 @@ static const char *misplaced_option(const field_words *w)
 
 /* ---- the command ---- */
 
+static command_files files_of(const field_words *w)
+{
+    return (command_files){.inputs = {w->path},
+                           .outputs = {{"--draw", w->draw, PICTURE_ENDINGS},
+                                       {"--cover", w->cover, PICTURE_ENDINGS},
+                                       {"--table", w->table, "csv"},
+                                       {"--output", w->output, "geojson json"}}};
+}
+
 /* Words that contradict themselves: an exit code, -1 to go on. */
 static int check_field_words(const common_options *common, field_words *w)
 {
@@ -124,24 +133,34 @@ static int check_field_words(const common_options *common, field_words *w)
         return answer_usage(common, "--bad", "expected refuse, drop or repair");
     if (w->cell != 0 && !w->cover)
         return answer_usage(common, "--cell", "is the size of the cells of --cover FILE, which is missing");
-    const command_files files = {.inputs = {w->path},
-                                 .outputs = {{"--draw", w->draw, PICTURE_ENDINGS},
-                                             {"--cover", w->cover, PICTURE_ENDINGS},
-                                             {"--table", w->table, "csv"},
-                                             {"--output", w->output, "geojson json"}}};
+    const command_files files = files_of(w);
     return refuse_outputs(common, &files);
 }
 
-static fram_status make_field(fram_context *context, const field_words *w, fram_field **field, fram_error *error)
+/* -1, or an exit code, told. */
+static int generate_field(fram_context *context, const common_options *common, const field_words *w, fram_field **field)
 {
-    if (!w->scenario)
-        return fram_field_load(context, w->path, &w->field, field, error);
+    const command_files files = files_of(w);
     fram_scenario *scenario = NULL;
-    fram_status status = fram_scenario_load(context, w->path, w->overrides.value, w->overrides.count, &scenario, error);
+    fram_error error = {0};
+    int code = -1;
+    fram_status status =
+        fram_scenario_load(context, w->path, w->overrides.value, w->overrides.count, &scenario, &error);
     if (status == FRAM_OK)
-        status = fram_field_generate(scenario, field, error);
+        code = refuse_scenario_files(common, &files, scenario);
+    if (status == FRAM_OK && code < 0)
+        status = fram_field_generate(scenario, field, &error);
     fram_scenario_destroy(scenario);
-    return status;
+    return status == FRAM_OK ? code : answer_error(common, &error);
+}
+
+static int make_field(fram_context *context, const common_options *common, const field_words *w, fram_field **field)
+{
+    fram_error error = {0};
+    if (w->scenario)
+        return generate_field(context, common, w, field);
+    fram_status status = fram_field_load(context, w->path, &w->field, field, &error);
+    return status == FRAM_OK ? -1 : answer_error(common, &error);
 }
 
 static fram_status write_files(const field_words *w, const fram_field *field, fram_error *error)
@@ -177,10 +196,11 @@ int command_field(const command_row *self, int argc, char **argv)
 
     fram_field *field = NULL;
     fram_error error = {0};
-    fram_status status = make_field(context, &w, &field, &error);
-    if (status == FRAM_OK)
-        status = write_files(&w, field, &error);
-    code = status == FRAM_OK ? field_answer(&w, &common, field) : answer_error(&common, &error);
+    code = make_field(context, &common, &w, &field);
+    if (code < 0 && write_files(&w, field, &error) != FRAM_OK)
+        code = answer_error(&common, &error);
+    if (code < 0)
+        code = field_answer(&w, &common, field);
     fram_field_destroy(field);
     fram_context_destroy(context);
     return code;

@@ -28,7 +28,7 @@ static void print_unit(const common_options *common, const char *output, const f
     json_end(&j);
 }
 
-static int write_unit(const common_options *common, const char *path, const option_list *overrides,
+static int write_unit(const common_options *common, const command_files *files, const option_list *overrides,
                       const fram_fmu_definition *definition)
 {
     work_view work;
@@ -39,11 +39,16 @@ static int write_unit(const common_options *common, const char *path, const opti
     fram_scenario *scenario = NULL;
     fram_error error = {0};
     fram_fmu_result result = {0};
-    fram_status status = fram_scenario_load(context, path, overrides->value, overrides->count, &scenario, &error);
+    fram_status status =
+        fram_scenario_load(context, files->inputs[0], overrides->value, overrides->count, &scenario, &error);
     if (status == FRAM_OK)
+        code = refuse_scenario_files(common, files, scenario);
+    if (status == FRAM_OK && code < 0)
         status = fram_fmu(scenario, definition, &result, &error);
     fram_scenario_destroy(scenario);
     fram_context_destroy(context);
+    if (code >= 0)
+        return code;
     if (status != FRAM_OK) {
         bool named = status == FRAM_ERROR_USAGE && strcmp(error.key, "input") == 0;
         bool chosen = status == FRAM_ERROR_USAGE && strcmp(error.key, "output") == 0 && !error.file[0];
@@ -95,5 +100,5 @@ int command_fmu(const command_row *self, int argc, char **argv)
     d.output_count = outputs.count;
     const command_files files = {.inputs = {path, d.binary}, .outputs = {{"--output", d.output, "fmu"}}};
     code = refuse_outputs(&common, &files);
-    return code >= 0 ? code : write_unit(&common, path, &overrides, &d);
+    return code >= 0 ? code : write_unit(&common, &files, &overrides, &d);
 }

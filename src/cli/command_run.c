@@ -111,9 +111,6 @@ int command_run(const command_row *self, int argc, char **argv)
     code = prepare_live(&common, live, page, &definition);
     if (code >= 0)
         return code;
-    code = refuse_run_folder(&common, path, definition.folder);
-    if (code >= 0)
-        return code;
     definition.force = common.force;
 
     work_view work;
@@ -132,9 +129,12 @@ int command_run(const command_row *self, int argc, char **argv)
     fram_run_result result = {0};
     fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
     if (status == FRAM_OK)
+        code = refuse_run_folder(&common, path, scenario, definition.folder);
+    if (status == FRAM_OK && code < 0)
         status = fram_run(scenario, &definition, &result, &error);
     progress_end(&view);
-    code = finish(&common, status, &error, definition.folder, &result);
+    if (code < 0)
+        code = finish(&common, status, &error, definition.folder, &result);
     fram_scenario_destroy(scenario);
     fram_context_destroy(context);
     return code;

@@ -1,12 +1,15 @@
 /* What an output may not be written over: the one rule of all commands, told in docs/results.md. */
 #include "cli/cli.h"
 
+#include "fram/live.h"
 #include "fram/results.h"
 
 #include <limits.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+static const char is_read[] = "names what the command reads; give it a file of its own";
 
 /* The folder that a file is to be made in, and the rest of its name. */
 static bool find_place(const char *path, struct stat *folder, const char **name)
@@ -84,7 +87,7 @@ int refuse_outputs(const common_options *common, const command_files *files)
         if (!o->path)
             continue;
         if (is_input(files, o->path))
-            return answer_usage(common, o->option, "names what the command reads; give it a file of its own");
+            return answer_usage(common, o->option, is_read);
         for (int k = 0; k < i; k++) {
             if (files->outputs[k].path && is_one_file(files->outputs[k].path, o->path))
                 return answer_usage(common, o->option, "names another output too; give it a file of its own");
@@ -99,11 +102,30 @@ int refuse_outputs(const common_options *common, const command_files *files)
     return -1;
 }
 
-int refuse_run_folder(const common_options *common, const char *scenario, const char *folder)
+int refuse_scenario_files(const common_options *common, const command_files *files, const fram_scenario *scenario)
 {
-    if (!fram_run_has_file(folder, scenario))
-        return -1;
-    return answer_usage(common, "--output",
-                        "names a folder in which the run would write over the scenario that it reads; give it a folder "
-                        "of its own");
+    const char *input;
+    for (int n = 0; (input = fram_scenario_file(scenario, n)) != NULL; n++) {
+        for (int i = 0; i < FILES_ROOM; i++) {
+            const output_file *o = &files->outputs[i];
+            if (o->path && is_one_file(input, o->path))
+                return answer_usage(common, o->option, is_read);
+        }
+    }
+    return -1;
+}
+
+int refuse_run_folder(const common_options *common, const char *path, const fram_scenario *scenario, const char *folder)
+{
+    const char *input = path;
+    for (int n = 0; input; input = fram_scenario_file(scenario, n++)) {
+        if (fram_run_has_file(folder, input))
+            return answer_usage(common, "--output",
+                                input == path
+                                    ? "names a folder in which the run would write over the scenario that it reads; "
+                                      "give it a folder of its own"
+                                    : "names a folder in which the run would write over a file that its scenario "
+                                      "names; give it a folder of its own");
+    }
+    return -1;
 }

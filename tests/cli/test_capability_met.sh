@@ -77,6 +77,8 @@ assert b["window_m"] == 160 and b["runs"] == ["run", "run"], b' || fail "two run
 sizes="[{size: histogram, histogram: a/capability_floes.csv}]"
 sed "s|^ice: .*|ice: {concentration: 0.3, populations: $sizes}|" held.yaml >made.yaml
 expect 0 "$FRAM" check made.yaml
+expect 2 "$FRAM" capability made.yaml -o a --force --ice-from run --ice-vessel ship "${ask[@]}"
+says "--output: names what the command reads" err
 
 # Unbroken ice is not passed over.
 grep -v thrusters held.yaml >fast.yaml

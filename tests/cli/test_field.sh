@@ -233,6 +233,11 @@ says "--table" err
 cmp -s floes.geojson keep.geojson || fail "the input was written over"
 expect 2 "$FRAM" field keep.geojson --cell 5
 says "--cover" err
+# Nor over what a scenario names.
+cp once.geojson seen.geojson
+expect 2 "$FRAM" field file.yaml --set ice.file=seen.geojson -o ./seen.geojson --force
+says "--output: names what the command reads" err
+cmp -s once.geojson seen.geojson || fail "a field that a scenario reads was written over"
 
 # A bin of a histogram at fault is a line of its file.
 printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n6,12,-5\n' >sizes.csv
@@ -242,6 +247,8 @@ ice:
   concentration: 0.6
   populations: [{size: histogram, histogram: sizes.csv}]
 END
+expect 2 "$FRAM" field packed.yaml --table sizes.csv
+says "--table: names what the command reads" err
 expect 2 "$FRAM" field packed.yaml
 says "sizes.csv:3: the weights of a histogram must not be negative" err
 printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n\n7,12,5\n' >sizes.csv

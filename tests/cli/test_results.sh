@@ -50,12 +50,15 @@ echo "<html>" >page.html
 cp b.stl kept.stl
 for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "hull b.stl --draw b.stl --force" \
     "hull b.stl --draw two.png -o two.png" "hull b.stl --draw two.png -o ./two.png" \
+    "run scene.yaml -o thin --force --set environment.current_file=thin/series.csv" \
+    "fmu scene.yaml -o b.stl --force --binary page.html --set environment.current_file=b.stl" \
     "bench --scene b.stl --dump b.stl"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words
     says "of its own" err
 done
 cmp -s b.stl kept.stl || fail "a hull was written over by itself"
+[ -e thin/run.json ] || fail "a refused run took away another one's"
 for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "export run --geojson --time 1 -o"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words b.stl
