@@ -352,7 +352,7 @@ static fram_status check_ice(const scenario *s, fram_error *error)
     fram_status status = check_friction(s, error);
     if (status == FRAM_OK)
         status = check_populations(s, error);
-    if (status == FRAM_OK && ice->source == ICE_VORONOI)
+    if (status == FRAM_OK && ice->source == ICE_VORONOI && ice->populations.count == 0)
         status = check_field(s, error);
     if (status == FRAM_OK)
         status = check_floe_places(s, error);

@@ -279,6 +279,14 @@ START_TEST(what_is_absent_is_not_checked)
     s.environment.water = false;
     s.ice.density = 1500;
     assert_ok(scenario_check(&s, &error), error);
+    /* Cells of populations are as large as those say. */
+    const scenario_section *ice = scenario_schema.keys[section_find(&scenario_schema, "ice")].section;
+    scenario_population population;
+    section_defaults(ice->keys[section_find(ice, "populations")].section, &population, 30);
+    s = good();
+    s.ice.mean_floe_area = 1e8;
+    s.ice.populations = (scenario_population_list){.data = &population, .count = 1};
+    assert_ok(scenario_check(&s, &error), error);
 }
 END_TEST
 
