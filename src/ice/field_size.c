@@ -228,8 +228,7 @@ double size_law_part(const size_law *law, double d)
 
 static double disc_area(double d) { return PI / 4 * d * d; }
 
-/* Mean area of a floe [m2]. */
-static double mean_floe_area(const size_law *law)
+double size_law_mean_area(const size_law *law)
 {
     double sum = 0;
     for (int i = 0; i < MEAN_SLICES; i++)
@@ -260,7 +259,7 @@ static fram_status fill_slices(context *ctx, const size_law *law, const double *
 fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
                           real_array *out, fram_error *error)
 {
-    double each = mean_floe_area(law);
+    double each = size_law_mean_area(law);
     if (!(area < (MOST_FLOES + 0.5) * each))
         return error_set(
             error, FRAM_ERROR_INPUT, NULL, 0, "populations",

@@ -30,6 +30,8 @@ const char *size_law_fault(const size_law *law);
 const char *size_bins_fault(const double *edge, const double *weight, int32_t bins, int32_t *bin);
 /* The diameter that a part u of all floes is smaller than, 0 <= u <= 1 [m]. */
 double size_law_quantile(const size_law *law, double u);
+/* Mean area of a floe [m2]. */
+double size_law_mean_area(const size_law *law);
 /* The part of all floes that is no larger than d. */
 double size_law_part(const size_law *law, double d);
 

@@ -377,7 +377,7 @@
       "radius of the largest floe")                                                                                 \
     X(tile_x, AUTOMATIC(1e-3, 1e7), "m",                                                                            \
       "feeding: the field repeats itself after this length along x; auto: 1.25 times the domain, and six mean "     \
-      "floes more than it at least")                                                                                \
+      "floes more than it at least, those of ice.populations or else of ice.mean_floe_area")                        \
     X(tile_y, AUTOMATIC(1e-3, 1e7), "m", "feeding: and after this length along y")                                  \
     X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water")                \
     X(wall_thickness, SCALED(10, 30, 1, 1e-6, 1e4), "m", "thickness of the walls, outside the domain")

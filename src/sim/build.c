@@ -137,10 +137,15 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
     if (status != FRAM_OK)
         return status;
     scenario larger = *s;
-    if (s->domain.boundary == DOMAIN_FEEDING)
-        larger = feeding_scenario(s);
+    if (s->domain.boundary == DOMAIN_FEEDING) {
+        double floe_area;
+        status = feeding_floe_area(ctx, s, &floe_area, error);
+        larger = feeding_scenario(s, floe_area);
+    }
     *domain = (box2){{larger.domain.x_min, larger.domain.y_min}, {larger.domain.x_max, larger.domain.y_max}};
-    status = name_ice(s, draw_ice(ctx, &larger, &w, out, error), error);
+    if (status == FRAM_OK)
+        status = draw_ice(ctx, &larger, &w, out, error);
+    status = name_ice(s, status, error);
     world_free(ctx, &w);
     return status;
 }

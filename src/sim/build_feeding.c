@@ -3,6 +3,7 @@
 #include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_level.h"
+#include "sim/build_packed.h"
 #include "sim/feed.h"
 
 #include <stdio.h>
@@ -13,9 +14,9 @@
 #define TILE_FACTOR 1.25
 #define TILE_FLOES 6
 
-static double tile_length(const scenario *s, double given, double window)
+static double tile_length(double floe_area, double given, double window)
 {
-    double spare = fmax((TILE_FACTOR - 1) * window, TILE_FLOES * sqrt(s->ice.mean_floe_area));
+    double spare = fmax((TILE_FACTOR - 1) * window, TILE_FLOES * sqrt(floe_area));
     return automatic_or(given, window + spare);
 }
 
@@ -72,17 +73,24 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
     return name_key(s, status, error);
 }
 
-static vec2 tile_of(const scenario *s, box2 window)
+static vec2 tile_of(const scenario *s, box2 window, double floe_area)
 {
-    return vec2_make(tile_length(s, s->domain.tile_x, window.hi.x - window.lo.x),
-                     tile_length(s, s->domain.tile_y, window.hi.y - window.lo.y));
+    return vec2_make(tile_length(floe_area, s->domain.tile_x, window.hi.x - window.lo.x),
+                     tile_length(floe_area, s->domain.tile_y, window.hi.y - window.lo.y));
+}
+
+fram_status feeding_floe_area(context *ctx, const scenario *s, double *area, fram_error *error)
+{
+    bool asked = is_automatic(s->domain.tile_x) || is_automatic(s->domain.tile_y);
+    *area = s->ice.mean_floe_area;
+    return asked && s->ice.populations.count > 0 ? population_mean_area(ctx, s, area, error) : FRAM_OK;
 }
 
 /* The same ice in a larger domain; what is shared with the scenario is only read. */
-scenario feeding_scenario(const scenario *s)
+scenario feeding_scenario(const scenario *s, double floe_area)
 {
     box2 window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
-    vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5), tile = tile_of(s, window);
+    vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5), tile = tile_of(s, window, floe_area);
     scenario larger = *s;
     larger.domain.x_min = middle.x - tile.x / 2;
     larger.domain.x_max = middle.x + tile.x / 2;
@@ -101,7 +109,11 @@ fram_status build_field(context *ctx, const scenario *s, const model *m, world *
         fram_status status = build_drifting(ctx, s, m, w, report, error);
         return status == FRAM_OK ? drift_begin(ctx, &sheet, feed_drift(m, &w->inputs, 0), error) : status;
     }
-    scenario larger = feeding_scenario(s);
-    fram_status status = build_ice(ctx, &larger, w, report, error);
-    return status == FRAM_OK ? begin(ctx, s, m, tile_of(s, m->domain), w, error) : status;
+    double floe_area;
+    fram_status status = feeding_floe_area(ctx, s, &floe_area, error);
+    if (status != FRAM_OK)
+        return status;
+    scenario larger = feeding_scenario(s, floe_area);
+    status = build_ice(ctx, &larger, w, report, error);
+    return status == FRAM_OK ? begin(ctx, s, m, tile_of(s, m->domain, floe_area), w, error) : status;
 }

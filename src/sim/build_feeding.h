@@ -11,7 +11,10 @@
 fram_status build_field(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error);
 
+/* The mean floe of a field that is fed, by which its tile is found where the scenario does not say [m2]: of the
+   populations, whose histograms are read, or ice.mean_floe_area. */
+fram_status feeding_floe_area(context *ctx, const scenario *s, double *area, fram_error *error);
 /* The scenario whose domain is the tile of one that is fed. */
-scenario feeding_scenario(const scenario *s);
+scenario feeding_scenario(const scenario *s, double floe_area);
 
 #endif

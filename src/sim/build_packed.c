@@ -92,7 +92,7 @@ static fram_status read_population(context *ctx, const scenario *s, overlay *pla
     fram_status status = FRAM_OK;
     if (p->size == SIZE_HISTOGRAM && !s->sizes)
         status = read_histogram(ctx, s, number, f, error);
-    if (status == FRAM_OK && p->shape == POPULATION_TEMPLATES)
+    if (status == FRAM_OK && p->shape == POPULATION_TEMPLATES && plane)
         status = read_templates(ctx, s, plane, number, &f->templates[number], error);
     *out = (field_population){.share = p->share,
                               .size = {.kind = p->size,
@@ -113,6 +113,7 @@ static fram_status read_population(context *ctx, const scenario *s, overlay *pla
     return status;
 }
 
+/* plane: for the templates, which are not read without it. */
 static fram_status read_populations(context *ctx, const scenario *s, overlay *plane, population_files *f,
                                     fram_error *error)
 {
@@ -131,6 +132,21 @@ static fram_status read_populations(context *ctx, const scenario *s, overlay *pl
     }
     for (int32_t i = 0; i < count && status == FRAM_OK; i++)
         status = read_population(ctx, s, plane, i, f, error);
+    return status;
+}
+
+fram_status population_mean_area(context *ctx, const scenario *s, double *area, fram_error *error)
+{
+    population_files files = {0};
+    double shares = 0, sum = 0;
+    fram_status status = read_populations(ctx, s, NULL, &files, error);
+    for (int32_t i = 0; i < s->ice.populations.count && status == FRAM_OK; i++) {
+        shares += files.population[i].share;
+        sum += files.population[i].share * size_law_mean_area(&files.population[i].size);
+    }
+    if (status == FRAM_OK)
+        *area = sum / shares;
+    files_free(ctx, &files);
     return status;
 }
 

@@ -7,6 +7,10 @@
 /* A generator of fields names the member of its own request: the key that it came from, with its place. */
 void name_ice_request(const scenario *s, fram_error *error);
 
+/* Mean area of the floes of ice.populations, which are there, by their shares of the ice [m2]; reads the files of their
+   histograms. */
+fram_status population_mean_area(context *ctx, const scenario *s, double *area, fram_error *error);
+
 /* Packs floes of ice.populations to ice.concentration around the keep-out zones and around the outlines that are there
    already; appends to outlines and traits, fills shapes, parts and reports.  FRAM_ERROR_INPUT, with place, for files
    that cannot be read and for a concentration that cannot be reached. */

@@ -27,7 +27,16 @@ static bool is_no_sheet(const question *q) { return q->s->ice.source != ICE_LEVE
 static bool is_no_file(const question *q) { return q->s->ice.source != ICE_FILE; }
 static bool is_no_list(const question *q) { return q->s->ice.source != ICE_FLOES; }
 static bool is_no_voronoi(const question *q) { return q->s->ice.source != ICE_VORONOI; }
-static bool is_of_cells(const question *q) { return is_no_voronoi(q) || q->s->ice.populations.count > 0; }
+/* Whether the length after which a field of a file comes again is found by the mean floe. */
+static bool asks_for_mean_floe(const question *q)
+{
+    const scenario_domain *d = &q->s->domain;
+    return !is_no_file(q) && d->boundary == DOMAIN_FEEDING && (is_automatic(d->tile_x) || is_automatic(d->tile_y));
+}
+static bool is_of_cells(const question *q)
+{
+    return q->s->ice.populations.count > 0 || (is_no_voronoi(q) && !asks_for_mean_floe(q));
+}
 static bool is_no_field(const question *q) { return !is_no_list(q) || !is_no_sheet(q) || q->s->ice.source == ICE_NONE; }
 static bool draws_nothing(const question *q)
 {

@@ -46,11 +46,26 @@ static double mean_area(const scenario_population *p)
     return sum / MEAN_SLICES;
 }
 
-static double population_floes(const scenario *s)
+static double share_sum(const scenario *s)
 {
-    double shares = 0, floes = 0;
+    double shares = 0;
     for (int32_t i = 0; i < s->ice.populations.count; i++)
         shares += s->ice.populations.data[i].share;
+    return shares;
+}
+
+/* The mean floe by which a tile is found (build_feeding.h), as far as it is known here. */
+static double tile_floe_area(const scenario *s)
+{
+    double sum = 0, shares = share_sum(s);
+    for (int32_t i = 0; i < s->ice.populations.count; i++)
+        sum += s->ice.populations.data[i].share / shares * mean_area(&s->ice.populations.data[i]);
+    return s->ice.populations.count > 0 ? sum : s->ice.mean_floe_area;
+}
+
+static double population_floes(const scenario *s)
+{
+    double shares = share_sum(s), floes = 0;
     for (int32_t i = 0; i < s->ice.populations.count; i++) {
         const scenario_population *p = &s->ice.populations.data[i];
         double each = mean_area(p);
@@ -80,7 +95,7 @@ scene_size scene_size_of(const scenario *s)
 {
     scenario larger = *s;
     if (s->domain.boundary == DOMAIN_FEEDING && s->ice.source != ICE_LEVEL)
-        larger = feeding_scenario(s);
+        larger = feeding_scenario(s, tile_floe_area(s));
     double floes = 0, each = CELL_BYTES;
     switch (s->ice.source) {
     case ICE_NONE:

@@ -133,6 +133,13 @@ told packed.yaml "ice.keep_out_margin: without effect, since no field is laid ro
     --set ice.keep_out_margin=3
 told packed.yaml "ice.friction.ice_hull_static: without effect, since there is no vessel" \
     --set ice.friction.ice_hull_static=0.2
+# The length of an endless field goes by the populations, of an observed one by the key.
+sed 's/boundary: open/boundary: feeding, drift_speed: 0.5/' packed.yaml >fed.yaml
+before=$(hash_of fed.yaml)
+idle fed.yaml ice.mean_floe_area=9000 "floes are not cells"
+echo 'POLYGON ((0 0, 20 0, 0 20, 0 0))' >seen.wkt
+sed 's/^ice.*/ice: {source: file, file: seen.wkt}/' fed.yaml >seen.yaml
+silent seen.yaml --set ice.mean_floe_area=9000
 silent floes.yaml
 silent floes.yaml --set "ice.floes[0].length=12" --set "ice.floes[1].sides=8"
 told floes.yaml "ice.floes[0].radius: without effect, since shape is rectangle" --set "ice.floes[0].radius=6"

@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "sim/build_feeding.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -91,6 +92,39 @@ START_TEST(the_pattern_has_the_concentration_and_no_seam)
                 nearest = fmin(nearest, -polygon_convex_depth((polygon){one, n}, (polygon){two, m}, NULL));
             }
     ck_assert_msg(nearest > 0.3 && nearest < 2, "neighbours are %g m apart", nearest);
+    scene_close(&k);
+}
+END_TEST
+
+/* Six floes of 20 and 4 m, three quarters of the ice and one, are longer than a quarter of the window, and so are those
+   of a histogram. */
+START_TEST(the_tile_is_longer_by_floes_of_the_populations)
+{
+    static const char packed[] = "run:\n  duration: 1\nvessel:\n  present: false\n"
+                                 "ice:\n  source: packed\n  concentration: 0.4\n  populations:\n"
+                                 "    - {share: 3, size: constant, diameter: 20}\n"
+                                 "    - {size: constant, diameter: 4}\n"
+                                 "domain:\n  x_min: -40\n  x_max: 40\n  y_min: -25\n  y_max: 25\n  boundary: feeding\n";
+    static const char *const other[] = {"ice.mean_floe_area=9000", "domain.tile_y=99"};
+    const double spare = 6 * sqrt(PI / 4 * (0.75 * 400 + 0.25 * 16));
+    scene k;
+    scene_open_with(&k, packed, other, 2);
+    assert_relative(k.w.feeding.tile[0].x, 80 + spare, 1e-12);
+    assert_bits(k.w.feeding.tile[0].y, 99);
+    char path[] = "/tmp/fram-sizes-XXXXXX";
+    int file = mkstemp(path);
+    ck_assert_int_ge(file, 0);
+    static const char text[] = "diameter_min[m],diameter_max[m],floes\n19.999,20.001,7\n";
+    ck_assert_int_eq(write(file, text, sizeof text - 1), (int)sizeof text - 1);
+    close(file);
+    scenario_population *p = &k.s.ice.populations.data[0];
+    p->size = SIZE_HISTOGRAM;
+    snprintf(p->histogram, sizeof p->histogram, "%s", path);
+    double area;
+    fram_error error = {0};
+    assert_ok(feeding_floe_area(&k.ctx, &k.s, &area, &error), error);
+    assert_relative(6 * sqrt(area), spare, 1e-6);
+    unlink(path);
     scene_close(&k);
 }
 END_TEST
@@ -461,6 +495,6 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
-TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, hours_of_drift_keep_the_field,
-          floes_that_linger_leave_no_holes, copies_of_floes_are_state, drift_turns_and_reverses, driven_ice_presses,
-          cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)
+TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, the_tile_is_longer_by_floes_of_the_populations,
+          hours_of_drift_keep_the_field, floes_that_linger_leave_no_holes, copies_of_floes_are_state,
+          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)
