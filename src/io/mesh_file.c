@@ -37,7 +37,7 @@ static bool ends_line(const word_reader *r)
 
 static bool continues(const word_reader *r)
 {
-    if (*r->at != '\\')
+    if (!r->continued || *r->at != '\\')
         return false;
     const char *next = r->at + 1;
     while (next < r->end && *next == '\r')

@@ -9,6 +9,7 @@
 /* Words of a text, with the line they stand in. */
 typedef struct word_reader {
     const char *at, *end;
+    bool continued; /* a backslash before the end of a line continues it; no format but OBJ has that */
     int32_t line;
     const char *word; /* the last one, not terminated */
     size_t length;
@@ -18,7 +19,7 @@ typedef struct word_reader {
 word_reader word_reader_begin(const char *data, size_t size);
 /* The next word, over ends of lines; false at the end. */
 bool word_next(word_reader *r);
-/* The next word of this line; false at its end.  A backslash before the end of a line continues it. */
+/* The next word of this line; false at its end. */
 bool word_next_in_line(word_reader *r);
 /* What is left of the line, and its end. */
 void word_skip_line(word_reader *r);

@@ -75,20 +75,41 @@ static fram_status read_face(const mesh_reading *r, word_reader *w, int32_t face
     return mesh_place_polygon(r, ring->data, ring->count, face, line);
 }
 
-static bool is_passed_over(const word_reader *w)
+static bool is_among(const word_reader *w, const char *const *words, size_t count)
 {
-    static const char *const words[] = {"vt",        "vn",  "o",     "g",        "s",        "usemtl",
-                                        "mtllib",    "l",   "p",     "usemap",   "maplib",   "shadow_obj",
-                                        "trace_obj", "lod", "bevel", "c_interp", "d_interp", "mg"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    for (size_t i = 0; i < count; i++)
         if (word_is(w, words[i]))
             return true;
-    return w->word[0] == '#';
+    return false;
+}
+
+/* What is passed over: a comment or a name, which is as it stands, and numbers. */
+static bool is_plain_text(const word_reader *w)
+{
+    static const char *const words[] = {"o", "g", "usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj"};
+    return is_among(w, words, sizeof words / sizeof *words) || w->word[0] == '#';
+}
+
+static bool is_of_numbers(const word_reader *w)
+{
+    static const char *const words[] = {"vt", "vn", "s", "l", "p", "lod", "bevel", "c_interp", "d_interp", "mg"};
+    return is_among(w, words, sizeof words / sizeof *words);
+}
+
+/* The rest of a line, which a backslash does not continue where it is text, as in the name of a folder. */
+static void leave_line(word_reader *w)
+{
+    while (w->length > 0 && !is_plain_text(w) && word_next_in_line(w))
+        continue;
+    w->continued = false;
+    word_skip_line(w);
+    w->continued = true;
 }
 
 fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size)
 {
     word_reader w = word_reader_begin(data, size);
+    w.continued = true;
     int32_array ring = {0};
     fram_status status = FRAM_OK;
     int32_t faces = 0;
@@ -97,13 +118,13 @@ fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size)
             status = read_vertex(r, &w);
         else if (word_is(&w, "f"))
             status = read_face(r, &w, ++faces, &ring);
-        else if (!is_passed_over(&w))
+        else if (!is_plain_text(&w) && !is_of_numbers(&w))
             status =
                 mesh_refuse(r, w.word_line, 0,
                             "expected a vertex (v) or a face (f), found \"%.*s\"; curves and surfaces must be made "
                             "into faces first",
                             word_shown(&w), w.word);
-        word_skip_line(&w);
+        leave_line(&w);
     }
     array_free(r->ctx, &ring);
     r->out->elements = faces;

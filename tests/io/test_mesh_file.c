@@ -42,6 +42,16 @@ START_TEST(tetrahedra)
         /* Carriage returns alone, and in between. */
         {"t.obj", "# of a Mac\rv 0 0 0\rv 1 0 0\r\rv 0 1 0\nv 0 0 1\r\r\nf 1 3 2\rf 1 2 4 # side\rf 1 4 3\rf 2 3 4\r",
          MESH_OBJ},
+        /* A backslash continues lines of numbers of OBJ alone. */
+        {"t.obj",
+         "# C:\\hulls\\\nmtllib C:\\a\\\no \\\n" OBJ_POINTS "usemtl C:\\\nf 1 3 2 # side \\\n"
+         "f 1 2 \\\n4\ng a\\\nf 1 4 3\nvt 0 \\\n0\nf 2 3 4\n",
+         MESH_OBJ},
+        {"mesh", "# C:\\\n" OBJ_TETRAHEDRON, MESH_OBJ},
+        {"t.stl",
+         "solid C:\\a\\\n" STL_FACET(STL_O, STL_Y, STL_X) STL_FACET(STL_O, STL_X, STL_Z) STL_FACET(STL_O, STL_Z, STL_Y)
+             STL_FACET(STL_X, STL_Y, STL_Z) "endsolid",
+         MESH_STL_TEXT},
         {"mesh", STL_TETRAHEDRON, MESH_STL_TEXT},
         {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
         {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
