@@ -13,36 +13,34 @@
 #define FEET_LEAST 31.0
 #define FEET_MOST 33.0
 
-/* Commas separate numbers as blanks do, so that a word may hold several. */
-static bool next_number(word_reader *w, const char **rest, const char **rest_end)
-{
-    while (*rest < *rest_end && **rest == ',')
-        ++*rest;
-    if (*rest == *rest_end) {
-        do {
-            if (!word_next(w))
-                return false;
-            *rest = w->word;
-            *rest_end = w->word + w->length;
-            while (*rest < *rest_end && **rest == ',')
-                ++*rest;
-        } while (*rest == *rest_end);
-    }
-    w->word = *rest;
-    while (*rest < *rest_end && **rest != ',')
-        ++*rest;
-    w->length = (size_t)(*rest - w->word);
-    return true;
-}
-
 typedef struct gdf_words {
     word_reader reader;
     const char *rest, *rest_end;
 } gdf_words;
 
+/* Commas separate numbers as blanks do, so that a word may hold several.  next: word_next, or of this line alone. */
+static bool next_number(gdf_words *w, bool (*next)(word_reader *r))
+{
+    while (w->rest < w->rest_end && *w->rest == ',')
+        ++w->rest;
+    while (w->rest == w->rest_end) {
+        if (!next(&w->reader))
+            return false;
+        w->rest = w->reader.word;
+        w->rest_end = w->reader.word + w->reader.length;
+        while (w->rest < w->rest_end && *w->rest == ',')
+            ++w->rest;
+    }
+    w->reader.word = w->rest;
+    while (w->rest < w->rest_end && *w->rest != ',')
+        ++w->rest;
+    w->reader.length = (size_t)(w->rest - w->reader.word);
+    return true;
+}
+
 static fram_status read_real(const mesh_reading *r, gdf_words *w, int32_t panel, const char *what, double *value)
 {
-    if (!next_number(&w->reader, &w->rest, &w->rest_end))
+    if (!next_number(w, word_next))
         return mesh_refuse(r, w->reader.line, panel, "expected %s, found the end of the file", what);
     return mesh_read_number(r, &w->reader, panel, what, value);
 }
@@ -52,7 +50,7 @@ static fram_status read_integer(const mesh_reading *r, gdf_words *w, const char 
 {
     char text[32] = "";
     word_reader *d = &w->reader;
-    if (!next_number(d, &w->rest, &w->rest_end))
+    if (!next_number(w, word_next))
         return mesh_refuse(r, d->line, 0, "expected %s, found the end of the file", what);
     if (d->length < sizeof text)
         memcpy(text, d->word, d->length);
@@ -67,6 +65,23 @@ static void skip_words(gdf_words *w)
 {
     w->rest = w->rest_end;
     word_skip_line(&w->reader);
+}
+
+bool mesh_looks_like_gdf(const char *data, size_t size)
+{
+    gdf_words w = {.reader = word_reader_begin(data, size)};
+    mesh_file none = {.format = MESH_GDF};
+    const mesh_reading r = {.out = &none};
+    for (int line = 2; line <= 3; line++) {
+        skip_words(&w);
+        for (int i = 0; i < 2; i++) {
+            double value;
+            if (!next_number(&w, word_next_in_line) ||
+                mesh_read_number(&r, &w.reader, 0, "a number", &value) != FRAM_OK)
+                return false;
+        }
+    }
+    return true;
 }
 
 static fram_status read_lengths(const mesh_reading *r, gdf_words *w)
@@ -183,7 +198,7 @@ fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
             corner[k] = vec3_make(c[3 * k] + 0.0, c[3 * k + 1] + 0.0, c[3 * k + 2] + 0.0);
         status = place_panel(r, corner, i, line);
     }
-    if (status == FRAM_OK && next_number(&w.reader, &w.rest, &w.rest_end))
+    if (status == FRAM_OK && next_number(&w, word_next))
         return mesh_refuse(r, w.reader.word_line, 0,
                            "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small",
                            panels, word_shown(&w.reader), w.reader.word);

@@ -209,26 +209,6 @@ bool mesh_file_ends_with(const char *name, const char *ending)
     return length > tail && strcasecmp(name + length - tail, ending) == 0;
 }
 
-/* The second line of a GDF file begins with two numbers, the third with two integers; words may follow. */
-static bool looks_like_gdf(const char *data, size_t size)
-{
-    word_reader w = word_reader_begin(data, size);
-    for (int line = 2; line <= 3; line++) {
-        word_skip_line(&w);
-        for (int i = 0; i < 2; i++) {
-            char text[64];
-            double value;
-            if (!word_next_in_line(&w) || w.length >= sizeof text)
-                return false;
-            memcpy(text, w.word, w.length);
-            text[w.length] = '\0';
-            if (real_from_text(text, &value) != NUMBER_GOOD)
-                return false;
-        }
-    }
-    return true;
-}
-
 static bool looks_like_obj(const char *data, size_t size)
 {
     word_reader w = word_reader_begin(data, size);
@@ -259,7 +239,7 @@ static fram_status find_format(const mesh_reading *r, const char *data, size_t s
         *f = MESH_STL_BINARY;
     else if (solid)
         *f = MESH_STL_TEXT;
-    else if (looks_like_gdf(data, size))
+    else if (mesh_looks_like_gdf(data, size))
         *f = MESH_GDF;
     else if (looks_like_obj(data, size))
         *f = MESH_OBJ;

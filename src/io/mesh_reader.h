@@ -52,6 +52,8 @@ fram_status mesh_read_stl(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size);
 bool mesh_is_binary_stl(const char *data, size_t size);
+/* The second line begins with two numbers, and the third; words may follow. */
+bool mesh_looks_like_gdf(const char *data, size_t size);
 void mesh_write_stl_text(context *ctx, const mesh *m, text_buffer *out);
 void mesh_write_stl_binary(context *ctx, const mesh *m, text_buffer *out);
 void mesh_write_obj(context *ctx, const mesh *m, text_buffer *out);

@@ -52,6 +52,10 @@ START_TEST(tetrahedra)
          "solid C:\\a\\\n" STL_FACET(STL_O, STL_Y, STL_X) STL_FACET(STL_O, STL_X, STL_Z) STL_FACET(STL_O, STL_Z, STL_Y)
              STL_FACET(STL_X, STL_Y, STL_Z) "endsolid",
          MESH_STL_TEXT},
+        {"mesh",
+         "C:\\hulls\\\n1.0D+00,9.80665D+00\n0,0\n4\n"
+         "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 0 1 0 0 0 1 0 0 1",
+         MESH_GDF},
         {"mesh", STL_TETRAHEDRON, MESH_STL_TEXT},
         {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
         {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
