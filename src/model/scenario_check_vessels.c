@@ -263,7 +263,7 @@ static fram_status check_name(const scenario *s, const vessel_entry *e, fram_err
     bool letters = false, fits = size <= VESSEL_NAME_MOST && name[0] != '-';
     for (size_t i = 0; i < size; i++) {
         fits = fits && is_name_letter(name[i]);
-        letters = letters || (name[i] | 32) >= 'a';
+        letters = letters || ((name[i] | 32) >= 'a' && (name[i] | 32) <= 'z');
     }
     if (size == 0)
         return vessel_fault(s, e, "name", error, "expected a name of %s, found none", rule);

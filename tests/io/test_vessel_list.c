@@ -127,6 +127,7 @@ static const struct {
     {"vessels:\n  - name: a b\n    hull: {form: box}\n", NULL, "vessels[0].name", 2},
     {"vessels:\n  - name: a.b\n    hull: {form: box}\n", NULL, "vessels[0].name", 2},
     {"vessels:\n  - name: \"12\"\n    hull: {form: box}\n", NULL, "vessels[0].name", 2},
+    {"vessels:\n  - name: _\n    hull: {form: box}\n", NULL, "vessels[0].name", 2},
     {"vessels:\n  - name: an-icebreaker-of-many-words\n    hull: {form: box}\n", NULL, "vessels[0].name", 2},
     {"vessel: {x: 1}\nvessels: [{name: a, hull: {form: box}}]\n", NULL, "vessel", 1},
     {"vessels:\n  - name: a\n    hull: {form: box}\n    mode: towed\n    thrusters: [{x: 1}]\n", NULL,
