@@ -314,6 +314,19 @@ static fram_status check_populations(const scenario *s, fram_error *error)
     return status;
 }
 
+/* Between floes that are drawn some water stays. */
+static fram_status check_concentration(const scenario *s, fram_error *error)
+{
+    const scenario_ice *ice = &s->ice;
+    bool drawn = ice->source == ICE_VORONOI || ice->source == ICE_PACKED || ice->populations.count > 0;
+    if (!drawn || ice->concentration < 1)
+        return FRAM_OK;
+    return fault(s, error, "ice.concentration",
+                 "expected less than 1, since floes that are drawn have water between them (a whole sheet is "
+                 "ice.source level), found %g",
+                 ice->concentration);
+}
+
 static fram_status check_water(const scenario *s, fram_error *error)
 {
     if (s->environment.floe_ventilation && !s->environment.water)
@@ -352,6 +365,8 @@ static fram_status check_ice(const scenario *s, fram_error *error)
     fram_status status = check_friction(s, error);
     if (status == FRAM_OK)
         status = check_populations(s, error);
+    if (status == FRAM_OK)
+        status = check_concentration(s, error);
     if (status == FRAM_OK && ice->source == ICE_VORONOI && ice->populations.count == 0)
         status = check_field(s, error);
     if (status == FRAM_OK)

@@ -160,7 +160,8 @@
     X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                          \
       "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts "    \
       "overlapping floes apart")                                                                                       \
-    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi, packed: ice area over the area free for ice")                  \
+    X(concentration, REAL(0.8, 0.01, 1), "1",                                                                          \
+      "voronoi, packed, file with populations: ice area over the area free for ice, under 1")                          \
     X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")            \
     X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                    \
     X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")       \

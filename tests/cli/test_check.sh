@@ -68,6 +68,10 @@ told "heels by about 10 degrees" --set vessel.centre_of_gravity_z=-0.5 --set ves
 refused vessel.speed "expected less than run.speed_limit" --set run.speed_limit=2 --set vessel.speed=2
 refused environment.current_speed "found 3 m/s" --set run.speed_limit=3 --set environment.current_speed=3
 
+# Floes without water between them: the check refuses what the run would.
+refused ice.concentration "expected less than 1" --set ice.source=voronoi --set ice.concentration=1
+expect 0 "$FRAM" check box.yaml --set ice.source=level --set ice.concentration=1
+
 # Springs: heave at sqrt(rho g A / m) = sqrt(g / draught) = 1.566 rad/s: a step of 0.64 s is told, 0.63 s is not.
 told "the buoyancy of the vessel is too stiff for the step: 1.566 rad/s with the vessel's mass; take \
 run.time_step under \

@@ -20,6 +20,7 @@ static const bad_scenario bad[] = {
     {"bad_indent", 3, "", "as no block above is"},
     {"below_range", 3, "ice.thickness", "found -1"},
     {"complex_key", 2, "run", "expected a name as key"},
+    {"concentration_of_one", 3, "ice.concentration", "expected less than 1"},
     {"control_character", 1, "", "found a control character"},
     {"decimal_comma", 2, "ice.thickness", "found \"1,5\""},
     {"domain_turned_round", 2, "domain.x_min", "expected at most domain.x_max, which is -50, found 50"},

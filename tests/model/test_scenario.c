@@ -217,6 +217,7 @@ START_TEST(keys_must_go_together)
     REFUSED(s.domain.boundary = DOMAIN_FEEDING; s.ice.source = ICE_NONE, "ice.source", "without end");
     REFUSED(s.domain.boundary = DOMAIN_FEEDING; s.ice.source = ICE_FLOES, "ice.source", "without end");
     REFUSED(s.ice.density = 1025, "ice.density", "floats");
+    REFUSED(s.ice.concentration = 1, "ice.concentration", "expected less than 1");
     REFUSED(s.ice.mean_floe_area = 1e5, "ice.mean_floe_area", "80000");
     REFUSED(s.ice.smallest_floe_area = 500, "ice.smallest_floe_area", "ice.mean_floe_area");
 }
@@ -268,6 +269,7 @@ START_TEST(what_is_absent_is_not_checked)
     s.vessel.x = 1e6;
     s.vessel.hull.form = HULL_MESH;
     s.ice.source = ICE_NONE;
+    s.ice.concentration = 1;
     s.ice.mean_floe_area = 1e8;
     s.ice.density = 1500;
     assert_ok(scenario_check(&s, &error), error);
