@@ -54,12 +54,24 @@ vessels:
     x: 40
     y: -20
     heading_deg: 90
-    hull: {length: 36, beam: 10, draught: 4, freeboard: 2}
+    hull: {length: 36, beam: 10, draught: 4, freeboard: 2, stem_angle_deg: 80, entrance_angle_deg: 60,
+           stern_angle_deg: 30, parallel_midbody: 0.2}
     propulsion: {bollard_pull: 4.0e5, open_water_speed: 5, speed: 0.5, propellers: 2, propeller_diameter: 3}
+  - name: scow
+    mode: free
+    x: -45
+    y: 35
+    hull: {form: file, file: scow.obj}
+    propulsion: {bollard_pull: 5.0e4, open_water_speed: 5, speed: 0.5, propeller_diameter: 1}
 ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
 domain: {x_min: -64, x_max: 64, y_min: -110, y_max: 50, boundary: open}
 environment: {current_speed: 0.5, current_direction_deg: 180}
 output: {frame_interval: 0.5}
+"""
+# A box with ends that rake, the bow's far over: 26.5 m of waterline, from -11 to 15.5, of 35 m over all.
+SCOW = """
+v -9 -4 -2\nv -9 4 -2\nv 9 4 -2\nv 9 -4 -2\nv -13 -4 2\nv -13 4 2\nv 22 4 2\nv 22 -4 2
+f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3
 """
 # Number of a vessel, of its line, fairleads at the start about the vessel's place, direction, distance of the anchor.
 LINES = [(0, 1, 3, 45, 150), (0, 2, 3, 165, 150), (0, 3, 0, 290, 140), (0, 4, 0, 200, 140),
@@ -69,7 +81,8 @@ DEPTH = 60
 STATE = """(() => {
     const { station, water } = fram.scene, xyz = (p) => p && [p.x, p.y, p.z];
     return { lines: station.lines.map((l) => ({ held: l.held, number: l.number, points: l.points.map(xyz) })),
-        thrusters: station.thrusters.map((t) => ({ works: t.works, at: xyz(t.at), axis: xyz(t.axis), disc: t.disc })),
+        thrusters: station.thrusters.map((t) => ({ works: t.works, at: xyz(t.at), axis: xyz(t.axis), disc: t.disc,
+            hull: [...fram.poses.pose.subarray(7 * t.hull.index, 7 * t.hull.index + 7)] })),
         forces: fram.poses.forces, gone: station.gone, edge: station.edge.map(xyz),
         drawn: [station.drawnLines.geometry.instanceCount, station.discs.count],
         legend: fram.legend.content.station.flat().map(([, name]) => name),
@@ -147,18 +160,23 @@ def check_catenary(told, pull):
         assert abs(slope - expected) < 0.03, (slope, expected)
 
 
-def check_propellers(two):
-    """They stand 0.45 lengths abaft amidships, 0.6 of the draught deep, 1.5 diameters apart, and face ahead;
-    the hull's ends overhang, and the ship has moved by half a metre."""
-    for propeller, side in zip(two, (1, -1)):
-        x, y, z = propeller["at"]
-        assert abs(x - 40 - side * 2.25) < 0.3 and abs(y + 20 + 0.45 * 36) < 3 and abs(z + 2.4) < 0.4, propeller
-        assert propeller["works"] and near(propeller["axis"], (0, 1, 0), 0.05) and propeller["disc"] == 3, propeller
+def check_propellers(three):
+    """They stand 0.45 lengths of the waterline abaft the centre of mass, 0.6 of the draught deep, 1.5 diameters apart,
+    and face ahead; the hulls' ends overhang, and the tug's centre of mass lies far before amidships."""
+    for propeller, length, side, draught, disc in zip(three, (36, 36, 26.5), (-2.25, 2.25, 0), (4, 4, 2), (3, 3, 1)):
+        x, y, _, i, j, k, w = propeller["hull"]
+        ahead = math.atan2(2 * (w * k + i * j), 1 - 2 * (j * j + k * k))
+        place = (x - 0.45 * length * math.cos(ahead) - side * math.sin(ahead),
+                 y - 0.45 * length * math.sin(ahead) + side * math.cos(ahead))
+        at = propeller["at"]
+        assert near(at[:2], place, 0.2) and abs(at[2] + 0.6 * draught) < 0.4, (propeller, place)
+        assert propeller["works"] and propeller["disc"] == disc, propeller
+        assert near(propeller["axis"], (math.cos(ahead), math.sin(ahead), 0), 0.05), propeller
 
 
 def check_start(browser):
     state = go(browser, 1)
-    assert state["drawn"] == [17 * 6, 4] and [t["number"] for t in state["lines"]] == [1, 2, 3, 4, 1, 2], state
+    assert state["drawn"] == [17 * 6, 5] and [t["number"] for t in state["lines"]] == [1, 2, 3, 4, 1, 2], state
     assert state["gone"] == 0 and state["legend"] == ["mooring line", "propeller, thruster"], state["legend"]
     check_propellers(state["thrusters"][2:])
     pulls = pulls_of(state)
@@ -211,7 +229,7 @@ def check_end(browser):
     assert [t["held"] for t in state["lines"]] == [True, True, False, True, True, True], state["lines"]
     assert all(abs(p[2] + DEPTH) < 1e-6 for p in state["lines"][2]["points"]), state["lines"][2]
     assert near(state["lines"][2]["points"][-1][:2], start_of(0, 140, 290), 0.01)
-    assert [t["works"] for t in state["thrusters"]] == [True, False, True, True] and state["gone"] == 2
+    assert [t["works"] for t in state["thrusters"]] == [True, False, True, True, True] and state["gone"] == 2
     assert near(state["thrusters"][1]["at"], before["at"], 3), (state["thrusters"][1], before)
     assert state["legend"] == ["mooring line", "propeller, thruster", "parted or failed"], state["legend"]
     pulls = pulls_of(state)
@@ -272,6 +290,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
         scene, run = pathlib.Path(folder) / "moored.yaml", pathlib.Path(folder) / "moored"
         scene.write_text(SCENE)
+        (scene.parent / "scow.obj").write_text(SCOW)
         subprocess.run([FRAM, "run", scene, "-o", run, "--quiet"], check=True)
         subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet"], check=True)
         browser.open(run / "playback.html")
@@ -281,7 +300,7 @@ def main():
             check(browser)
         check_study_printed(browser, pathlib.Path(folder))
         assert not browser.complaints, browser.complaints
-    print(f"six lines, two thrusters and two propellers stand where the run has them, in {calls} draw calls")
+    print(f"six lines, two thrusters and three propellers stand where the run has them, in {calls} draw calls")
 
 
 main()

@@ -11,7 +11,8 @@ import { readScenario, sizesOf, vesselsOf } from './scenario.js';
 
 const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one along the bottom
 const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller of full size without a diameter, as the keys say [Pa]
-const SPACING = 1.5, DEPTH = 0.6, STERN = 0.45; // of propellers without keys, as src/sim/build_wash.c has them
+// Of propellers without keys, as src/sim/build_wash.c and src/sim/build_propulsion.c have them.
+const SPACING = 1.5, DEPTH = 0.6, STERN = 0.45;
 const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be seen
 
 export class Station {
@@ -165,27 +166,42 @@ function thrustersOf(v, hull, disc) {
     }));
 }
 
-/** Propellers of `propulsion`: their thrust is no force of a frame, so they face ahead. */
-function propellersOf({ propulsion: p }, hull, disc) {
+/** Propellers of `propulsion`: their thrust is no force of a frame, so they face ahead.  length: of the waterline; null
+ *  for a hull of a file, which has its own. */
+function propellersOf({ propulsion: p, hull: form }, hull, disc) {
     if (typeof p?.bollard_pull !== 'number') return [];
     const [stern, stem] = reachOf(hull), or = (given, other) => (typeof given === 'number' ? given : other);
-    const length = stem - stern, count = p.propellers;
+    const count = p.propellers, length = form.form === 'file' ? null : form.length;
     const diameter = or(p.propeller_diameter, disc(p.bollard_pull / count));
     const apart = or(p.propeller_spacing, SPACING * diameter);
     return Array.from({ length: count }, (_, k) => ({
-        own: true, hull, rest: new THREE.Vector3(1, 0, 0), disc: Math.max(LEAST_DISC * length, diameter),
-        x: (stern + stem) / 2 + or(p.steering_x, -STERN * length), y: (k - (count - 1) / 2) * apart,
-        z: or(p.propeller_z, null),
+        own: true, hull, rest: new THREE.Vector3(1, 0, 0), disc: Math.max(LEAST_DISC * (stem - stern), diameter),
+        x: or(p.steering_x, null), y: (k - (count - 1) / 2) * apart, z: or(p.propeller_z, null), length,
     }));
 }
 
 // ---- from the frame ----
 
-/** Where a propeller stands in the hull's axes: its depth counts from the waterline at the first frame shown. */
-function astern({ hull, x, y, z }, poses) {
+/** Where a propeller stands in the hull's axes, from its centre of mass as src/sim/wash.c has it: the waterline is that
+ *  of the first frame shown. */
+function astern({ hull, x, y, z, length }, poses) {
     const height = poses.pose[7 * hull.index + 2];
     const keel = height + hull.vertices.reduce((least, v, i) => (i % 3 === 2 ? Math.min(least, v) : least), Infinity);
-    return new THREE.Vector3(x, y, (z ?? DEPTH * keel) - height);
+    return new THREE.Vector3(x ?? -STERN * (length ?? lengthAt(hull, -height)), y, (z ?? DEPTH * keel) - height);
+}
+
+/** From end to end of where a hull's surface crosses a height of its axes [m]. */
+function lengthAt({ vertices, triangles }, height) {
+    let [stern, stem] = [Infinity, -Infinity];
+    triangles.forEach((a, i) => {
+        const b = triangles[i % 3 === 2 ? i - 2 : i + 1];
+        const [from, to] = [vertices[3 * a + 2] - height, vertices[3 * b + 2] - height];
+        if (from > 0 === to > 0) return;
+        const x = vertices[3 * a] + (vertices[3 * b] - vertices[3 * a]) * from / (from - to);
+        stern = Math.min(stern, x);
+        stem = Math.max(stem, x);
+    });
+    return stem - stern;
 }
 
 /** Forces of a kind by what they belong to: numbers count within a vessel, so where several have one of it, it belongs
