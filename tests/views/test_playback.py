@@ -571,9 +571,17 @@ def check_files_beside(browser, run):
     # A file that is gone is named.
     subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "-q", "--page-limit", "0.63"], check=True)
     files[-1].unlink()
+    files[-2].write_text("")  # as a copy leaves it that ends early
     browser.open(page)
     browser.run("fram.seek(7.4)")
     browser.until("document.getElementById('note').textContent.includes('is missing')", "a missing file is not named")
+    # Neither that nor one that brings nothing stops the history of a floe, which has all other frames.
+    browser.run("(fram.seek(0), fram.pick(fram.record.bodies.find((b) => b.number === 0)))")
+    browser.click_on("whole")
+    browser.until("!fram.history.loading && document.getElementById('whole').hidden", "a missing file stops a history")
+    told, there, lost = browser.run("[fram.history.rows.size, fram.record.frames.filter((f) => !fram.chunks.lost.has("
+                                    "f.chunk)).length, fram.chunks.lost.size]")
+    assert told == there and lost == 2, f"the history has {told} of {there} frames that are there, {lost} files lost"
     browser.complaints = [c for c in browser.complaints if files[-1].name not in c]
 
 

@@ -60,11 +60,11 @@ export class History {
         return body.moves ? `gone by ${until} s: left, ${how}` : `changed by ${until} s: ${how}`;
     }
 
-    /** Frames of the body's life that are not in the curves because their files were not fetched. */
+    /** Frames of the body's life that are not in the curves because their files were not fetched, but can be. */
     missing() {
-        const { body, record } = this, last = Math.min(body.death, record.frames.length), out = [];
-        for (let f = body.birth; f < last && body.moves; f++)
-            if (!record.frames[f].view && !this.rows.has(f)) out.push(f);
+        const { body } = this, { frames } = this.record, { lost } = this.store.chunks, out = [];
+        for (let f = body.birth, last = Math.min(body.death, frames.length); f < last && body.moves; f++)
+            if (!frames[f].view && !this.rows.has(f) && !lost.has(frames[f].chunk)) out.push(f);
         return out;
     }
 

@@ -29,7 +29,7 @@ class Player {
         this.record = record;
         const files = 1 + record.frames.reduce((most, f) => Math.max(most, f.chunk ?? -1), -1);
         this.chunks = new Chunks($('record').dataset.beside, files, () => this.arrived(),
-            (name) => tell(`${name} is missing: it belongs beside this page.`));
+            (name) => tell(`${name} is missing or damaged: it belongs beside this page.`));
         this.store = new FrameStore(record, this.chunks);
         this.poses = new Poses(record, this.store);
         this.time = record.frames[0].time;

@@ -302,8 +302,8 @@ export function forcesOf({ bodies, frames }) {
 const KEPT = 4; // files beside the page that are held at once
 
 /** Files beside the page, each a script that calls framChunk(number, base64): scripts load from disk, where fetching is
- *  forbidden.  The next one is asked for ahead of time.  arrived() is called with each, failed(name) for one that is
- *  not there. */
+ *  forbidden.  The next one is asked for ahead of time.  arrived() is called with each, failed(name) once for one that
+ *  is not there or brings nothing. */
 export class Chunks {
     constructor(folder, count, arrived, failed) {
         this.folder = folder;
@@ -311,6 +311,7 @@ export class Chunks {
         this.failed = failed;
         this.kept = new Map();
         this.asked = new Set();
+        this.lost = new Set(); // asked for in vain: never again
         this.awaited = new Map(); // by number: calls that wait for load()
         window.framChunk = (number, base64) => {
             if (this.kept.size >= KEPT) this.kept.delete(this.kept.keys().next().value);
@@ -323,7 +324,7 @@ export class Chunks {
 
     /** @returns {Promise<boolean>} true once the file is here; false when it is missing. */
     load(number) {
-        if (this.kept.has(number)) return Promise.resolve(true);
+        if (this.kept.has(number) || this.lost.has(number)) return Promise.resolve(this.kept.has(number));
         return new Promise((done) => {
             this.awaited.set(number, [...this.awaited.get(number) ?? [], done]);
             this.ask(number);
@@ -348,12 +349,13 @@ export class Chunks {
     }
 
     ask(number) {
-        if (this.asked.has(number) || this.kept.has(number)) return;
+        if (this.asked.has(number) || this.kept.has(number) || this.lost.has(number)) return;
         const script = document.createElement('script'), name = `${String(number).padStart(4, '0')}.js`;
         script.src = `${this.folder}/${name}`;
-        script.onload = () => script.remove();
-        script.onerror = () => {
+        script.onload = script.onerror = () => {
             script.remove();
+            if (!this.asked.delete(number)) return; // it has come
+            this.lost.add(number);
             this.failed(`${decodeURIComponent(this.folder)}/${name}`);
             this.settle(number, false);
         };
