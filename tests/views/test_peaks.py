@@ -286,6 +286,16 @@ def check_few_rows(browser, folder):
                        "return all.every((v) => v >= 0) || all.every((v) => v <= 0); })"), "a band changes its side"
     assert browser.run("fram.timeline.vessel.peaks.every((p) => { const y = fram.timeline.y(p.load, 132, 40);"
                        "return y >= 39.9 && y <= 132; })")
+    # Of a series without rows there are the peaks alone.
+    before, without = browser.run("""(() => { const { timeline, loads } = fram, { vessel, canvas } = timeline;
+        const rows = { time: [], load: [], parts: vessel.parts.map(() => []) }, out = [];
+        for (const shown of [vessel, { ...vessel, ...rows }]) {
+            timeline.show(loads, shown);
+            fram.draw();
+            out.push(canvas.ariaDescription);
+        }
+        return out; })()""")
+    assert without == before and "largest" in before, (before, without)
 
 
 def check_narrow(browser, run):

@@ -67,8 +67,8 @@ export class Timeline {
                 for (let k = 0; k < n; k++) from[k] += side(0, vessel.parts[m][k]);
                 return { colour: MECHANISM_COLOURS[m], low, high: from.slice() };
             }));
-        const most = (list) => list.reduce((a, b) => Math.max(a, b), 1e-6);
-        this.top = Math.max(most(vessel.load), most(this.up), most(vessel.peaks.map((p) => p.load)));
+        this.largest = Math.max(largest(vessel.load), largest(vessel.peaks.map((p) => p.load)));
+        this.top = Math.max(this.largest, largest(this.up), 1e-6);
         this.bottom = this.down.reduce((a, b) => Math.min(a, b), 0);
     }
 
@@ -158,8 +158,7 @@ export class Timeline {
     /** Title and the mechanisms' colours, in as many lines as the width asks for; returns their height. */
     drawHeads(g, w) {
         const { vessel, loads } = this, of = vessel.name ? ` on ${vessel.name}` : ' on the vessel';
-        const most = vessel.load.reduce((a, b) => Math.max(a, b), 0) / 1000;
-        const what = most > 0 ? `largest ${forceText(most)}` : 'none in this run';
+        const what = this.largest > 0 ? `largest ${forceText(this.largest / 1000)}` : 'none in this run';
         const foot = this.drawCaption(g, w, `ice load${of}, averaged over ${
             Number(vessel.window.toPrecision(3))} s: ${what}${
             vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`);
@@ -229,6 +228,8 @@ export class Timeline {
         g.fillRect((this.x(time) - 1) * ratio, 0, 2 * ratio, h * ratio);
     }
 }
+
+const largest = (list) => list.reduce((a, b) => Math.max(a, b), 0);
 
 /** Words in lines no wider than room(number of the line) [px]. */
 function wrapped(g, text, room) {
