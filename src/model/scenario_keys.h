@@ -326,7 +326,7 @@
     X(anchored_y_max, BOOLEAN(true), "", "the sheet is held at this edge")                                       \
     X(tile_size, AUTOMATIC(1e-6, 1e7), "m",                                                                      \
       "the sheet is held in square tiles of about this size, and an event touches only those it reaches; "       \
-      "auto: twice the characteristic length, four breaking radii")                                              \
+      "auto: twice the characteristic length, five to ten breaking radii")                                       \
     X(line_load, AUTOMATIC(0, 1e12), "N/m",                                                                      \
       "feeding: most that the ice far away drives the sheet with, per metre of the domain across; a sheet that " \
       "meets more slows down by its mass; 0: a floe with nothing behind it; auto: it drifts whatever it meets")  \

@@ -8,8 +8,8 @@
 
 #include <math.h>
 
-/* Tiles of about four breaking radii: R_bending is about half the characteristic length under the loads that break
-   (a/l near 0.1; docs/theory.md). */
+/* Tiles of five to ten breaking radii: R_bending is 0.2 to 0.4 of the characteristic length under the loads that break
+   (a/l of 0.01 to 0.05; docs/theory.md). */
 static const double TILE_LENGTHS = 2;
 
 static box2 sheet_plan(const scenario *s)
