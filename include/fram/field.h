@@ -55,9 +55,9 @@ FRAM_API void fram_field_default(fram_field_definition *definition, size_t size)
 FRAM_API fram_status fram_field_load(fram_context *context, const char *path, const fram_field_definition *definition,
                                      fram_field **field, fram_error *error);
 /* The field that a run of the scenario starts with, to the bit, of ice.source voronoi, packed or file; under
-   domain.boundary: feeding the whole tile that repeats itself.  FRAM_ERROR_INPUT, with the key, for a scenario without
-   a field and for a field that cannot be made, saying what was reached and why.  The scenario may go before the field.
- */
+   domain.boundary: feeding the whole tile that repeats itself, before vessels and open water are cut out of it.
+   FRAM_ERROR_INPUT, with the key, for a scenario without a field and for a field that cannot be made, saying what was
+   reached and why.  The scenario may go before the field. */
 FRAM_API fram_status fram_field_generate(const fram_scenario *scenario, fram_field **field, fram_error *error);
 FRAM_API void fram_field_destroy(fram_field *field);
 
@@ -73,7 +73,7 @@ typedef struct fram_field_summary {
     int vertices, concave;
     double lo[2], hi[2];     /* corners of the box around the floes [m] */
     double area;             /* of the floes [m2] */
-    double concentration;    /* area over that of the crop window or the domain, or of the box around the floes [1] */
+    double concentration;    /* area over that of the crop window, domain or tile, or of the box around the floes [1] */
     double largest_diameter; /* [m] */
     double smallest_area, largest_area; /* [m2] */
     int overlaps;                       /* pairs of floes that share area */
@@ -119,6 +119,7 @@ typedef struct fram_field_making {
     int rounds, moves;      /* of the packing: rounds, floes carried into open water */
     double area_change;     /* of a drawn floe by being moved, the largest, relative: rounding */
     int vertex_changes;     /* drawn floes whose number of vertices was changed by being moved */
+    bool tile;              /* the field is the tile that repeats itself (domain.boundary: feeding), not the domain */
 } fram_field_making;
 /* false, and nothing is written, for a field of a file. */
 FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *making, size_t size);

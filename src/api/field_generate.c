@@ -21,6 +21,7 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
     f->floes.outlines = f->drawn.outlines;
     f->drawn.outlines = (polygon_list){0};
     bool asked = s->ice.source != ICE_FILE || s->ice.populations.count > 0;
+    f->tile = s->domain.boundary == DOMAIN_FEEDING;
     f->target = asked ? s->ice.concentration : (double)NAN;
     return field_describe(f, plane, NULL, error);
 }
@@ -71,6 +72,7 @@ bool(fram_field_making_get)(const fram_field *f, fram_field_making *making, size
         .moves = d->packed.moves,
         .area_change = d->packed.area_change,
         .vertex_changes = d->packed.vertex_changes,
+        .tile = f->tile,
     };
     result_give(making, size, &full);
     return true;

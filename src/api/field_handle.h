@@ -12,6 +12,7 @@ struct fram_field {
     import_rings source; /* of a file */
     import_field floes;
     drawn_ice drawn; /* of a scenario, without outlines: those are in floes */
+    bool tile;       /* of a scenario that is fed: what repeats itself */
     double target;   /* concentration that the scenario asks for, or NaN [1] */
     box2 window;     /* what is shown [m] */
     fram_field_definition made;

@@ -14,7 +14,16 @@ const char *field_title(const field_words *w)
     return slash ? slash + 1 : w->path;
 }
 
-static void print_summary(const field_words *w, const fram_field_summary *s)
+/* What the concentration is of. */
+static const char *whole_of(const field_words *w, const fram_field *field)
+{
+    fram_field_making m;
+    if (fram_field_making_get(field, &m))
+        return m.tile ? "the tile" : "the domain";
+    return w->crop ? "the window" : "the box around it";
+}
+
+static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
 {
     if (w->scenario)
         printf("%s: %d floes\n", field_title(w), s->floes);
@@ -22,10 +31,7 @@ static void print_summary(const field_words *w, const fram_field_summary *s)
         printf("%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
     printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
     printf("  x from %.6g to %.6g m, y from %.6g to %.6g m\n", s->lo[0], s->hi[0], s->lo[1], s->hi[1]);
-    printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration,
-           w->scenario ? "the domain"
-           : w->crop   ? "the window"
-                       : "the box around it");
+    printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration, whole_of(w, field));
     printf("  floes of %.6g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
            s->largest_diameter);
     printf("  diameter of equal area   floes\n");
@@ -220,7 +226,7 @@ int field_answer(const field_words *w, const common_options *common, const fram_
     if (common->json) {
         print_field_json(w, field, &summary, notes, count);
     } else {
-        print_summary(w, &summary);
+        print_summary(w, field, &summary);
         print_windows(w, field);
         print_making(field);
         print_notes(notes, count);

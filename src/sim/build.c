@@ -3,6 +3,7 @@
 #include "sim/approach_watch.h"
 #include "sim/build_feeding.h"
 #include "sim/build_ice.h"
+#include "sim/build_keep_out.h"
 #include "sim/build_vessel.h"
 #include "sim/scene_size.h"
 
@@ -129,6 +130,15 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram
     return status;
 }
 
+/* An endless field is cut where it is first seen: what keeps ice away there is only looked at. */
+static fram_status look_at_zones(context *ctx, const scenario *s, const world *w, fram_error *error)
+{
+    polygon_list zones = {0};
+    fram_status status = build_keep_out(ctx, s, w, &zones, error);
+    polygon_list_free(ctx, &zones);
+    return status;
+}
+
 static fram_status outlines_of(context *ctx, const scenario *s, const model *m, drawn_ice *out, box2 *domain,
                                fram_error *error)
 {
@@ -141,6 +151,8 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
         double floe_area;
         status = feeding_floe_area(ctx, s, &floe_area, error);
         larger = feeding_scenario(s, floe_area);
+        if (status == FRAM_OK)
+            status = look_at_zones(ctx, s, &w, error);
     }
     *domain = (box2){{larger.domain.x_min, larger.domain.y_min}, {larger.domain.x_max, larger.domain.y_max}};
     if (status == FRAM_OK)

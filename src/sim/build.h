@@ -16,8 +16,9 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
    for what cannot be, and for the warnings in the log.  store: of hulls, may be NULL (build_hull.h). */
 fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error);
 
-/* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile.
-   domain: what it was made in.  out must be empty; on failure it may hold some. */
+/* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile,
+   without the cuts of vessels and zones without ice, whose file is read all the same.  domain: what it was made in.
+   out must be empty; on failure it may hold some. */
 fram_status build_outlines(context *ctx, const scenario *s, drawn_ice *out, box2 *domain, fram_error *error);
 
 /* Room for the loads on so many vessels over output.averaging_window. */

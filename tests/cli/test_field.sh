@@ -300,6 +300,12 @@ expect 2 "$FRAM" field zones.yaml
 says "ring 2: the ring is a hole; mend the file, as \"fram field\" does" err
 expect 2 "$FRAM" field zones.yaml --set ice.open_water_file=arctic.geojson
 says "only lengths are taken here" err
+# An endless field is told as the tile that it is, and its zones are read as by a run.
+fed=(--set domain.boundary=feeding --set vessel.present=false)
+expect 0 "$FRAM" field zones.yaml "${fed[@]}" --set ice.open_water_file=
+says "% of the tile" out
+expect 2 "$FRAM" field zones.yaml "${fed[@]}"
+says "ring 2: the ring is a hole" err
 # Zones that lie beside the domain, as in other coordinates, are told; of a file only when all of it does.
 printf '%s\n' 'run: {duration: 1}' 'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' \
     'ice: {open_water: [{x: 60, y: 0, length: 99, width: 9}, {x: 3000, y: 0, length: 50, width: 20}]}' >elsewhere.yaml
