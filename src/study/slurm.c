@@ -167,9 +167,12 @@ void slurm_end(slurm_pool *all, bool whole)
 }
 
 /* The numbers of this call's arrays: told on, a later call would cancel what a cluster that was set up anew has given
-   the same number.  Those of a call that was killed, and those that go on, stay for the next one to cancel. */
+   the same number.  Those of a call that was killed, and those that go on, stay for the next one to cancel.  A call
+   that only shows what it would submit has none, and has not looked for theirs. */
 static void forget_jobs(const slurm_pool *all)
 {
+    if (all->options->dry_run)
+        return;
     for (int32_t i = all->earlier + 1; !all->unstopped && i <= all->arrays; i++) {
         char *job = array_path(all, i, "job");
         if (job)

@@ -62,8 +62,10 @@ void study_folder_remove(context *ctx, const char *folder);
 typedef struct condition_rows {
     ARRAY(run_row) rows; /* of the first seeds without a gap */
 } condition_rows;
-/* DIR/summary.csv and DIR/conditions.csv of the seeds that each condition takes. */
-fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+/* DIR/summary.csv and DIR/conditions.csv of the seeds that each condition takes, and all that follows from them;
+   without `replace` where there are none yet. */
+fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, bool replace,
+                               fram_error *error);
 /* DIR/NAME with a text that has been put together, as a whole or not at all. */
 fram_status study_table_write(const study_folder *f, const char *name, const text_buffer *b, fram_error *error);
 /* A table of the study before it was changed, which this one does not ask for. */

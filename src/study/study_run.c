@@ -261,6 +261,9 @@ static void show_progress(const study_work *w, const char *waits)
         w->options->progress(w->options->progress_user, &p);
 }
 
+/* Only what would be submitted is shown: tables that are there may know more, as of failures that it would retry. */
+static bool is_dry(const study_work *w) { return w->options->slurm && w->options->slurm->dry_run; }
+
 static bool asked_to_stop(const study_work *w) { return stop_is_asked(w->options->stop); }
 
 static fram_status work_loop(study_work *w, fram_error *error)
@@ -346,10 +349,9 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
     fram_status status = slurm_begin(w->ctx, w->options->slurm, w->options->folder, w->options->program, &queue, error);
     if (status != FRAM_OK)
         return status;
-    bool dry = w->options->slurm->dry_run;
     status = submit_missing(w, &queue, error);
     show_progress(w, NULL);
-    while (status == FRAM_OK && !dry && queue.runs.count > 0 && !asked_to_stop(w)) {
+    while (status == FRAM_OK && !is_dry(w) && queue.runs.count > 0 && !asked_to_stop(w)) {
         double began = clock_wall();
         status = take_ended(w, &queue, error);
         show_progress(w, slurm_waits(&queue));
@@ -436,7 +438,7 @@ static fram_status write_results(const study_work *w, bool whole, study_result *
     if (status == FRAM_OK)
         tell_kept_less(w);
     if (status == FRAM_OK)
-        status = study_tables_write(&w->folder, rows, error);
+        status = study_tables_write(&w->folder, rows, !is_dry(w), error);
     bool changed = false;
     if (status == FRAM_OK && whole)
         status = study_worst_record(&w->folder, rows, w->options, &changed, error);
@@ -476,7 +478,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         status = options->slurm ? slurm_loop(&w, error) : work_loop(&w, error);
     /* Also of a study that was stopped. */
     if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
-        bool whole = status == FRAM_OK && !(options->slurm && options->slurm->dry_run);
+        bool whole = status == FRAM_OK && !is_dry(&w);
         fram_status written = write_results(&w, whole, result, status == FRAM_OK ? error : NULL);
         status = status == FRAM_OK ? written : status;
     }

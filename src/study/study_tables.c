@@ -105,9 +105,23 @@ void study_table_remove(const study_folder *f, const char *name)
     text_free(f->ctx, &path);
 }
 
-fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
+static fram_status find_tables(const study_folder *f, bool *there, fram_error *error)
+{
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/summary.csv", f->path);
+    *there = !path.failed && access(path.data, F_OK) == 0;
+    fram_status status = path.failed ? error_memory(error) : FRAM_OK;
+    text_free(f->ctx, &path);
+    return status;
+}
+
+fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, bool replace, fram_error *error)
 {
     text_buffer runs = {0}, means = {0};
+    bool there = false;
+    fram_status found = replace ? FRAM_OK : find_tables(f, &there, error);
+    if (found != FRAM_OK || there)
+        return found;
     summarise(f, conditions, &runs);
     fram_status status = summarise_conditions(f, conditions, &means, error);
     if (status == FRAM_OK)

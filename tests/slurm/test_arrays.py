@@ -95,7 +95,8 @@ class Arrays(unittest.TestCase):
         """Programs by the names of Slurm's, in front of all others."""
         programs = self.at / "bin"
         programs.mkdir()
-        for name, text in (("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "#!/bin/sh\n")):
+        cancel = f'#!/bin/sh\necho "$1" >>"{self.at}/cancelled"\n'
+        for name, text in (("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", cancel)):
             (programs / name).write_text(text)
             (programs / name).chmod(0o755)
         return dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
@@ -108,11 +109,15 @@ class Arrays(unittest.TestCase):
         self.assertEqual((first["failed"], first["made"]), (1, 3))
         # It ends, which it did not where tasks found that the run has failed already; it fails again.
         failed, = [p for p in (self.at / "out").glob("runs/*/1.row") if "failed" in p.read_text()]
-        changed = failed.stat().st_mtime_ns
+        changed, tables = failed.stat().st_mtime_ns, self.tables("out")
+        # To be shown what would be submitted takes nothing away: no table, and no array that a killed call left.
+        (self.at / "out" / "slurm" / "1.job").write_text("4711\n")
         self.fram(*words, "--retry", "--dry-run", environment=environment)
-        self.assertEqual(failed.stat().st_mtime_ns, changed)
+        self.assertEqual((failed.stat().st_mtime_ns, self.tables("out")), (changed, tables))
         again = json.loads(self.fram(*words, "--retry", environment=environment))
         self.assertEqual((again["failed"], again["made"]), (1, 1))
+        self.assertEqual((self.at / "cancelled").read_text(), "4711\n")
+        self.assertEqual(list((self.at / "out" / "slurm").glob("*.job")), [])
 
     def test_what_a_limit_of_time_stopped_goes_on(self):
         self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
