@@ -381,22 +381,27 @@ fram_status study_run_check_files(const study_folder *f, int32_t condition, cons
 
 void study_folder_remove(context *ctx, const char *folder) { remove_but(ctx, folder, NULL, 0); }
 
-bool study_folder_is_busy(const char *folder)
+fram_status study_folder_busy(const char *folder, bool *busy, fram_error *error)
 {
     int lock = -1;
-    bool busy = access(folder, F_OK) == 0 && run_folder_lock(folder, &lock, NULL) != FRAM_OK;
+    *busy = false;
+    if (access(folder, F_OK) != 0)
+        return FRAM_OK;
+    fram_status status = run_folder_lock(folder, &lock, error);
     run_folder_unlock(lock);
-    return busy;
+    *busy = status == FRAM_ERROR_USAGE;
+    return *busy ? FRAM_OK : status;
 }
 
-bool study_run_met_another(context *ctx, const char *folder, const char *log)
+fram_status study_run_met_another(context *ctx, const char *folder, const char *log, bool *met, fram_error *error)
 {
     char *text = NULL;
     size_t size = 0;
-    bool met = study_folder_is_busy(folder) ||
-               (file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK && strstr(text, RUN_FOLDER_TAKEN));
+    fram_status status = study_folder_busy(folder, met, error);
+    if (status == FRAM_OK && !*met && file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK)
+        *met = strstr(text, RUN_FOLDER_TAKEN) != NULL;
     memory_free(ctx, text);
-    return met;
+    return status;
 }
 
 /* What the command fram, which keeps the locale "C", calls an error, whatever the language of this program. */

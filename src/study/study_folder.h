@@ -50,11 +50,12 @@ fram_status study_run_check_disk(context *ctx, const char *folder, const char *l
 /* FRAM_ERROR_INPUT, naming the file, when a run was made of other files than the condition is named after: somebody
    changed one while the study ran.  What failed before it had a run.json is not told of. */
 fram_status study_run_check_files(const study_folder *f, int32_t condition, const char *folder, fram_error *error);
-/* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
-bool study_folder_is_busy(const char *folder);
+/* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end.  The error is
+   that of a folder which is there and cannot be opened: no program's end changes that. */
+fram_status study_folder_busy(const char *folder, bool *busy, fram_error *error);
 /* Whether a run that failed met such a program, which had been started and had not yet locked the folder: no answer of
    its scenario. */
-bool study_run_met_another(context *ctx, const char *folder, const char *log);
+fram_status study_run_met_another(context *ctx, const char *folder, const char *log, bool *met, fram_error *error);
 /* A folder with all that is in it. */
 void study_folder_remove(context *ctx, const char *folder);
 

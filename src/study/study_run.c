@@ -128,12 +128,12 @@ static fram_status start_run(study_work *w, int32_t condition, int32_t index, fr
     return status;
 }
 
-static bool is_busy(const study_work *w, int32_t condition, int32_t index)
+static fram_status find_busy(const study_work *w, int32_t condition, int32_t index, bool *busy, fram_error *error)
 {
     char *folder = study_run_path(&w->folder, condition, w->s->seeds.first + index, "");
-    bool busy = folder && study_folder_is_busy(folder);
+    fram_status status = folder ? study_folder_busy(folder, busy, error) : error_memory(error);
     memory_free(w->ctx, folder);
-    return busy;
+    return status;
 }
 
 /* The next run that is wanted: all conditions' first seeds come before anybody's later ones. */
@@ -168,11 +168,13 @@ static fram_status fill_pool(study_work *w, fram_error *error)
 {
     int32_t condition = 0, index = 0;
     fram_status status = FRAM_OK;
+    bool busy = false;
     while (status == FRAM_OK && w->pool.running.count < w->jobs && next_run(w, &condition, &index)) {
-        if (!is_busy(w, condition, index)) {
+        status = find_busy(w, condition, index, &busy, error);
+        if (status == FRAM_OK && !busy)
             status = start_run(w, condition, index, error);
+        if (!busy)
             continue;
-        }
         w->conditions[condition].seeds.data[index].state = RUN_BUSY;
         w->busy++;
     }
@@ -227,7 +229,9 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     if (status == FRAM_OK && exit_code != 0)
         status = study_run_check_disk(w->ctx, folder, log, error);
     /* Made when the other one has ended: a program of a study that was killed, here or on a node. */
-    bool again = status == FRAM_OK && exit_code != 0 && study_run_met_another(w->ctx, folder, log);
+    bool again = false;
+    if (status == FRAM_OK && exit_code != 0)
+        status = study_run_met_another(w->ctx, folder, log, &again, error);
     if (status == FRAM_OK && !again)
         status = study_run_check_files(&w->folder, condition, folder, error);
     if (status == FRAM_OK && !again)

@@ -256,11 +256,12 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
     context *ctx = w->f->ctx;
     char *folder = study_worst_path(w->f, &e->run, ""), *log = study_worst_path(w->f, &e->run, ".log");
     fram_status status = folder && log ? FRAM_OK : error_memory(error);
+    bool stopped = exit_code == PROCESS_INTERRUPTED && !w->options->slurm, met = false;
     e->going = false;
-    if (status == FRAM_OK && exit_code == PROCESS_INTERRUPTED && !w->options->slurm) {
-        /* It is made when the study goes on. */
-    } else if (status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(ctx, folder, log)) {
-        /* And this one when the other program has ended. */
+    if (status == FRAM_OK && exit_code != 0 && !stopped && !w->options->slurm)
+        status = study_run_met_another(ctx, folder, log, &met, error);
+    if (stopped || met) {
+        /* It is made when the study goes on, or when the other program has ended. */
     } else if (status == FRAM_OK && exit_code != 0) {
         status = study_run_check_disk(ctx, folder, log, error);
         if (status == FRAM_OK && e->stage == WORST_RUN)
@@ -325,10 +326,12 @@ static fram_status fill_cores(worst_work *w, int jobs, bool *left, fram_error *e
         if (e->going || e->stage == WORST_DONE)
             continue;
         char *folder = study_worst_path(w->f, &e->run, "");
-        bool free_now = w->pool.running.count < jobs && folder && !study_folder_is_busy(folder);
+        bool core = w->pool.running.count < jobs, busy = false;
+        if (core)
+            status = folder ? study_folder_busy(folder, &busy, error) : error_memory(error);
         memory_free(w->f->ctx, folder);
-        *left = *left || !free_now;
-        if (free_now)
+        *left = *left || !core || busy;
+        if (status == FRAM_OK && core && !busy)
             status = start_on_core(w, i, error);
     }
     return status;

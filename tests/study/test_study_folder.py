@@ -2,6 +2,7 @@
 """Folders of studies: of another scenario they are told, of something else they are left alone; who starts a study may
 ignore how programs end; and what is told meanwhile is of the study."""
 import fcntl
+import json
 import os
 import shutil
 import signal
@@ -110,6 +111,21 @@ class Folders(StudyTest):
         (folder / "mine").write_text("mine")
         self.fram(path, "-o", folder, code=2)
         self.assertTrue(first.exists())
+
+    def test_a_folder_of_a_run_that_cannot_be_opened_ends_the_study(self):
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nkeep: {record_of_worst: 1}\n")
+        self.fram(study, "-o", self.at / "out", "--on", "slurm", "--dry-run")
+        (runs,) = (self.at / "out" / "runs").iterdir()
+        worst = self.at / "out" / "worst"
+        worst.mkdir()
+        for path in (runs / "1", worst / f"{runs.name}-1"):
+            path.write_text("")
+            done = subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--json"], capture_output=True,
+                                  text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            error = json.loads(done.stdout.splitlines()[-1])["error"]
+            self.assertEqual((error["file"], error["message"]), (str(path), "cannot open the folder: Not a directory"))
+            path.unlink()
 
     def test_runs_end_well_where_the_starter_ignored_sigchld(self):
         study = self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n")
