@@ -223,15 +223,15 @@ static fram_status add_condition_table(const study_source *r, const yaml_node *n
     for (int32_t k = 0; k < t->heads.count; k++)
         if (strcmp(t->heads.data[k], "run.seed") == 0)
             return study_refuse(r, node, "the table has a column run.seed; seeds are given by `seeds`");
-    s->conditions = t->line.count;
-    /* What the table has is the study's. */
-    s->keys = t->heads;
-    s->values = t->cells;
-    s->table_line = t->line;
     for (int32_t i = 0; i < t->hours.count; i++)
         if (!array_push(r->ctx, &s->table_hours, t->hours.data[i]))
             return error_memory(r->error);
     array_free(r->ctx, &t->hours);
+    s->conditions = t->line.count;
+    /* What the table has is the study's; behind this nothing may fail, or both would free it. */
+    s->keys = t->heads;
+    s->values = t->cells;
+    s->table_line = t->line;
     *t = (condition_table){0};
     return FRAM_OK;
 }

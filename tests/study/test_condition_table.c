@@ -2,6 +2,10 @@
 #include "testing.h"
 
 #include "study/condition_table.h"
+#include "study/study_file.h"
+
+#include <stdio.h>
+#include <unistd.h>
 
 static void parse(const char *text, fram_status expected, condition_table *t, fram_error *error)
 {
@@ -108,4 +112,46 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
 }
 END_TEST
 
-TEST_MAIN("condition_table", tables_of_any_program_are_read, hours_are_no_key, what_is_unclear_is_refused_at_its_place)
+static void write_file(const char *folder, const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_ge(fputs(text, file), 0);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
+/* A study of a table with hours: read again and again, each time with another request for memory that fails, nothing
+   is lost or freed twice. */
+START_TEST(a_study_of_a_table_without_memory)
+{
+    char folder[] = "/tmp/fram-table-XXXXXX", path[64], command[64];
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    write_file(folder, "base.yaml", "ice: {source: none}\n");
+    write_file(folder, "t.csv", "hours,ice.thickness\n100,1\n200,2\n");
+    write_file(folder, "s.yaml", "scenario: base.yaml\nvary: {table: t.csv}\nextremes: {annual: [0.01]}\n");
+    snprintf(path, sizeof path, "%s/s.yaml", folder);
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        fram_error error = {0};
+        study s = {0};
+        fram_status status = study_read(&ctx, path, &s, &error);
+        if (status == FRAM_OK)
+            study_free(&ctx, &s);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            assert_ok(status, error);
+            ck_assert_int_gt(n, 50);
+            break;
+        }
+        ck_assert_msg(status == FRAM_ERROR_MEMORY, "request %ld: status %d", n, (int)status);
+    }
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+}
+END_TEST
+
+TEST_MAIN("condition_table", tables_of_any_program_are_read, hours_are_no_key, what_is_unclear_is_refused_at_its_place,
+          a_study_of_a_table_without_memory)
