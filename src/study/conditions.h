@@ -33,11 +33,6 @@ fram_status study_unknown(const study_source *r, const yaml_node *node, const ch
 const yaml_node *study_child(const study_source *r, const yaml_node *node);
 const yaml_node *study_next(const study_source *r, const yaml_node *node);
 
-/* The ends of a range of a key, [0.5, 1.5]. */
-typedef struct key_range {
-    double lo, hi;
-} key_range;
-
 /* A key that conditions vary, at whose values or range the node is; run.seed is refused. */
 fram_status study_add_key(const study_source *r, const yaml_node *node);
 /* Two numbers, the second no less than the first. */

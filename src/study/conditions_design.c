@@ -5,38 +5,41 @@
 #include <string.h>
 
 /* A range of its own width, whose key is added. */
-static fram_status read_range(const study_source *r, const yaml_node *k, key_range *out)
+static fram_status read_range(const study_source *r, const yaml_node *k)
 {
-    fram_status status = study_range(r, k, out);
-    if (status == FRAM_OK && !(out->hi > out->lo))
+    key_range range;
+    fram_status status = study_range(r, k, &range);
+    if (status == FRAM_OK && !(range.hi > range.lo))
         status = study_refuse(r, k, "expected a range that is wider than nothing");
+    if (status == FRAM_OK && !array_push(r->ctx, &r->out->design.range, range))
+        status = error_memory(r->error);
     return status == FRAM_OK ? study_add_key(r, k) : status;
 }
 
-static fram_status write_values(const study_source *r, const key_range *range)
+static fram_status write_values(const study_source *r)
 {
-    int32_t k = r->out->keys.count;
+    const study_design *d = &r->out->design;
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < r->out->design.point.count && status == FRAM_OK; i++)
-        status = study_add_part(r, range[i % k], r->out->design.point.data[i]);
+    for (int32_t i = 0; i < d->point.count && status == FRAM_OK; i++)
+        status = study_add_part(r, d->range.data[i % d->range.count], d->point.data[i]);
     return status;
 }
 
-static fram_status draw_points(const study_source *r, int64_t seed, int32_t levels)
+static fram_status draw_points(const study_source *r)
 {
-    study *s = r->out;
-    int32_t k = s->keys.count, n = s->design.count;
-    if (!array_resize(r->ctx, &s->design.point, s->conditions * k))
+    study_design *d = &r->out->design;
+    int32_t k = d->range.count;
+    if (!array_resize(r->ctx, &d->point, r->out->conditions * k))
         return error_memory(r->error);
-    if (s->design.kind == DESIGN_MORRIS)
-        morris_points(n, k, levels, seed, s->design.point.data);
-    else if (!sobol_points(r->ctx, n, k, seed, s->design.point.data))
+    if (d->kind == DESIGN_MORRIS)
+        morris_points(d->count, k, d->levels, d->seed, d->point.data);
+    else if (!sobol_points(r->ctx, d->count, k, d->seed, d->point.data))
         return error_memory(r->error);
     return FRAM_OK;
 }
 
 /* The ranges under `keys`, and the number of conditions that follows from them. */
-static fram_status read_ranges(const study_source *r, const yaml_node *node, key_range *range)
+static fram_status read_ranges(const study_source *r, const yaml_node *node)
 {
     study *s = r->out;
     if (node->kind != YAML_MAPPING || node->count == 0)
@@ -45,7 +48,7 @@ static fram_status read_ranges(const study_source *r, const yaml_node *node, key
         return study_refuse(r, node, "found %d keys, expected at most %d", (int)node->count, SENSITIVITY_KEYS_MOST);
     fram_status status = FRAM_OK;
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k))
-        status = read_range(r, k, range++);
+        status = read_range(r, k);
     int64_t each = s->keys.count + (s->design.kind == DESIGN_MORRIS ? 1 : 2), all = each * s->design.count;
     if (status == FRAM_OK && all > STUDY_CONDITIONS_MOST)
         status =
@@ -82,13 +85,11 @@ static fram_status read_design(const study_source *r, const yaml_node *node, stu
         return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
     if (levels % 2 != 0)
         return study_refuse(r, node, "expected an even number of levels, found %d", (int)levels);
-    key_range range[SENSITIVITY_KEYS_MOST] = {{0, 0}};
-    r->out->design.kind = kind;
-    r->out->design.count = (int32_t)count;
-    status = read_ranges(r, keys, range);
+    r->out->design = (study_design){.kind = kind, .count = (int32_t)count, .levels = (int32_t)levels, .seed = seed};
+    status = read_ranges(r, keys);
     if (status == FRAM_OK)
-        status = draw_points(r, seed, (int32_t)levels);
-    return status == FRAM_OK ? write_values(r, range) : status;
+        status = draw_points(r);
+    return status == FRAM_OK ? write_values(r) : status;
 }
 
 fram_status study_sobol_read(const study_source *r, const yaml_node *node)

@@ -32,6 +32,7 @@ void study_free(context *ctx, study *s)
     text_list_free(ctx, &s->values);
     memory_free(ctx, s->table);
     array_free(ctx, &s->table_line);
+    array_free(ctx, &s->design.range);
     array_free(ctx, &s->design.point);
     array_free(ctx, &s->extremes.hours);
     array_free(ctx, &s->table_hours);

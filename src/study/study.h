@@ -42,12 +42,19 @@ typedef struct study_worst {
     int line;      /* in the study file */
 } study_worst;
 
+/* The ends of a range of a key, [0.5, 1.5]. */
+typedef struct key_range {
+    double lo, hi;
+} key_range;
+
 /* Conditions that are points of a design of sensitivity (study/sensitivity.h). */
 typedef enum study_design_kind { DESIGN_NONE = 0, DESIGN_SOBOL, DESIGN_MORRIS } study_design_kind;
 typedef struct study_design {
     study_design_kind kind;
-    int32_t count;       /* rows or paths */
-    ARRAY(double) point; /* conditions x keys, in the unit cube */
+    int32_t count, levels;  /* rows or paths; levels of Morris's grid */
+    int64_t seed;           /* that the points are drawn with */
+    ARRAY(key_range) range; /* of each key */
+    ARRAY(double) point;    /* conditions x keys, in the unit cube */
 } study_design;
 
 /* What is asked of rare loads, of the largest values of the runs of each condition. */

@@ -102,18 +102,35 @@ static void add_record_value(context *ctx, text_buffer *b, const char *before, c
     text_quoted(ctx, b, value);
 }
 
+/* What a design is made of, as the study file has it: of its points alone nobody could tell a sensitivity. */
+static void add_design(context *ctx, text_buffer *b, const study *s)
+{
+    const study_design *d = &s->design;
+    text_format(ctx, b, "vary:\n  %s: {count: %d, seed: %lld", d->kind == DESIGN_SOBOL ? "sobol" : "morris",
+                (int)d->count, (long long)d->seed);
+    if (d->kind == DESIGN_MORRIS)
+        text_format(ctx, b, ", levels: %d", (int)d->levels);
+    for (int32_t k = 0; k < s->keys.count; k++) {
+        text_add(ctx, b, k > 0 ? ", " : ", keys: {");
+        text_quoted(ctx, b, s->keys.data[k]);
+        add_number(ctx, b, ": [", d->range.data[k].lo);
+        add_number(ctx, b, ", ", d->range.data[k].hi);
+        text_add(ctx, b, "]");
+    }
+    text_add(ctx, b, "}}\n# Its points, which are the conditions:\n");
+}
+
 static void add_conditions(context *ctx, text_buffer *b, const study *s)
 {
-    static const char *const designs[] = {[DESIGN_SOBOL] = "sobol", [DESIGN_MORRIS] = "morris"};
-    if (s->design.kind != DESIGN_NONE)
-        text_format(ctx, b, "# The points of a design by %s, count %d.\n", designs[s->design.kind],
-                    (int)s->design.count);
-    if (s->keys.count == 0)
-        return;
-    text_add(ctx, b, "vary:\n  list:\n");
-    for (int32_t c = 0; c < s->conditions; c++) {
+    bool design = s->design.kind != DESIGN_NONE;
+    if (design)
+        add_design(ctx, b, s);
+    else if (s->keys.count > 0)
+        text_add(ctx, b, "vary:\n  list:\n");
+    for (int32_t c = 0; c < s->conditions && s->keys.count > 0; c++) {
+        text_add(ctx, b, design ? "#   " : "    ");
         for (int32_t k = 0; k < s->keys.count; k++)
-            add_record_value(ctx, b, k > 0 ? ", " : "    - {", s->keys.data[k], study_value(s, c, k));
+            add_record_value(ctx, b, k > 0 ? ", " : "- {", s->keys.data[k], study_value(s, c, k));
         text_add(ctx, b, "}\n");
     }
 }

@@ -1,6 +1,6 @@
 /* What a study was, beside its results, and how it stands: DIR/effective.yaml is the study with every key, its
-   conditions one by one and the versions and hashes it was made from, itself a study file; DIR/index.csv the names and
-   hashes of the conditions.  Both are written when a study begins, and
+   conditions one by one (of a design of sensitivity the design itself) and the versions and hashes it was made from,
+   itself a study file; DIR/index.csv the names and hashes of the conditions.  Both are written when a study begins, and
    nothing of a run is in them.  One module with study_folder, which opens the folder. */
 #ifndef STUDY_STUDY_RECORD_H
 #define STUDY_STUDY_RECORD_H

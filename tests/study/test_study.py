@@ -686,10 +686,20 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             rows = self.rows("sobol", "sensitivity.csv")
             self.assertEqual([r["key"] for r in rows[:2]], ["vessel.speed", "output.averaging_window"])
             self.assertGreater(float(rows[0]["total"]), 0)
-        study = self.write("vary: {morris: {count: 3, levels: 4, keys: {vessel.speed: [1, 2], "
+        study = self.write("vary: {morris: {count: 3, levels: 6, seed: 2, keys: {vessel.speed: [1, 2], "
                            "output.averaging_window: [0.1, 0.3], output.frame_interval: [0.1, 0.4]}}}\n")
         self.assertEqual(self.fram(study, "-o", self.at / "morris")["runs"], 12)
         rows = self.rows("morris", "sensitivity.csv")
+        # The effective study is the design, not its points alone.
+        table, other = (self.at / "morris" / "sensitivity.csv").read_bytes(), self.at / "other.yaml"
+        for design, runs in (("morris", 12), *([] if SHORT else [("sobol", 40)])):
+            effective = (self.at / design / "effective.yaml").read_text()
+            self.assertEqual(len(re.findall('^#   - {"vessel.speed": ', effective, re.M)), runs)
+            other.write_text(effective)
+            told = self.fram(other, "-o", self.at / design)
+            self.assertEqual((told["runs"], told["made"]), (runs, 0))
+            self.assertFalse((self.at / design / "differences.csv").exists())
+        self.assertEqual((self.at / "morris" / "sensitivity.csv").read_bytes(), table)
         page = (self.at / "morris" / "study.html").read_text()
         self.assertIn("Morris' effects", page)
         # A longer window makes the largest load smaller.
