@@ -7,8 +7,9 @@
 
 #include "study/pivot.h"
 
-/* Weight of Gumbel's law beside the generalized one, from 0 to 1, by Akaike's criterion of both fits to the values,
-   with the price of parameters that few values have (Hurvich and Tsai 1989).  count: LAW_VALUES_LEAST at least. */
+/* Weight of Gumbel's law beside the generalized one, from 0 to 1, by Akaike's criterion of both fits to the values, by
+   likelihood, with the price of parameters that few values have (Hurvich and Tsai 1989).  count: LAW_VALUES_LEAST at
+   least. */
 double averaged_weight(const extreme_law *gumbel, const extreme_law *any, const double *value, int32_t count);
 
 /* Each end is where the tail areas of both laws, with their weights, add up to half of what the confidence leaves.

@@ -208,6 +208,18 @@ static bool fit_values(context *ctx, extreme_sample *s)
     return good;
 }
 
+/* How long blocks of a series must be for Gumbel's law nobody knows: what their maxima say beyond it counts too.  The
+   weight is one of fits by likelihood, however the level is fitted. */
+static void weigh_laws(extreme_sample *s)
+{
+    extreme_law gumbel;
+    if (extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, s->value.data, s->value.count, 0, &gumbel) &&
+        extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, s->value.data, s->value.count, 0, &s->any))
+        s->weight = averaged_weight(&gumbel, &s->any, s->value.data, s->value.count);
+    else
+        s->any.scale = 0;
+}
+
 /* Fit and levels of a sorted sample. */
 static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_request *ask, extreme_result *out,
                                  fram_error *error)
@@ -230,12 +242,8 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
         s->survival = survival_of(s->series, out->law.location);
     if (s->series && s->kind == LAW_PARETO && !fit_values(ctx, s))
         return error_memory(error);
-    /* How long blocks of a series must be for Gumbel's law nobody knows: what their maxima say beyond it counts too. */
-    if (s->series && s->kind == LAW_GUMBEL && !tied &&
-        extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, s->value.data, s->value.count, 0, &s->any))
-        s->weight = averaged_weight(&out->law, &s->any, s->value.data, s->value.count);
-    else
-        s->any.scale = 0;
+    if (s->series && s->kind == LAW_GUMBEL && !tied)
+        weigh_laws(s);
     keep_points(s, ask, out);
     bool good = sample_levels(ctx, s, ask, out);
     if (s->kind == LAW_GUMBEL)

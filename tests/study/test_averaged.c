@@ -4,7 +4,7 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/averaged.h"
-#include "study/peaks.h"
+#include "study/extremes.h"
 
 enum { COUNT = 30 };
 /* Three times thirty blocks, exceeded once. */
@@ -119,6 +119,33 @@ START_TEST(ends_rise_with_the_level)
 }
 END_TEST
 
+/* Weights are those of fits by likelihood, and the exact interval is that of either fit. */
+START_TEST(the_interval_does_not_depend_on_how_the_level_is_fitted)
+{
+    static double value[4000];
+    static extreme_result by[2];
+    const series_part part = {value, sizeof value / sizeof *value};
+    const series_set set = {&part, 1, 1};
+    random_stream r = random_begin(5, 4, 0);
+    context ctx;
+    context_init(&ctx);
+    for (int32_t i = 0; i < part.count; i++)
+        value[i] = real_exp(random_normal(&r));
+    for (int fit = 0; fit < 2; fit++) {
+        fram_error error = {0};
+        extreme_request ask;
+        extreme_request_default(&ask);
+        ask.levels = 0;
+        ask.fit = fit == 0 ? FIT_LIKELIHOOD : FIT_MOMENTS;
+        assert_ok(extremes_of_series(&ctx, &set, EXTREME_GUMBEL, &ask, &by[fit], &error), error);
+        ck_assert_msg(by[fit].answered, "%s", by[fit].note);
+    }
+    ck_assert_double_gt(fabs(by[1].most_probable.level / by[0].most_probable.level - 1), 0.01);
+    assert_relative(by[1].most_probable.low, by[0].most_probable.low, 1e-5);
+    assert_relative(by[1].most_probable.high, by[0].most_probable.high, 1e-5);
+}
+END_TEST
+
 TEST_MAIN("averaged", with_all_the_weight_it_is_the_interval_of_that_law,
           tails_of_both_laws_add_up_to_what_the_confidence_leaves, the_weight_goes_with_what_the_sample_says,
-          ends_rise_with_the_level)
+          ends_rise_with_the_level, the_interval_does_not_depend_on_how_the_level_is_fitted)
