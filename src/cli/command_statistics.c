@@ -266,6 +266,37 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
     return code;
 }
 
+/* Options that say how a method works, each with a bit. */
+enum { BY_BLOCK = 1, BY_THRESHOLD = 2, BY_SEPARATION = 4, BY_ORDER = 8, BY_FIT = 16 };
+static const char *const by_names[] = {"--block", "--threshold", "--separation", "--order", "--fit"};
+static const struct {
+    const char *method;
+    unsigned by;
+} methods_by[] = {{"acer", BY_THRESHOLD | BY_SEPARATION | BY_ORDER},
+                  {"upcrossing", BY_THRESHOLD},
+                  {"gumbel", BY_BLOCK | BY_FIT},
+                  {"gev", BY_BLOCK | BY_FIT},
+                  {"pot", BY_THRESHOLD | BY_SEPARATION | BY_FIT},
+                  {"weibull", 0}};
+
+/* One that the method has no use for would be passed over.  All methods together have one for each. */
+static int refuse_unused(const common_options *common, const fram_extremes_definition *d, unsigned given)
+{
+    unsigned by = given;
+    for (size_t i = 0; d->method && i < sizeof methods_by / sizeof *methods_by; i++)
+        by = strcmp(d->method, methods_by[i].method) == 0 ? methods_by[i].by : by;
+    if (d->maxima)
+        by = BY_BLOCK | BY_FIT;
+    for (size_t i = 0; i < sizeof by_names / sizeof *by_names; i++) {
+        char text[80];
+        if (!(given & ~by & 1u << i))
+            continue;
+        snprintf(text, sizeof text, "has no effect on %s; leave it out", d->maxima ? "maxima" : d->method);
+        return answer_usage(common, by_names[i], text);
+    }
+    return -1;
+}
+
 int command_extremes(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -313,6 +344,11 @@ int command_extremes(const command_row *self, int argc, char **argv)
         code = answer_usage(&common, words.from ? "--from" : "--step", "is for a series; maxima have no times");
     if (code < 0 && d.maxima && !block)
         code = answer_usage(&common, "--block", "is missing: the length of the blocks that the maxima are of");
+    if (code < 0)
+        code =
+            refuse_unused(&common, &d,
+                          (block ? BY_BLOCK : 0u) | (isnan(d.threshold) ? 0u : BY_THRESHOLD) |
+                              (separation ? BY_SEPARATION : 0u) | (d.order > 0 ? BY_ORDER : 0u) | (fit ? BY_FIT : 0u));
     d.moments = fit && strcmp(fit, "moments") == 0;
     if (code < 0)
         code = refuse_over_source(&common, &d.source, (output_file){"--draw", d.draw, PICTURE_ENDINGS});

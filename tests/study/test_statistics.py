@@ -266,6 +266,23 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "time"), "channel", "name one of those")
         self.refused(("extremes", file, "--channel", "tension", "--level", "0.5;0.9"), "--level")
         self.refused(("extremes", file, "--channel", "tension", "--maxima"), "--block")
+        # What a method that is named, or maxima, have no use for was passed over; a method that is none goes before.
+        maxima = ("--maxima", "--block", 3)
+        for words, of, option in ((("--method", "weibull"), "weibull", ("--threshold", 3)),
+                                  (("--method", "gumbel"), "gumbel", ("--order", 3)),
+                                  (("--method", "gev", "--block", 3), "gev", ("--separation", 3)),
+                                  (("--method", "acer"), "acer", ("--fit", "moments")),
+                                  (("--method", "pot", "--fit", "moments"), "pot", ("--block", 3)),
+                                  (maxima, "maxima", ("--threshold", 3)), (maxima, "maxima", ("--order", 3)),
+                                  ((*maxima, "--fit", "moments"), "maxima", ("--separation", 3))):
+            self.refused(("extremes", file, "--channel", "tension", *words, *option),
+                         f":0: {option[0]}: has no effect on {of}; leave it out")
+        for words in (("--order", 3, "--block", 3, "--method", "all"), ("--order", 3, "--separation", 3, "--block", 3),
+                      ("--method", "pot", "--threshold", 3, "--separation", 3, "--fit", "moments"),
+                      ("--method", "acer", "--threshold", 3, "--separation", 3), ("--method", "acer", "--order", 3),
+                      ("--method", "gev", "--block", 3, "--fit", "moments")):
+            self.refused(("extremes", file, "--channel", "tension", *words), "series.csv:4:")
+        self.refused(("extremes", file, "--method", "gumble", "--order", 3), "method", "gumble")
         self.refused(("fatigue", file, "--channel", "tension", "--slope", "0"), "slope")
         uneven = self.write("time,x\n0,1\n1,2\n5,3\n6,1\n", "uneven.csv")
         self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:4:", "equal distances", "found one of 4 s")
