@@ -153,5 +153,33 @@ START_TEST(a_study_of_a_table_without_memory)
 }
 END_TEST
 
+START_TEST(hours_fill_a_leap_year_and_no_more)
+{
+    /* Fifteen times 585.6 is 8784, and in floating point a little more. */
+    for (int more = 0; more < 2; more++) {
+        char text[400] = "scenario: base.yaml\nextremes: {annual: [0.01], hours: [", last[160];
+        for (int i = 0; i < 14; i++)
+            strcat(text, "585.6, ");
+        snprintf(last, sizeof last,
+                 "%s]}\nvary: {grid: {ice.thickness: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, "
+                 "14, 15]}}\n",
+                 more ? "585.601" : "585.6");
+        strcat(text, last);
+        context ctx;
+        fram_error error = {0};
+        study s = {0};
+        context_init(&ctx);
+        fram_status status = study_parse(&ctx, "s.yaml", text, strlen(text), &s, &error);
+        if (more) {
+            ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+            ck_assert_ptr_nonnull(strstr(error.message, "at most 8784, found 8784.001"));
+            continue;
+        }
+        assert_ok(status, error);
+        study_free(&ctx, &s);
+    }
+}
+END_TEST
+
 TEST_MAIN("condition_table", tables_of_any_program_are_read, hours_are_no_key, what_is_unclear_is_refused_at_its_place,
-          a_study_of_a_table_without_memory)
+          a_study_of_a_table_without_memory, hours_fill_a_leap_year_and_no_more)
