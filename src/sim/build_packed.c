@@ -3,6 +3,7 @@
 #include "ice/field_pack.h"
 #include "io/csv_read.h"
 #include "io/template_file.h"
+#include "sim/sanity_parts.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -33,6 +34,16 @@ static void files_free(context *ctx, population_files *f)
     memory_free(ctx, f->templates);
     memory_free(ctx, f->edge);
     memory_free(ctx, f->weight);
+}
+
+size_law population_size_law(const scenario_population *p)
+{
+    return (size_law){.kind = p->size,
+                      .mean = p->diameter,
+                      .deviation = p->diameter_deviation,
+                      .lo = p->diameter_min,
+                      .hi = p->diameter_max,
+                      .exponent = p->exponent};
 }
 
 static fram_status resolve(const scenario *s, const char *file, int32_t number, const char *member, char *out,
@@ -95,19 +106,14 @@ static fram_status read_population(context *ctx, const scenario *s, overlay *pla
     if (status == FRAM_OK && p->shape == POPULATION_TEMPLATES && plane)
         status = read_templates(ctx, s, plane, number, &f->templates[number], error);
     *out = (field_population){.share = p->share,
-                              .size = {.kind = p->size,
-                                       .mean = p->diameter,
-                                       .deviation = p->diameter_deviation,
-                                       .lo = p->diameter_min,
-                                       .hi = p->diameter_max,
-                                       .exponent = p->exponent,
-                                       .edge = f->edge[number].data,
-                                       .weight = f->weight[number].data,
-                                       .bins = f->weight[number].count},
+                              .size = population_size_law(p),
                               .shape = {.least_vertices = (int32_t)p->vertices_min,
                                         .most_vertices = (int32_t)p->vertices_max,
                                         .elongation = p->elongation,
                                         .templates = p->shape == POPULATION_TEMPLATES ? &f->templates[number] : NULL}};
+    out->size.edge = f->edge[number].data;
+    out->size.weight = f->weight[number].data;
+    out->size.bins = f->weight[number].count;
     if (p->size == SIZE_HISTOGRAM && s->sizes)
         out->size = *s->sizes;
     return status;
@@ -251,6 +257,14 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
     return status;
 }
 
+/* Of sizes that stand in a file, as of those that the scenario's keys tell. */
+static void tell_left_out_of_file(context *ctx, const scenario *s, const size_law *law)
+{
+    double area = s->ice.smallest_floe_area, across = sqrt(4 / PI * area), part = size_law_part(law, across);
+    if (s->ice.populations.data[0].size == SIZE_HISTOGRAM && !s->sizes && part > SANITY_LEFT_OUT)
+        log_write(ctx, LOG_WARNING, SANITY_LAW_CUT, area, across, part, 0, s->run.scale);
+}
+
 fram_status draw_managed(context *ctx, const scenario *s, world *w, field_request request, drawn_ice *out,
                          fram_error *error)
 {
@@ -259,6 +273,7 @@ fram_status draw_managed(context *ctx, const scenario *s, world *w, field_reques
                                                            : error_memory(error);
     if (status == FRAM_OK) {
         request.size = &files.population[0].size;
+        tell_left_out_of_file(ctx, s, request.size);
         status = field_voronoi(ctx, &request, &out->outlines, &out->report, error);
         if (status == FRAM_ERROR_INPUT)
             name_ice_request(s, error);

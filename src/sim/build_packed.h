@@ -4,6 +4,9 @@
 
 #include "sim/draw_ice.h"
 
+/* The law of size that the keys of a population tell; a histogram is in its file, and has no bins here. */
+size_law population_size_law(const scenario_population *p);
+
 /* A generator of fields names the member of its own request: the key that it came from, with its place. */
 void name_ice_request(const scenario *s, fram_error *error);
 

@@ -1,13 +1,12 @@
 #include "ice/floe.h"
 #include "sim/build_model.h"
+#include "sim/build_packed.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
 
 /* ---- sizes under which ice is left out ---- */
 
-/* Part of the mean floe from which on what is left out is ice that was asked for. */
-#define LEFT_OUT 0.1
 /* Part of a wedge that breaks off from which on floes that must be larger raise the load by more than chance. */
 #define WEDGES_KEPT 0.25
 /* Of the thickness squared: pieces smaller than this are no floes any more. */
@@ -20,7 +19,7 @@ static void tell_left_out(const teller *t, const char *key, double area)
     const scenario_ice *i = &t->s->ice;
     bool mean_floe = i->source == ICE_VORONOI && i->populations.count == 0;
     double wedge = i->breakable ? build_wedge_area(t->s) : HUGE_VAL;
-    if (mean_floe && area > LEFT_OUT * i->mean_floe_area)
+    if (mean_floe && area > SANITY_LEFT_OUT * i->mean_floe_area)
         sanity_say(t->tell, t->to,
                    "ice.%s: %.4g m2 is %.2g of the mean floe, %.4g m2: ice that is asked for is left out; give a "
                    "smaller area, or the run.scale (%g) by which it is found",
@@ -31,6 +30,20 @@ static void tell_left_out(const teller *t, const char *key, double area)
                    "or do not break off, and the ship sticks; give a smaller area, or the run.scale (%g) by which it "
                    "is found",
                    key, area, wedge, t->s->run.scale);
+}
+
+/* Cells that follow a law of size lose those of its floes that are smaller; packed floes are made as they were drawn,
+   and what a histogram has is in its file. */
+static void tell_law_cut(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    double across = sqrt(4 / PI * i->smallest_floe_area);
+    for (int32_t k = 0; i->source == ICE_VORONOI && k < i->populations.count; k++) {
+        const size_law law = population_size_law(&i->populations.data[k]);
+        double part = law.kind == SIZE_HISTOGRAM || size_law_fault(&law) ? 0 : size_law_part(&law, across);
+        if (part > SANITY_LEFT_OUT)
+            sanity_say(t->tell, t->to, SANITY_LAW_CUT, i->smallest_floe_area, across, part, (int)k, t->s->run.scale);
+    }
 }
 
 /* Ice that breaks in pieces which are not made: they stay with their neighbours, and the edge with its teeth. */
@@ -53,6 +66,7 @@ static void tell_thresholds(const teller *t)
     double speck = SPECK * i->thickness * i->thickness;
     tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
+    tell_law_cut(t);
     tell_wedges_kept(t);
     if (i->breakable && i->smallest_floe_area < speck)
         sanity_say(t->tell, t->to,

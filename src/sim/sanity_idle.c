@@ -85,6 +85,10 @@ static bool is_regular(const question *q) { return !is_rectangle(q); }
 static bool is_dry(const question *q) { return !q->s->environment.water; }
 /* The current is the drift of an endless field that has none of its own. */
 static bool is_dry_and_still(const question *q) { return is_dry(q) && (is_unfed(q) || has_own_drift(q)); }
+static bool keeps_all_floes(const question *q)
+{
+    return q->s->ice.source == ICE_PACKED && is_unbreakable(q) && is_unfed(q);
+}
 static bool has_no_current(const question *q) { return q->s->environment.current_speed == 0; }
 static bool has_no_wind(const question *q) { return q->s->environment.wind_speed == 0; }
 static bool wets_no_hull(const question *q)
@@ -167,6 +171,7 @@ static const idle_rule rules[] = {
     {"ice.mean_floe_area", is_of_cells, "floes are not cells of ice.source voronoi without populations"},
     {"ice.size_deviation", is_no_voronoi, "ice.source is not voronoi"},
     {"ice.roundness", is_no_voronoi, "ice.source is not voronoi"},
+    {"ice.smallest_floe_area", keeps_all_floes, "packed floes are made as they were drawn, and ice.breakable is false"},
     {"ice.open_water", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.populations", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.floes", is_no_list, "ice.source is not floes"},

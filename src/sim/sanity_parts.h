@@ -37,6 +37,14 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
 #define USUAL_THICKNESS_LEAST 0.02
 #define USUAL_THICKNESS_MOST 6
 
+/* Part of the mean floe, or of all floes, from which on what is left out is ice that was asked for. */
+#define SANITY_LEFT_OUT 0.1
+/* Of the least area [m2], its diameter [m], the part that has less, the population's number and run.scale. */
+#define SANITY_LAW_CUT                                                                                        \
+    "ice.smallest_floe_area: %.4g m2, %.3g m across, leaves out %.2g of the floes that the law of size of "   \
+    "ice.populations[%d] asks for, and those that are made are larger than it says; give a smaller area, or " \
+    "the run.scale (%g) by which it is found"
+
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
 

@@ -125,6 +125,12 @@ printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
 expect 0 "$FRAM" field managed.yaml --json
 same "$(value 'abs(j["made"]["concentration"] - 0.98) < 1e-6, j["made"]["largest_overlap_m"]')" "True 0" "managed ice"
 same "$(value 'j["made"]["populations"][0]["kolmogorov_smirnov"] < 0.03, j["floes"] > 800')" "True True" cells
+# A law of size that the least area cuts is told where it stands in a file, too.
+printf 'diameter_min[m],diameter_max[m],floes\n2,3,9\n3,9,9\n' >cut.csv
+cut=(--set domain.x_min=160 --set domain.y_min=160 --set ice.concentration=0.4)
+cut+=(--set "ice.populations[0].size=histogram" --set "ice.populations[0].histogram=cut.csv")
+expect 0 "$FRAM" field managed.yaml "${cut[@]}" --set ice.smallest_floe_area=8
+says "ice.smallest_floe_area: 8 m2, 3.19 m across, leaves out 0.52 of the floes" err
 if "$FRAM" --version | grep -q cairo; then
     expect 0 "$FRAM" field packed.yaml --draw field.png --cover cover.png --cell 10 --json
     for picture in field.png cover.png; do

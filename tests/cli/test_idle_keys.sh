@@ -117,6 +117,10 @@ YAML
 sed 's/^ice.*/ice: {source: floes, floes: [{}, {x: 20, shape: regular}]}/' packed.yaml >floes.yaml
 silent packed.yaml
 silent packed.yaml --set "ice.populations[0].exponent=2" --set "ice.populations[1].diameter=12"
+silent packed.yaml --set ice.smallest_floe_area=20 --set ice.breakable=true
+silent packed.yaml --set ice.smallest_floe_area=20 --set domain.boundary=feeding
+before=$(hash_of packed.yaml)
+idle packed.yaml ice.smallest_floe_area=20 "packed floes are made as they were drawn, and ice.breakable is false"
 told packed.yaml "ice.populations[0].diameter: without effect, since size is neither constant nor lognormal" \
     --set "ice.populations[0].diameter=12"
 told packed.yaml "ice.populations[1].diameter_max: without effect, since size is neither uniform" \

@@ -55,6 +55,11 @@ all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
+law='{size: power, diameter_min: 2, diameter_max: 20, exponent: 1.7}'
+sed "s/^ice:.*/ice: {source: voronoi, populations: [$law]}/" towed.yaml >cells.yaml
+all_told cells.yaml ice.smallest_floe_area=8 -- \
+    "smallest_floe_area: 8 m2, 3.19 m across, leaves out 0.56 of the floes|ice.populations[0]"
+all_told cells.yaml ice.smallest_floe_area=3.3 --
 all_told level.yaml ice.smallest_floe_area=1e-6 -- "smallest_floe_area: 1e-06 m2 keeps specks"
 all_told level.yaml ice.smallest_floe_area=11 -- \
     "smallest_floe_area: 11 m2 is more than the pieces that break off|wedges of about 10.2 m2"
