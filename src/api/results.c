@@ -277,22 +277,23 @@ static fram_status check_ice_from(const fram_capability_definition *d, fram_erro
 }
 
 /* The ice that came to the vessel in all runs together. */
-static fram_status read_met_ice(context *ctx, const fram_capability_definition *d, capability_met_ice *met,
-                                fram_error *error)
+static fram_status read_met_ice(context *ctx, const scenario *s, const fram_capability_definition *d,
+                                capability_met_ice *met, fram_error *error)
 {
+    double unit = scenario_size(s);
     managed_ice sum = {.windows = 0};
     fram_status status = FRAM_OK;
     for (int i = 0; i < d->ice_from_count && status == FRAM_OK; i++)
         status = REFUSE_NULL(error, {"ice_from", d->ice_from[i]});
     for (int i = 0; i < d->ice_from_count && status == FRAM_OK; i++)
-        status = manage_met_ice(ctx, d->ice_from[i], d->ice_vessel ? d->ice_vessel : d->vessel, &sum, error);
+        status = manage_met_ice(ctx, d->ice_from[i], d->ice_vessel ? d->ice_vessel : d->vessel, unit, &sum, error);
     *met = (capability_met_ice){.windows = sum.windows,
                                 .sheet_as = d->unbroken_as > 0 ? d->unbroken_as : (double)NAN,
                                 .side = d->window > 0 ? d->window : (double)NAN,
                                 .runs = d->ice_from,
                                 .run_count = d->ice_from_count};
     if (status == FRAM_OK)
-        status = managed_law_of(&sum, met->sheet_as, &met->law, error);
+        status = manage_met_law(&sum, unit, met->sheet_as, &met->law, error);
     /* Also where nothing else came, which is an error of the law. */
     if (met->law.sheet > UNBROKEN_MOST && !(d->unbroken_as > 0))
         status = error_set(error, FRAM_ERROR_INPUT, d->ice_from[0], 0, "unbroken_as",
@@ -320,7 +321,7 @@ fram_status(fram_capability)(const fram_scenario *from, const fram_capability_de
     capability_met_ice met;
     status = check_ice_from(d, error);
     if (status == FRAM_OK && d->ice_from_count > 0)
-        status = read_met_ice(&from->context->inner, d, &met, error);
+        status = read_met_ice(&from->context->inner, &from->inner, d, &met, error);
     if (status != FRAM_OK)
         return status;
     const capability_options options = {.folder = d->folder,

@@ -1,5 +1,6 @@
 /* Ice that was measured in windows before a vessel, as a law from which a field of the same ice can be made.  Sizes are
-   diameters of discs of a floe's area [m].  Knows neither runs nor scenarios. */
+   diameters of discs of a floe's area [m], in full size: who measures a model gives what its floes are there
+   (results/manage.h).  Knows neither runs nor scenarios. */
 #ifndef ICE_MANAGED_ICE_H
 #define ICE_MANAGED_ICE_H
 

@@ -21,7 +21,8 @@ typedef struct manage_options {
     const char *output; /* the page; NULL: FOLDER/manage.html; tables go beside it */
     double limit;       /* largest size of a floe that counts as managed [m]; a NaN: the vessel's beam */
     double depth;       /* of the windows along the drift [m]; a NaN: as much as the corridor is wide */
-    bool met;           /* keep what manage_met_ice sums up */
+    bool met;           /* keep what manage_met_ice sums up, */
+    double unit;        /* by sizes over this length [m] */
 } manage_options;
 
 typedef struct manage_summary {
@@ -51,8 +52,12 @@ fram_status manage_text(context *ctx, const manage_summary *s, const manage_summ
                         text_buffer *out, fram_error *error);
 /* Adds the ice that came to the vessel of a run in each window after the transient, as it was before the hull touched
    it: right behind the icebreakers where they broke it, else as far upstream as it was seen, else before the hull.
-   name: as manage_options. */
-fram_status manage_met_ice(context *ctx, const char *folder, const char *name, managed_ice *sum, fram_error *error);
+   name: as manage_options.  unit: a metre of full size, at the scale of who asks [m]; the same for all runs of a sum,
+   whose bins of size are of full size. */
+fram_status manage_met_ice(context *ctx, const char *folder, const char *name, double unit, managed_ice *sum,
+                           fram_error *error);
+/* managed_law_of such a sum, with all lengths as they are at that scale. */
+fram_status manage_met_law(const managed_ice *sum, double unit, double sheet_as, managed_law *out, fram_error *error);
 /* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,
    may be NULL.  FRAM_ERROR_INPUT for a folder without a run or a record, and for a vessel that is not there or not to
    be told from others; FRAM_ERROR_USAGE for a page whose tables would be written over what a run is made of. */

@@ -44,7 +44,8 @@ static bool near(const manage_floe *floe, const manage_window *window)
            floe->box.lo.y <= window->centre.y + half && floe->box.hi.y >= window->centre.y - half;
 }
 
-static void count_in(manage_cover *out, managed_cover *fine, const manage_floe *floe, double part, double limit)
+static void count_in(manage_cover *out, managed_cover *fine, const manage_floe *floe, double part, double limit,
+                     double unit)
 {
     double size = manage_size(floe->area);
     int k = 0;
@@ -58,14 +59,14 @@ static void count_in(manage_cover *out, managed_cover *fine, const manage_floe *
     while (k < MANAGE_CLASSES && size > manage_class_size[k])
         k++;
     out->of_class[k] += part;
-    managed_cover_add(fine, size, part);
+    managed_cover_add(fine, size / unit, part);
     out->size_area += part * size;
     out->managed += size <= limit ? part : 0;
     out->largest = fmax(out->largest, size);
 }
 
 fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count, const manage_window *window,
-                           double limit, manage_cover *out, managed_cover *fine, fram_error *error)
+                           double limit, double unit, manage_cover *out, managed_cover *fine, fram_error *error)
 {
     managed_cover unasked, *bins = fine ? fine : &unasked;
     clip_room room = {{{0}, {0}}};
@@ -80,7 +81,7 @@ fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count
         good = clip(ctx, &floes[i], window, &room, &part);
         double area = good ? fabs(polygon_area(part)) : 0;
         if (area > 0)
-            count_in(out, bins, &floes[i], area / whole, limit);
+            count_in(out, bins, &floes[i], area / whole, limit, unit);
     }
     clip_free(ctx, &room);
     return good ? FRAM_OK : error_memory(error);

@@ -37,10 +37,10 @@ typedef struct manage_cover {
 } manage_cover;
 
 double manage_size(double area);
-/* limit: the largest size that counts as managed [m].  fine: the same by finer bins of size, with the volume; may be
-   NULL. */
+/* limit: the largest size that counts as managed [m].  fine: the same by finer bins of size, which are of full size,
+   with the volume; may be NULL.  unit: a metre of full size in the ice that is measured [m]. */
 fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count, const manage_window *window,
-                           double limit, manage_cover *out, managed_cover *fine, fram_error *error);
+                           double limit, double unit, manage_cover *out, managed_cover *fine, fram_error *error);
 
 /* Unmanaged ice in a strip that begins at a vessel: infinite distances where there is none. */
 typedef struct manage_threat {

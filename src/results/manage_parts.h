@@ -31,7 +31,7 @@ typedef struct manage_run {
     run_data d;
     int32_t vessel, helpers;
     double helper_reach[MANAGE_HELPERS]; /* half the length of each [m] */
-    double limit, depth;
+    double limit, depth, unit;
     ARRAY(manage_moment) moments;
     ARRAY(managed_cover) met; /* of each moment, where asked for: the ice at the place that manage_came_from tells */
 } manage_run;

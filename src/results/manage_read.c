@@ -316,8 +316,8 @@ static fram_status look_at(manage_run *m, const look_list *looks, const ice_now 
         manage_moment *at = &m->moments.data[k];
         manage_window window = window_at(m, k, i);
         managed_cover *met = m->met.count > 0 && place == manage_came_from(at) ? &m->met.data[k] : NULL;
-        status =
-            manage_measure(m->ctx, ice->floes.data, ice->floes.count, &window, m->limit, &at->cover[place], met, error);
+        status = manage_measure(m->ctx, ice->floes.data, ice->floes.count, &window, m->limit, m->unit,
+                                &at->cover[place], met, error);
     }
     return status;
 }
@@ -381,6 +381,7 @@ static fram_status read_all(manage_run *m, const manage_options *options, fram_e
     m->helpers = others < MANAGE_HELPERS ? others : MANAGE_HELPERS;
     m->limit = options->limit;
     m->depth = options->depth;
+    m->unit = options->met ? options->unit : 1;
     status = read_ways(m, error);
     if (status == FRAM_OK && m->moments.count == 0)
         status = error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, NULL, "the record shows no vessel");

@@ -80,6 +80,32 @@ expect 0 "$FRAM" check made.yaml
 expect 2 "$FRAM" capability made.yaml -o a --force --ice-from run --ice-vessel ship "${ask[@]}"
 says "--output: names what the command reads" err
 
+# In a model of 1:40 the floes are of as many sizes.
+python3 - <<'END'
+import re
+k, keys = 1 / 40, "length|beam|draught|freeboard|width|thickness|x|y|x_min|x_max|y_min|y_max"
+def model(path, of, more):
+    text = re.sub(rf"\b({keys}): (-?[\d.]+)", lambda m: f"{m[1]}: {float(m[2]) * k:.9g}", open(of).read())
+    text = re.sub(r"\b(duration|time_step|transient|velocity_x): (-?[\d.]+)",
+                  lambda m: f"{m[1]}: {float(m[2]) * k**0.5:.9g}", text)
+    open(path, "w").write(text.replace("run: {", "run: {scale: 0.75, ").replace("frame_interval: 1", more))
+model("model.yaml", "scene.yaml", "frame_interval: 0.15811388")
+model("tank.yaml", "held.yaml", "")
+END
+sed -i 's/, thrust: [^}]*/, thrust: 0.6/g; s/source: level/&, mean_floe_area: 0.04/' tank.yaml
+"$FRAM" run model.yaml -o model -q
+expect 0 "$FRAM" capability tank.yaml -o m --ice-from model --ice-vessel ship --measure 0.02 --directions 4 \
+    --speed-step 0.05 --speed-most 0.05 --window 2
+python3 - <<'END' || fail "floes of a model"
+import csv, json, math
+ice = json.load(open("m/capability.json"))["ice_from"]
+bins = [r for r in csv.DictReader(open("m/capability_floes.csv")) if float(r["floes[1]"]) > 0]
+assert len(bins) == 2, bins
+for r, side in zip(bins, (0.075, 0.2)):
+    assert float(r["diameter_min[m]"]) < side * math.sqrt(4 / math.pi) <= float(r["diameter_max[m]"]), (r, side)
+assert abs(ice["largest_m"] - math.sqrt(0.16 / math.pi)) < 1e-7, ice
+END
+
 # Unbroken ice is not passed over.
 grep -v thrusters held.yaml >fast.yaml
 "$FRAM" run fast.yaml -o level -q --set vessel.mode=prescribed --set ice.breakable=true \

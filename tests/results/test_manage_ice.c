@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "base/transcendental.h"
-#include "results/manage_ice.h"
+#include "results/manage.h"
 
 enum { MOST = 64 };
 
@@ -28,7 +28,7 @@ static manage_cover cover_of(field *f, manage_window w, double limit)
 {
     manage_cover out;
     fram_error error = {0};
-    assert_ok(manage_measure(&f->ctx, f->floe, f->count, &w, limit, &out, NULL, &error), error);
+    assert_ok(manage_measure(&f->ctx, f->floe, f->count, &w, limit, 1, &out, NULL, &error), error);
     return out;
 }
 
@@ -60,12 +60,36 @@ START_TEST(covers_are_areas_in_the_window)
     managed_cover fine;
     fram_error error = {0};
     f.floe[12].thickness = 3;
-    assert_ok(
-        manage_measure(&f.ctx, f.floe, f.count, &(manage_window){{17.5, 12.5}, {1, 0}, 45, 35}, 10, &c, &fine, &error),
-        error);
+    assert_ok(manage_measure(&f.ctx, f.floe, f.count, &(manage_window){{17.5, 12.5}, {1, 0}, 45, 35}, 10, 1, &c, &fine,
+                             &error),
+              error);
     assert_relative(fine.volume, (12 * 16 + 3 * 100) / whole, 1e-12);
     c = cover_of(&f, (manage_window){{17.5, 12.5}, {1, 0}, 45, 35}, 23);
     assert_relative(c.managed, c.ice, 1e-12);
+}
+END_TEST
+
+/* Five squares of 4 and five of 20 cm in a model of 1:40. */
+START_TEST(sizes_of_a_model_are_told_apart)
+{
+    const double unit = 1.0 / 40, size[2] = {manage_size(0.04 * 0.04), manage_size(0.2 * 0.2)};
+    field f = {.count = 0};
+    context_init(&f.ctx);
+    fram_error error = {0};
+    for (int i = 0; i < 10; i++)
+        add(&f, 0.1 * i, 0, i < 5 ? 0.04 : 0.2, false);
+    manage_cover c;
+    managed_ice sum = {.windows = 0};
+    managed_cover fine;
+    managed_law law;
+    const manage_window window = {{0.5, 0}, {1, 0}, 2, 1};
+    assert_ok(manage_measure(&f.ctx, f.floe, f.count, &window, 0.1, unit, &c, &fine, &error), error);
+    managed_ice_add(&sum, &fine, c.largest / unit);
+    assert_ok(manage_met_law(&sum, unit, (double)NAN, &law, &error), error);
+    ck_assert(law.edge[0] < size[0] && law.edge[1] > size[0]);
+    ck_assert(law.edge[law.bins - 1] < size[1] && law.edge[law.bins] > size[1]);
+    assert_relative(law.mean, (0.0016 * size[0] + 0.04 * size[1]) / 0.0416, 1e-12);
+    assert_relative(law.largest, size[1], 1e-12);
 }
 END_TEST
 
@@ -125,5 +149,5 @@ START_TEST(threats_are_the_nearest_and_the_largest)
 }
 END_TEST
 
-TEST_MAIN("manage_ice", size_is_that_of_a_disc, covers_are_areas_in_the_window, windows_turn_and_the_sheet_is_no_floe,
-          concave_floes_count_by_area, threats_are_the_nearest_and_the_largest)
+TEST_MAIN("manage_ice", size_is_that_of_a_disc, covers_are_areas_in_the_window, sizes_of_a_model_are_told_apart,
+          windows_turn_and_the_sheet_is_no_floe, concave_floes_count_by_area, threats_are_the_nearest_and_the_largest)
