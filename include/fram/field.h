@@ -103,8 +103,9 @@ FRAM_API int fram_field_notes(const fram_field *field, fram_field_note *notes, i
    be NULL with room 0. */
 FRAM_API int fram_field_outline(const fram_field *field, int floe, double *vertices, int room);
 
-/* Ice area over the area of the window lo .. hi, each x and y [1]; exact where floes do not overlap.  NaN for
-   a window without area. */
+/* Ice area over the area of the window lo .. hi, each x and y [1]; exact where floes do not overlap.  A field generated
+   under domain.boundary: feeding goes on beyond its tile, for windows and the cover map.  NaN for a window without
+   area. */
 FRAM_API double fram_field_concentration(const fram_field *field, const double lo[2], const double hi[2]);
 
 /* --- How it was made --- */

@@ -86,7 +86,7 @@ fram_status fram_field_draw_cover(const fram_field *f, double cell, const char *
     plan_shape *shapes = memory_array(ctx, cells, sizeof *shapes);
     status = cover && corners && shapes ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK) {
-        field_cover_map(&f->floes.outlines, f->window, nx, ny, cover);
+        field_cover_map(&f->floes.outlines, f->period, f->window, nx, ny, cover);
         cover_cells(f->window, nx, ny, cover, corners, shapes);
         double least = 1, most = 0;
         for (size_t i = 0; i < cells; i++) {

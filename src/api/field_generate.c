@@ -20,6 +20,8 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
         return status;
     f->floes.outlines = f->drawn.outlines;
     f->drawn.outlines = (polygon_list){0};
+    if (s->domain.boundary == DOMAIN_FEEDING)
+        f->period = vec2_sub(f->window.hi, f->window.lo);
     bool asked = s->ice.source != ICE_FILE || s->ice.populations.count > 0;
     f->tile = s->domain.boundary == DOMAIN_FEEDING;
     f->target = asked ? s->ice.concentration : (double)NAN;
@@ -53,7 +55,7 @@ double fram_field_concentration(const fram_field *f, const double lo[2], const d
     bool window = f && lo && hi && lo[0] < hi[0] && lo[1] < hi[1];
     if (!window || !isfinite(hi[0] - lo[0]) || !isfinite(hi[1] - lo[1]))
         return (double)NAN;
-    return field_concentration(&f->floes.outlines, (box2){{lo[0], lo[1]}, {hi[0], hi[1]}});
+    return field_concentration(&f->floes.outlines, f->period, (box2){{lo[0], lo[1]}, {hi[0], hi[1]}});
 }
 
 bool(fram_field_making_get)(const fram_field *f, fram_field_making *making, size_t size)

@@ -15,6 +15,7 @@ struct fram_field {
     bool tile;       /* of a scenario that is fed: what repeats itself */
     double target;   /* concentration that the scenario asks for, or NaN [1] */
     box2 window;     /* what is shown [m] */
+    vec2 period;     /* of an endless field, whose tile is the window; 0, 0: it ends [m] */
     fram_field_definition made;
     fram_field_summary about;
 };

@@ -3,6 +3,8 @@
 
 #include "geometry/box_pairs.h"
 
+#include <math.h>
+
 enum { MEASURED_VERTICES = 24 };
 
 /* Convex pieces, and the outline that each is of; outlines of the second list are counted from -1 down. */
@@ -68,13 +70,6 @@ static double common_area(polygon p, box2 b)
     return polygon_overlap_area(p, (polygon){corner, 4});
 }
 
-double field_concentration(const polygon_list *floes, box2 window)
-{
-    double cover;
-    field_cover_map(floes, window, 1, 1, &cover);
-    return cover;
-}
-
 /* Cells from `first` on that [lo, hi] meets; none: first > last. */
 static void cell_range(double lo, double hi, double origin, double width, int32_t count, int32_t *first, int32_t *last)
 {
@@ -83,23 +78,70 @@ static void cell_range(double lo, double hi, double origin, double width, int32_
     *last = b < 0 ? -1 : b >= count ? count - 1 : (int32_t)b;
 }
 
-void field_cover_map(const polygon_list *floes, box2 box, int32_t nx, int32_t ny, double *cover)
+/* Adds the area of an outline, moved by a vector, to the cells. */
+static void add_area(polygon p, vec2 by, box2 box, int32_t nx, int32_t ny, double *cover)
 {
-    vec2 width = {(box.hi.x - box.lo.x) / nx, (box.hi.y - box.lo.y) / ny};
+    vec2 width = {(box.hi.x - box.lo.x) / nx, (box.hi.y - box.lo.y) / ny}, origin = vec2_sub(box.lo, by);
+    box2 b = polygon_bounds(p);
+    int32_t x0, x1, y0, y1;
+    cell_range(b.lo.x, b.hi.x, origin.x, width.x, nx, &x0, &x1);
+    cell_range(b.lo.y, b.hi.y, origin.y, width.y, ny, &y0, &y1);
+    for (int32_t y = y0; y <= y1; y++)
+        for (int32_t x = x0; x <= x1; x++) {
+            vec2 lo = {origin.x + x * width.x, origin.y + y * width.y};
+            cover[y * nx + x] += common_area(p, (box2){lo, vec2_add(lo, width)});
+        }
+}
+
+/* Copies of [lo, hi] that meet [from, to]: moved by `first` to `last` periods. */
+static void copy_range(double lo, double hi, double from, double to, double period, double *first, double *last)
+{
+    *first = period > 0 ? ceil((from - hi) / period) : 0;
+    *last = period > 0 ? floor((to - lo) / period) : 0;
+}
+
+void field_cover_map(const polygon_list *floes, vec2 period, box2 box, int32_t nx, int32_t ny, double *cover)
+{
     for (int32_t i = 0; i < nx * ny; i++)
         cover[i] = 0;
     for (int32_t i = 0; i < polygon_list_count(floes); i++) {
         polygon p = polygon_list_get(floes, i);
         box2 b = polygon_bounds(p);
-        int32_t x0, x1, y0, y1;
-        cell_range(b.lo.x, b.hi.x, box.lo.x, width.x, nx, &x0, &x1);
-        cell_range(b.lo.y, b.hi.y, box.lo.y, width.y, ny, &y0, &y1);
-        for (int32_t y = y0; y <= y1; y++)
-            for (int32_t x = x0; x <= x1; x++) {
-                vec2 lo = {box.lo.x + x * width.x, box.lo.y + y * width.y};
-                cover[y * nx + x] += common_area(p, (box2){lo, vec2_add(lo, width)});
-            }
+        double x0, x1, y0, y1;
+        copy_range(b.lo.x, b.hi.x, box.lo.x, box.hi.x, period.x, &x0, &x1);
+        copy_range(b.lo.y, b.hi.y, box.lo.y, box.hi.y, period.y, &y0, &y1);
+        for (double y = y0; y <= y1; y++)
+            for (double x = x0; x <= x1; x++)
+                add_area(p, vec2_make(x * period.x, y * period.y), box, nx, ny, cover);
     }
+    vec2 width = {(box.hi.x - box.lo.x) / nx, (box.hi.y - box.lo.y) / ny};
     for (int32_t i = 0; i < nx * ny; i++)
         cover[i] /= width.x * width.y;
+}
+
+/* Ice area in a box. */
+static double ice_in(const polygon_list *floes, vec2 period, vec2 lo, vec2 size)
+{
+    double cover, area = size.x * size.y;
+    if (!(area > 0))
+        return 0;
+    field_cover_map(floes, period, (box2){lo, vec2_add(lo, size)}, 1, 1, &cover);
+    return cover * area;
+}
+
+double field_concentration(const polygon_list *floes, vec2 period, box2 window)
+{
+    double cover;
+    if (!(period.x > 0 && period.y > 0)) {
+        field_cover_map(floes, period, window, 1, 1, &cover);
+        return cover;
+    }
+    /* However large the window and wherever it lies: each whole period holds what the first one does. */
+    vec2 size = vec2_sub(window.hi, window.lo), rest = {fmod(size.x, period.x), fmod(size.y, period.y)};
+    vec2 lo = {fmod(window.lo.x, period.x), fmod(window.lo.y, period.y)};
+    double nx = (size.x - rest.x) / period.x, ny = (size.y - rest.y) / period.y;
+    double ice = nx * ny * ice_in(floes, period, lo, period) + ice_in(floes, period, lo, rest) +
+                 nx * ice_in(floes, period, lo, vec2_make(period.x, rest.y)) +
+                 ny * ice_in(floes, period, lo, vec2_make(rest.x, period.y));
+    return ice / (size.x * size.y);
 }

@@ -11,11 +11,12 @@
 fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *floes, const polygon_list *others,
                                   double *overlap, fram_error *error);
 
-/* Ice area within a window over the window's area; outlines must not overlap. */
-double field_concentration(const polygon_list *floes, box2 window);
+/* Ice area within a window over the window's area; outlines must not overlap.  period: by which the field repeats
+   itself along each axis [m]; 0, 0: it does not. */
+double field_concentration(const polygon_list *floes, vec2 period, box2 window);
 
 /* Concentration in each of nx x ny equal cells of a box, row by row from its lower left corner; cover is of nx ny
    numbers, and exact. */
-void field_cover_map(const polygon_list *floes, box2 box, int32_t nx, int32_t ny, double *cover);
+void field_cover_map(const polygon_list *floes, vec2 period, box2 box, int32_t nx, int32_t ny, double *cover);
 
 #endif

@@ -398,10 +398,10 @@ START_TEST(the_cover_map_is_exact)
     polygon_list floes = {0};
     ck_assert(polygon_list_push(&ctx, &floes, (polygon){square, 4}));
     double cover[6];
-    field_cover_map(&floes, (box2){{0, 0}, {6, 4}}, 3, 2, cover);
+    field_cover_map(&floes, vec2_make(0, 0), (box2){{0, 0}, {6, 4}}, 3, 2, cover);
     const double expected[6] = {0.25, 0.25, 0, 0.25, 0.25, 0};
     assert_array_absolute(cover, expected, 6, 1e-15);
-    assert_absolute(field_concentration(&floes, (box2){{2, 0}, {4, 4}}), 0.25, 1e-15);
+    assert_absolute(field_concentration(&floes, vec2_make(0, 0), (box2){{2, 0}, {4, 4}}), 0.25, 1e-15);
     polygon_list_free(&ctx, &floes);
 }
 END_TEST

@@ -100,6 +100,13 @@ START_TEST(without_a_seam)
     polygon_list floes = {0};
     vec2_array ring = {0};
     int32_t count = make_good(&ctx, &q, &floes).floes, across = 0;
+    /* What reaches over an edge covers the other side. */
+    const vec2 period = vec2_sub(q.domain.hi, q.domain.lo);
+    double cover[4], sum = 0;
+    field_cover_map(&floes, period, q.domain, 4, 1, cover);
+    for (int i = 0; i < 4; i++)
+        sum += cover[i] / 4;
+    assert_relative(sum, q.concentration, 1e-6);
     for (int32_t i = 0; i < count; i++) {
         polygon p = polygon_list_get(&floes, i);
         box2 b = polygon_bounds(p);
