@@ -52,6 +52,7 @@ typedef struct importing {
     import_frame frame;
     import_field *out;
     fram_error *error;
+    bool crops;        /* at the edge of the domain */
     int32_t ring;      /* at work */
     vec2_array vertex; /* of it, in place */
     polygon_list pieces, cut;
@@ -227,7 +228,7 @@ static fram_status crop(importing *m, polygon p)
 {
     box2 domain = m->options->domain, box = polygon_bounds(p);
     polygon_list_clear(&m->cut);
-    if (!m->options->crop || box_holds(domain, box))
+    if (!m->crops || box_holds(domain, box))
         return polygon_list_push(m->ctx, &m->cut, p) ? FRAM_OK : error_memory(m->error);
     const vec2 corner[4] = {domain.lo, {domain.hi.x, domain.lo.y}, domain.hi, {domain.lo.x, domain.hi.y}};
     fram_status status = FRAM_OK;
@@ -280,15 +281,32 @@ static fram_status refuse_empty(const importing *m)
                      (int)m->rings->place.count, (int)m->out->notes.count);
 }
 
+static fram_status import_all(importing *m, bool crops)
+{
+    fram_status status = FRAM_OK;
+    int32_t count = m->rings->place.count;
+    m->crops = crops;
+    for (m->ring = 0; status == FRAM_OK && m->ring < count; m->ring++) {
+        status = work_continue(m->ctx, "looking at the outlines", m->ring, count, m->error);
+        if (status == FRAM_OK)
+            status = import_ring(m);
+    }
+    return status;
+}
+
 fram_status import_field_make(context *ctx, overlay *o, const import_rings *rings, const import_options *options,
                               import_field *out, fram_error *error)
 {
     importing m = {.ctx = ctx, .plane = o, .rings = rings, .options = options, .out = out, .error = error};
+    bool whole = options->crop && options->tile, fits = true;
     fram_status status = import_frame_make(rings, options, &m.frame, error);
-    for (; status == FRAM_OK && m.ring < rings->place.count; m.ring++) {
-        status = work_continue(ctx, "looking at the outlines", m.ring, rings->place.count, error);
-        if (status == FRAM_OK)
-            status = import_ring(&m);
+    if (status == FRAM_OK)
+        status = import_all(&m, options->crop && !whole);
+    if (status == FRAM_OK && whole)
+        status = import_fits_tile(ctx, options, &out->outlines, &fits, error);
+    if (status == FRAM_OK && !fits) {
+        import_field_free(ctx, out);
+        status = import_all(&m, true);
     }
     if (status == FRAM_OK && options->bad == IMPORT_REPAIR)
         status = import_cut_overlaps(ctx, o, options, out, error);

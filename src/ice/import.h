@@ -38,7 +38,9 @@ typedef struct import_options {
     bool centre;  /* the centre of the bounds of all rings goes to `offset`, instead of their origin */
     vec2 offset;  /* [m], added after scaling */
     bool crop;    /* floes are cut at the edge of `domain` */
-    box2 domain;  /* [m] */
+    bool tile; /* with crop, where the field repeats itself beyond `domain`: all stay whole if they fit to their copies
+                  and each lies in the domain or beside it, no farther off than it is wide */
+    box2 domain;     /* [m] */
     double simplify; /* largest distance by which an outline may change [m]; 0: not at all */
     import_bad bad;
     bool as_it_is;        /* nobody chooses degrees, scale or bad: refusals do not name what could be chosen */

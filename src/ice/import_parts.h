@@ -19,6 +19,11 @@ fram_status import_pairs(context *ctx, const char *name, const polygon_list *out
 /* Whether a ring crosses itself so often that it is no outline to be repaired.  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
 fram_status import_crosses_too_often(context *ctx, polygon p, bool *too_often, fram_error *error);
 
+/* Whether floes are a tile that repeats itself beyond options->domain, as options->tile says: none overlaps another or
+   a copy of one. */
+fram_status import_fits_tile(context *ctx, const import_options *options, const polygon_list *floes, bool *fits,
+                             fram_error *error);
+
 /* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.
    Cut pieces under the smallest area or a thousandth of their floe are left out. */
 fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *options, import_field *field,

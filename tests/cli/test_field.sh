@@ -131,17 +131,21 @@ cut=(--set domain.x_min=160 --set domain.y_min=160 --set ice.concentration=0.4)
 cut+=(--set "ice.populations[0].size=histogram" --set "ice.populations[0].histogram=cut.csv")
 expect 0 "$FRAM" field managed.yaml "${cut[@]}" --set ice.smallest_floe_area=8
 says "ice.smallest_floe_area: 8 m2, 3.19 m across, leaves out 0.52 of the floes" err
-# Windows of an endless field count what lies across its tile's edge.
+# The written tile of an endless field starts it again to the bit; windows count what lies across the tile's edge.
 for ice in 'source: voronoi, mean_floe_area: 60' \
     'source: packed, populations: [{size: uniform, diameter_min: 8, diameter_max: 14}]'; do
     printf '%s\n' 'run: {duration: 0.1}' 'vessel: {present: false}' 'domain: {x_min: -40, x_max: 40, y_min: -40,' \
         '  y_max: 40, boundary: feeding, drift_speed: 0.5, tile_x: 120, tile_y: 130}' \
         "ice: {concentration: 0.6, $ice}" >endless.yaml
-    expect 0 "$FRAM" field endless.yaml --window -60,-65,60,65 --window 7,-200,127,60 \
+    expect 0 "$FRAM" field endless.yaml -o tile.geojson --window -60,-65,60,65 --window 7,-200,127,60 \
         --window -60,-60,-50,60 --window 900,-60,910,60 --window -620,-650,580,650 --json
     same "$(value '[abs(w["concentration"] - j["area_m2"] / 15600) < 1e-9 for w in j["windows"][:2] + j["windows"][4:]],
         abs(j["windows"][2]["concentration"] - j["windows"][3]["concentration"]) < 1e-9')" "[True, True, True] True" \
         "windows of an endless field, $ice"
+    sed '/^ice/d' endless.yaml >again.yaml
+    echo 'ice: {source: file, file: tile.geojson}' >>again.yaml
+    expect 0 "$FRAM" field again.yaml -o back.geojson
+    cmp -s tile.geojson back.geojson || fail "the tile of an endless field reads back as another one, $ice"
 done
 if "$FRAM" --version | grep -q cairo; then
     expect 0 "$FRAM" field packed.yaml --draw field.png --cover cover.png --cell 10 --json

@@ -312,6 +312,36 @@ START_TEST(far_coordinates_and_empty_fields_are_refused)
 END_TEST
 
 /* A U whose legs are cut off by the window, one of them too small; a floe outside; one near a zone. */
+/* Of a tile that repeats itself a square over its edge stays whole, unless it lies over a copy of another floe, or one
+   is farther off than it is wide. */
+START_TEST(tiles_stay_whole)
+{
+    static const struct {
+        const char *other;
+        double left, area; /* of the tile [m]; of the square [m2] */
+        int floes;
+    } row[] = {{"[[-7,0],[-3,0],[-3,4],[-7,4],[-7,0]]", -10, 16, 2},
+               {"[[-15,5],[-11,5],[-11,9],[-15,9],[-15,5]]", -10, 16, 2},
+               {"[[1,0],[5,0],[5,4],[1,4],[1,0]]", 0, 8, 2},
+               {"[[-20,5],[-16,5],[-16,9],[-20,9],[-20,5]]", -10, 8, 1}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        rig *r = rig_make();
+        char text[600];
+        snprintf(text, sizeof text, COLLECTION(FEATURE("[[18,0],[22,0],[22,4],[18,4],[18,0]]") "," FEATURE("%s")),
+                 row[i].other);
+        assert_ok(parse(r, text), r->error);
+        import_options o = options_of(IMPORT_REFUSE);
+        o.crop = o.tile = true;
+        o.domain = (box2){{row[i].left, -10}, {20, 10}};
+        assert_ok(import(r, &o), r->error);
+        assert_absolute(floe_area(r, 0), row[i].area, 1e-12);
+        ck_assert_int_eq(polygon_list_count(&r->field.outlines), row[i].floes);
+        ck_assert_int_eq(r->field.notes.count, 2 - row[i].floes);
+        rig_free(r);
+    }
+}
+END_TEST
+
 START_TEST(crop_slivers_and_keep_out)
 {
     for (int near = 0; near < 2; near++) {
@@ -548,6 +578,7 @@ int main(void)
     tcase_add_test(cases, clockwise_rings_are_turned_scaled_and_moved);
     tcase_add_test(cases, far_coordinates_and_empty_fields_are_refused);
     tcase_add_test(cases, crop_slivers_and_keep_out);
+    tcase_add_test(cases, tiles_stay_whole);
     tcase_add_test(cases, overlaps_are_measured_and_cut);
     tcase_add_test(cases, simplified_within_the_tolerance);
     tcase_add_test(cases, what_is_written_reads_back_to_the_bit);
