@@ -118,6 +118,21 @@ bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_
     return length >= 0 && (size_t)length < size;
 }
 
+/* The most steps that loads are averaged over. */
+enum { AVERAGING_STEPS_MOST = 1000000 };
+
+int64_t scenario_averaging_steps(const scenario *s)
+{
+    double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
+    return steps < 1 ? 1 : steps > AVERAGING_STEPS_MOST ? AVERAGING_STEPS_MOST : (int64_t)steps;
+}
+
+double scenario_averaging_window(const scenario *s)
+{
+    double asked = s->output.averaging_window, made = (double)scenario_averaging_steps(s) * s->run.time_step;
+    return fabs(made - asked) <= 1e-9 * asked ? asked : made;
+}
+
 vec3 scenario_velocity(double speed, double direction_deg)
 {
     double angle = radians(direction_deg);

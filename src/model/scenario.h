@@ -98,6 +98,11 @@ void scenario_locate(const scenario *s, fram_error *error);
 /* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
 vec3 scenario_velocity(double speed, double direction_deg);
 
+/* Steps that loads are averaged over, one at least, and how long these are [s]: output.averaging_window itself where it
+   is whole steps, within rounding. */
+int64_t scenario_averaging_steps(const scenario *s);
+double scenario_averaging_window(const scenario *s);
+
 /* Where a key, section or list was given; NULL when it was not. */
 const scenario_place *scenario_given(const scenario *s, const char *key);
 

@@ -59,13 +59,9 @@ static fram_status name_ice(const scenario *s, fram_status status, fram_error *e
     return status;
 }
 
-/* The most steps that loads are averaged over. */
-enum { LOAD_WINDOW_MOST = 1000000 };
-
 fram_status build_load_window(context *ctx, const scenario *s, int32_t vessels, world *w, fram_error *error)
 {
-    double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
-    int32_t window = steps < 1 ? 1 : steps > LOAD_WINDOW_MOST ? LOAD_WINDOW_MOST : (int32_t)steps;
+    int32_t window = (int32_t)scenario_averaging_steps(s);
     if (!table_resize(ctx, &w->load_window, &load_window_table_info, window * vessels))
         return error_memory(error);
     return FRAM_OK;

@@ -109,7 +109,7 @@ static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool
     status = world_copy(r->ctx, from, &w, error);
     if (status == FRAM_OK) {
         if (parts > 1)
-            status = rerun_divide_step(r->ctx, &s, from, parts, &w, error);
+            status = rerun_divide_step(r->ctx, from, parts, &w, error);
         if (status == FRAM_OK)
             status = follow(r, &m, &w, !accurate && parts == 1, largest, error);
         world_free(r->ctx, &w);
@@ -166,7 +166,7 @@ fram_status rerun_start(context *ctx, const char *folder, const scenario *s, dou
 static fram_status go_back(rerun *r, const model *m, fram_error *error)
 {
     world w = {0};
-    double fork = fmax(r->time - DIFFERS_FOR - r->s.output.averaging_window, 0);
+    double fork = fmax(r->time - DIFFERS_FOR - scenario_averaging_window(&r->s), 0);
     fram_status status = rerun_start(r->ctx, r->folder, &r->s, fork, m, &w, error);
     if (status != FRAM_OK)
         return status;

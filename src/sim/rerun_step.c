@@ -1,34 +1,28 @@
 #include "sim/rerun_step.h"
 
-#include "sim/build.h"
-
-/* Where the new window reaches further back than the old one, for lengths are rounded, it begins with its first load.
- */
-static void divide_loads(const world *from, int32_t parts, world *w)
+/* A window of as long a time: of `parts` times as many steps, whatever the scenario's comes to in these. */
+static fram_status divide_loads(context *ctx, const world *from, int32_t parts, world *w, fram_error *error)
 {
-    int64_t now = w->clock.step[0], oldest = from->clock.step[0] - load_window_length(from);
-    int64_t first = now - load_window_length(w);
+    int64_t now = w->clock.step[0], first = now - parts * load_window_length(from);
+    if (!table_resize(ctx, &w->load_window, &load_window_table_info, parts * from->load_window.count))
+        return error_memory(error);
     for (int64_t i = first < 0 ? 0 : first; i < now; i++) {
-        int64_t then = i / parts < oldest ? oldest : i / parts;
         for (int32_t v = 0; v < w->vessels.count; v++) {
-            int64_t row = load_window_row(w, i, v), old = load_window_row(from, then, v);
+            int64_t row = load_window_row(w, i, v), old = load_window_row(from, i / parts, v);
             w->load_window.force[row] = from->load_window.force[old];
             w->load_window.moment[row] = from->load_window.moment[old];
         }
     }
+    return FRAM_OK;
 }
 
-fram_status rerun_divide_step(context *ctx, const scenario *s, const world *from, int32_t parts, world *w,
-                              fram_error *error)
+fram_status rerun_divide_step(context *ctx, const world *from, int32_t parts, world *w, fram_error *error)
 {
     w->clock.step[0] = from->clock.step[0] * parts;
-    fram_status status = build_load_window(ctx, s, w->vessels.count, w, error);
-    if (status != FRAM_OK)
-        return status;
-    divide_loads(from, parts, w);
-    for (int32_t v = 0; v < w->stations.count; v++) {
+    fram_status status = divide_loads(ctx, from, parts, w, error);
+    for (int32_t v = 0; v < w->stations.count && status == FRAM_OK; v++) {
         w->stations.control_every[v] *= parts;
         w->stations.sample_every[v] *= parts;
     }
-    return FRAM_OK;
+    return status;
 }

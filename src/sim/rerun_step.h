@@ -3,12 +3,10 @@
 #ifndef SIM_RERUN_STEP_H
 #define SIM_RERUN_STEP_H
 
-#include "model/scenario.h"
 #include "model/world.h"
 
-/* w: a copy of from, whose steps become `parts` each; s: its scenario with the new time step.  The load window has the
-   loads that it had, each `parts` times, and controllers act and measure at the instants at which they would have. */
-fram_status rerun_divide_step(context *ctx, const scenario *s, const world *from, int32_t parts, world *w,
-                              fram_error *error);
+/* w: a copy of from, whose steps become `parts` each.  The load window is as long as it was and has the loads that it
+   had, each `parts` times, and controllers act and measure at the instants at which they would have. */
+fram_status rerun_divide_step(context *ctx, const world *from, int32_t parts, world *w, fram_error *error);
 
 #endif

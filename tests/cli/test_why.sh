@@ -55,6 +55,22 @@ same "$(value "j['computed_again']['from'] > 0 or j['time'] < 6")" True "nearest
 time=$(value "j['time']")
 load=$(value "j['load']")
 
+# A window that is no whole number of steps is as long with half the step: a blow of less than that has the same mean.
+cat >blow.yaml <<'YAML'
+run: {duration: 12, time_step: 0.1, transient: 0}
+vessel: {mode: prescribed, x: -20, speed: 1, hull: {form: box, length: 30, beam: 10, draught: 3, freeboard: 3}}
+domain: {x_min: -60, x_max: 100, y_min: -40, y_max: 40, boundary: open}
+ice:
+  source: floes
+  thickness: 0.8
+  crushing_strength: 5.0e7
+  floes: [{x: 5.23, length: 10, width: 10}]
+output: {averaging_window: 0.25}
+YAML
+expect 0 "$FRAM" run blow.yaml -o blow --quiet
+expect 0 "$FRAM" why blow --peak 1 --json
+same "$(value "abs(j['computed_again']['half_step'] / j['load'] - 1) < 0.05")" True "a blow with half the step"
+
 # A moment: at the peak it is the recorded one; elsewhere it is computed again, or refused.
 expect 0 "$FRAM" why run --time "$time" --json
 same "$(value "j['peak']")" 1 "peak at its time"
