@@ -300,7 +300,10 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 {
     fram_status status = recorder_continue(r->ctx, r->s, r->folder, lengths, &r->recorder, error);
     r->open = status == FRAM_OK;
-    return status == FRAM_OK ? restore_peaks(r, error) : status;
+    if (status == FRAM_OK)
+        status = restore_peaks(r, error);
+    /* How it ended before is no news of how far it is. */
+    return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
 }
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)

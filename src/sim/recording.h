@@ -66,8 +66,8 @@ fram_status recording_prepare(recording *r, fram_error *error);
 fram_status recording_prepare_again(recording *r, fram_error *error);
 /* Folder and streams of a world that stands where its recording begins, and the first frame where one is due. */
 fram_status recording_begin(recording *r, world *w, fram_error *error);
-/* The newest good checkpoint into an empty world; then the streams are cut to what they held then, and the peaks are
-   those of then. */
+/* The newest good checkpoint into an empty world; then the streams are cut to what they held then, the peaks are those
+   of then, and run.json says that it is running. */
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
 /* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */

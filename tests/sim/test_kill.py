@@ -114,6 +114,9 @@ def main():
             after = newest_step(run)
             where["building" if after is None else "running"] += 1
             assert before is None or after >= before, f"the checkpoint of step {before} is lost, {after} is the newest"
+            if before is not None and after > before:
+                status = json.loads((run / "run.json").read_text())["status"]
+                assert status in ("running", "finished"), f"a run that was killed on its way after a resume is {status}"
             if after is not None:
                 # Resume begins there, not at the one before, and not at the start.
                 told = subprocess.run([FRAM, "resume", run, "--until", str((after + 1) * STEP)], check=True,
