@@ -51,6 +51,20 @@ bool peak_watch_begin(peak_watch *p, const world *w)
     return true;
 }
 
+bool peak_watch_await(peak_watch *p, const world *w)
+{
+    if (!peak_watch_begin(p, w))
+        return false;
+    int32_t unknown = p->ring.count - p->filled;
+    if (unknown == 0 || p->filled >= w->clock.step[0])
+        return true;
+    /* Half a step less: rounding must not move it by one. */
+    p->from = fmax(p->from, w->clock.time[0] + (unknown - 0.5) * p->time_step);
+    for (int32_t v = 0; v < p->vessels.count; v++)
+        p->vessels.data[v].picker.from = p->from;
+    return true;
+}
+
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error)
 {
     if (!peak_watch_begin(p, w))

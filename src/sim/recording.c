@@ -217,6 +217,11 @@ static fram_status write_scenario(recording *r, fram_error *error)
     return status;
 }
 
+static fram_status await_peaks(recording *r, fram_error *error)
+{
+    return peak_watch_await(&r->recorder.peaks, r->w) ? FRAM_OK : error_memory(error);
+}
+
 /* The record's scenario is for programs: without comments. */
 static fram_status start_streams(recording *r, fram_error *error)
 {
@@ -230,6 +235,9 @@ static fram_status start_streams(recording *r, fram_error *error)
         return status;
     r->open = true;
     status = recorder_step(&r->recorder, r->w, 0, error);
+    r->recorder.peaks.filled = 0; /* the contacts of the last step are not in a world that was loaded */
+    if (status == FRAM_OK)
+        status = await_peaks(r, error);
     return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
 }
 
@@ -291,9 +299,9 @@ static fram_status restore_peaks(recording *r, fram_error *error)
     fram_status status = peak_state_restore(&r->recorder.peaks, r->w, &r->peaks, &reason);
     if (status == FRAM_ERROR_INPUT) {
         log_write(r->ctx, LOG_WARNING, "%s: only those from now on are explained", reason.message);
-        return FRAM_OK;
+        status = FRAM_OK;
     }
-    return status == FRAM_OK ? FRAM_OK : error_memory(error);
+    return status == FRAM_OK ? await_peaks(r, error) : error_memory(error);
 }
 
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error)
