@@ -246,10 +246,10 @@ static fram_status start_streams(recording *r, fram_error *error)
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error)
 {
     double dt = s->run.time_step;
-    *r = (recording){.ctx = ctx, .s = s, .started = clock_wall(), .lock = -1};
+    *r = (recording){.ctx = ctx, .s = s, .started = clock_wall(), .stop_step = -1, .lock = -1};
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    r->end_step = r->stop_step = step_at(s->run.duration, dt);
+    r->end_step = step_at(s->run.duration, dt);
     r->checkpoint_every = interval_steps(s->output.checkpoint_interval, dt);
     r->picture_every = interval_steps(s->output.picture_interval, dt);
     return FRAM_OK;

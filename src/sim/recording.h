@@ -38,7 +38,7 @@ typedef struct recording {
     double end_time;    /* of it at the end [s] */
     time_ranks steps;   /* wall times of the steps of this call, recording apart */
     int64_t end_step;   /* of the scenario */
-    int64_t stop_step;  /* of this call: a checkpoint that is due then is that of the end */
+    int64_t stop_step;  /* at which its maker ends it: a checkpoint that is due then is that of the end; -1: none */
     int64_t checkpoint_every, picture_every;
     bool open;
     int lock; /* on the folder, -1 */

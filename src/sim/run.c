@@ -30,6 +30,7 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
     r->record.force = options->force;
     r->record.with_paths = options->with_paths;
     r->record.finish = options->finish;
+    r->record.stop_step = r->record.end_step;
     /* Times first: the step of one far behind the end may be no integer of 64 bits. */
     if (options->until > 0 && options->until < s->run.duration)
         r->record.stop_step = step_at(options->until, s->run.time_step);

@@ -124,12 +124,13 @@ START_TEST(steered_a_little)
 }
 END_TEST
 
-/* From a checkpoint behind the input it is the run again. */
+/* From a checkpoint behind the input it is the run again; the one at the scenario's end is there, though the program goes
+   on. */
 START_TEST(from_a_checkpoint)
 {
-    static const char *const each_second[] = {"output.checkpoint_interval=1"};
+    static const char *const each_second[] = {"output.checkpoint_interval=1", "run.duration=2"};
     open_all();
-    record(each_second, 1, 75);
+    record(each_second, 2, 75);
     assert_fails(pressure(1.2, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
     assert_ok(pressure(2, 0), e);
     close_all();
