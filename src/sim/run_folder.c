@@ -62,12 +62,12 @@ static fram_status can_be_written(const char *folder, fram_error *error)
     while (access(path, W_OK | X_OK) != 0) {
         int found = errno;
         char *slash = strrchr(path, '/');
-        if (found != ENOENT || strcmp(path, ".") == 0 || slash == path)
+        if (found != ENOENT || strcmp(path, ".") == 0 || strcmp(path, "/") == 0)
             return file_error(error, path, "write into the folder", found);
-        if (slash)
-            *slash = '\0';
-        else
+        if (!slash)
             memcpy(path, ".", 2);
+        else
+            slash[slash == path] = '\0'; /* the root's name is the slash */
     }
     return FRAM_OK;
 }

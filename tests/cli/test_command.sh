@@ -142,6 +142,15 @@ expect 2 "$FRAM" run scene.yaml -o scene.yaml
 expect 2 "$FRAM" run scene.yaml -o --force
 says "--output: needs a value" err
 [ ! -e ./--force ] || fail "a folder called --force"
+# A new one in the root folder, for those who may.
+if [ -w / ]; then
+    root=/fram-$$-${RANDOM}
+    trap 'rm -rf "$root"; leave' EXIT
+    expect 0 "$FRAM" run scene.yaml -o "$root" -q --until 0.02
+    [ -s "$root/run.json" ] || fail "no run in $root"
+    rm -rf "$root"
+    trap leave EXIT
+fi
 touch straight/failed.fram straight/station.json
 expect 0 "$FRAM" run scene.yaml -o straight --force --json
 same "$(value 'j["state_hash"]')" "$hash" "hash of the second run"
