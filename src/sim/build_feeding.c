@@ -35,22 +35,25 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
     return status;
 }
 
-/* A vessel, whose zones come first, must lie inside the band at the start. */
-static fram_status check_place(const world *w, const polygon_list *keep_out, fram_error *error)
+/* A vessel must lie inside the band at the start; the water that is kept clear around it may reach into that. */
+static fram_status check_place(context *ctx, const world *w, fram_error *error)
 {
+    polygon_list hulls = {0};
+    fram_status status = build_footprints(ctx, w, &hulls, error);
     double band = w->feeding.band[0];
-    for (int32_t i = 0; i < w->vessels.count; i++) {
-        box2 box = polygon_bounds(polygon_list_get(keep_out, i));
+    for (int32_t i = 0; i < polygon_list_count(&hulls) && status == FRAM_OK; i++) {
+        box2 box = polygon_bounds(polygon_list_get(&hulls, i));
         double room = fmin(fmin(box.lo.x - w->feeding.lo[0].x, w->feeding.hi[0].x - box.hi.x),
                            fmin(box.lo.y - w->feeding.lo[0].y, w->feeding.hi[0].y - box.hi.y));
         if (room < band)
-            return error_set(
+            status = error_set(
                 error, FRAM_ERROR_INPUT, NULL, 0, "band",
                 "expected the vessel inside the band of %.4g m whose floes go with the field, found %.4g m "
                 "between it and the edge of the domain; make the domain larger or the band narrower",
                 band, room);
     }
-    return FRAM_OK;
+    polygon_list_free(ctx, &hulls);
+    return status;
 }
 
 static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 tile, world *w, fram_error *error)
@@ -68,7 +71,7 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
     if (status == FRAM_OK)
         status = feeding_begin(ctx, w->scratch.plane, &d, &fed, error);
     if (status == FRAM_OK)
-        status = check_place(w, &keep_out, error);
+        status = check_place(ctx, w, error);
     polygon_list_free(ctx, &keep_out);
     return name_key(s, status, error);
 }

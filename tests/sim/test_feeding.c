@@ -490,6 +490,11 @@ START_TEST(refusals_name_their_key)
     check_refusal(alone, both, 2, "domain.drift_speed");
     static const char *const aside[] = {"vessel.x=35"};
     check_refusal(around, aside, 1, "domain.band");
+    /* The hull is 35 m from the edge; water that is kept clear around it counts for nothing. */
+    static const char *const clear[] = {"domain.band=20", "ice.keep_out_margin=30"};
+    scene k;
+    scene_open_with(&k, around, clear, 2);
+    scene_close(&k);
     static const char *const large[] = {"ice.mean_floe_area=6000", "vessel.present=false"};
     check_refusal(around, large, 2, "domain");
 }
