@@ -94,7 +94,7 @@ fram_status live_open(context *ctx, const char *folder, const char *page, fram_l
 /* As callers are told. */
 fram_run_result run_answer(const run_result *from);
 /* The recording of a world that went wrong, if it has one, is closed as a failed run. */
-void recording_abandon(fram_world *w, const char *message);
+void recording_abandon(fram_world *w, const fram_error *reason);
 /* The row of all channels now. */
 const double *world_row(const fram_world *w);
 /* What follows from the state is to be found again. */

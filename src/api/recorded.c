@@ -139,10 +139,10 @@ fram_status(fram_world_record_end)(fram_world *w, fram_run_result *result, fram_
     return status;
 }
 
-void recording_abandon(fram_world *w, const char *message)
+void recording_abandon(fram_world *w, const fram_error *reason)
 {
     if (!w->recording)
         return;
-    recording_fail(w->recording, message);
+    recording_fail(w->recording, reason);
     forget(w);
 }

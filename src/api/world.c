@@ -200,7 +200,7 @@ static fram_status step(fram_world *w, fram_error *error)
     if (status == FRAM_OK && w->recording)
         status = recording_step(w->recording, w->step_wall, &local);
     if (status != FRAM_OK) {
-        recording_abandon(w, local.message);
+        recording_abandon(w, &local);
         if (error)
             *error = local;
     }

@@ -183,6 +183,13 @@ void recording_result(const recording *r, run_result *out)
     out->finished = out->steps >= r->end_step;
 }
 
+static void remove_file(const recording *r, const char *name)
+{
+    char path[PATH_ROOM];
+    if (path_join(r->folder, name, path, NULL) == FRAM_OK)
+        (void)unlink(path);
+}
+
 /* How the run stands, last of all: whatever fails before, run.json does not stay at "running".  One that cannot be
    replaced is removed, which may make the room that it takes; that memory ran out is told all the same. */
 static fram_status end_summary(recording *r, const char *state, const char *message, fram_error *error)
@@ -190,11 +197,17 @@ static fram_status end_summary(recording *r, const char *state, const char *mess
     fram_status status = write_summary(r, state, message, error);
     if (status == FRAM_OK)
         return FRAM_OK;
-    char path[PATH_ROOM];
-    if (path_join(r->folder, "run.json", path, NULL) == FRAM_OK)
-        (void)unlink(path);
+    remove_file(r, "run.json");
     bool replaced = write_summary(r, state, message, NULL) == FRAM_OK;
     return replaced && status != FRAM_ERROR_MEMORY ? FRAM_OK : status;
+}
+
+/* With the file that could not be written, where it is one. */
+static void end_failed(recording *r, const fram_error *reason)
+{
+    char message[sizeof reason->file + sizeof reason->message + 2];
+    snprintf(message, sizeof message, "%s%s%s", reason->file, reason->file[0] ? ": " : "", reason->message);
+    (void)end_summary(r, "failed", message, NULL);
 }
 
 static fram_status identify(recording *r, fram_error *error)
@@ -311,7 +324,11 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
     if (status == FRAM_OK)
         status = restore_peaks(r, error);
     /* How it ended before is no news of how far it is. */
-    return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
+    if (status == FRAM_OK)
+        status = write_summary(r, "running", NULL, error);
+    if (status == FRAM_OK)
+        remove_file(r, "failed.fram");
+    return status;
 }
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
@@ -352,18 +369,18 @@ fram_status recording_end(recording *r, const char *state, fram_error *error)
     if (status == FRAM_OK)
         status = as_failure(end_summary(r, state, NULL, &local), &local);
     else
-        (void)end_summary(r, "failed", local.message, NULL);
+        end_failed(r, &local);
     if (status != FRAM_OK && error)
         *error = local;
     return status;
 }
 
-void recording_fail(recording *r, const char *message)
+void recording_fail(recording *r, const fram_error *reason)
 {
     leave_state(r);
     (void)recorder_close(&r->recorder, NULL);
     r->open = false;
-    (void)end_summary(r, "failed", message, NULL);
+    end_failed(r, reason);
 }
 
 void recording_free(recording *r)

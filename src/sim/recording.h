@@ -67,7 +67,7 @@ fram_status recording_prepare_again(recording *r, fram_error *error);
 /* Folder and streams of a world that stands where its recording begins, and the first frame where one is due. */
 fram_status recording_begin(recording *r, world *w, fram_error *error);
 /* The newest good checkpoint into an empty world; then the streams are cut to what they held then, the peaks are those
-   of then, and run.json says that it is running. */
+   of then, run.json says that it is running, and the state as it once went wrong is gone. */
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
 /* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */
@@ -80,8 +80,8 @@ void recording_result(const recording *r, run_result *out);
    returned, the streams are closed; what could not be written is FRAM_ERROR_IO. */
 fram_status recording_end(recording *r, const char *state, fram_error *error);
 /* The end of a world that went wrong: its state as failed.fram, the last good checkpoint stays, run.json tells the
-   message. */
-void recording_fail(recording *r, const char *message);
+   reason. */
+void recording_fail(recording *r, const fram_error *reason);
 void recording_free(recording *r);
 
 #endif

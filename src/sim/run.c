@@ -86,7 +86,7 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
         const char *state = result->finished ? "finished" : interrupted ? "interrupted" : "stopped";
         status = recording_end(&r->record, state, &local);
     } else {
-        recording_fail(&r->record, local.message);
+        recording_fail(&r->record, &local);
     }
     if (status == FRAM_OK && interrupted)
         status = error_set(&local, FRAM_INTERRUPTED, NULL, 0, NULL,

@@ -60,6 +60,7 @@ wait $run || code=$?
 same "$code" 1 "exit code of a run whose folder was replaced"
 says "was removed or replaced" err
 same "$(status_of moved)" failed "status of a run whose folder was replaced"
+holds '"message": "moved/series.csv: the file was removed' moved/run.json
 
 # run.json does not stay at "running" when the end fails.
 if "$FRAM" --version | grep -q cairo; then
@@ -108,13 +109,15 @@ expect 0 "$FRAM" report open -o target.html -q
 same "$(cat other)" mine "a file behind a link"
 rm -f target.html.new .target.html.new
 
-# What a run that was killed left behind goes with the next one; what others are writing stays.
-touch open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new
+# What a run that was killed left behind goes with the next one, and the state as it went wrong with one that goes on;
+# what others are writing stays.
+touch open/failed.fram open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new
 touch open/report.html.0123456789abcdef.new open/mine.new
 expect 0 "$FRAM" resume open -q
 if [ ! -e open/report.html.0123456789abcdef.new ] || [ ! -e open/mine.new ]; then
     fail "a run took files that are not its own"
 fi
+[ ! -e open/failed.fram ] || fail "a run that finished keeps the state as it went wrong before"
 rm open/report.html.0123456789abcdef.new open/mine.new
 [ -z "$(find . -name '*.new')" ] || fail "temporary files are left: $(find . -name '*.new')"
 
