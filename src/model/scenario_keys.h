@@ -416,14 +416,15 @@
     X(air_form, REAL(0.8, 0, 100), "1", "form drag of dry faces that move into the air")     \
     X(air_skin, REAL(0.003, 0, 100), "1", "skin drag of dry faces")
 
-#define SCENARIO_OUTPUT_KEYS(X)                                                                   \
-    X(csv_interval, REAL(0, 0, 1e7), "s", "between rows of the CSV file; 0: every step")          \
-    X(frame_interval, REAL(1, 0, 1e7), "s", "between frames of the record; 0: none")              \
-    X(record_limit, REAL(360, 0, 1e9), "MB",                                                      \
-      "frames come at 2, 4, 8 ... times the interval to keep the record under this; 0: no limit") \
-    X(checkpoint_interval, REAL(60, 0, 1e7), "s", "between checkpoints; 0: only at the end")      \
-    X(picture_interval, REAL(0, 0, 1e7), "s", "between plan-view pictures; 0: only at the end")   \
-    X(averaging_window, SCALED(0.5, 30, 0.5, 0, 1e5), "s", "window over which loads are averaged for statistics")
+#define SCENARIO_OUTPUT_KEYS(X)                                                                                 \
+    X(csv_interval, REAL(0, 0, 1e7), "s", "between rows of the CSV file, in whole steps; 0: every step")        \
+    X(frame_interval, REAL(1, 0, 1e7), "s", "between frames of the record, in whole steps; 0: none")            \
+    X(record_limit, REAL(360, 0, 1e9), "MB",                                                                    \
+      "frames come at 2, 4, 8 ... times the interval to keep the record under this; 0: no limit")               \
+    X(checkpoint_interval, REAL(60, 0, 1e7), "s", "between checkpoints, in whole steps; 0: only at the end")    \
+    X(picture_interval, REAL(0, 0, 1e7), "s", "between plan-view pictures, in whole steps; 0: only at the end") \
+    X(averaging_window, SCALED(0.5, 30, 0.5, 0, 1e5), "s",                                                      \
+      "window over which loads are averaged for statistics, in whole steps")
 
 /* Every section, inner ones before those that hold them: S(noun, rows). */
 #define SCENARIO_SECTIONS(S)                  \

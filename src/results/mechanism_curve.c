@@ -74,7 +74,7 @@ fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vess
     *curve = (mechanism_curve){0};
     if (rows == 0 || !time || !x || !y || !mechanism_columns_find(run, vessel, &columns))
         return FRAM_OK;
-    double window = fmax(run->s.output.averaging_window, run->s.run.time_step);
+    double window = scenario_averaging_window(&run->s);
     curve->count = (rows + every - 1) / every;
     if (!make_room(ctx, curve)) {
         mechanism_curve_free(ctx, curve);

@@ -76,7 +76,7 @@ static fram_status add_vessel(why *y, int32_t vessel, text_buffer *out, fram_err
     for (int32_t i = 0; i < y->peaks.count && curve.count > 0; i++)
         mechanism_curve_add(&curve, y->peaks.peak[i]->time, y->peaks.peak[i]->load, y->peaks.peak[i]->mechanism);
     text_format(y->ctx, out, "%s{\"name\":\"%s\",\"window\":%.9g,\"transient\":%.9g", vessel > 0 ? "," : "",
-                scenario_names_vessels(&y->run.s) ? entry.keys->name : "", y->run.s.output.averaging_window,
+                scenario_names_vessels(&y->run.s) ? entry.keys->name : "", scenario_averaging_window(&y->run.s),
                 y->run.s.run.transient);
     add_curve(y->ctx, &curve, out);
     mechanism_curve_free(y->ctx, &curve);

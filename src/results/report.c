@@ -40,7 +40,7 @@ static fram_status vessel_figures(report *r, int32_t vessel, const double *time,
         return status;
     load_unit unit = report_load_unit(r);
     char averaged[64];
-    snprintf(averaged, sizeof averaged, "largest ice load, averaged over %.3g s", r->d.s.output.averaging_window);
+    snprintf(averaged, sizeof averaged, "largest ice load, averaged over %.3g s", scenario_averaging_window(&r->d.s));
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     vessel_figure(r, "mean ice load", s.mean * unit.factor, unit.name);
     vessel_figure(r, "significant peak", s.significant * unit.factor, unit.name);

@@ -174,7 +174,7 @@ fram_status report_loads(report *r, fram_error *error)
         "Loads are forces of the ice on the vessel, in the global frame unless body axes are named. Averages are over "
         "%g s; statistics exclude the first %g s. A significant peak is the mean of the highest third of the "
         "peaks, on the side of zero where the largest value is.",
-        r->d.s.output.averaging_window, r->d.s.run.transient);
+        scenario_averaging_window(&r->d.s), r->d.s.run.transient);
     html_grid_begin(&r->page);
     fram_status status = report_series(r, "Ice load over time", label, unit.factor, force, 3, true, error);
     if (status == FRAM_OK)

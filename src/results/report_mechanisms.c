@@ -207,7 +207,7 @@ fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
         loaded = loaded || r->load.data[i] > 0;
     if (rows < 2 || !time || !loaded || !run_vessel_channel(&r->d, r->vessel, name))
         return FRAM_OK;
-    double step = (time[rows - 1] - time[0]) / (rows - 1), window = r->d.s.output.averaging_window;
+    double step = (time[rows - 1] - time[0]) / (rows - 1), window = scenario_averaging_window(&r->d.s);
     double every = ceil(fmax(window / step, (double)rows / BINS_MOST) - 1e-9);
     int32_t size = every < 1 ? 1 : every > rows ? rows : (int32_t)every;
     stacked s = {.bins = (rows + size - 1) / size, .width = size * step, .apart = step};

@@ -347,7 +347,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
                           : "too short for a mean");
     find(v, VERDICT_NOTE,
          "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
-         "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, r->d.s.output.averaging_window,
+         "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, scenario_averaging_window(&r->d.s),
          r->d.s.run.transient);
     load_distribution_free(r->ctx, &d);
     return FRAM_OK;

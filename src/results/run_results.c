@@ -107,7 +107,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         else
             snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);
         snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g kN%s",
-                 s->output.averaging_window, of_mean, spike, cut ? ", beyond the picture" : "");
+                 scenario_averaging_window(s), of_mean, spike, cut ? ", beyond the picture" : "");
         chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }

@@ -44,7 +44,8 @@ static void describe(context *ctx, const station_data *d, text_buffer *b)
                        load = station_statistics(d, &d->load, transient);
     channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
     channel_statistics power = station_statistics(d, &d->column[POWER], transient);
-    text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient, s->output.averaging_window);
+    text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient,
+                scenario_averaging_window(s));
     text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
     double limit = automatic_or(station_limits(d)->offset_limit, HUGE_VAL);
     if (limit < HUGE_VAL)

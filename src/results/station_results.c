@@ -167,7 +167,7 @@ static void compose_station(context *ctx, const station_data *d, text_buffer *b)
         text_format(ctx, b, "\"vessel\": \"%s\",\n  ", scenario_vessel_entry(s, d->vessel).keys->name);
     add_number(ctx, b, "time_s", d->outcome->time, ",\n  ");
     add_number(ctx, b, "transient_s", transient, ",\n  ");
-    add_number(ctx, b, "averaging_window_s", s->output.averaging_window, ",\n");
+    add_number(ctx, b, "averaging_window_s", scenario_averaging_window(s), ",\n");
     add_channel_statistics(ctx, b, d, "offset_m", &d->offset, transient, ", ");
     add_limit(ctx, b, d, &d->offset, station_limits(d)->offset_limit, transient);
     add_envelope(ctx, b, d, transient);

@@ -46,11 +46,11 @@ static fram_status check_place(context *ctx, const world *w, fram_error *error)
         double room = fmin(fmin(box.lo.x - w->feeding.lo[0].x, w->feeding.hi[0].x - box.hi.x),
                            fmin(box.lo.y - w->feeding.lo[0].y, w->feeding.hi[0].y - box.hi.y));
         if (room < band)
-            status = error_set(
-                error, FRAM_ERROR_INPUT, NULL, 0, "band",
-                "expected the vessel inside the band of %.4g m whose floes go with the field, found %.4g m "
-                "between it and the edge of the domain; make the domain larger or the band narrower",
-                band, room);
+            status =
+                error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
+                          "expected the vessel inside the band of %.4g m whose floes go with the field, found %.4g m "
+                          "between it and the edge of the domain; make the domain larger or the band narrower",
+                          band, room);
     }
     polygon_list_free(ctx, &hulls);
     return status;

@@ -27,8 +27,8 @@ void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p)
 void peak_watch_free(peak_watch *p);
 /* On the first call with a world: rooms for its window and vessels.  false: no memory. */
 bool peak_watch_begin(peak_watch *p, const world *w);
-/* Where the watch begins beside a world that has come some way, or has lost what it knew: peaks count from when it knows
-   each step of their window.  The same before and after a resume.  false: no memory. */
+/* Where the watch begins beside a world that has come some way, or has lost what it knew: peaks count from when it
+   knows each step of their window.  The same before and after a resume.  false: no memory. */
 bool peak_watch_await(peak_watch *p, const world *w);
 /* Keeps the contacts of the step that was just done. */
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error);

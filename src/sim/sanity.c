@@ -225,67 +225,6 @@ static void tell_directions(const teller *t)
             e->wind_direction_deg, own ? "the ice (domain.drift_direction_deg)" : "the current", drift);
 }
 
-/* Parts of a run from which times leave no sense to its statistics, and pictures that nobody looks at. */
-#define LONGEST_TRANSIENT 0.9
-#define LONGEST_WINDOW 0.5
-#define MOST_PICTURES 1e4
-/* Rows of series.csv under which no curve is one. */
-#define LEAST_ROWS 10
-/* Three hours in steps of 0.1 ms, ten times as short as any scene of full size asks for. */
-#define MOST_STEPS 1.08e8
-/* Steps under which a window is one of another unit; a little shorter than a step is a step. */
-#define SHORTEST_WINDOW 0.5
-/* The default, which is longer than many a short run. */
-#define USUAL_CHECKPOINT 60
-
-static void tell_times(const teller *t)
-{
-    const scenario_run *r = &t->s->run;
-    const scenario_output *o = &t->s->output;
-    if (r->transient > LONGEST_TRANSIENT * r->duration)
-        sanity_say(t->tell, t->to,
-                   "run.transient: statistics leave out %g s of %g s, so that next to nothing is left for them",
-                   r->transient, r->duration);
-    if (o->frame_interval > r->duration)
-        sanity_say(t->tell, t->to,
-                   "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
-                   o->frame_interval);
-    if (r->duration / r->time_step > MOST_STEPS)
-        sanity_say(t->tell, t->to, "run.time_step: %g s makes %.3g steps of the run: give seconds", r->time_step,
-                   r->duration / r->time_step);
-    if (o->frame_interval > 0 && o->frame_interval < r->time_step)
-        sanity_say(t->tell, t->to,
-                   "output.frame_interval: %g s is shorter than run.time_step, %g s: a frame every step",
-                   o->frame_interval, r->time_step);
-    if (o->checkpoint_interval > 0 && o->checkpoint_interval < r->time_step)
-        sanity_say(t->tell, t->to,
-                   "output.checkpoint_interval: %g s is shorter than run.time_step, %g s: a checkpoint every step",
-                   o->checkpoint_interval, r->time_step);
-    if (o->csv_interval > 0 && o->csv_interval < SHORTEST_WINDOW * r->time_step)
-        sanity_say(t->tell, t->to,
-                   "output.csv_interval: %g s is shorter than run.time_step, %g s: a row every step, as 0 says",
-                   o->csv_interval, r->time_step);
-    if (o->csv_interval > 0 && r->duration / o->csv_interval < LEAST_ROWS && r->duration / r->time_step > LEAST_ROWS)
-        sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %.0f rows of the run in series.csv",
-                   o->csv_interval, r->duration / o->csv_interval);
-    if (o->picture_interval > r->duration)
-        sanity_say(t->tell, t->to, "output.picture_interval: %g s is longer than the run: no picture on the way",
-                   o->picture_interval);
-    if (o->checkpoint_interval > r->duration && o->checkpoint_interval > USUAL_CHECKPOINT)
-        sanity_say(t->tell, t->to,
-                   "output.checkpoint_interval: %g s is longer than the run: nothing to resume from if it is killed",
-                   o->checkpoint_interval);
-    if (o->averaging_window > 0 && o->averaging_window < SHORTEST_WINDOW * r->time_step)
-        sanity_say(t->tell, t->to,
-                   "output.averaging_window: %g s is less than run.time_step, %g s: averaged loads are those of a step",
-                   o->averaging_window, r->time_step);
-    if (o->averaging_window > LONGEST_WINDOW * r->duration)
-        sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
-    double pictures = r->duration / fmax(o->picture_interval, r->time_step); /* no more than steps */
-    if (o->picture_interval > 0 && pictures > MOST_PICTURES)
-        sanity_say(t->tell, t->to, "output.picture_interval: %.0f pictures will be written", pictures);
-}
-
 /* ---- vessels, from their keys ---- */
 
 /* Beam over draught of barges and shallow river ships goes up to 15. */
@@ -479,7 +418,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
     sanity_tell_ice(s, tell, to);
     sanity_tell_idle(s, tell, to);
     tell_directions(&t);
-    tell_times(&t);
+    sanity_tell_times(s, tell, to);
     tell_rest(&t);
     tell_basin(&t);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {

@@ -22,6 +22,8 @@ void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller te
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
 void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to);
+/* Of the times of the run and of what it writes.  sanity_tell asks. */
+void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 

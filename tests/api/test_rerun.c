@@ -124,8 +124,8 @@ START_TEST(steered_a_little)
 }
 END_TEST
 
-/* From a checkpoint behind the input it is the run again; the one at the scenario's end is there, though the program goes
-   on. */
+/* From a checkpoint behind the input it is the run again; the one at the scenario's end is there, though the program
+   goes on. */
 START_TEST(from_a_checkpoint)
 {
     static const char *const each_second[] = {"output.checkpoint_interval=1", "run.duration=2"};

@@ -169,6 +169,13 @@ all_told ship.yaml output.averaging_window=0.001 output.picture_interval=5000 ou
     "picture_interval: 5000 s is longer than the run" "checkpoint_interval: 5000 s is longer than the run" \
     "record_limit: 0.01 MB" "air_density: 0 kg/m3 leaves a wind without" "floe_damping: 5 is" "water_skin: 5 is"
 
+all_told ship.yaml output.csv_interval=0.12 output.frame_interval=0.131 output.checkpoint_interval=0.23 \
+    output.picture_interval=0.18 output.averaging_window=0.125 -- \
+    "csv_interval: 0.12 s is 2.4 steps of run.time_step, 0.05 s, and counts as 2: 0.1 s" \
+    "frame_interval: 0.131 s is 2.62 steps" "checkpoint_interval: 0.23 s is 4.6" "picture_interval: 0.18 s is 3.6" \
+    "averaging_window: 0.125 s is 2.5 steps of run.time_step, 0.05 s, and counts as 3: 0.15 s"
+all_told ship.yaml output.csv_interval=5.02 output.frame_interval=0.15 output.averaging_window=0 --
+
 # Histories in minutes, in knots, of a date; hulls in millimetres, athwartships, from the keel or the stern up.
 printf 'time [s],x [m/s],y [m/s]\n0,-0.4,0\n10,-0.3,0.3\n' >minutes.csv
 printf 'time [s],x [m/s],y [m/s]\n0,-80,0\n600,-5,0.2\n' >knots.csv

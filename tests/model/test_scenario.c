@@ -54,6 +54,25 @@ START_TEST(thresholds_follow_the_scale)
 }
 END_TEST
 
+/* As asked where it is whole steps within rounding (0.3 is 3 of 0.1 s), else what they make; a step at least, and not
+   more than a million. */
+START_TEST(loads_are_averaged_over_whole_steps)
+{
+    static const struct {
+        double step, asked, window;
+        int64_t steps;
+    } c[] = {{0.1, 0.3, 0.3, 3},  {0.02, 0.5, 0.5, 25}, {0.1, 0.25, 3 * 0.1, 3}, {0.1, 0, 0.1, 1},
+             {0.1, 0.04, 0.1, 1}, {0.5, 0.7, 0.5, 1},   {0.2, 0.75, 0.8, 4},     {0.01, 1e5, 1e4, 1000000}};
+    scenario s = good();
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        s.run.time_step = c[i].step;
+        s.output.averaging_window = c[i].asked;
+        ck_assert_int_eq(scenario_averaging_steps(&s), c[i].steps);
+        assert_bits(scenario_averaging_window(&s), c[i].window);
+    }
+}
+END_TEST
+
 START_TEST(defaults_of_the_specification)
 {
     scenario s = good();
@@ -366,7 +385,8 @@ START_TEST(paths_are_relative_to_the_scenario)
 }
 END_TEST
 
-TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, defaults_of_the_specification,
-          every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once,
-          ranges_are_checked, keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked,
-          floes_stay_in_the_domain, errors_find_their_place, paths_are_relative_to_the_scenario)
+TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, loads_are_averaged_over_whole_steps,
+          defaults_of_the_specification, every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour,
+          walking_meets_every_key_once, ranges_are_checked, keys_must_go_together, stations_are_whole,
+          what_is_absent_is_not_checked, floes_stay_in_the_domain, errors_find_their_place,
+          paths_are_relative_to_the_scenario)

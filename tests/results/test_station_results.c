@@ -56,7 +56,7 @@ END_TEST
 /* ---- the second of two vessels ---- */
 
 #define HULL "    mode: free\n    hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
-static const char two_ships[] = "run: {transient: 1}\noutput: {averaging_window: 0.7}\nvessels:\n"
+static const char two_ships[] = "run: {transient: 1, time_step: 0.2}\noutput: {averaging_window: 0.75}\nvessels:\n"
                                 "  - name: a\n" HULL "    thrusters: [{thrust: 10}]\n"
                                 "    mooring: {lines: [{kind: spring, distance: 100, stiffness: 1}]}\n"
                                 "  - name: b\n" HULL "    thrusters: [{thrust: 50}]\n"
@@ -110,7 +110,7 @@ START_TEST(results_of_the_second_vessel)
     text[size] = '\0';
     static const char *const told[] = {
         "\"vessel\": \"b\"",
-        "\"averaging_window_s\": 0.7",
+        "\"averaging_window_s\": 0.8,", /* in whole steps */
         "\"greatest\": 10, \"peak\": 10, \"limit\": 9, \"exceedance\": 0.333333333333333",
         "\"limit\": 3, \"exceedance\": 0.666666666666666",
         "\"ice_load_x_N\": {\"mean\": 10,",

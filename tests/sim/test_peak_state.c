@@ -1,5 +1,5 @@
-/* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm.  Beside a
-   world that has come some way it tells no peak by a part of it. */
+/* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm.  Beside
+   a world that has come some way it tells no peak by a part of it. */
 #include "sim/peak_state.h"
 #include "sim/recording.h"
 #include "sim/scene.h"
