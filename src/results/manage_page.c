@@ -286,10 +286,11 @@ static fram_status plan(management_page *p, fram_error *error)
     fram_status status = replay_open(m->ctx, m->d.folder, &r, error);
     if (status != FRAM_OK)
         return status;
-    status = replay_moment_at(&r, time, &now, error);
+    status = replay_moment_until(&r, time, &now, error);
     if (status == FRAM_OK)
         status = replay_plan_make(&r, &now, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &shapes, error);
-    snprintf(caption, sizeof caption, "t = %.4g s", now.time);
+    bool before = now.time < time - 0.5 * m->d.s.run.time_step;
+    snprintf(caption, sizeof caption, "t = %.4g s%s", now.time, before ? ", the last frame before" : "");
     plan_view view = {.window = {{d->x_min, d->y_min}, {d->x_max, d->y_max}},
                       .title = title,
                       .caption = caption,

@@ -53,10 +53,12 @@ static fram_status find_plan(replay *r, double part, replay_moment *out, fram_er
 
 fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error) { return find_plan(r, 0, out, error); }
 
-fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_error *error)
+/* Times are told in decimals and kept in binary. */
+static double time_slack(double time) { return 1e-9 * (1 + fabs(time)); }
+
+fram_status replay_moment_until(replay *r, double time, replay_moment *out, fram_error *error)
 {
-    /* Times are told in decimals and kept in binary. */
-    double slack = 1e-9 * (1 + fabs(time));
+    double slack = time_slack(time);
     bool found = true;
     fram_status status = FRAM_OK;
     if (r->has_next && r->frame.poses.count == 0 && time < r->next.time - slack)
@@ -65,10 +67,16 @@ fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_er
         status = replay_next(r, &found, error);
     if (status != FRAM_OK)
         return status;
-    if (!r->has_next && !(time <= r->frame.time + slack))
-        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "time", "the record ends at %g s", r->frame.time);
     double span = r->has_next ? r->next.time - r->frame.time : 0;
     return find_plan(r, span > 0 ? fmin(fmax((time - r->frame.time) / span, 0), 1) : 0, out, error);
+}
+
+fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_error *error)
+{
+    fram_status status = replay_moment_until(r, time, out, error);
+    if (status == FRAM_OK && !r->has_next && !(time <= r->frame.time + time_slack(time)))
+        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "time", "the record ends at %g s", r->frame.time);
+    return status;
 }
 
 void replay_moment_free(context *ctx, replay_moment *m)

@@ -15,6 +15,9 @@ typedef struct replay_moment {
 /* Go to the last frame whose time is not after `time` and find the plan then; the replay goes forwards only.
    FRAM_ERROR_INPUT when `time` is outside the record. */
 fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_error *error);
+/* The same, where the last frame stands for what follows it: runs end between frames, and series go on behind the last
+   one. */
+fram_status replay_moment_until(replay *r, double time, replay_moment *out, fram_error *error);
 /* The plan of the current frame. */
 fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error);
 void replay_moment_free(context *ctx, replay_moment *m);

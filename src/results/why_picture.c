@@ -207,10 +207,7 @@ fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const 
     fram_status status = replay_open(y->ctx, y->run.folder, &r, error);
     if (status != FRAM_OK)
         return status;
-    /* The last frame stands for what follows it. */
-    status = replay_moment_at(&r, d->time, &m, error);
-    if (status == FRAM_ERROR_INPUT)
-        status = replay_moment_now(&r, &m, error);
+    status = replay_moment_until(&r, d->time, &m, error);
     if (status == FRAM_OK)
         status = draw_peak(y, &r, &m, d, rank, path, error);
     replay_moment_free(y->ctx, &m);

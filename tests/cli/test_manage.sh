@@ -91,6 +91,11 @@ says "no ice before the vessel until 5 s, which the means count: give run.transi
 says "No ice was before the vessel until 5 s" late.html
 if built_with cairo; then says "The field at the end" late.html; fi
 
+# The floe of 3 m is at the bow at 9 s: the largest load of a run of 9.4 s comes after its last frame.
+expect 0 "$FRAM" run alone/scenario.yaml -o behind --set run.duration=9.4 -q
+expect 0 "$FRAM" manage behind --limit 5 -q
+if built_with cairo; then says "The field when the ice load was largest" behind/manage.html; fi
+
 # Floes count as managed up to the beam, which a hull from a file has of its own.
 expect 0 "$FRAM" hull --box --length 40 --beam 10 --draught 4 --freeboard 2 -o ship.stl -q
 expect 0 "$FRAM" run scene.yaml -o filed -q --set vessels.ship.hull.form=file \
