@@ -124,6 +124,8 @@ static void find_rows(pair *p)
     }
     p->result->same_scenario = strcmp(p->d[0].note.scenario_hash, p->d[1].note.scenario_hash) == 0;
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
+    /* Without an end there is no final state. */
+    p->result->same_state = p->result->same_state && !run_is_open(&p->d[0]);
 }
 
 /* ---- page ---- */

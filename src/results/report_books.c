@@ -138,11 +138,13 @@ static void origin(report *r)
     html_fact(&r->page, "computed with", "%.0f thread%s, %s; results depend on neither", n->threads,
               n->threads == 1 ? "" : "s", n->isa);
     html_fact(&r->page, "scenario", "SHA-256 %s", n->scenario_hash);
-    html_fact(&r->page, "state at the end", "hash %s", n->state_hash);
+    if (!run_is_open(&r->d))
+        html_fact(&r->page, "state at the end", "hash %s", n->state_hash);
     html_fact(&r->page, "status", "%s%s%s", n->status, n->message[0] ? ": " : "", n->message);
     html_fact(&r->page, "steps", "%.0f of %g s", n->steps, r->d.s.run.time_step);
-    html_fact(&r->page, "computing time", "%.1f s in the last call, %.2g %% of it for what the run wrote", n->wall,
-              n->wall > 0 ? 100 * n->recording / n->wall : 0);
+    if (!run_is_open(&r->d))
+        html_fact(&r->page, "computing time", "%.1f s in the last call, %.2g %% of it for what the run wrote", n->wall,
+                  n->wall > 0 ? 100 * n->recording / n->wall : 0);
     if (n->step_longest > 0)
         html_fact(
             &r->page, "computing time of a step",

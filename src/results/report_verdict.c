@@ -70,12 +70,14 @@ static void judge_end(verdict *v)
     const run_note *n = &v->r->d.note;
     if (strcmp(n->status, "finished") == 0)
         return;
-    bool failed = strcmp(n->status, "failed") == 0;
+    bool failed = strcmp(n->status, "failed") == 0, open = run_is_open(&v->r->d);
+    const char *how = failed ? "failed at" : open ? "goes on, or was killed: it came to" : "stopped at";
     find(v, failed ? VERDICT_BAD : VERDICT_CAUTION,
          failed ? "Results up to the failure are valid; the message says what went wrong."
+         : open ? "fram resume continues one that was killed from its newest checkpoint."
                 : "fram resume continues from the newest checkpoint.",
-         "The run %s at %.4g s of %.4g s%s%s.", failed ? "failed" : "stopped", n->time, v->r->d.s.run.duration,
-         n->message[0] ? ": " : "", n->message);
+         "The run %s %.4g s of %.4g s%s%s.", how, n->time, v->r->d.s.run.duration, n->message[0] ? ": " : "",
+         n->message);
 }
 
 /* A hull at a wall measures the wall: the run's own event, found by its kind in run.json. */
@@ -455,9 +457,8 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
     snprintf(out, TEXT_SIZE, "%s%s%s%s",
              v->lost   ? (several ? "A vessel did not hold its station." : "The vessel did not hold its station.")
              : v->kept ? who
-                       : (finished ? "The run finished." : "The run did not finish."),
-             v->kept && !v->lost ? (finished ? " held its station." : " held its station up to the end of the run.")
-                                 : "",
+                       : (finished ? "The run finished." : "The run has not finished."),
+             v->kept && !v->lost ? (finished ? " held its station." : " held its station as far as the run went.") : "",
              lines, v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;
     for (int32_t i = 0; i < v->findings.count; i++)

@@ -205,6 +205,22 @@ static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
     return status;
 }
 
+/* ---- a run without an end ---- */
+
+/* run.json of a run that goes on, or was killed, is of where it began or was resumed.  How far it has come its series
+   tells; what else is of the end (hash, tracks) is not known. */
+static void note_progress(run_data *d)
+{
+    const double *time = run_channel(d, "time");
+    if (!run_is_open(d))
+        return;
+    if (time && d->series.rows > 0)
+        d->note.time = fmax(d->note.time, time[d->series.rows - 1]);
+    d->note.steps = floor(d->note.time / d->s.run.time_step + 0.5);
+    d->note.state_hash[0] = '\0';
+    array_clear(&d->note.tracks);
+}
+
 /* ---- all ---- */
 
 fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error)
@@ -234,6 +250,8 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
         status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->fractures, error);
+    if (status == FRAM_OK)
+        note_progress(d);
     if (status == FRAM_OK && with_field)
         status = read_fields(ctx, d, error);
     if (status != FRAM_OK)
@@ -251,6 +269,8 @@ void run_data_free(context *ctx, run_data *d)
     array_free(ctx, &d->before.areas);
     array_free(ctx, &d->after.areas);
 }
+
+bool run_is_open(const run_data *d) { return strcmp(d->note.status, "running") == 0; }
 
 const double *run_channel(const run_data *d, const char *name)
 {

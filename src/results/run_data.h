@@ -21,7 +21,8 @@ typedef struct run_track {
     double time, rounds;        /* that counts, 0: it never came to its track [s]; of its pattern */
 } run_track;
 
-/* Texts of run.json; "" for those that are missing. */
+/* Texts of run.json; "" for those that are missing.  Of a run that has no end yet, steps and time are how far its
+   series goes, and there is no hash of its state, no track, no computing time that says anything. */
 typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
     char scenario_hash[SHA256_TEXT_SIZE], state_hash[17];
@@ -55,6 +56,8 @@ typedef struct run_data {
 fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error);
 void run_data_free(context *ctx, run_data *d);
 
+/* Whether the run has no end: it goes on, or was killed. */
+bool run_is_open(const run_data *d);
 /* Values of a channel, NULL when the run does not have it. */
 const double *run_channel(const run_data *d, const char *name);
 /* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */

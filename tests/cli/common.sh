@@ -38,6 +38,16 @@ same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
 # says WORDS FILE, holds PATTERN FILE: the file has the words, or a line of the pattern.
 says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
 holds() { grep -q -- "$1" "$2" || fail "$2 lacks '$1'"; }
+# as_killed RUN: its run.json becomes that of a run which goes on, or was killed: as at its start, before its track.
+as_killed() {
+    python3 -S - "$1/run.json" <<'PY'
+import json, sys
+note = json.load(open(sys.argv[1]))
+track = {"limit_m": 9, "largest_m": 0, "rms_m": 0, "time_s": 0, "rounds": 0}
+note |= {"status": "running", "steps": 0, "time_s": 0, "tracks": [track]}
+json.dump(note, open(sys.argv[1], "w"))
+PY
+}
 # told_defaults PATTERN NUMBER: options of the help in out whose words have the pattern, each with the number that the
 # second pattern finds in them: "(" finds 30 in "(30; ship 75)", "ship " finds 75.
 told_defaults() { sed -nE "s/^  (-., )?(--[a-z-]+) .* .*($1).*$2([0-9][0-9.e]*).*/\\2 \\4/p" out; }

@@ -279,6 +279,19 @@ holds "scenarios: different" out
 holds "ice load along X, mean" out
 holds "Comparison of two runs" both.html
 
+# A run that was killed has come as far as its series; of its track and its state nothing is known.
+cp -r run killed
+as_killed killed
+expect 0 "$FRAM" report killed -q
+for part in "The run has not finished." "The run goes on, or was killed: it came to 3 s of 3 s." ", 3 s simulated;" \
+    "150 of 0.02 s"; do
+    holds "$part" killed/report.html
+done
+grep -q "did not come to its track" killed/report.html && fail "the track of a killed run is judged"
+expect 0 "$FRAM" compare killed killed
+holds "^simulated time \[s\]  *3  *3  *0$" out
+holds "final states: different" out
+
 # Video: frames without ffmpeg; with ffmpeg the file; without it a clear word.
 if [ $pictures = yes ]; then
     expect 0 "$FRAM" video run --pictures --fps 2 --colour force --width 640 --height 480 -o frames

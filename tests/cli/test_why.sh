@@ -113,6 +113,14 @@ says "trying the one before" err
 says "computing again from t = 0 s" err
 says "series.csv holds no rows of that time" out
 rm -r cut
+# One that was killed has come as far as its series.
+cp -r run killed
+as_killed killed
+expect 2 "$FRAM" why killed --time 3.5 --no-rerun
+says "contacts are kept of the" err
+expect 2 "$FRAM" why killed --time 100
+says "up to 12 s, found 100" err
+rm -r killed
 # A run that is resumed at its end keeps the peaks that it has.
 cp run/peaks.fram before.fram
 expect 0 "$FRAM" resume run -q
