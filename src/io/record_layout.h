@@ -15,9 +15,9 @@
                  2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), i32 slot of the body or number
                  of the vessel's line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global
                  frame; before the frame it belongs to
-    11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the first vessel [N], i32 count, i32 0; per moving
+    15 frame     i64 step, f64 time, f64 x 3 averaged ice force on the first vessel [N], i32 count, i32 0; per moving
                  body, by ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the
-                 magnitudes at its contacts, a half float of kN (16 or 18 bytes)
+                 magnitudes at its contacts: kN of 6 bits of exponent and 10 of mantissa (16 or 18 bytes)
     12 peak      only in peaks.fram: what carried a large ice load on a vessel, io/peak_block.h
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
                  frame's first 48 bytes; the frame itself and its forces stand there
@@ -28,8 +28,9 @@
                  f32 mean and largest pressure [Pa], time of that [s]; per triangle i32 panel; per triangle f32 x y z
                  of its corners (ship coordinates less the centre of mass: the frame of block 2)
 
-   Types 3, 5 and 8 were births and frames of earlier layouts and are not written any more. Solids are announced by
-   block 2 and take part in frames when they move. */
+   Types 3, 5 and 8 were births and frames of earlier layouts and are not written any more, nor read. Type 11 was a
+   frame with contact forces as half floats of kN, which end at 65.5 MN; it is read. Solids are announced by block 2 and
+   take part in frames when they move. */
 #ifndef IO_RECORD_LAYOUT_H
 #define IO_RECORD_LAYOUT_H
 
@@ -46,11 +47,14 @@ enum {
     BLOCK_BIRTHS = 7,
     BLOCK_FORCES = 9,
     BLOCK_FRAME_BESIDE = 10,
-    BLOCK_FRAME = 11,
+    BLOCK_HALF_FRAME = 11, /* of an earlier layout, which is read */
     BLOCK_PEAK = 12,
     BLOCK_LOADS = 13,
-    BLOCK_PRESSURE = 14
+    BLOCK_PRESSURE = 14,
+    BLOCK_FRAME = 15
 };
+
+static inline bool record_is_frame(uint32_t type) { return type == BLOCK_FRAME || type == BLOCK_HALF_FRAME; }
 
 /* Bytes of a frame before its poses. */
 enum { FRAME_HEAD_SIZE = 48 };

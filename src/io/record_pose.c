@@ -3,7 +3,8 @@
 #include <string.h>
 
 /* A component is a whole number of steps from -1/sqrt(2) to 1/sqrt(2), so that zero is kept exactly. */
-enum { HALF_MOST = 0x7bff, HALF_STEPS = 16383, WORD_MASK = 32767, TOP_BIT = 32768 };
+enum { HALF_MOST = 0x7bff, HALF_LEAST = -14, FORCE_MOST = 0xffff, FORCE_LEAST = -30 };
+enum { HALF_STEPS = 16383, WORD_MASK = 32767, TOP_BIT = 32768 };
 enum { MARKED_WORD = RECORD_POSE_SIZE - (int)sizeof(uint16_t) }; /* place of the third word of the orientation */
 static const double root_half = 0.70710678118654752440;
 
@@ -16,17 +17,16 @@ static double exponent_scale(int power)
     return value;
 }
 
-uint16_t half_from_real(double value)
+/* Ten places of a mantissa under an exponent, of which 0 has the subnormal numbers; 2^least is the smallest that is
+   none. */
+static uint32_t pack_size(double size, int least)
 {
-    uint16_t sign = value < 0 ? 0x8000 : 0;
-    double size = fabs(value);
-    if (!(size < 65504))
-        return (uint16_t)(sign | HALF_MOST);
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
-    /* The scale of the last place is 2^(exponent - 24): eleven binary places, or those of the smallest scale. */
-    int first = (int)(bits >> 52) - 1023, exponent = first > -14 ? first + 14 : 0;
-    double places = size * exponent_scale(24 - exponent);
+    /* The scale of the last place is 2^(exponent + least - 10): eleven binary places, or those of the smallest scale.
+     */
+    int first = (int)(bits >> 52) - 1023, exponent = first > least ? first - least : 0;
+    double places = size * exponent_scale(10 - least - exponent);
     int whole = (int)places;
     double rest = places - whole;
     whole += rest > 0.5 || (rest == 0.5 && whole % 2 == 1);
@@ -35,18 +35,34 @@ uint16_t half_from_real(double value)
         exponent++;
     }
     /* Below 1024 places the number is subnormal and its exponent field is zero. */
-    uint32_t half = whole < 1024 ? (uint32_t)whole : (uint32_t)(exponent + 1) << 10 | ((uint32_t)whole - 1024);
-    return (uint16_t)(sign | (half > HALF_MOST ? HALF_MOST : half));
+    return whole < 1024 ? (uint32_t)whole : (uint32_t)(exponent + 1) << 10 | ((uint32_t)whole - 1024);
 }
 
-double real_from_half(uint16_t half)
+static double unpack_size(uint32_t packed, int least)
 {
-    int field = half >> 10 & 31;
-    double places = (half & 1023) + (field > 0 ? 1024 : 0), unit = 1.0 / 16777216;
-    for (int i = 1; i < field; i++)
-        unit *= 2;
-    return (half & 0x8000 ? -1 : 1) * places * unit;
+    int field = (int)(packed >> 10);
+    double places = (packed & 1023) + (field > 0 ? 1024 : 0);
+    return places * exponent_scale((field > 0 ? field - 1 : 0) + least - 10);
 }
+
+uint16_t half_from_real(double value)
+{
+    uint16_t sign = value < 0 ? 0x8000 : 0;
+    double size = fabs(value);
+    if (!(size < 65504))
+        return (uint16_t)(sign | HALF_MOST);
+    return (uint16_t)(sign | pack_size(size, HALF_LEAST));
+}
+
+double real_from_half(uint16_t half) { return (half & 0x8000 ? -1 : 1) * unpack_size(half & 0x7fff, HALF_LEAST); }
+
+uint16_t record_force_pack(double newton)
+{
+    double size = newton * 1e-3;
+    return !(size < unpack_size(FORCE_MOST, FORCE_LEAST)) ? FORCE_MOST : (uint16_t)pack_size(size, FORCE_LEAST);
+}
+
+double record_force_unpack(uint16_t packed) { return unpack_size(packed, FORCE_LEAST) * 1e3; }
 
 /* 15 bits of a component. */
 static uint16_t pack_component(double part)

@@ -23,4 +23,10 @@ bool record_pose_is_marked(const unsigned char pose[RECORD_POSE_SIZE]);
 uint16_t half_from_real(double value);
 double real_from_half(uint16_t half);
 
+/* A magnitude of force [N], which is never negative: as half floats of kN, but with a sixth bit of exponent in place of
+   the sign.  From 1e-9 kN, of models, to 8.58e9 kN to eleven binary places; beyond that the largest, which no ice
+   bears. */
+uint16_t record_force_pack(double newton);
+double record_force_unpack(uint16_t packed);
+
 #endif

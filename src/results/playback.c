@@ -21,7 +21,7 @@ typedef struct record_measure {
     uint64_t frame_bytes, other_bytes; /* frames with the forces that belong to them; the rest */
 } record_measure;
 
-static bool belongs_to_frame(uint32_t type) { return type == BLOCK_FRAME || type == BLOCK_FORCES; }
+static bool belongs_to_frame(uint32_t type) { return record_is_frame(type) || type == BLOCK_FORCES; }
 
 static fram_status measure_record(record_reader *r, record_measure *m, fram_error *error)
 {
@@ -36,7 +36,7 @@ static fram_status measure_record(record_reader *r, record_measure *m, fram_erro
             status = record_check_block(r->path, block.type, error);
         if (status != FRAM_OK || !found)
             return status;
-        m->frames += block.type == BLOCK_FRAME;
+        m->frames += record_is_frame(block.type);
         *(belongs_to_frame(block.type) ? &m->frame_bytes : &m->other_bytes) += r->position - block.offset;
     }
 }
@@ -163,7 +163,7 @@ static fram_status copy_record(page_writer *w, fram_error *error)
         status = record_next(w->r, &block, &found, error);
         if (status != FRAM_OK || !found)
             break;
-        if (block.type == BLOCK_FRAME) {
+        if (record_is_frame(block.type)) {
             status = put_frame(w, &block, seen++, error);
         } else if (block.type == BLOCK_FORCES) {
             w->forces = block.offset;

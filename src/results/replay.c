@@ -208,8 +208,9 @@ static bool read_forces(replay *r, cursor *c)
     return true;
 }
 
-/* Poses come by ascending slot of the bodies that move; those that stand still are added. */
-static bool read_frame(replay *r, cursor *c)
+/* Poses come by ascending slot of the bodies that move; those that stand still are added.  halves: contact forces are
+   those of an earlier layout. */
+static bool read_frame(replay *r, cursor *c, bool halves)
 {
     replay_frame *f = &r->next;
     take(c, &f->step, sizeof f->step);
@@ -231,7 +232,7 @@ static bool read_frame(replay *r, cursor *c)
             if (moving) {
                 if (take_pose(c, &p.position, &p.orientation))
                     take(c, &touched, sizeof touched);
-                p.contact_force = real_from_half(touched) * 1e3;
+                p.contact_force = halves ? real_from_half(touched) * 1e3 : record_force_unpack(touched);
                 found++;
             }
             if (b->born == f->number)
@@ -280,7 +281,8 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
         good = read_forces(r, &c);
         break;
     case BLOCK_FRAME:
-        good = read_frame(r, &c);
+    case BLOCK_HALF_FRAME:
+        good = read_frame(r, &c, block->type == BLOCK_HALF_FRAME);
         break;
     default: /* of another version: of an earlier one it is refused, of a later one passed over */
         return record_check_block(r->reader.path, block->type, error);

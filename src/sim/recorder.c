@@ -190,7 +190,7 @@ static bool put_touched_pose(recorder *r, const world *w, int32_t slot)
 {
     unsigned char packed[RECORD_POSE_SIZE];
     bool here = !world_came_since_contacts(w, slot); /* else they are those of what stood there before */
-    uint16_t touched = here ? half_from_real(r->sums.data[slot].magnitude * 1e-3) : 0;
+    uint16_t touched = here ? record_force_pack(r->sums.data[slot].magnitude) : 0;
     record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
     if (touched)
         record_pose_mark(packed);

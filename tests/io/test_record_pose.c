@@ -21,6 +21,25 @@ START_TEST(half_floats_are_those_of_the_standard)
 }
 END_TEST
 
+/* Of any size that a model or a structure can meet, in steps of 1 in 1024 to 2048, rounded to nearest even. */
+START_TEST(forces_keep_their_precision)
+{
+    const double least = 1e3 * exp2(-40), most = 1e3 * 2047 * exp2(22);
+    const struct {
+        double newton;
+        uint16_t packed;
+    } known[] = {{0, 0},         {least, 1},        {0.5 * least, 0}, {1.5 * least, 2}, {1023 * least, 0x3ff},
+                 {1e3, 0x7c00},  {2049e3, 0xa800},  {2051e3, 0xa802}, {most, 0xffff},   {0.9999 * most, 0xffff},
+                 {1e20, 0xffff}, {HUGE_VAL, 0xffff}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        ck_assert_uint_eq(record_force_pack(known[i].newton), known[i].packed);
+    for (uint32_t packed = 0; packed <= 0xffff; packed++)
+        ck_assert_uint_eq(record_force_pack(record_force_unpack((uint16_t)packed)), packed);
+    for (double force = 1e-6; force < 8e12; force *= 1.37)
+        ck_assert_double_le(fabs(record_force_unpack(record_force_pack(force)) / force - 1), 1.0 / 2048);
+}
+END_TEST
+
 START_TEST(poses_keep_their_precision)
 {
     for (int i = 0; i < 2000; i++) {
@@ -49,4 +68,4 @@ START_TEST(poses_keep_their_precision)
 }
 END_TEST
 
-TEST_MAIN("record_pose", half_floats_are_those_of_the_standard, poses_keep_their_precision)
+TEST_MAIN("record_pose", half_floats_are_those_of_the_standard, forces_keep_their_precision, poses_keep_their_precision)

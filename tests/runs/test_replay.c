@@ -2,6 +2,7 @@
 #include "sim/scene.h"
 
 #include "base/transcendental.h"
+#include "io/record_pose.h"
 #include "results/replay_moment.h"
 #include "results/replay_plan.h"
 #include "sim/run.h"
@@ -95,6 +96,45 @@ START_TEST(a_run_is_read_back)
     ck_assert_int_ge(pieces, 2);
     /* Breaking loses next to no area, and births and deaths are in step. */
     ck_assert_double_le(fabs(area[1] / area[0] - 1), 0.01);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
+/* A floe of 2900 t that is pushed from rest in a step: its contact is the load on the hull, beyond a half float of kN.
+ */
+START_TEST(contacts_of_large_floes_are_kept_whole)
+{
+    static const char blow[] = "run: {duration: 0.2, time_step: 0.02}\n"
+                               "vessel: {mode: prescribed, x: -26, speed: 3, hull: {form: box, length: 48, beam: 12,"
+                               " draught: 4, freeboard: 2}}\n"
+                               "ice: {source: floes, thickness: 2, crushing_strength: 1.0e9,"
+                               " floes: [{length: 40, width: 40, x: 18.1}]}\n"
+                               "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n"
+                               "output: {frame_interval: 0.02}\n";
+    context ctx;
+    char folder[PATH];
+    replay r;
+    fram_error error = {0};
+    bool found = true;
+    double most = 0;
+    context_init(&ctx);
+    run_scene(&ctx, blow, folder);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    while (found) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        for (int32_t i = 0; found && i < r.frame.poses.count && r.frame.forces.count == 1; i++) {
+            const replay_pose *p = &r.frame.poses.data[i];
+            if (r.bodies.data[p->body].material != MATERIAL_ICE)
+                continue;
+            double load = vec3_length(r.frame.forces.data[0].force);
+            /* A sum of magnitudes, of points that friction pulls apart: of the blow itself, hardly. */
+            ck_assert_double_gt(p->contact_force, 0.999 * load);
+            ck_assert(load < 1e8 || p->contact_force < 1.03 * load);
+            most = fmax(most, load);
+        }
+    }
+    ck_assert_double_gt(most, 1e8);
     replay_close(&r);
     remove_folder(folder);
 }
@@ -371,6 +411,55 @@ static fram_status write_one(context *ctx, const char *folder, uint32_t type, co
     return status;
 }
 
+static void add_frame(record_writer *w, uint32_t type, uint16_t touched)
+{
+    const int32_t head[12] = {[10] = 1};
+    unsigned char pose[RECORD_POSE_SIZE];
+    fram_error error = {0};
+    _Static_assert(sizeof head == FRAME_HEAD_SIZE, "step, time, force, count");
+    record_pose_pack(vec3_make(0, 0, 0), quat_identity(), pose);
+    record_pose_mark(pose);
+    const record_part part[] = {{head, sizeof head}, {pose, sizeof pose}, {&touched, sizeof touched}};
+    assert_ok(record_append(w, type, part, 3, &error), error);
+}
+
+/* Frames of before, and those that a run writes which began with them. */
+START_TEST(contacts_of_an_earlier_layout_are_read)
+{
+    const struct {
+        int32_t count, slot, generation;
+        unsigned char kind[4];
+        float thickness, density;
+        int32_t number, parent, vertices;
+        float outline[6];
+    } births = {1, 0, 1, {MATERIAL_ICE, 1}, 1, 900, 0, -1, 3, {0, 0, 1, 0, 0, 1}};
+    context ctx;
+    char folder[PATH] = "/tmp/fram-replay-XXXXXX", path[PATH + 32];
+    record_writer w;
+    const record_part part = {&births, sizeof births};
+    replay r;
+    fram_error error = {0};
+    bool found;
+    context_init(&ctx);
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    assert_ok(record_create(&ctx, path, &w, &error), error);
+    assert_ok(record_append(&w, BLOCK_BIRTHS, &part, 1, &error), error);
+    add_frame(&w, BLOCK_HALF_FRAME, 0x6800);
+    add_frame(&w, BLOCK_FRAME, 0x6800);
+    add_frame(&w, BLOCK_FRAME, 0xa800);
+    assert_ok(record_close(&w, &error), error);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    const double newton[] = {2048e3, 1e3 / 32, 2048e3};
+    for (int i = 0; i < 3; i++) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        ck_assert_double_eq(r.frame.poses.data[0].contact_force, newton[i]);
+    }
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
 START_TEST(records_that_lie_are_refused)
 {
     context ctx;
@@ -385,6 +474,7 @@ START_TEST(records_that_lie_are_refused)
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_BIRTHS, slot, sizeof slot), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_SOLID, closed, sizeof closed), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_HALF_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FORCES, births, sizeof births), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRACTURES, births, sizeof births), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_EARLIER_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
@@ -394,7 +484,7 @@ START_TEST(records_that_lie_are_refused)
 }
 END_TEST
 
-TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, pieces_have_an_age_and_tiles_none,
-          a_propeller_astern_pushes_along_the_ship, a_moment_lies_between_its_frames,
-          a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
+TEST_MAIN("replay", a_run_is_read_back, contacts_of_large_floes_are_kept_whole, contacts_of_an_earlier_layout_are_read,
+          level_ice_is_known, pieces_have_an_age_and_tiles_none, a_propeller_astern_pushes_along_the_ship,
+          a_moment_lies_between_its_frames, a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
           frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)

@@ -42,7 +42,7 @@ SHOWN = """(fram.prepare(), (() => {
              longest: fram.arrowScale * Math.max(0, ...pulls), kinds: fram.poses.forces.map((f) => f.kind),
              named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length,
              text: document.getElementById('history').innerText, told: fram.history.sorted?.at(-1)?.time }; })())"""
-FRAME = 11  # type of the block of a frame, src/io/record_layout.h
+FRAME = 15  # type of the block of a frame, src/io/record_layout.h
 
 
 def skip(reason):

@@ -3,8 +3,8 @@
 // decoded when they are shown.
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
-const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10, FRAME = 11;
-const LOADS = 13, PRESSURE = 14;
+const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10;
+const HALF_FRAME = 11, LOADS = 13, PRESSURE = 14, FRAME = 15;
 const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
 const BREAKS = ['', 'split', 'bending', 'loose']; // enum fracture_kind; loose: a part of level ice
@@ -12,11 +12,17 @@ const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
 const MARKED = 32768; // of the last number of a pose: a contact force follows
 const NEVER = Infinity;
 
-/** Half floats of all 16-bit patterns. */
-const HALF = Float32Array.from({ length: 65536 }, (_, h) => {
-    const field = h >> 10 & 31;
-    return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
-});
+/** A mantissa of ten bits under an exponent, of which 0 has the numbers without a leading one; `last`: exponent of the
+ *  last place of the smallest. */
+function unpackSize(packed, last) {
+    const field = packed >> 10;
+    return ((packed & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 1 + last);
+}
+/** Half floats of all 16-bit patterns, and contact forces [kN], which have no sign and a longer exponent. */
+const HALF = Float32Array.from({ length: 65536 }, (_, h) => (h & 0x8000 ? -1 : 1) * unpackSize(h & 0x7fff, -24));
+const CONTACT = Float32Array.from({ length: 65536 }, (_, force) => unpackSize(force, -40));
+/** In frames of this type of block; of an earlier layout they are half floats. */
+const contactsOf = (type) => (type === HALF_FRAME ? HALF : CONTACT);
 
 /** A pose as src/io/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js).
  *  @returns whether it is marked: in a frame, a contact force follows. */
@@ -58,8 +64,8 @@ class Cursor {
  *  Body: {index, slot, material, moves, birth, death (frame numbers; death is the first frame without it), number and
  *  parent of a floe, thickness, area, outline [[x, y], ...] and level (a tile of level ice) of a prism, or vertices and
  *  triangles of a solid, pose of a body that does not move}.
- *  Frame: {time, step, force: [x, y, z], order: bodies that move, view and at of its poses or chunk and offset of a
- *  file beside the page}.
+ *  Frame: {time, step, force: [x, y, z], order: bodies that move, view and at of its poses with contacts, the table of
+ *  their contact forces, or chunk and offset of a file beside the page}.
  *  Fracture: {time, kind, floe, place, load}.
  *  loads (told of vessels, src/results/playback_explained.c) and pressure (on a hull) of pages that have them. */
 export function readRecord(buffer) {
@@ -135,7 +141,10 @@ function readBlock(state, type, c, buffer, size) {
     case DEATHS: for (let n = c.i32(); n > 0; n--) removeBody(state, c.i32()); break;
     case FRACTURES: for (let n = c.i32(), k = c.i32(); k < n; k++) record.fractures.push(readFracture(c)); break;
     case FORCES: state.forces = c.at; break;
-    case FRAME: addFrame(state, c, { view: c.view, forces: state.forces ?? -1 }); break;
+    case FRAME:
+    case HALF_FRAME:
+        addFrame(state, c, { view: c.view, forces: state.forces ?? -1, contacts: contactsOf(type) });
+        break;
     case LOADS: record.loads = JSON.parse(text(buffer, c.at, size)); break;
     case PRESSURE: record.pressure = readPressure(c); break;
     case FRAME_BESIDE: addFrame(state, c, { chunk: c.i32(), offset: c.i32() }); break;
@@ -236,7 +245,7 @@ export class FrameStore {
         const found = this.kept.get(number);
         if (found) return found;
         const frame = this.record.frames[number];
-        const decoded = frame.view ? decode(frame.view, frame.at, frame.forces, frame) : this.fromChunk(frame);
+        const decoded = frame.view ? decode(frame, frame) : this.fromChunk(frame);
         if (!decoded) return null;
         if (this.kept.size >= 4) this.kept.delete(this.kept.keys().next().value);
         this.kept.set(number, decoded);
@@ -246,21 +255,23 @@ export class FrameStore {
     fromChunk(frame) {
         const view = this.chunks.get(frame.chunk);
         if (!view) return null;
-        let forces = -1, at = -1;
+        const place = { view, at: -1, forces: -1 };
         eachBlock(view, frame.offset, (type, start) => {
-            if (type === FORCES) forces = start;
-            if (type === FRAME) at = start + FRAME_HEAD;
-            return type === FRAME;
+            if (type === FORCES) place.forces = start;
+            if (type !== FRAME && type !== HALF_FRAME) return false;
+            place.at = start + FRAME_HEAD;
+            place.contacts = contactsOf(type);
+            return true;
         });
-        return decode(view, at, forces, frame);
+        return decode(place, frame);
     }
 }
 
-function decode(view, at, forces, frame) {
+function decode({ view, at, forces, contacts }, frame) {
     const count = frame.order.length, poses = new Float32Array(7 * count), contact = new Float32Array(count);
     for (let i = 0; i < count; i++, at += POSE) {
         if (!unpackPose(view, at, poses, 7 * i)) continue;
-        contact[i] = HALF[view.getUint16(at + POSE, true)];
+        contact[i] = contacts[view.getUint16(at + POSE, true)];
         at += 2;
     }
     return { poses, contact, forces: forces < 0 ? [] : readForces(new Cursor(view, forces)) };
@@ -277,12 +288,12 @@ function readForces(c) {
 /** Contact forces of floes [kN] and forces on vessels [N] of all frames that are in the page, one by one, and the kinds
  *  of the latter. Reads past the poses. Where none of them meets ice, frames in files beside tell by their load. */
 export function forcesOf({ bodies, frames }) {
-    const contacts = [], pulls = [], kinds = new Set();
-    for (const { view, at, order, forces } of frames) {
+    const touched = [], pulls = [], kinds = new Set();
+    for (const { view, at, order, forces, contacts } of frames) {
         if (!view) continue;
         for (let i = 0, pose = at; i < order.length; i++, pose += POSE) {
             if (view.getUint16(pose + POSE - 2, true) < MARKED) continue;
-            if (bodies[order[i]].material === 'ice') contacts.push(HALF[view.getUint16(pose + POSE, true)]);
+            if (bodies[order[i]].material === 'ice') touched.push(contacts[view.getUint16(pose + POSE, true)]);
             pose += 2;
         }
         for (const { kind, force } of forces < 0 ? [] : readForces(new Cursor(view, forces))) {
@@ -293,10 +304,10 @@ export function forcesOf({ bodies, frames }) {
     const loads = frames.map(({ view, force }) => (view ? 0 : Math.hypot(...force))).filter((load) => load > 0);
     if (!kinds.has('ice') && loads.length) {
         pulls.push(...loads);
-        contacts.push(...loads.map((load) => load / 1000));
+        touched.push(...loads.map((load) => load / 1000));
         kinds.add('ice');
     }
-    return { contacts, pulls, kinds };
+    return { contacts: touched, pulls, kinds };
 }
 
 const KEPT = 4; // files beside the page that are held at once
