@@ -1,12 +1,10 @@
 /* Rows of numbers as text. */
 #include "io/csv.h"
 #include "base/number_text.h"
-#include "io/text_buffer.h"
 #include <math.h>
 #include <string.h>
 
-/* "time[s],x[m]\n" */
-static void header_text(context *ctx, const csv_column *columns, int32_t count, text_buffer *out)
+void csv_text_header(context *ctx, const csv_column *columns, int32_t count, text_buffer *out)
 {
     for (int32_t c = 0; c < count; c++) {
         const char *unit = columns[c].unit;
@@ -21,7 +19,7 @@ fram_status csv_create(context *ctx, const char *path, const csv_column *columns
 {
     memset(w, 0, sizeof *w);
     text_buffer header = {0};
-    header_text(ctx, columns, count, &header);
+    csv_text_header(ctx, columns, count, &header);
     fram_status status = header.failed ? error_memory(error) : file_create(ctx, path, &w->file, error);
     if (status == FRAM_OK) {
         w->column_count = count;
@@ -68,7 +66,7 @@ fram_status csv_continue(context *ctx, const char *path, uint64_t length, const 
 {
     memset(w, 0, sizeof *w);
     text_buffer header = {0};
-    header_text(ctx, columns, count, &header);
+    csv_text_header(ctx, columns, count, &header);
     fram_status status = header.failed ? error_memory(error) : file_open(ctx, path, &w->file, error);
     if (status == FRAM_OK) {
         w->column_count = count;
@@ -81,24 +79,40 @@ fram_status csv_continue(context *ctx, const char *path, uint64_t length, const 
 }
 
 /* Numbers that are put together before they go to the file, whose every call costs as much as a number's text. */
-enum { NUMBERS_AT_ONCE = 64 };
+enum { NUMBERS_AT_ONCE = 64, NUMBERS_ROOM = NUMBERS_AT_ONCE * (NUMBER_TEXT_SIZE + 1) };
+
+/* Numbers of a row from *next on, as many as go at once; the bytes of their text. */
+static size_t numbers_text(const double *row, int32_t count, int32_t *next, char text[NUMBERS_ROOM])
+{
+    char *at = text;
+    for (int n = 0; n < NUMBERS_AT_ONCE && *next < count; n++, ++*next) {
+        if (row[*next] == 0 && !signbit(row[*next]))
+            *at++ = '0'; /* half of a series, or more */
+        else
+            at += real_to_digits(row[*next], CSV_DIGITS, at);
+        *at++ = *next + 1 < count ? ',' : '\n';
+    }
+    return (size_t)(at - text);
+}
 
 fram_status csv_append(csv_writer *w, const double *row, fram_error *error)
 {
-    char text[NUMBERS_AT_ONCE * (NUMBER_TEXT_SIZE + 1)];
+    char text[NUMBERS_ROOM];
     fram_status status = FRAM_OK;
-    for (int32_t c = 0; c < w->column_count && status == FRAM_OK;) {
-        char *at = text;
-        for (int n = 0; n < NUMBERS_AT_ONCE && c < w->column_count; n++, c++) {
-            if (row[c] == 0 && !signbit(row[c]))
-                *at++ = '0'; /* half of a series, or more */
-            else
-                at += real_to_digits(row[c], CSV_DIGITS, at);
-            *at++ = c + 1 < w->column_count ? ',' : '\n';
-        }
-        status = file_write(&w->file, text, (size_t)(at - text), error);
+    for (int32_t next = 0; next < w->column_count && status == FRAM_OK;) {
+        size_t size = numbers_text(row, w->column_count, &next, text);
+        status = file_write(&w->file, text, size, error);
     }
     return status;
+}
+
+void csv_text_row(context *ctx, const double *row, int32_t count, text_buffer *out)
+{
+    char text[NUMBERS_ROOM];
+    for (int32_t next = 0; next < count;) {
+        size_t size = numbers_text(row, count, &next, text);
+        text_add_bytes(ctx, out, text, size);
+    }
 }
 
 fram_status csv_flush(csv_writer *w, bool sync, fram_error *error) { return file_flush(&w->file, sync, error); }

@@ -4,6 +4,7 @@
 #define IO_CSV_H
 
 #include "io/file.h"
+#include "io/text_buffer.h"
 
 /* Far beyond what a load is known to; digits that read back as the same double cost a tenth of a small run. */
 enum { CSV_DIGITS = 12 };
@@ -18,7 +19,12 @@ typedef struct csv_writer {
     int32_t column_count;
 } csv_writer;
 
-/* A new file with its header row. */
+/* A table as text, for a file that is there whole or not at all (io/atomic_file.h): its header row, "time[s],x[m]", and
+   the rows.  What fails shows in the buffer. */
+void csv_text_header(context *ctx, const csv_column *columns, int32_t count, text_buffer *out);
+void csv_text_row(context *ctx, const double *row, int32_t count, text_buffer *out);
+
+/* For tables that grow while others look on: a new file with its header row. */
 fram_status csv_create(context *ctx, const char *path, const csv_column *columns, int32_t count, csv_writer *w,
                        fram_error *error);
 /* Open a file to be continued at `length` (a csv_length of before), once the caller has cut it there by file_cut.

@@ -2,6 +2,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/sort.h"
+#include "io/atomic_file.h"
 #include "io/csv.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_parts.h"
@@ -209,6 +210,14 @@ static void moment_row(const manage_run *m, const manage_moment *at, double row[
     row[n++] = comes && isfinite(at->threat.size) ? at->threat.size : (double)NAN;
 }
 
+static fram_status write_table(context *ctx, const char *path, text_buffer *table, fram_error *error)
+{
+    fram_status status =
+        table->failed ? error_memory(error) : atomic_file_write(ctx, path, table->data, (size_t)table->count, error);
+    text_free(ctx, table);
+    return status;
+}
+
 static fram_status write_moments(const manage_run *m, const char *path, fram_error *error)
 {
     static const csv_column columns[MOMENT_COLUMNS] = {{"time", "s"},
@@ -218,17 +227,14 @@ static fram_status write_moments(const manage_run *m, const char *path, fram_err
                                                        {"unmanaged_comes_in", "s"},
                                                        {"largest_unmanaged_comes_in", "s"},
                                                        {"largest_unmanaged", "m"}};
-    csv_writer w;
-    fram_status status = csv_create(m->ctx, path, columns, MOMENT_COLUMNS, &w, error);
-    if (status != FRAM_OK)
-        return status;
-    for (int32_t i = 0; i < m->moments.count && status == FRAM_OK; i++) {
+    text_buffer table = {0};
+    csv_text_header(m->ctx, columns, MOMENT_COLUMNS, &table);
+    for (int32_t i = 0; i < m->moments.count; i++) {
         double row[MOMENT_COLUMNS];
         moment_row(m, &m->moments.data[i], row);
-        status = csv_append(&w, row, error);
+        csv_text_row(m->ctx, row, MOMENT_COLUMNS, &table);
     }
-    fram_status closed = csv_close(&w, status == FRAM_OK ? error : NULL);
-    return status == FRAM_OK ? closed : status;
+    return write_table(m->ctx, path, &table, error);
 }
 
 /* A row a class of size, the last two without an upper end: floes beyond the last class, and unbroken ice. */
@@ -236,21 +242,18 @@ static fram_status write_sizes(const manage_run *m, const manage_summary *s, con
 {
     static const csv_column columns[] = {{"size_over", "m"}, {"size_up_to", "m"}, {"upstream", "1"},
                                          {"behind", "1"},    {"at_vessel", "1"},  {"sheet", "1"}};
-    csv_writer w;
-    fram_status status = csv_create(m->ctx, path, columns, 6, &w, error);
-    if (status != FRAM_OK)
-        return status;
-    for (int k = 0; k <= MANAGE_CLASSES + 1 && status == FRAM_OK; k++) {
+    text_buffer table = {0};
+    csv_text_header(m->ctx, columns, 6, &table);
+    for (int k = 0; k <= MANAGE_CLASSES + 1; k++) {
         bool sheet = k > MANAGE_CLASSES;
         double row[6] = {k > 0 && !sheet ? manage_class_size[k - 1] : 0,
                          k < MANAGE_CLASSES ? manage_class_size[k] : HUGE_VAL};
         for (int p = 0; p < MANAGE_PLACES; p++)
             row[2 + p] = sheet ? s->place[p].sheet : s->place[p].share[k];
         row[5] = sheet;
-        status = csv_append(&w, row, error);
+        csv_text_row(m->ctx, row, 6, &table);
     }
-    fram_status closed = csv_close(&w, status == FRAM_OK ? error : NULL);
-    return status == FRAM_OK ? closed : status;
+    return write_table(m->ctx, path, &table, error);
 }
 
 /* The tables' names are made of the page's: none of them is one of what the runs are made of. */

@@ -1,7 +1,7 @@
 /* Scenes of the peers as worlds: walls, box ship and floes, with the scene's own water or Fram's. */
 #include "base/transcendental.h"
 #include "geometry/space_curve.h"
-#include "io/file.h"
+#include "io/atomic_file.h"
 #include "sim/bench_measure.h"
 
 #include <stdio.h>
@@ -201,15 +201,17 @@ static fram_status write_pose(file_writer *file, const bench_world *b, int32_t f
 static fram_status dump_poses(context *ctx, const bench_world *b, const char *path, fram_error *error)
 {
     static const char header[] = "id,x,y,z,qx,qy,qz,qw,tilt_deg\n";
-    file_writer file;
-    fram_status status = file_create(ctx, path, &file, error);
+    atomic_file file;
+    fram_status status = atomic_file_begin(ctx, path, &file, error);
     if (status != FRAM_OK)
         return status;
-    status = file_write(&file, header, sizeof header - 1, error);
+    status = file_write(&file.writer, header, sizeof header - 1, error);
     for (int32_t i = 0; i < b->slot.count && status == FRAM_OK; i++)
-        status = write_pose(&file, b, i, error);
-    fram_status closed = file_close(&file, status == FRAM_OK ? error : NULL);
-    return status == FRAM_OK ? closed : status;
+        status = write_pose(&file.writer, b, i, error);
+    if (status == FRAM_OK)
+        return atomic_file_commit(&file, error);
+    atomic_file_abandon(&file);
+    return status;
 }
 
 fram_status bench_scene(context *ctx, const scene_text *scene, const bench_scene_options *options, bench_result *out,
