@@ -25,7 +25,8 @@ FRAM_API bool fram_run_has_file(const char *run, const char *path);
 
 /* ---- Formats of other programs ---- */
 
-/* For ParaView: run.pvd in the folder `output` (RUN/vtk), with floes, hull and forces of every `every`-th frame. */
+/* For ParaView: run.pvd in the folder `output` (RUN/vtk), with floes, hull and forces of every `every`-th frame, in
+   place of an earlier export there; other files in it stay. */
 FRAM_API fram_status fram_export_vtk(fram_context *context, const char *run, const char *output, int64_t every,
                                      fram_result *result, fram_error *error, size_t size);
 #define fram_export_vtk(...) fram_export_vtk(__VA_ARGS__, sizeof(fram_result))

@@ -110,6 +110,8 @@ bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE])
 /* The kinds of pictures and videos.  A name with another ending is refused. */
 #define PICTURE_ENDINGS "png svg"
 #define VIDEO_ENDINGS "mp4"
+/* In place of endings: a folder of files. */
+#define FOLDER_OUTPUT "/"
 
 /* A file that a command writes: the option that names it, and the endings of the names of its kind, "stl obj" (NULL:
    any).  NULL as path: none is asked for. */
@@ -123,7 +125,8 @@ typedef struct command_files {
     output_file outputs[FILES_ROOM];
 } command_files;
 /* A usage error, else -1: what is read is never written over, nor one output by another; a file that is there is
-   replaced when its name has an ending of the kind that is written, otherwise with --force only. */
+   replaced when its name has an ending of the kind that is written, otherwise with --force only, as a folder that is
+   not empty is written into. */
 int refuse_outputs(const common_options *common, const command_files *files);
 /* The same for the files that a scenario names, when it has been read. */
 int refuse_scenario_files(const common_options *common, const command_files *files, const fram_scenario *scenario);

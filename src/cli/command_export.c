@@ -47,7 +47,7 @@ int command_export(const command_row *self, int argc, char **argv)
         return answer_usage(&common, "--every", "must be at least 1");
     const command_files files = {.runs = {run},
                                  .outputs = {{"--output", output,
-                                              vtk      ? "pvd"
+                                              vtk      ? FOLDER_OUTPUT
                                               : netcdf ? "nc"
                                                        : "geojson json"}}};
     code = refuse_outputs(&common, &files);

@@ -4,6 +4,7 @@
 #include "fram/live.h"
 #include "fram/results.h"
 
+#include <dirent.h>
 #include <limits.h>
 #include <string.h>
 #include <strings.h>
@@ -71,6 +72,18 @@ static bool is_of_another_kind(const output_file *o)
            !has_ending(o->path, o->endings);
 }
 
+/* A folder with something in it, which is to be written into; one that cannot be listed is for the writer to refuse. */
+static bool is_filled_folder(const output_file *o)
+{
+    DIR *folder = o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0 ? opendir(o->path) : NULL;
+    bool filled = false;
+    for (const struct dirent *e; !filled && folder && (e = readdir(folder));)
+        filled = strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
+    if (folder)
+        closedir(folder);
+    return filled;
+}
+
 static bool is_input(const command_files *files, const char *path)
 {
     for (int i = 0; i < FILES_ROOM; i++) {
@@ -98,6 +111,10 @@ int refuse_outputs(const common_options *common, const command_files *files)
             return answer_usage(common, o->option,
                                 "names a file that is there and, by its name, of another kind; give it another name, "
                                 "or write over it with --force");
+        if (!common->force && is_filled_folder(o))
+            return answer_usage(common, o->option,
+                                "names a folder that is not empty; give it another name, or write into it with "
+                                "--force");
     }
     return -1;
 }

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 const char *folder_next(DIR *folder, int *failure)
 {
@@ -16,6 +17,28 @@ const char *folder_next(DIR *folder, int *failure)
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
             return entry->d_name;
     }
+}
+
+bool name_is_numbered(const char *name, const char *begin, size_t digits, const char *end)
+{
+    size_t length = strlen(begin);
+    if (strncmp(name, begin, length) != 0)
+        return false;
+    size_t found = strspn(name + length, "0123456789");
+    return found >= digits && strcmp(name + length + found, end) == 0;
+}
+
+void folder_remove_files(const char *path, bool (*is_such)(const char *name))
+{
+    DIR *folder = opendir(path);
+    if (!folder)
+        return;
+    int failure;
+    for (const char *name = folder_next(folder, &failure); name; name = folder_next(folder, &failure)) {
+        if (is_such(name))
+            (void)unlinkat(dirfd(folder), name, 0);
+    }
+    closedir(folder);
 }
 
 fram_status folder_is_empty(const char *path, bool *empty, fram_error *error)

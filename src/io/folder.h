@@ -11,6 +11,12 @@
    errno value, which is 0 otherwise. */
 const char *folder_next(DIR *folder, int *failure);
 
+/* Whether a name is `begin`, so many digits or more, and `end`: "floes_000012.vtp". */
+bool name_is_numbered(const char *name, const char *begin, size_t digits, const char *end);
+
+/* Removes the files in a folder whose names are such; one that cannot be listed or removed stays. */
+void folder_remove_files(const char *path, bool (*is_such)(const char *name));
+
 /* A folder that is not there is empty too. */
 fram_status folder_is_empty(const char *path, bool *empty, fram_error *error);
 

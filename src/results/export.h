@@ -12,8 +12,8 @@ typedef struct export_report {
 } export_report;
 
 /* For ParaView: OUTPUT/run.pvd (floes, hull and forces together) and floes.pvd, hull.pvd, forces.pvd, with a .vtp each
-   per frame under OUTPUT/data; every `every`-th frame, at least 1.  Files are whole or not there, and the .pvd files
-   come last.  output NULL: FOLDER/vtk. */
+   per frame under OUTPUT/data; every `every`-th frame, at least 1.  Such files that are there go first.  Files are
+   whole or not there, and the .pvd files come last.  output NULL: FOLDER/vtk. */
 fram_status export_vtk(context *ctx, const char *folder, const char *output, int64_t every, export_report *report,
                        fram_error *error);
 

@@ -1,11 +1,14 @@
 #include "results/export.h"
 
+#include "io/folder.h"
 #include "io/vtk_file.h"
 #include "results/replay.h"
 
 #include <errno.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { FIELDS_MOST = 12, PARTS = 3 };
 enum { PART_FLOES, PART_HULL, PART_FORCES };
@@ -229,13 +232,20 @@ static fram_status write_frame(vtk_export *e, int64_t number, fram_error *error)
     return status;
 }
 
+/* The list of a part's files, or of all. */
+static fram_status name_list(const vtk_export *e, int part, char path[PATH_ROOM], fram_error *error)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s.pvd", part < PARTS ? part_names[part] : "run");
+    return path_join(e->folder, name, path, error);
+}
+
 static fram_status write_series(vtk_export *e, fram_error *error)
 {
     fram_status status = FRAM_OK;
     for (int k = 0; k <= PARTS && status == FRAM_OK; k++) {
-        char name[32], path[PATH_ROOM];
-        snprintf(name, sizeof name, "%s.pvd", k < PARTS ? part_names[k] : "run");
-        status = path_join(e->folder, name, path, error);
+        char path[PATH_ROOM];
+        status = name_list(e, k, path, error);
         if (status == FRAM_OK)
             status = vtk_series_write(e->ctx, path, e->steps[k].data, e->steps[k].count, error);
     }
@@ -267,6 +277,32 @@ static fram_status make_folder(const char *path, fram_error *error)
     return mkdir(path, 0777) != 0 && errno != EEXIST ? file_error(error, path, "make the folder", errno) : FRAM_OK;
 }
 
+/* "floes_000012.vtp" */
+static bool is_of_frame(const char *name)
+{
+    bool found = false;
+    for (int k = 0; k < PARTS; k++) {
+        size_t length = strlen(part_names[k]);
+        found = found || (strncmp(name, part_names[k], length) == 0 && name_is_numbered(name + length, "_", 6, ".vtp"));
+    }
+    return found;
+}
+
+/* What an earlier export left would be taken for more of this one, and its lists for those of frames that are not all
+   there yet. */
+static fram_status remove_earlier(const vtk_export *e, const char *data, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int k = 0; k <= PARTS && status == FRAM_OK; k++) {
+        char path[PATH_ROOM];
+        status = name_list(e, k, path, error);
+        if (status == FRAM_OK)
+            (void)unlink(path);
+    }
+    folder_remove_files(data, is_of_frame);
+    return status;
+}
+
 fram_status export_vtk(context *ctx, const char *folder, const char *output, int64_t every, export_report *report,
                        fram_error *error)
 {
@@ -282,6 +318,8 @@ fram_status export_vtk(context *ctx, const char *folder, const char *output, int
     status = make_folder(e.folder, error);
     if (status == FRAM_OK)
         status = make_folder(data, error);
+    if (status == FRAM_OK)
+        status = remove_earlier(&e, data, error);
     if (status == FRAM_OK)
         status = write_frames(&e, every < 1 ? 1 : every, report, error);
     replay_close(&e.r);

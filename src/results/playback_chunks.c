@@ -30,11 +30,7 @@ static void remove_chunks(const char *folder)
 }
 
 /* "0012.js" */
-static bool is_chunk(const char *name)
-{
-    size_t digits = strspn(name, "0123456789");
-    return digits >= 4 && strcmp(name + digits, ".js") == 0;
-}
+static bool is_chunk(const char *name) { return name_is_numbered(name, "", 4, ".js"); }
 
 /* Files of another kind would stop the folder from being replaced in the end: they are told before the work. */
 static fram_status refuse_foreign(const char *folder, fram_error *error)

@@ -105,20 +105,6 @@ static bool is_numbered_plan(const char *name)
     return size > 9 && strncmp(name, "plan-", 5) == 0 && strcmp(name + size - 4, ".png") == 0;
 }
 
-/* Removes the files of a folder that are such. */
-static void remove_files(const char *folder, bool (*is_such)(const char *name))
-{
-    DIR *dir = opendir(folder);
-    if (!dir)
-        return;
-    int failure; /* what is not listed stays, and harms nobody */
-    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure)) {
-        if (is_such(name))
-            (void)unlinkat(dirfd(dir), name, 0);
-    }
-    closedir(dir);
-}
-
 /* Files that grow with a run.  A link, as to a larger disk, stays: what it leads to is emptied when the run begins. */
 static void remove_streams(const char *folder)
 {
@@ -144,9 +130,9 @@ static void remove_results(const char *folder)
             (void)unlink(path);
     }
     remove_streams(folder);
-    remove_files(folder, is_of_vessel);
+    folder_remove_files(folder, is_of_vessel);
     if (path_join(folder, "pictures", path, NULL) == FRAM_OK)
-        remove_files(path, is_numbered_plan);
+        folder_remove_files(path, is_numbered_plan);
 }
 
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
@@ -178,7 +164,7 @@ fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
     if (*lock < 0)
         return file_error(error, folder, "open the folder", errno);
     if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        remove_files(folder, is_leftover);
+        folder_remove_files(folder, is_leftover);
         return FRAM_OK;
     }
     run_folder_unlock(*lock);

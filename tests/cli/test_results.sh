@@ -181,6 +181,19 @@ expect 2 "$FRAM" export scene.yaml --vtk
 expect 0 "$FRAM" export run --vtk --json
 holds '"frames":7' out
 holds 'data/hull_000006.vtp' run/vtk/run.pvd
+# A folder with something in it is left alone; by force, a shorter export leaves nothing of a longer.
+mkdir theirs
+touch theirs/mine
+expect 2 "$FRAM" export run --vtk -o theirs
+says "--output: names a folder that is not empty" err
+same "$(ls theirs)" mine "a folder with something in it"
+expect 0 "$FRAM" export run --vtk -o theirs --force -q
+for words in "-o theirs --force" ""; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" export run --vtk --every 3 -q $words
+done
+for folder in theirs run/vtk; do same "$(find $folder/data -type f | wc -l)" 9 "files of three frames in $folder"; done
+[ -e theirs/mine ] || fail "an export took a file that is not its own"
 expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson -q
 python3 - <<'PY' || fail "half.geojson is not the field at 1.25 s"
 import json
