@@ -285,7 +285,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
     double began = clock_wall();
     r->w = w;
     r->began_at = w->clock.time[0];
-    fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, &r->lock, error);
+    fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, r->inputs.data, &r->lock, error);
     if (status == FRAM_OK)
         status = write_scenario(r, error);
     if (status == FRAM_OK)

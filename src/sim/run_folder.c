@@ -117,13 +117,89 @@ static void remove_streams(const char *folder)
     }
 }
 
+/* Files of an export for ParaView, of a page's frames and of a video's pictures, each in a folder of its own. */
+static bool is_vtk_frame(const char *name)
+{
+    return name_is_numbered(name, "floes_", 6, ".vtp") || name_is_numbered(name, "hull_", 6, ".vtp") ||
+           name_is_numbered(name, "forces_", 6, ".vtp");
+}
+static bool is_vtk_list(const char *name)
+{
+    static const char *const names[] = {"run.pvd", "floes.pvd", "hull.pvd", "forces.pvd"};
+    bool found = false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        found = found || strcmp(name, names[i]) == 0;
+    return found;
+}
+static bool is_page_frame(const char *name) { return name_is_numbered(name, "", 4, ".js"); }
+static bool is_video_frame(const char *name) { return name_is_numbered(name, "frame-", 6, ".png"); }
+
+/* The folders themselves go when nothing else is in them. */
+static void remove_folders(const char *folder)
+{
+    static const struct {
+        const char *name;
+        bool (*is_such)(const char *name);
+    } folders[] = {{"vtk/data", is_vtk_frame},
+                   {"vtk", is_vtk_list},
+                   {"playback-frames", is_page_frame},
+                   {"video", is_video_frame}};
+    char path[PATH_ROOM];
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        if (path_join(folder, folders[i].name, path, NULL) != FRAM_OK)
+            continue;
+        folder_remove_files(path, folders[i].is_such);
+        (void)rmdir(path);
+    }
+}
+
+/* The ice at one time: "field-12.5.geojson". */
+static bool is_field(const char *name)
+{
+    static const char begin[] = "field-", end[] = ".geojson";
+    size_t size = strlen(name), around = sizeof begin + sizeof end - 2;
+    return size > around && strncmp(name, begin, sizeof begin - 1) == 0 &&
+           strcmp(name + size - (sizeof end - 1), end) == 0 &&
+           strspn(name + sizeof begin - 1, "0123456789.e+-") >= size - around;
+}
+
+/* Whether a file is one that the scenario names. */
+static bool is_run_input(const char *inputs, const char *path)
+{
+    struct stat one, other;
+    run_input file;
+    bool found = false;
+    for (const char *end = inputs + strlen(inputs); !found && run_inputs_next(&inputs, end, &file);) {
+        char input[PATH_ROOM];
+        snprintf(input, sizeof input, "%.*s", file.path_length, file.path);
+        found = stat(input, &one) == 0 && stat(path, &other) == 0 && one.st_dev == other.st_dev &&
+                one.st_ino == other.st_ino;
+    }
+    return found;
+}
+
+/* A run may begin from the field at which an earlier one is left, which is needed to resume it. */
+static void remove_fields(const char *folder, const char *inputs)
+{
+    DIR *dir = opendir(folder);
+    int failure;
+    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name; name = folder_next(dir, &failure)) {
+        char path[PATH_ROOM];
+        if (is_field(name) && path_join(folder, name, path, NULL) == FRAM_OK && !is_run_input(inputs, path))
+            (void)unlink(path);
+    }
+    if (dir)
+        closedir(dir);
+}
+
 /* Results of the run before: next to the files of a new one that stops before it has written its own, or never writes
    such, they would be taken for its own.  First of all how that run ended. */
-static void remove_results(const char *folder)
+static void remove_results(const char *folder, const char *inputs)
 {
-    static const char *const names[] = {"run.json",     "failed.fram", "plan.png",       "loads.png",     "station.png",
-                                        "station.json", "peaks.fram",  "peaks.fram.new", "playback.html", "report.html",
-                                        "run.nc",       "run.mp4",     "manage.html"};
+    static const char *const names[] = {"run.json",      "failed.fram",  "plan.png",        "loads.png",
+                                        "station.png",   "station.json", "peaks.fram",      "peaks.fram.new",
+                                        "playback.html", "report.html",  "run.nc",          "run.mp4",
+                                        "manage.html",   "manage.csv",   "manage-sizes.csv"};
     char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (path_join(folder, names[i], path, NULL) == FRAM_OK)
@@ -131,6 +207,8 @@ static void remove_results(const char *folder)
     }
     remove_streams(folder);
     folder_remove_files(folder, is_of_vessel);
+    remove_folders(folder);
+    remove_fields(folder, inputs);
     if (path_join(folder, "pictures", path, NULL) == FRAM_OK)
         folder_remove_files(path, is_numbered_plan);
 }
@@ -179,7 +257,8 @@ void run_folder_unlock(int lock)
         close(lock);
 }
 
-fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int *lock, fram_error *error)
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, const char *inputs, int *lock,
+                               fram_error *error)
 {
     fram_status status = run_folder_make(folder, error);
     if (status == FRAM_OK)
@@ -189,7 +268,7 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int
     if (status != FRAM_OK)
         return status;
     checkpoint_remove_all(ctx, folder);
-    remove_results(folder);
+    remove_results(folder, inputs ? inputs : "");
     return FRAM_OK;
 }
 

@@ -21,9 +21,11 @@ fram_status run_folder_check(const char *folder, bool force, fram_error *error);
 fram_status run_folder_lock(const char *folder, int *lock, fram_error *error);
 /* lock -1: nothing. */
 void run_folder_unlock(int lock);
-/* Make the folder and those above it and lock it, after the same check.  With `force`, checkpoints, pictures and pages
-   of an earlier run are removed, so that they are never mixed with the new one's. */
-fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int *lock, fram_error *error);
+/* Make the folder and those above it and lock it, after the same check.  With `force`, checkpoints and all that was
+   made from an earlier run are removed, so that they are never mixed with the new one's; not a field that is one of the
+   new run's inputs (run_inputs_list; NULL: none). */
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, const char *inputs, int *lock,
+                               fram_error *error);
 
 /* Bytes that a run.json has at most. */
 enum { RUN_NOTE_MOST = 1 << 26 };

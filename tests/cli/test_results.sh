@@ -68,8 +68,20 @@ done
 expect 0 "$FRAM" run scene.yaml -o old --quiet --set run.duration=0.4 --set output.picture_interval=0.1
 expect 0 "$FRAM" report old -q
 drawn=$(find old -name "plan-*.png" | wc -l)
+expect 0 "$FRAM" export old --vtk -q
+expect 0 "$FRAM" export old --geojson --time 0 -q
+mkdir old/video old/playback-frames
+(cd old && touch manage.csv manage-sizes.csv video/frame-000000.png playback-frames/0000.js vtk/mine field-mine.geojson)
 expect 0 "$FRAM" run scene.yaml -o old --force --quiet --set run.duration=0.2 --set output.picture_interval=0.1
 [ ! -e old/report.html ] || fail "the report of an earlier run stays beside a new one"
+same "$(cd old && find vtk video playback-frames ./*.geojson manage* 2>/dev/null | sort | xargs)" \
+    "./field-mine.geojson vtk vtk/mine" "what stays of an earlier run and by it"
+# But for the ice that the new run begins from.
+expect 0 "$FRAM" export old --geojson --time 0 -q
+printf 'run: {duration: 0.1, time_step: 0.02}\nvessel: {present: false}\n%s\n' \
+    'ice: {source: file, file: old/field-0.geojson}' >next.yaml
+expect 0 "$FRAM" run next.yaml -o old --force --quiet
+[ -e old/field-0.geojson ] || fail "the ice that a run was made of was removed"
 [ "$drawn" = 0 ] || [ "$(find old -name "plan-*.png" | wc -l)" -lt "$drawn" ] || fail "pictures of an earlier run stay"
 # What a run does not have is a dash in a comparison.
 expect 0 "$FRAM" run scene.yaml -o brief --quiet --set output.csv_interval=1 --until 0.5
