@@ -3,25 +3,47 @@
 #include "sim/feed.h"
 #include "sim/media_now.h"
 
+vec3 propulsion_damping(const vessel_model *hull, vec3 motion)
+{
+    if (!hull->has_hydrodynamics)
+        return vec3_make(0, 0, 0);
+    pair6 push = matrix6_mul(&hull->hydrodynamics.damping, (pair6){{motion.x, motion.y, 0}, {0, 0, motion.z}});
+    return vec3_make(-push.linear.x, -push.linear.y, -push.angular.z);
+}
+
+static vec3 damping_now(const model *m, const world *w, int32_t vessel, vec2 water)
+{
+    int32_t body = w->vessels.body[vessel];
+    vec3 past = vec3_sub(w->bodies.velocity[body], vec3_make(water.x, water.y, 0));
+    vec3 own = mat3_tmul_vec(quat_matrix(w->bodies.orientation[body]), past);
+    return propulsion_damping(&m->vessels.data[vessel], vec3_make(own.x, own.y, w->bodies.angular_velocity[body].z));
+}
+
 /* Damping acts afterwards. */
 double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water)
 {
     int32_t body = w->vessels.body[vessel], row = w->shapes.shapes.solid[w->bodies.shape[body]];
-    vec3 bow = mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), vec3_make(1, 0, 0)), v = w->bodies.velocity[body];
-    const vessel_model *fixed = &m->vessels.data[vessel];
-    double sum = 0;
+    vec3 bow = mat3_column(quat_matrix(w->bodies.orientation[body]), 0);
+    double sum = -damping_now(m, w, vessel, water).x;
     if (row >= 0 && w->scratch.fluid.count > row)
         sum -= vec3_dot(w->scratch.fluid.data[row].water_drag.force, bow);
-    if (fixed->has_hydrodynamics)
-        sum += fixed->hydrodynamics.damping.m[0][0] * vec3_dot(vec3_sub(v, vec3_make(water.x, water.y, 0)), bow);
     return sum;
 }
 
-static wrench drag_now(const model *m, const world *w, int32_t vessel)
+/* Of the water on the hull; the damping of surge is in the resistance. */
+static wrench drag_now(const model *m, const world *w, int32_t vessel, vec2 water)
 {
-    int32_t row = w->shapes.shapes.solid[w->bodies.shape[w->vessels.body[vessel]]];
-    bool known = m->forces == FORCES_FLUID && row >= 0 && w->scratch.fluid.count > row;
-    return known ? w->scratch.fluid.data[row].water_drag : (wrench){{0, 0, 0}, {0, 0, 0}};
+    int32_t body = w->vessels.body[vessel], row = w->shapes.shapes.solid[w->bodies.shape[body]];
+    wrench out = {{0, 0, 0}, {0, 0, 0}};
+    if (m->forces != FORCES_FLUID)
+        return out;
+    if (row >= 0 && w->scratch.fluid.count > row)
+        out = w->scratch.fluid.data[row].water_drag;
+    vec3 damping = damping_now(m, w, vessel, water);
+    vec3 port = mat3_column(quat_matrix(w->bodies.orientation[body]), 1);
+    out.force = vec3_mad(out.force, port, damping.y);
+    out.moment.z += damping.z;
+    return out;
 }
 
 track_place propulsion_comes(const model *m, const world *w, int32_t row, double time, double away)
@@ -65,7 +87,7 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
                                     drift,
                                     propulsion_comes(m, w, i, w->clock.time[0], away),
                                     m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
-                                    drag_now(m, w, vessel),
+                                    drag_now(m, w, vessel, water),
                                     m->course_speed};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);

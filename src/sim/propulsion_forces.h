@@ -5,8 +5,11 @@
 #include "model/world.h"
 
 /* What the water takes of a vessel's thrust along its bow [N], its velocity at the surface being `water`: drag on the
-   hull, and the linear damping of surge. */
+   hull, and linear damping. */
 double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water);
+/* What the linear damping does to a hull that goes through the water in its plane, `motion` being surge, sway and rate
+   of turn [m/s, m/s, rad/s]: forces along these and moment about the centre of mass [N, N, N m]. */
+vec3 propulsion_damping(const vessel_model *hull, vec3 motion);
 /* From the place of a row's pattern to the ice that comes there, at the distance of the pattern, or of the ship, that
    is so far `away` [m], from a pattern that goes ahead: against the drift, or with a forecast where it is going to come
    from; and its way, outward.  At (0, 0): no drift. */

@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "fluid/hull_load.h"
+#include "sim/propulsion_forces.h"
 
 #include <math.h>
 
@@ -24,7 +25,7 @@ typedef struct turning_search {
     double speed, angle;
 } turning_search;
 
-/* Drag of the water on the hull without its lift, ship's axes. */
+/* Drag of the water on the hull without its lift, and linear damping; ship's axes. */
 static wrench drag_of(const turning_search *t, double sway, double rate)
 {
     if (t->m->forces != FORCES_FLUID || t->hull->solid < 0)
@@ -34,8 +35,10 @@ static wrench drag_of(const turning_search *t, double sway, double rate)
     fluid_load load;
     fluid_load_solid(t->ctx, &t->water, &t->m->drag[MATERIAL_HULL], &t->m->solids.data[t->hull->solid], &moving, &load);
     wrench out = load.water_drag;
-    if (t->hull->has_hydrodynamics)
-        out.force.x -= t->hull->hydrodynamics.damping.m[0][0] * t->speed;
+    vec3 damping = propulsion_damping(t->hull, vec3_make(t->speed, sway, rate));
+    out.force.x += damping.x;
+    out.force.y += damping.y;
+    out.moment.z += damping.z;
     return out;
 }
 

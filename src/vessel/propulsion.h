@@ -90,7 +90,8 @@ typedef struct propulsion_moment {
     track_place comes;   /* where the ice is, from the place of the pattern, that is going to come there, and the way on
                             which it does, outward; at (0, 0): the pattern keeps its axis */
     double resistance;   /* of the water to the hull, against its way ahead [N] */
-    wrench drag;         /* of the water on the hull, without its lift: what the autopilot reckons with */
+    wrench drag;         /* of the water on the hull, without its lift, with linear damping of sway and turn: what the
+                            autopilot reckons with */
     double course_speed; /* slower over the ground a ship has a heading and no course [m/s] */
 } propulsion_moment;
 

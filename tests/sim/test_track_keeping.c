@@ -5,6 +5,7 @@
 #include "base/transcendental.h"
 #include "model/inputs.h"
 #include "sim/feed.h"
+#include "sim/turning.h"
 
 #include <stdio.h>
 
@@ -202,14 +203,43 @@ START_TEST(legs_are_kept_and_mirrored)
 }
 END_TEST
 
-/* The radius that is told is the one on which the ship turns in the end, to either side. */
+/* Linear damping of sway and turn, as if it were given. */
+static void give_damping(scene *k, double sway, double yaw)
+{
+    matrix6 *damping = &k->m.vessels.data[0].hydrodynamics.damping;
+    propulsion_settings *s = &k->w.propulsion.settings[0];
+    damping->m[1][1] = sway;
+    damping->m[5][5] = yaw;
+    s->turning = turning_ability_of(&k->ctx, &k->m, 0, s, s->turning.speed);
+}
+
+/* The autopilot takes the damping of a turn for what it is, not for a moment from outside. */
+static void check_seen(scene *k, double yaw)
+{
+    double seen = 0, damps = 0;
+    const vec3 *turn = &k->w.bodies.angular_velocity[k->w.vessels.body[0]];
+    k->w.propulsion.seen[0] = (motion_observer){.rate = turn->z};
+    for (int i = 0; i < 400; i++) {
+        sail(k, 0, STEP, 0);
+        seen += fabs(k->w.propulsion.seen[0].moment);
+        damps += yaw * fabs(turn->z);
+    }
+    printf("a moment of %g N m is seen, %g of damping\n", seen / 400, damps / 400);
+    ck_assert(seen < 0.3 * damps);
+}
+
+/* The radius that is told is the one on which the ship turns in the end, to either side, and with damping. */
 START_TEST(turns_as_it_is_told)
 {
     static const pattern_case any = {"circle", 3, 2, 4, true};
-    for (int side = -1; side <= 1; side += 2) {
+    static const double damping[3][2] = {{0, 0}, {0, 0}, {3e5, 4e8}};
+    for (int i = 0; i < 3; i++) {
+        int side = i % 2 ? 1 : -1;
         scene k;
         open_on_track(&k, &any);
+        give_damping(&k, damping[i][0], damping[i][1]);
         propulsion_settings *s = &k.w.propulsion.settings[0];
+        double rate = s->steering_rate;
         s->steering_rate = 1e-12;
         k.w.propulsion.steering[0] = side * s->steering_most;
         sail(&k, 0, 1200, 0);
@@ -218,6 +248,9 @@ START_TEST(turns_as_it_is_told)
         double radius = sqrt(v.x * v.x + v.y * v.y) / k.w.bodies.angular_velocity[body].z;
         printf("turns on %.1f m, told %.1f m; corners %.0f m\n", radius, s->turning.radius, s->turning.corner);
         assert_relative(side * radius, s->turning.radius, 0.05);
+        s->steering_rate = rate;
+        if (damping[i][1] > 0)
+            check_seen(&k, damping[i][1]);
         scene_close(&k);
     }
 }
