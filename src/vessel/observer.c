@@ -9,6 +9,26 @@ static vec3 place_error(vec3 measured, vec3 place)
     return e;
 }
 
+/* Part of a velocity that damping takes in a step of the model; what would take more is treated implicitly. */
+#define EXPLICIT_DAMPING 0.25
+
+/* From forces to accelerations over a step: M^-1, or (M + s D)^-1 where an explicit step of the damping would take more
+   than its part of a velocity, and diverge where steps are long; s grows from 0 to the step. */
+static mat3 mobility(const plane_model *m, double dt)
+{
+    mat3 inverse = mat3_inverse(m->mass), drag = mat3_mul(inverse, m->damping), whole = m->mass;
+    double rate = drag.m[0][0] + drag.m[1][1] + drag.m[2][2]; /* the fastest is no more than the sum of all */
+    if (!(dt * rate > EXPLICIT_DAMPING))
+        return inverse;
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 3; k++)
+            whole.m[r][k] += (dt - EXPLICIT_DAMPING / rate) * m->damping.m[r][k];
+    return mat3_inverse(whole);
+}
+
+/* A bias loses half of itself in a step at most. */
+static double memory_of(double bias_time, double dt) { return fmax(bias_time, 2 * dt); }
+
 /* What an error of the place adds to the rates of place, velocity and bias [1/s, 1/s2, 1/s3]. */
 typedef struct passive_gains {
     double place, velocity, bias;
@@ -39,9 +59,9 @@ void passive_observer_step(const plane_model *m, const passive_tuning *tuning, m
     vec3 force = vec3_add(tau, plane_to_vessel(heading, e->bias));
     force = vec3_sub(force, mat3_mul_vec(m->damping, e->velocity));
     force = vec3_mad(force, weighted, gain.velocity);
-    vec3 acceleration = mat3_mul_vec(mat3_inverse(m->mass), force);
-    vec3 bias_rate =
-        vec3_mad(plane_to_global(heading, vec3_scale(weighted, gain.bias)), e->bias, -1 / tuning->bias_time);
+    vec3 acceleration = mat3_mul_vec(mobility(m, dt), force);
+    vec3 bias_rate = vec3_mad(plane_to_global(heading, vec3_scale(weighted, gain.bias)), e->bias,
+                              -1 / memory_of(tuning->bias_time, dt));
     /* Semi-implicit: the new velocity moves the place. */
     e->bias = vec3_mad(e->bias, bias_rate, dt);
     e->velocity = vec3_mad(e->velocity, acceleration, dt);
@@ -98,7 +118,7 @@ static void step_jacobian(const plane_model *m, mat3 inverse, const kalman_tunin
     for (int r = 0; r < 3; r++) {
         f[r][2] += dt * component(turned, r);
         f[3 + r][2] += dt * component(pushed, r);
-        f[6 + r][6 + r] -= dt / tuning->bias_time;
+        f[6 + r][6 + r] -= dt / memory_of(tuning->bias_time, dt);
         for (int k = 0; k < 3; k++) {
             f[r][3 + k] = dt * rotation.m[r][k];
             f[3 + r][3 + k] -= dt * drag.m[r][k];
@@ -129,7 +149,7 @@ static void propagate(double f[N][N], kalman_covariance *p)
     }
 }
 
-/* Covariance of the velocity that white forces give in a second: M^-1 diag(force^2) M^-T. */
+/* Covariance of the velocity that white forces give in a second: M^-1 diag(force^2) M^-T, of the step's M. */
 static void add_noise(mat3 inverse, const kalman_tuning *tuning, double dt, kalman_covariance *p)
 {
     for (int r = 0; r < 3; r++) {
@@ -148,7 +168,7 @@ void kalman_predict(const plane_model *m, const kalman_tuning *tuning, motion_es
                     vec3 tau, double dt)
 {
     double f[N][N];
-    mat3 inverse = mat3_inverse(m->mass);
+    mat3 inverse = mobility(m, dt);
     step_jacobian(m, inverse, tuning, e, dt, f);
     propagate(f, p);
     add_noise(inverse, tuning, dt, p);
@@ -158,7 +178,7 @@ void kalman_predict(const plane_model *m, const kalman_tuning *tuning, motion_es
     vec3 rate = plane_to_global(e->place.z, e->velocity);
     e->place = vec3_mad(e->place, rate, dt);
     e->velocity = vec3_mad(e->velocity, mat3_mul_vec(inverse, force), dt);
-    e->bias = vec3_scale(e->bias, 1 - dt / tuning->bias_time);
+    e->bias = vec3_scale(e->bias, 1 - dt / memory_of(tuning->bias_time, dt));
 }
 
 void kalman_correct(const kalman_tuning *tuning, motion_estimate *e, kalman_covariance *p, vec3 measured)

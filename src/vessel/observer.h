@@ -18,7 +18,9 @@ typedef struct motion_estimate {
        M velocity' = -D velocity + R^T bias + tau + 3 w^2 diag(M) R^T e
        bias' = -bias / T + R w^3 diag(M) R^T e            e = measured - place
    whose error has a triple pole at -w where damping and T are left out; at steps that are not small against 1/w the
-   gains are less, so that the error of a step has it at exp(-w dt), however large w dt is. */
+   gains are less, so that the error of a step has it at exp(-w dt), however large w dt is.  Damping that would take
+   more than a quarter of a velocity in a step is taken implicitly beyond that, and errors shrink however long steps
+   are. */
 typedef struct passive_tuning {
     double bandwidth; /* w [rad/s] */
     double bias_time; /* T [s] */
@@ -27,7 +29,7 @@ typedef struct passive_tuning {
 void passive_observer_step(const plane_model *m, const passive_tuning *tuning, motion_estimate *e, vec3 tau,
                            vec3 measured, double dt);
 
-/* Extended Kalman filter of the same model with process noise. */
+/* Extended Kalman filter of the same model, in the same steps, with process noise. */
 typedef struct kalman_tuning {
     vec3 measurement; /* standard deviations of the measurements [m, m, rad] */
     vec3 force;       /* of the unknown force on the velocities, per square root of a second [N s^0.5, N m s^0.5] */

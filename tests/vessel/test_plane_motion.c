@@ -45,14 +45,14 @@ static void listed(motion_estimate e, double out[9])
 }
 
 /* Without noise the covariance of a single direction goes where the filter's own step takes a state displaced along it:
-   the Jacobian against differences. */
-START_TEST(the_kalman_filters_jacobian)
+   the Jacobian against differences, where damping is explicit and where it is not. */
+static void check_jacobian(double dt)
 {
     const plane_model m = {coupled, {{{1e5, 0, 0}, {0, 3e5, 2e6}, {0, 1e6, 4e8}}}};
     const kalman_tuning quiet = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 500};
     const motion_estimate at = {{3, -4, 0.8}, {1.2, -0.4, 0.03}, {4e5, -7e5, 3e6}};
     const vec3 tau = {1e5, 2e5, -1e6};
-    const double dt = 0.5, scale[9] = {1, 1, 0.1, 1, 1, 0.1, 1e6, 1e6, 1e7};
+    const double scale[9] = {1, 1, 0.1, 1, 1, 0.1, 1e6, 1e6, 1e7};
     for (int k = 0; k < 9; k++) {
         double v[9] = {0}, ahead[9], behind[9];
         v[k] = scale[k];
@@ -75,6 +75,12 @@ START_TEST(the_kalman_filters_jacobian)
             }
         }
     }
+}
+
+START_TEST(the_kalman_filters_jacobian)
+{
+    check_jacobian(0.5);
+    check_jacobian(6);
 }
 END_TEST
 
