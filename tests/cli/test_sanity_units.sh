@@ -106,6 +106,13 @@ all_told held.yaml vessel.positioning.interval=8 vessel.positioning.sample_inter
     "offset_limit: 150 m is more than the depth|not a percentage"
 all_told held.yaml vessel.positioning.frequency=0.001 -- "frequency: 0.001 rad/s is outside" \
     "run.duration: 600 s is less than one period of the controlled vessel"
+# The slower the control is against its observer, the sooner calls are too seldom, and samples that are held.
+all_told held.yaml vessel.positioning.frequency=0.0125 vessel.positioning.interval=22 \
+    vessel.positioning.sample_interval=22 -- "positioning.interval: once in 22 s|an observer of 0.2 rad/s: take 8 s"
+all_told held.yaml vessel.positioning.frequency=0.0125 vessel.positioning.interval=30 \
+    vessel.positioning.sample_interval=30 vessel.positioning.observer=kalman -- "positioning.interval: once in 30 s"
+all_told held.yaml vessel.positioning.frequency=0.0125 vessel.positioning.sample_interval=12 -- \
+    "positioning.sample_interval: once in 12 s|take 5 s or less"
 all_told ship.yaml "vessel.thrusters[0].power=1250" "vessel.thrusters[0].z=6" "vessel.thrusters[1].z=-60" \
     "vessel.thrusters[1].turn_rate_deg=0.1" "vessel.thrusters[0].time_constant=100" \
     "vessel.thrusters[1].failure_time=0.5" -- "power: 1250 W is 0.00625 W for each newton|not kW" \
