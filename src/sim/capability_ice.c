@@ -243,8 +243,8 @@ typedef struct measured_loads {
 
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
-    /* What a hull with equal sides meets from port is what it meets from starboard. */
-    bool mirrored = s->vessel.hull.form != HULL_MESH;
+    /* What a hull with equal sides meets from port is what it meets from starboard, seen from the middle. */
+    bool mirrored = s->vessel.hull.form != HULL_MESH && automatic_or(s->vessel.centre_of_gravity_y, 0) == 0;
     c->loads.runs_done = 0;
     c->loads.runs = (mirrored ? m->directions / 2 + 1 : m->directions) * m->speeds;
     for (int32_t i = 0; i < m->directions; i++) {

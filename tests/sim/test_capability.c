@@ -444,7 +444,8 @@ static void keep_speeds(void *user, log_level level, const char *text)
     }
 }
 
-/* Of more than four speeds four are measured, up to the largest. */
+/* Of more than four speeds four are measured, up to the largest; loads from port are those from starboard, mirrored,
+   unless the centre of mass lies to one side. */
 START_TEST(speeds_that_are_measured)
 {
     static const char *const ice[] = {"ice.source=voronoi", "ice.mean_floe_area=400", "domain.boundary=feeding",
@@ -466,6 +467,12 @@ START_TEST(speeds_that_are_measured)
     ck_assert_double_eq(speeds[0], 4);
     for (int i = 1; i <= 4; i++)
         assert_relative(speeds[i], 0.5 * i, 1e-12);
+    ck_assert(c.loads.runs == 3 * 4);
+    capability_free(&k.ctx, &c);
+    o.speed_most = o.speed_step;
+    k.s.vessel.centre_of_gravity_y = 1;
+    assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
+    ck_assert(c.loads.runs == 4);
     capability_free(&k.ctx, &c);
     scene_close(&k);
 }
