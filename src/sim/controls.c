@@ -261,9 +261,11 @@ static fram_status set_order(world *w, const control *c, double value, fram_erro
                          "the vessel's own controller gives the orders; set its input positioning to 0 before");
     if (c->role == CONTROL_THRUST) {
         t->order[row] = fmin(fmax(value, -t->astern[row]), t->ahead[row]);
+        /* It may stand in the forbidden sector as long as nobody asks it to push. */
+        if (t->order[row] > 0)
+            t->order_angle[row] = thruster_allowed_angle(t, row, t->order_angle[row]);
     } else {
-        double angle = plane_angle(radians(value)), most = t->rudder[row];
-        t->order_angle[row] = t->kind[row] == THRUSTER_MAIN ? fmin(fmax(angle, -most), most) : angle;
+        t->order_angle[row] = plane_angle(thruster_allowed_angle(t, row, plane_angle(radians(value))));
     }
     return FRAM_OK;
 }

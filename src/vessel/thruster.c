@@ -134,8 +134,7 @@ static int columns_of(const thruster_table *t, thruster_part *parts, int count, 
     return n;
 }
 
-/* The allowed direction nearest to `angle`. */
-static double allowed_angle(const thruster_table *t, int32_t row, double angle)
+double thruster_allowed_angle(const thruster_table *t, int32_t row, double angle)
 {
     if (t->kind[row] == THRUSTER_MAIN) {
         double most = t->rudder[row], a = plane_angle(angle);
@@ -155,7 +154,7 @@ static bool hold_direction(const thruster_table *t, thruster_part *p, const doub
         return false;
     double angle = real_atan2(y, x);
     bool astern = t->kind[p->row] == THRUSTER_MAIN && x < 0;
-    double allowed = astern ? 0 : allowed_angle(t, p->row, angle);
+    double allowed = astern ? 0 : thruster_allowed_angle(t, p->row, angle);
     bool fits = !astern && allowed == angle && thrust <= most * (1 + 1e-12);
     if (fits)
         return false;

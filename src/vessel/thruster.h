@@ -55,6 +55,8 @@ fram_status thruster_add(context *ctx, const thruster_definition *d, const vesse
                          thruster_table *thrusters, fram_error *error);
 /* Direction of a positive thrust, from the bow [rad]; a rudder does nothing astern. */
 double thruster_push_angle(const thruster_table *thrusters, int32_t row);
+/* The direction nearest to `angle` that may be ordered: of a rudder, or outside of the forbidden sector [rad]. */
+double thruster_allowed_angle(const thruster_table *thrusters, int32_t row, double angle);
 /* Power drawn [W]: full power times (|T| / largest)^1.5. */
 double thruster_power(const thruster_table *thrusters, int32_t row);
 

@@ -42,7 +42,8 @@ static const char fed[] = "run: {duration: 2, time_step: 0.02, seed: 4}\n"
                           "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: feeding, drift_speed: 3}\n";
 static const char still[] = "run: {duration: 2, time_step: 0.02}\n"
                             "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
-                            "  thrusters:\n    - {x: 18}\n    - {x: -18, kind: main, rudder_deg: 25}\n"
+                            "  thrusters:\n    - {x: 18, forbidden_deg: 10, forbidden_width_deg: 40}\n"
+                            "    - {x: -18, kind: main, rudder_deg: 25}\n"
                             "ice: {source: none}\n";
 
 static void open_text(const char *text)
@@ -74,6 +75,18 @@ static fram_world *create(void)
     fram_world *w;
     assert_ok(fram_world_create(scenario_of_test, &w, &e), e);
     return w;
+}
+
+static fram_world *open_world(const char *text)
+{
+    open_text(text);
+    return create();
+}
+
+static void close_world(fram_world *w)
+{
+    fram_world_destroy(w);
+    close_all();
 }
 
 static void step(fram_world *w, int count)
@@ -214,8 +227,7 @@ START_TEST(a_recording_can_be_resumed_and_ends_with_its_world)
     assert_ok(fram_world_record_end(copy, NULL, &e), e);
     fram_result report;
     assert_ok(fram_report(ctx, live, NULL, false, &report, &e), e);
-    fram_world_destroy(copy);
-    close_all();
+    close_world(copy);
 }
 END_TEST
 
@@ -260,8 +272,7 @@ static void steer(fram_world *w, unsigned *state)
 /* Random cycles of step, save, load, copy and steering: what went another way round has the same state. */
 static long run_cycles(const char *text, int cycles, int before, unsigned state)
 {
-    open_text(text);
-    fram_world *w = create();
+    fram_world *w = open_world(text);
     long fractures = 0;
     step(w, before);
     for (int i = 0; i < cycles; i++) {
@@ -311,8 +322,7 @@ static long run_cycles(const char *text, int cycles, int before, unsigned state)
         fram_data_free(ctx, data);
         fram_world_destroy(other);
     }
-    fram_world_destroy(w);
-    close_all(); /* nothing leaked */
+    close_world(w); /* nothing leaked */
     return fractures;
 }
 
@@ -328,8 +338,7 @@ END_TEST
 
 START_TEST(foreign_and_damaged_states_are_refused)
 {
-    open_text(busy);
-    fram_world *w = create();
+    fram_world *w = open_world(busy);
     step(w, 2);
     void *data;
     size_t size;
@@ -353,15 +362,13 @@ START_TEST(foreign_and_damaged_states_are_refused)
     fram_world_destroy(stranger);
     fram_scenario_destroy(other);
     fram_data_free(ctx, data);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
 START_TEST(a_world_that_failed_is_not_stepped_on)
 {
-    open_text(towed);
-    fram_world *w = create();
+    fram_world *w = open_world(towed);
     void *data;
     size_t size;
     step(w, 3);
@@ -395,8 +402,7 @@ START_TEST(a_world_that_failed_is_not_stepped_on)
     assert_ok(fram_world_load_memory(w, data, size, &e), e);
     step(w, 3);
     fram_data_free(ctx, data);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
@@ -444,16 +450,14 @@ START_TEST(channels_are_the_columns_of_the_series)
     }
     ck_assert(value(w, "step_wall_time") > 0);
     ck_assert(isnan(fram_world_value(w, count)) && isnan(fram_world_value(w, -1)));
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
 START_TEST(arrays_tell_what_single_calls_tell)
 {
     enum { ROOM = 400, POINTS = 8000 };
-    open_text(busy);
-    fram_world *w = create();
+    fram_world *w = open_world(busy);
     step(w, 20);
     static fram_body_id id[ROOM];
     static int32_t kind[ROOM], number[ROOM], parent[ROOM], offset[ROOM + 1];
@@ -498,8 +502,7 @@ START_TEST(arrays_tell_what_single_calls_tell)
     xy[20] = -77;
     ck_assert_int_eq(fram_world_outlines(w, 0, NULL, 0, xy, 10, NULL), points);
     assert_bits(xy[20], -77);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
@@ -507,8 +510,7 @@ START_TEST(contacts_sum_to_the_load_and_fractures_are_told)
 {
     enum { ROOM = 3000 };
     static fram_contact contacts[ROOM];
-    open_text(towed);
-    fram_world *w = create();
+    fram_world *w = open_world(towed);
     fram_body_id vessel;
     ck_assert(fram_world_vessel(w, &vessel));
     int broke = 0, capped = 0;
@@ -542,8 +544,7 @@ START_TEST(contacts_sum_to_the_load_and_fractures_are_told)
     ck_assert_int_gt(broke, 0);
     ck_assert_int_gt(capped, 0);
     assert_absolute(value(w, "splits") + value(w, "bendings"), broke, 0);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
@@ -581,8 +582,7 @@ END_TEST
 
 START_TEST(every_input_is_state_and_has_its_effect)
 {
-    open_text(still);
-    fram_world *a = create(), *b;
+    fram_world *a = open_world(still), *b;
     fram_body_id vessel;
     ck_assert(fram_world_vessel(a, &vessel));
     /* A steady force does what the same wrench in every step does. */
@@ -623,6 +623,10 @@ START_TEST(every_input_is_state_and_has_its_effect)
     ck_assert(value(a, "velocity_x") < -1e-5);
     /* Thrusters: orders are followed, within what they can give. */
     set(a, "wind_x", 0);
+    assert_bits(input(a, "thruster_1_order_angle"), 0);
+    set(a, "thruster_1_order", 1e3);
+    assert_absolute(input(a, "thruster_1_order_angle"), -10, 1e-9);
+    set(a, "thruster_1_order", 0);
     set(a, "thruster_2_order", 1e12);
     double most = input(a, "thruster_2_order");
     ck_assert(most > 0 && most < 1e9);
@@ -630,17 +634,17 @@ START_TEST(every_input_is_state_and_has_its_effect)
     assert_absolute(input(a, "thruster_2_order_angle"), 25, 1e-9);
     set(a, "thruster_1_order_angle", 80);
     assert_absolute(input(a, "thruster_1_order_angle"), 80, 1e-9);
+    set(a, "thruster_1_order_angle", 15);
+    assert_absolute(input(a, "thruster_1_order_angle"), 30, 1e-9);
     step(a, 50);
     ck_assert(value(a, "thruster_2_thrust") > 0 && value(a, "thruster_2_angle") > 0);
-    fram_world_destroy(a);
-    close_all();
+    close_world(a);
 }
 END_TEST
 
 START_TEST(positioning_set_points_and_lines_are_steered)
 {
-    open_text(busy);
-    fram_world *w = create();
+    fram_world *w = open_world(busy);
     assert_bits(input(w, "positioning"), 1);
     int order = fram_world_find_input(w, "thruster_1_order");
     assert_fails(fram_world_set_input(w, order, 1e4, &e), e, FRAM_ERROR_USAGE, "positioning");
@@ -669,15 +673,13 @@ START_TEST(positioning_set_points_and_lines_are_steered)
     assert_bits(value(w, "lines_parted"), 1);
     assert_bits(value(w, "line_2_tension"), 0);
     assert_bits(input(w, "line_2_release"), 1);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
 START_TEST(towing_drift_and_paths_are_steered)
 {
-    open_text(towed);
-    fram_world *w = create();
+    fram_world *w = open_world(towed);
     assert_bits(input(w, "tow_velocity_x"), 3);
     double centre = value(w, "position_x") + 26; /* of mass, ahead of the ship's origin, which the scenario places */
     step(w, 10);
@@ -701,18 +703,15 @@ START_TEST(towing_drift_and_paths_are_steered)
     ck_assert_str_eq(e.key, "times");
     int tow = fram_world_find_input(w, "tow_velocity_y");
     assert_fails(fram_world_set_input(w, tow, 900, &e), e, FRAM_ERROR_INPUT, "expected");
-    fram_world_destroy(w);
-    close_all();
-    open_text(fed);
-    w = create();
+    close_world(w);
+    w = open_world(fed);
     assert_absolute(input(w, "ice_drift_x"), 3, 1e-12);
     set(w, "ice_drift_x", -1);
     set(w, "ice_drift_y", 0.5);
     step(w, 2);
     assert_absolute(value(w, "drift_x"), -1, 1e-12);
     assert_absolute(value(w, "drift_y"), 0.5, 1e-12);
-    fram_world_destroy(w);
-    close_all();
+    close_world(w);
 }
 END_TEST
 
