@@ -145,11 +145,13 @@ static vec3 force_told(const world *w, const control *c)
     return c->role == CONTROL_FORCE ? w->inputs.first[row] : w->inputs.second[row];
 }
 
+static bool has_path(const world *w, int32_t vessel) { return !isnan(path_place(&w->waypoints, vessel, 0).z); }
+
 /* What a carriage or driven hull goes by: its path, while it has one. */
 static vec3 tow_velocity(const world *w, int32_t vessel)
 {
-    if (isnan(path_place(&w->waypoints, vessel, w->clock.time[0]).z))
-        return w->vessels.tow_velocity[vessel];
+    if (!has_path(w, vessel))
+        return vessel_tow_velocity(&w->vessels, vessel, w->clock.time[0]);
     vec3 along = path_velocity(&w->waypoints, vessel, w->clock.time[0]);
     return vec3_make(along.x, along.y, 0);
 }
@@ -210,6 +212,14 @@ static void drop_path(world *w, int32_t vessel)
         kept++;
     }
     w->waypoints.count = kept;
+}
+
+/* A carriage or driven hull goes on as fast as it goes now, whatever its path and its ramp have before it. */
+static void go_on(world *w, int32_t vessel)
+{
+    w->vessels.tow_velocity[vessel] = tow_velocity(w, vessel);
+    w->vessels.tow_ramp[vessel] = 0;
+    drop_path(w, vessel);
 }
 
 /* The point whose offset counts goes with the set point, as it does with way points. */
@@ -312,8 +322,7 @@ fram_status control_set(context *ctx, const model *m, world *w, const control *c
     case CONTROL_TOW:
         if (fabs(value) > m->speed_limit)
             return refuse(c, value, -m->speed_limit, m->speed_limit, error);
-        w->vessels.tow_velocity[c->which] = tow_velocity(w, c->which);
-        drop_path(w, c->which);
+        go_on(w, c->which);
         *axis_of(&w->vessels.tow_velocity[c->which], c->axis) = value;
         return FRAM_OK;
     case CONTROL_SET_POINT:

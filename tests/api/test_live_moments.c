@@ -55,6 +55,12 @@ static double value(const fram_world *w, const char *name)
     return fram_world_value(w, fram_world_find_channel(w, name));
 }
 
+static void step(fram_world *w, int count)
+{
+    for (int i = 0; i < count; i++)
+        assert_ok(fram_world_step(w, &e), e);
+}
+
 enum { BODIES = 2000, CONTACTS = 8000 };
 
 static bool was_there(fram_body_id id, const fram_body_id *before, int count)
@@ -114,8 +120,7 @@ START_TEST(a_view_shows_none_that_a_loaded_state_has_not)
     size_t size;
     assert_ok(fram_world_save_memory(w, &state, &size, &e), e);
     assert_ok(fram_world_view(w, &view, &e), e);
-    for (int i = 0; i < 200; i++)
-        assert_ok(fram_world_step(w, &e), e);
+    step(w, 200);
     assert_ok(fram_world_view(w, &held, &e), e);
     int bodies = fram_world_bodies(w, 0, NULL);
     ck_assert_int_eq(living(&held), bodies);
@@ -135,8 +140,7 @@ START_TEST(a_path_turns_the_shorter_way)
         fram_world *w = open_driven(MODES[mode], "  speed: 0\n");
         const double time = 2, place[3] = {0, 0, 200 * 3.14159265358979 / 180};
         assert_ok(fram_world_set_path(w, 0, &time, place, 1, &e), e);
-        for (int i = 0; i < 50; i++)
-            assert_ok(fram_world_step(w, &e), e);
+        step(w, 50);
         assert_absolute(value(w, "angular_velocity_z"), 5 * 3.14159265358979 / 180, 2e-3);
         assert_absolute(value(w, "yaw"), -165, 0.1);
         close_world(w);
@@ -152,8 +156,7 @@ START_TEST(a_path_tells_its_velocity)
         const double along[3][2] = {{4, 0}, {0, 3}, {0, 0}};
         assert_absolute(input(w, "tow_velocity_x"), along[leg][0], 1e-12);
         assert_absolute(input(w, "tow_velocity_y"), along[leg][1], 1e-12);
-        for (int i = 0; i < 50 && leg < 2; i++)
-            assert_ok(fram_world_step(w, &e), e);
+        step(w, leg < 2 ? 50 : 0);
     }
     assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_y"), 0.5, &e), e);
     assert_ok(fram_world_step(w, &e), e);
@@ -163,5 +166,27 @@ START_TEST(a_path_tells_its_velocity)
 }
 END_TEST
 
+/* A speed that is told on the ramp is the speed from the next step on, whatever of the ramp is left. */
+START_TEST(a_ramp_ends_where_a_speed_is_told)
+{
+    for (int with_path = 0; with_path < 2; with_path++) {
+        fram_world *w = open_driven("towed", "  speed: 1\n  course_deg: 0\n  ramp: 0.4\n");
+        const double time = 1, place[3] = {2, 0, 3.3};
+        step(w, 10);
+        assert_absolute(input(w, "tow_velocity_x"), 0.5, 1e-12);
+        assert_absolute(value(w, "velocity_x"), 0.5, 1e-9);
+        if (with_path)
+            assert_ok(fram_world_set_path(w, 0, &time, place, 1, &e), e);
+        assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), 0.8, &e), e);
+        for (int i = 0; i < 2; i++) {
+            step(w, 1);
+            assert_absolute(input(w, "tow_velocity_x"), 0.8, 1e-12);
+            assert_absolute(value(w, "velocity_x"), 0.8, 1e-9);
+        }
+        close_world(w);
+    }
+}
+END_TEST
+
 TEST_MAIN("live_moments", contacts_name_those_that_touched, a_view_shows_none_that_a_loaded_state_has_not,
-          a_path_turns_the_shorter_way, a_path_tells_its_velocity)
+          a_path_turns_the_shorter_way, a_path_tells_its_velocity, a_ramp_ends_where_a_speed_is_told)
