@@ -394,6 +394,8 @@ fram_status control_path(context *ctx, world *w, int32_t vessel, const double *t
         from.z = places[0].z + plane_angle(from.z - places[0].z);
     if (count > 0 && !table_reserve(ctx, t, &waypoint_table_info, t->count + count + 1))
         return error_memory(error);
+    if (count == 0 && !free && has_path(w, vessel))
+        go_on(w, vessel);
     drop_path(w, vessel);
     if (count > 0) {
         int32_t row = t->count;

@@ -188,5 +188,23 @@ START_TEST(a_ramp_ends_where_a_speed_is_told)
 }
 END_TEST
 
+/* Without its path a hull goes on as fast as it went along it, and stands where it stood. */
+START_TEST(a_hull_goes_on_without_its_path)
+{
+    const double along[3][2] = {{4, 0}, {0, 3}, {0, 0}};
+    for (int leg = 0; leg < 3; leg++) {
+        fram_world *w = open_driven("prescribed", corner);
+        step(w, 25 + 50 * leg);
+        assert_ok(fram_world_set_path(w, 0, NULL, NULL, 0, &e), e);
+        assert_absolute(input(w, "tow_velocity_x"), along[leg][0], 1e-12);
+        step(w, 50);
+        assert_absolute(value(w, "velocity_x"), along[leg][0], 1e-9);
+        assert_absolute(value(w, "velocity_y"), along[leg][1], 1e-9);
+        close_world(w);
+    }
+}
+END_TEST
+
 TEST_MAIN("live_moments", contacts_name_those_that_touched, a_view_shows_none_that_a_loaded_state_has_not,
-          a_path_turns_the_shorter_way, a_path_tells_its_velocity, a_ramp_ends_where_a_speed_is_told)
+          a_path_turns_the_shorter_way, a_path_tells_its_velocity, a_ramp_ends_where_a_speed_is_told,
+          a_hull_goes_on_without_its_path)
