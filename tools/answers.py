@@ -27,15 +27,16 @@ SHEET = 15
 
 
 class Run:
-    """What a folder of results says after the transient."""
+    """What a folder of results says after the transient, or from one time to another."""
 
-    def __init__(self, name, vessel=""):
+    def __init__(self, name, vessel="", since=None, until=math.inf):
         self.folder = OUT / name
         self.station_file = self.folder / (f"station-{vessel}.json" if vessel else "station.json")
-        setting = re.search(r"^ *transient: (\S+)", (self.folder / "scenario.yaml").read_text(), re.M)
-        self.transient = float(setting.group(1))
+        if since is None:
+            setting = re.search(r"^ *transient: (\S+)", (self.folder / "scenario.yaml").read_text(), re.M)
+            since = float(setting.group(1))
         with open(self.folder / "series.csv", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if float(row["time[s]"]) > self.transient]
+            rows = [row for row in csv.DictReader(file) if since < float(row["time[s]"]) <= until]
         self.columns = {name.split("[")[0].removeprefix(f"{vessel}."): [float(row[name]) for row in rows]
                         for name in rows[0]}
 
@@ -47,6 +48,9 @@ class Run:
 
     def largest_along_x(self):
         return max(abs(x) for x in self.columns["ice_force_averaged_x"])
+
+    def offsets(self):
+        return [math.hypot(x, y) for x, y in zip(self.columns["offset_x"], self.columns["offset_y"])]
 
     def loads(self):
         return [math.hypot(x, y) for x, y in zip(self.columns["ice_force_averaged_x"],
@@ -131,12 +135,11 @@ def moored():
     use = f"{100 * run.use_of_lines():.0f} %"
     yield README, (f"{mega(load)} MN on average, {mega(peak)} MN at most; {largest:.2f} m of offset, {use} of the "
                    "breaking load")
-    yield TUTORIALS, (f"a mean ice load of {mega(load)} MN with a largest half-second mean of {mega(peak)} MN pushes it "
-                      f"{mean:.2f} m off station on average and {largest:.2f} m at most; the tension of the most loaded "
-                      f"line reaches {mega(run.station('line_tension_largest_N', 'greatest'))} MN, {use} of its "
+    yield TUTORIALS, (f"a mean ice load of {mega(load)} MN with a largest half-second mean of {mega(peak)} MN pushes "
+                      f"it {mean:.2f} m off station on average and {largest:.2f} m at most; the tension of the most "
+                      f"loaded line reaches {mega(run.station('line_tension_largest_N', 'greatest'))} MN, {use} of its "
                       "breaking load")
-    offsets = [math.hypot(x, y) for x, y in zip(run.columns["offset_x"], run.columns["offset_y"])]
-    yield TUTORIALS, f"Load and offset are largest at {run.time_of(run.loads())} and {run.time_of(offsets)} s"
+    yield TUTORIALS, f"Load and offset are largest at {run.time_of(run.loads())} and {run.time_of(run.offsets())} s"
 
 
 def positioned():
@@ -184,17 +187,34 @@ def drillship():
     yield TUTORIALS, row("ice load along X, largest", Run.largest_along_x)
     yield TUTORIALS, "| offset, mean and largest | " + " | ".join(
         f"{mean:.{digits}f} m, {largest:.{digits}f} m" for (mean, largest), digits in zip(offset, (2, 1, 1)))
-    yield TUTORIALS, "| largest tension of a line | " + " | ".join(
-        f"{mega(run.station('line_tension_largest_N', 'greatest'), digits)} MN"
-        for run, digits in zip((water, *runs), (2, 1, 1)))
+    yield TUTORIALS, "| heading off the drift, largest | 0 | " + " | ".join(
+        f"{max(map(abs, run.columns['heading_deviation'])):.1f} degrees" for run in runs)
+    tension = [f"{mega(run.station('line_tension_largest_N', 'greatest'), digits)} MN"
+               for run, digits in zip((water, *runs), (2, 1, 1))]
+    use = [f"{100 * run.use_of_lines():.0f} %" for run in (water, *runs)]
+    yield TUTORIALS, "| largest tension of a line | " + " | ".join(tension)
+    yield TUTORIALS, "| the same, of the breaking load | " + " | ".join(use)
+    yield README, f"{tension[1]} at most, {use[1]} of the breaking load, and an offset of {offset[1][1]:.1f} m"
+    beside = Run("managed", since=150, until=300)
+    drift, least = (abs(run.mean("ice_force_averaged_x")) for run in (managed, beside))
+    yield TUTORIALS, (f"the managed field gives {mega(least)} MN on average along X and "
+                      f"{mega(beside.largest_along_x(), 1)} MN at most, an offset of {max(beside.offsets()):.1f} m and a "
+                      f"line tension of {mega(max(beside.columns['line_tension_max']), 1)} MN")
+    yield TUTORIALS, (f"the mean load along the drift from {mega(abs(level_ice.mean('ice_force_averaged_x')))} to "
+                      f"{mega(least)} or {mega(drift)} MN")
+    yield TUTORIALS, f"a single jam at {managed.time_of(managed.loads())} s"
 
 
 def station():
     for name, words in (("supply_ship", "supply ship, 70 %, drift begins to turn (7 of 90 degrees)"),
-                        ("turret_ship", "turret ship, 80 %, drift reverses"), ("conical_unit", "conical unit, 95 %, 1 m")):
+                        ("turret_ship", "turret ship, 80 %, drift reverses"),
+                        ("conical_unit", "conical unit, 95 %, 1 m")):
         run = Run(name)
-        limit = run.station("offset_m", "limit")
-        yield STATION, f"| {words} | {run.station('offset_m', 'greatest'):.2f} m of {limit:g} m |"
+        loads = [run.station("ice_load_N", what) for what in ("mean", "significant", "greatest")]
+        told = ", ".join(f"{mega(load)} MN" if load >= 1e5 else f"{kilo(load)} kN" for load in loads)
+        yield STATION, (f"| {words} | {run.station('offset_m', 'greatest'):.2f} m of "
+                        f"{run.station('offset_m', 'limit'):g} m | {told}")
+    yield STATION, f"its mean of {mega(run.station('ice_load_N', 'mean'))} MN and peak of {mega(loads[-1])} MN lie inside"
 
 
 SHORT = (demo, towed, ships, own_ice, moored, positioned, level, ensemble)
