@@ -246,7 +246,8 @@ FRAM_API void fram_record_default(fram_record_definition *definition, size_t siz
    world; in a child that fork() made there is none, and the parent's goes on. */
 FRAM_API fram_status fram_world_record(fram_world *world, const fram_record_definition *definition, fram_error *error);
 FRAM_API bool fram_world_is_recorded(const fram_world *world);
-/* A checkpoint of now, from which fram_resume can go on (without what is told to the world later). */
+/* A checkpoint of now, from which fram_resume can go on (without what is told to the world later): it is on the disk
+   when this returns. */
 FRAM_API fram_status fram_world_checkpoint(fram_world *world, fram_error *error);
 /* The end: last checkpoint, pictures, results.  The world goes on unrecorded.  result may be NULL.  Whatever is
    returned, the recording is closed.  A world that is destroyed while it is recorded ends it so; a step that fails ends

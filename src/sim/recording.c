@@ -343,7 +343,10 @@ fram_status recording_step(recording *r, double step_wall, fram_error *error)
 fram_status recording_checkpoint(recording *r, fram_error *error)
 {
     double began = clock_wall();
-    fram_status status = as_failure(write_checkpoint(r, error), error);
+    fram_status status = write_checkpoint(r, error);
+    if (status == FRAM_OK)
+        status = end_checkpoint(r, error); /* whoever asked for it has it, or hears why not */
+    status = as_failure(status, error);
     r->record_time += clock_wall() - began;
     return status;
 }

@@ -72,7 +72,7 @@ fram_status recording_read_state(recording *r, const model *m, world *w, recorde
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
 /* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */
 fram_status recording_step(recording *r, double step_wall, fram_error *error);
-/* A checkpoint of now. */
+/* A checkpoint of now, on the disk when this returns; those that are due come there while the run goes on. */
 fram_status recording_checkpoint(recording *r, fram_error *error);
 /* Of now. */
 void recording_result(const recording *r, run_result *out);
