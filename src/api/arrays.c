@@ -191,12 +191,12 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
     return FRAM_OK;
 }
 
-/* The body that a contact of the last step was with: a piece that has come since may stand in its slot. */
+/* The body that a contact of the last step was with: pieces that have come since may stand in its slot. */
 static fram_body_id id_of(const world *w, int32_t slot)
 {
-    if (slot < 0 || slot >= w->bodies.count)
+    if (slot < 0 || slot >= w->scratch.contact_generations.count)
         return (fram_body_id){-1, 0};
-    return (fram_body_id){slot, w->bodies.generation[slot] - (world_came_since_contacts(w, slot) ? 1 : 0)};
+    return (fram_body_id){slot, w->scratch.contact_generations.data[slot]};
 }
 
 int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, size_t size)

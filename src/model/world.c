@@ -95,6 +95,7 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.submerged);
     array_free(ctx, &w->scratch.fluid);
     array_free(ctx, &w->scratch.contacts);
+    array_free(ctx, &w->scratch.contact_generations);
     array_free(ctx, &w->scratch.patch_pairs);
     edge_rows_free(ctx, &w->scratch.edge_rows);
     array_free(ctx, &w->scratch.patches);
@@ -133,6 +134,7 @@ void world_poison_scratch(world *w)
     POISON(submerged);
     POISON(fluid);
     POISON(contacts);
+    POISON(contact_generations);
     POISON(patch_pairs);
     POISON(patches);
     POISON(load_contacts);
@@ -188,8 +190,8 @@ void world_forget(world *w)
 
 bool world_came_since_contacts(const world *w, int32_t slot)
 {
-    bool is_floe = w->bodies.material[slot] == MATERIAL_ICE && w->bodies.owner[slot] >= 0;
-    return is_floe && w->floes.number[w->bodies.owner[slot]] >= w->scratch.contact_floes;
+    return slot >= w->scratch.contact_generations.count ||
+           w->scratch.contact_generations.data[slot] != w->bodies.generation[slot];
 }
 
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
@@ -220,9 +222,8 @@ static bool copy_bytes(void *to, const void *from, int32_t count, size_t size)
 static bool copy_reports(context *ctx, const world *src, world *dst)
 {
     dst->scratch.solver = src->scratch.solver;
-    dst->scratch.contact_floes = src->scratch.contact_floes;
-    return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(patches) && COPY_ARRAY(ice_loads) &&
-           COPY_ARRAY(responses) && COPY_ARRAY(wash_force) && COPY_ARRAY(fractures);
+    return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(contact_generations) && COPY_ARRAY(patches) &&
+           COPY_ARRAY(ice_loads) && COPY_ARRAY(responses) && COPY_ARRAY(wash_force) && COPY_ARRAY(fractures);
 }
 
 fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error)

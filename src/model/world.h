@@ -123,7 +123,7 @@ typedef struct world {
         ARRAY(double) submerged; /* volume, one per body slot [m3] */
         ARRAY(fluid_load) fluid; /* one per solid of the shape store; rows of static bodies mean nothing */
         contact_array contacts;
-        int32_t contact_floes; /* floes with this number and above came after the contacts */
+        ARRAY(uint32_t) contact_generations; /* of each body slot, when the contacts were found */
         index_array patch_pairs;
         crushing_patch_array patches;
         edge_rows_work edge_rows;
@@ -169,7 +169,7 @@ void world_poison_scratch(world *w);
 /* 64-bit hash of the whole state, but for `recorded`, which is no part of what is simulated: a world has the same hash
    whether it is recorded or not.  Inputs, and contacts between hulls, count from the first on. */
 uint64_t world_hash(const world *w);
-/* Whether a slot has a floe that came into it after the contacts of the last step were found. */
+/* Whether a slot had none, or another body, when the contacts of the last step were found. */
 bool world_came_since_contacts(const world *w, int32_t slot);
 /* What scratch remembers of the state goes: call it when the tables are given another one. */
 void world_forget(world *w);

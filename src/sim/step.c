@@ -172,6 +172,17 @@ static rest_media rest_media_now(const model *m, const world *w)
     return around;
 }
 
+/* Contacts name slots, and pieces of a break may stand in those when the step is over. */
+static bool keep_generations(context *ctx, world *w)
+{
+    const body_table *b = &w->bodies;
+    if (!array_resize(ctx, &w->scratch.contact_generations, b->count))
+        return false;
+    if (b->count > 0)
+        memcpy(w->scratch.contact_generations.data, b->generation, (size_t)b->count * sizeof *b->generation);
+    return true;
+}
+
 /* 2. Broad phase, narrow phase; what moves wakes what sleeps near it. */
 static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_error *error)
 {
@@ -184,8 +195,9 @@ static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_
         return status;
     rest_wake_near(&m->rest, &w->bodies, &w->pairs, &w->rest);
     array_clear(&w->scratch.contacts);
-    w->scratch.contact_floes = w->clock.next_floe[0];
     array_clear(&w->scratch.patch_pairs);
+    if (!keep_generations(ctx, w))
+        return error_memory(error);
     return narrow_phase_run(ctx, &w->bodies, &w->shapes, &m->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
                             &w->scratch.patch_pairs, w->scratch.collision, error);
 }

@@ -10,6 +10,12 @@ static const char scene[] = "run: {duration: 9, time_step: 0.02, seed: 5}\n"
                             "  hull: {form: icebreaker, length: 48, beam: 12, draught: 4, freeboard: 2}\n"
                             "ice: {concentration: 0.8, mean_floe_area: 64, thickness: 0.4, breakable: true}\n"
                             "domain: {x_min: -80, x_max: 80, y_min: -40, y_max: 40}\n";
+/* Several breaks in a step: a piece of one is broken by the next, and its slot filled again. */
+static const char sheet[] = "run: {duration: 9, time_step: 0.02}\n"
+                            "vessel:\n  mode: towed\n  speed: 4\n"
+                            "  hull: {form: icebreaker, length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                            "ice: {source: level, thickness: 0.6, breakable: true}\n"
+                            "domain: {x_min: -80, x_max: 80, y_min: -40, y_max: 40}\n";
 /* Headed a little beyond half a turn; on the way along x, then along y. */
 static const char driven[] = "run: {duration: 20, time_step: 0.02}\n"
                              "vessel:\n  mode: %s\n  heading_deg: 190\n  hull: {length: 48, beam: 12, draught: 4}\n%s"
@@ -71,15 +77,15 @@ static bool was_there(fram_body_id id, const fram_body_id *before, int count)
     return false;
 }
 
-/* A piece may stand in the slot of the floe that it broke from: it touched nothing in the step that made it. */
-START_TEST(contacts_name_those_that_touched)
+/* Returns the world after so many steps. */
+static fram_world *assert_contacts_were_there(const char *text, int steps)
 {
     static fram_body_id before[BODIES];
     static fram_contact contacts[CONTACTS];
-    fram_world *w = open_text(scene);
+    fram_world *w = open_text(text);
     fram_body_state state;
     int gone = 0;
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < steps; i++) {
         int count = fram_world_bodies(w, 0, &(fram_body_arrays){.room = BODIES, .id = before});
         assert_ok(fram_world_step(w, &e), e);
         int touched = fram_world_contacts(w, contacts, CONTACTS);
@@ -93,8 +99,15 @@ START_TEST(contacts_name_those_that_touched)
         }
     }
     ck_assert_int_gt(gone, 0);
-    static fram_contact again[CONTACTS];
-    fram_world *copy;
+    return w;
+}
+
+/* A piece may stand in the slot of the floe that it broke from: it touched nothing in the step that made it. */
+START_TEST(contacts_name_those_that_touched)
+{
+    close_world(assert_contacts_were_there(sheet, 90));
+    static fram_contact contacts[CONTACTS], again[CONTACTS];
+    fram_world *copy, *w = assert_contacts_were_there(scene, 200);
     assert_ok(fram_world_copy(w, &copy, &e), e);
     int touched = fram_world_contacts(w, contacts, CONTACTS);
     ck_assert_int_eq(fram_world_contacts(copy, again, CONTACTS), touched);
