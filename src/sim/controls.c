@@ -240,8 +240,8 @@ static void set_point(world *w, const control *c, double value)
     drop_path(w, c->which);
 }
 
-/* Taken up without a jump: what the controller remembers begins at the vessel as it is.  The point whose offset counts
-   stays where it shall be, whoever turns the vessel from here on. */
+/* Taken up without a jump: what the controller remembers begins at the vessel as it is; off, it demands nothing.  The
+   point whose offset counts stays where it shall be, whoever turns the vessel from here on. */
 static void set_positioning(world *w, int32_t v, bool on)
 {
     station_table *s = &w->stations;
@@ -249,11 +249,14 @@ static void set_positioning(world *w, int32_t v, bool on)
     if (was != on)
         move_home(w, v, target_of(w, v));
     s->positioning[v] = on;
-    if (was || !on)
+    if (was == on)
+        return;
+    s->demand[v] = s->missed[v] = vec3_make(0, 0, 0);
+    s->saturated[v] = 0;
+    if (!on)
         return;
     station_believe(s, v, &w->vessels, &w->bodies);
-    s->integral[v] = s->demand[v] = s->missed[v] = s->load[v] = vec3_make(0, 0, 0);
-    s->saturated[v] = 0;
+    s->integral[v] = s->load[v] = vec3_make(0, 0, 0);
 }
 
 static fram_status refuse(const control *c, double value, double least, double most, fram_error *error)

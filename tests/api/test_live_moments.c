@@ -1,5 +1,5 @@
 /* What a world tells is of the moment that it says: bodies that touched in a step are those that were there then, a
-   view shows no body that is gone, and a path begins where the vessel is. */
+   view shows no body that is gone, a path begins where the vessel is, and a controller that is off demands nothing. */
 #include "fram/live.h"
 #include "testing.h"
 
@@ -16,6 +16,10 @@ static const char sheet[] = "run: {duration: 9, time_step: 0.02}\n"
                             "  hull: {form: icebreaker, length: 48, beam: 12, draught: 4, freeboard: 2}\n"
                             "ice: {source: level, thickness: 0.6, breakable: true}\n"
                             "domain: {x_min: -80, x_max: 80, y_min: -40, y_max: 40}\n";
+static const char kept[] = "run: {duration: 9, time_step: 0.05}\n"
+                           "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                           "  thrusters: [{x: 18}, {x: -18}]\n  positioning: {active: true}\n"
+                           "ice: {source: none}\n";
 /* Headed a little beyond half a turn; on the way along x, then along y. */
 static const char driven[] = "run: {duration: 20, time_step: 0.02}\n"
                              "vessel:\n  mode: %s\n  heading_deg: 190\n  hull: {length: 48, beam: 12, draught: 4}\n%s"
@@ -218,6 +222,23 @@ START_TEST(a_hull_goes_on_without_its_path)
 }
 END_TEST
 
+START_TEST(a_controller_that_is_off_demands_nothing)
+{
+    fram_world *w = open_text(kept);
+    static const char *const CHANNELS[] = {"thrusters_saturated", "demanded_force_x", "demanded_force_y",
+                                           "demanded_force_z"};
+    assert_ok(fram_world_set_input(w, fram_world_find_input(w, "outside_force_x"), 5e6, &e), e);
+    for (int i = 0; i < 100; i++)
+        assert_ok(fram_world_step(w, &e), e);
+    ck_assert(value(w, CHANNELS[0]) == 1 && value(w, CHANNELS[1]) < 0);
+    assert_ok(fram_world_set_input(w, fram_world_find_input(w, "positioning"), 0, &e), e);
+    assert_ok(fram_world_step(w, &e), e);
+    for (size_t i = 0; i < sizeof CHANNELS / sizeof *CHANNELS; i++)
+        assert_bits(value(w, CHANNELS[i]), 0);
+    close_world(w);
+}
+END_TEST
+
 TEST_MAIN("live_moments", contacts_name_those_that_touched, a_view_shows_none_that_a_loaded_state_has_not,
           a_path_turns_the_shorter_way, a_path_tells_its_velocity, a_ramp_ends_where_a_speed_is_told,
-          a_hull_goes_on_without_its_path)
+          a_hull_goes_on_without_its_path, a_controller_that_is_off_demands_nothing)
