@@ -235,7 +235,7 @@ static fram_status set_path(fram_world *w, int vessel, const double *times, cons
     for (int i = 0; i < count; i++)
         list[i] = vec3_make(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
     world_changed(w);
-    fram_status status = control_path(ctx, &w->inner, vessel, times, list, count, error);
+    fram_status status = control_path(ctx, &w->base->model, &w->inner, vessel, times, list, count, error);
     memory_free(ctx, list);
     return status;
 }

@@ -265,6 +265,19 @@ static fram_status refuse(const control *c, double value, double least, double m
                      value);
 }
 
+/* As a scenario's speed, under the one at which a world is taken to have gone wrong: that of both axes. */
+static fram_status check_tow(const model *m, const world *w, const control *c, double value, fram_error *error)
+{
+    vec3 told = tow_velocity(w, c->which);
+    *axis_of(&told, c->axis) = value;
+    double speed = sqrt(told.x * told.x + told.y * told.y);
+    if (speed < m->speed_limit)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, c->name,
+                     "expected less than run.speed_limit, %g m/s, together with the other axis: (%g, %g) is %g m/s",
+                     m->speed_limit, told.x, told.y, speed);
+}
+
 static fram_status set_order(world *w, const control *c, double value, fram_error *error)
 {
     thruster_table *t = &w->thrusters;
@@ -323,8 +336,8 @@ fram_status control_set(context *ctx, const model *m, world *w, const control *c
     case CONTROL_MOMENT:
         return set_force(ctx, w, c, value, error);
     case CONTROL_TOW:
-        if (fabs(value) > m->speed_limit)
-            return refuse(c, value, -m->speed_limit, m->speed_limit, error);
+        if (check_tow(m, w, c, value, error) != FRAM_OK)
+            return FRAM_ERROR_INPUT;
         go_on(w, c->which);
         *axis_of(&w->vessels.tow_velocity[c->which], c->axis) = value;
         return FRAM_OK;
@@ -376,6 +389,24 @@ static fram_status check_path(const world *w, const double *times, const vec3 *p
     return FRAM_OK;
 }
 
+/* What is moved along them goes from place to place under the speed at which a world is taken to have gone wrong. */
+static fram_status check_legs(const model *m, const world *w, vec3 from, const double *times, const vec3 *places,
+                              int32_t count, fram_error *error)
+{
+    double before = w->clock.time[0];
+    for (int32_t i = 0; i < count; i++) {
+        vec3 way = vec3_sub(places[i], from);
+        double speed = sqrt(way.x * way.x + way.y * way.y) / (times[i] - before);
+        if (!(speed < m->speed_limit))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "times",
+                             "expected less than run.speed_limit, %g m/s, on the way to number %d, found %g m/s",
+                             m->speed_limit, (int)i, speed);
+        from = places[i];
+        before = times[i];
+    }
+    return FRAM_OK;
+}
+
 static void put_waypoint(waypoint_table *t, int32_t row, int32_t vessel, double time, vec3 place)
 {
     t->vessel[row] = vessel;
@@ -383,8 +414,8 @@ static void put_waypoint(waypoint_table *t, int32_t row, int32_t vessel, double 
     t->place[row] = place;
 }
 
-fram_status control_path(context *ctx, world *w, int32_t vessel, const double *times, const vec3 *places, int32_t count,
-                         fram_error *error)
+fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel, const double *times,
+                         const vec3 *places, int32_t count, fram_error *error)
 {
     fram_status status = check_path(w, times, places, count, error);
     if (status != FRAM_OK)
@@ -392,6 +423,10 @@ fram_status control_path(context *ctx, world *w, int32_t vessel, const double *t
     waypoint_table *t = &w->waypoints;
     bool free = w->vessels.mode[vessel] == VESSEL_FREE;
     vec3 from = free && vessel < w->stations.count ? target_of(w, vessel) : place_now(w, vessel);
+    if (!free)
+        status = check_legs(m, w, from, times, places, count, error);
+    if (status != FRAM_OK)
+        return status;
     /* Where it heads now is known but for whole turns: it takes the shorter way to the first place. */
     if (!free && count > 0)
         from.z = places[0].z + plane_angle(from.z - places[0].z);

@@ -123,6 +123,39 @@ START_TEST(channels_and_inputs)
 }
 END_TEST
 
+/* What is driven or towed keeps under run.speed_limit, 100 m/s, on every way that it is told. */
+START_TEST(speeds_that_end_a_world)
+{
+    static const char driven[] = "run: {duration: 1, time_step: 0.05}\n"
+                                 "vessel: {mode: towed, ramp: 0, hull: {length: 48, beam: 12, draught: 4}}\n"
+                                 "ice: {source: none}\n";
+    static const char *const modes[] = {"vessel.mode=prescribed", "vessel.mode=towed"};
+    const double times[] = {1, 2}, first[] = {150, 0, 0, 160, 0, 0}, second[] = {50, 0, 0, 50, 100, 0},
+                 under[] = {99, 0, 0, 99, 99, 0};
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    for (size_t i = 0; i < 2; i++) {
+        assert_ok(fram_scenario_parse(ctx, driven, NULL, &modes[i], 1, &s, &e), e);
+        assert_ok(fram_world_create(s, &w, &e), e);
+        int x = fram_world_find_input(w, "tow_velocity_x"), y = fram_world_find_input(w, "tow_velocity_y");
+        assert_ok(fram_world_set_input(w, x, 80, &e), e);
+        uint64_t hash = fram_world_hash(w);
+        assert_fails(fram_world_set_input(w, y, 80, &e), e, FRAM_ERROR_INPUT, "run.speed_limit");
+        ck_assert_str_eq(e.key, "tow_velocity_y");
+        assert_fails(fram_world_set_path(w, 0, times, first, 2, &e), e, FRAM_ERROR_INPUT, "to number 0, found 150 m/s");
+        assert_fails(fram_world_set_path(w, 0, times, second, 2, &e), e, FRAM_ERROR_INPUT,
+                     "to number 1, found 100 m/s");
+        ck_assert_str_eq(e.key, "times");
+        ck_assert(fram_world_hash(w) == hash);
+        assert_ok(fram_world_set_path(w, 0, times, under, 2, &e), e);
+        for (int k = 0; k < 4 && i == 0; k++)
+            assert_ok(fram_world_step(w, &e), e);
+        fram_world_destroy(w);
+        fram_scenario_destroy(s);
+    }
+    fram_context_destroy(ctx);
+}
+END_TEST
+
 START_TEST(arrays)
 {
     open_all();
@@ -266,5 +299,5 @@ START_TEST(the_working_folder_changes)
 }
 END_TEST
 
-TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, arrays, recordings, no_memory_is_an_error,
-          older_definitions_are_taken, the_working_folder_changes)
+TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, speeds_that_end_a_world, arrays, recordings,
+          no_memory_is_an_error, older_definitions_are_taken, the_working_folder_changes)
