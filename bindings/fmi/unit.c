@@ -217,7 +217,7 @@ unit_status unit_set_up(unit *u, const char *call, double start, double stop)
         return status;
     if (!isfinite(start))
         return fail_call(u, call, "the start time is not finite");
-    if (!(stop > start))
+    if (!isgreater(stop, start)) /* as >, but raises no exception, which the importer may trap, for a stop of NaN */
         return fail_call(u, call, "the stop time is not after the start time");
     u->start = start;
     u->stop = stop;
@@ -394,7 +394,14 @@ unit_status unit_set(unit *u, const uint32_t references[], size_t count, const d
 /* Times of the importer are those of the unit within this share of a time step. */
 #define TIME_TOLERANCE 0.01
 
-double unit_time(const unit *u) { return u->start + fram_world_time(u->world); }
+double unit_time(const unit *u)
+{
+    fenv_t of_importer;
+    unit_arithmetic_begin(&of_importer);
+    volatile double now = u->start + fram_world_time(u->world); /* summed here, not after the end below */
+    unit_arithmetic_end(&of_importer);
+    return now;
+}
 
 static unit_status check_step(unit *u, double now, double step, double count)
 {
