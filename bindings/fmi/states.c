@@ -10,6 +10,7 @@
 struct kept_state {
     kept_state *next;
     fram_world *world;
+    bool is_set_up;
     double start, stop;
     unit_phase phase;
     int count;
@@ -64,6 +65,7 @@ static kept_state *keep(unit *u)
         free(s);
         return NULL;
     }
+    s->is_set_up = u->is_set_up;
     s->start = u->start;
     s->stop = u->stop;
     s->phase = u->phase;
@@ -161,6 +163,7 @@ unit_status unit_state_set(unit *u, const void *state)
         return unit_fail_by(u, &e);
     fram_world_destroy(u->world);
     u->world = copy;
+    u->is_set_up = s->is_set_up;
     u->start = s->start;
     u->stop = s->stop;
     u->phase = s->phase;
@@ -174,10 +177,10 @@ typedef struct state_head {
     char mark[8];
     uint64_t checksum; /* of what follows up to the world, which has its own */
     char token[UNIT_TOKEN_ROOM];
-    int64_t count, phase;
+    int64_t count, phase, is_set_up;
     double start, stop;
 } state_head;
-static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '4'};
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '5'};
 
 static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
 
@@ -192,7 +195,8 @@ static uint64_t checksum_of(const unit *u, const char *head)
 
 static void write_head(const unit *u, const kept_state *s, char *out)
 {
-    state_head head = {.count = s->count, .phase = s->phase, .start = s->start, .stop = s->stop};
+    state_head head = {
+        .count = s->count, .phase = s->phase, .is_set_up = s->is_set_up, .start = s->start, .stop = s->stop};
     memcpy(head.mark, mark, sizeof mark);
     memcpy(head.token, u->token, sizeof head.token);
     memcpy(out, &head, sizeof head);
@@ -211,8 +215,10 @@ static bool read_head(const unit *u, const char *in, kept_state *s)
     memcpy(&head, in, sizeof head);
     if (memcmp(head.mark, mark, sizeof mark) != 0 || head.checksum != checksum_of(u, in) ||
         memcmp(head.token, u->token, sizeof head.token) != 0 || head.count != u->count || head.phase < 0 ||
-        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start) || isnan(head.stop))
+        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || (head.is_set_up != 0 && head.is_set_up != 1) ||
+        !isfinite(head.start) || isnan(head.stop))
         return false;
+    s->is_set_up = head.is_set_up != 0;
     s->start = head.start;
     s->stop = head.stop;
     s->phase = (unit_phase)head.phase;

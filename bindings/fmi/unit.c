@@ -221,12 +221,16 @@ unit_status unit_set_up(unit *u, const char *call, double start, double stop)
         return fail_call(u, call, "the stop time is not after the start time");
     u->start = start;
     u->stop = stop;
+    u->is_set_up = true;
     return UNIT_OK;
 }
 
 unit_status unit_enter_initialization(unit *u)
 {
-    unit_status status = unit_allow(u, 1U << UNIT_INSTANTIATED, "EnterInitializationMode");
+    static const char call[] = "EnterInitializationMode";
+    unit_status status = unit_allow(u, 1U << UNIT_INSTANTIATED, call);
+    if (status == UNIT_OK && !u->is_set_up)
+        return fail_call(u, call, "this is not to be called before fmi2SetupExperiment");
     if (status == UNIT_OK)
         u->phase = UNIT_INITIALIZING;
     return status;
@@ -320,6 +324,7 @@ unit_status unit_make_world(unit *u)
     fram_world_destroy(u->world);
     u->world = made;
     u->phase = UNIT_INSTANTIATED;
+    u->is_set_up = false;
     u->start = 0;
     u->stop = (double)INFINITY;
     unit_read_start(u);

@@ -67,6 +67,7 @@ struct unit {
     fram_world *world;
     variable *variables;
     int count;
+    bool is_set_up;   /* start and stop were told */
     double start;     /* time of the importer at the world's time 0 [s] */
     double stop;      /* of the importer; infinite when it told none [s] */
     kept_state *kept; /* all states that the importer holds of this instance */
@@ -110,6 +111,7 @@ FMI_HIDDEN unit_status unit_read_resources(unit *u, const char *token);
 FMI_HIDDEN unit_status unit_allow(unit *u, unsigned phases, const char *call);
 /* Times of the importer; stop infinite when it tells none. */
 FMI_HIDDEN unit_status unit_set_up(unit *u, const char *call, double start, double stop);
+/* After unit_set_up. */
 FMI_HIDDEN unit_status unit_enter_initialization(unit *u);
 FMI_HIDDEN unit_status unit_exit_initialization(unit *u);
 FMI_HIDDEN unit_status unit_terminate(unit *u);

@@ -498,6 +498,30 @@ START_TEST(an_instance_is_not_freed_in_its_step)
 }
 END_TEST
 
+/* As 2.0 has it: the start time is told before. */
+START_TEST(version_2_is_set_up_before_it_is_initialized)
+{
+    make_resources();
+    int errors = 0;
+    fmi2FMUstate fresh = NULL, told = NULL;
+    fmi2Component c = make_2(&errors);
+    ck_assert_int_eq(CALL(fmi2GetFMUstate)(c, &fresh), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2EnterInitializationMode)(c), fmi2Error);
+    ck_assert_int_eq(CALL(fmi2Reset)(c), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2SetupExperiment)(c, fmi2False, 0, 1, fmi2False, 0), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2GetFMUstate)(c, &told), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2Reset)(c), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2EnterInitializationMode)(c), fmi2Error);
+    ck_assert_int_eq(CALL(fmi2SetFMUstate)(c, told), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2EnterInitializationMode)(c), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2SetFMUstate)(c, fresh), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2EnterInitializationMode)(c), fmi2Error);
+    ck_assert_int_eq(errors, 3);
+    CALL(fmi2FreeInstance)(c);
+    remove_resources();
+}
+END_TEST
+
 START_TEST(a_state_holds_the_stop_time)
 {
     make_resources();
@@ -574,5 +598,6 @@ START_TEST(instances_in_threads_are_as_alone)
 END_TEST
 
 TEST_MAIN("instances", both_versions_are_the_world, an_importer_has_its_own_arithmetic,
-          any_call_in_any_order_has_a_status, an_instance_is_not_freed_in_its_step, a_state_holds_the_stop_time,
+          any_call_in_any_order_has_a_status, an_instance_is_not_freed_in_its_step,
+          version_2_is_set_up_before_it_is_initialized, a_state_holds_the_stop_time,
           why_there_is_no_instance_is_told_to_a_silent_log, instances_in_threads_are_as_alone)
