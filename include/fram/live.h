@@ -68,8 +68,8 @@ FRAM_API const char *fram_scenario_file_key(const fram_scenario *scenario, int n
    step.  It is not recorded.  The scenario must outlive both; destroy it like any world. */
 FRAM_API fram_status fram_world_copy(const fram_world *world, fram_world **copy, fram_error *error);
 /* The whole state with all inputs, as bytes of the context's memory, for fram_data_free; the same state gives the same
-   bytes.  What belongs to the last step alone (contacts, fractures, channels that are made of them) is no part of it
-   and is empty after loading until the next step. */
+   bytes, recorded or not.  What belongs to the last step alone (contacts, fractures, channels that are made of them) is
+   no part of it and is empty after loading until the next step. */
 FRAM_API fram_status fram_world_save_memory(const fram_world *world, void **data, size_t *size, fram_error *error);
 /* Take over a state of the same scenario, files (what is in them, wherever they lie) and version: one that was saved
    here, or a run's checkpoint (checkpoint-*.fram in its folder), from which the world goes on as the resumed run does.

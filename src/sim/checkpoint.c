@@ -126,7 +126,11 @@ fram_status state_encode(context *ctx, const world *w, const checkpoint_note *no
                          fram_error *error)
 {
     state_content content;
+    recorded_table none = {0}; /* a recording begins with all bodies, and the same state has the same bytes without */
     content_of(w, note, &content);
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
+        if (content.tables[t].info == &recorded_table_info)
+            content.tables[t].table = &none;
     return table_file_encode(ctx, &content.file, data, size, error);
 }
 

@@ -28,10 +28,9 @@ fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit
 /* The state of a run that went wrong, for a look at it: FOLDER/failed.fram.  Never resumed from. */
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error);
-/* The state alone as bytes of ctx's memory, and back into an empty world of the model; `name` stands for a file in
-   errors.  note says what it belongs to; its lengths are not looked at; *failed: the
-   state is of a step that failed.  A run's checkpoint is taken too, wherever the
-   files of its list lay. */
+/* The state alone, without what a record knows of it, as bytes of ctx's memory, and back into an empty world of the
+   model; `name` stands for a file in errors.  note says what it belongs to; its lengths are not looked at; *failed: the
+   state is of a step that failed.  A run's checkpoint is taken too, wherever the files of its list lay. */
 fram_status state_encode(context *ctx, const world *w, const checkpoint_note *note, char **data, size_t *size,
                          fram_error *error);
 fram_status state_decode(context *ctx, const char *name, const void *data, size_t size, const model *m, world *w,

@@ -279,6 +279,40 @@ START_TEST(what_a_failed_world_saves_is_no_good_state)
 }
 END_TEST
 
+/* A world that was recorded, one that is, and one that is not. */
+START_TEST(the_same_state_has_the_same_bytes)
+{
+    run_half(without_files);
+    fram_scenario *s;
+    fram_world *w = world_in(without_files, place("first", hull, "20"), &s), *other;
+    assert_ok(fram_world_create(s, &other, &e), e);
+    fram_record_definition d;
+    fram_record_default(&d);
+    d.folder = run;
+    d.force = true;
+    assert_ok(fram_world_record(w, &d, &e), e);
+    for (int turn = 0; turn < 2; turn++) {
+        void *a, *b;
+        size_t size_a, size_b;
+        assert_ok(fram_world_step(w, &e), e);
+        assert_ok(fram_world_step(other, &e), e);
+        if (turn == 1)
+            assert_ok(fram_world_record_end(w, NULL, &e), e);
+        assert_ok(fram_world_save_memory(w, &a, &size_a, &e), e);
+        assert_ok(fram_world_save_memory(other, &b, &size_b, &e), e);
+        ck_assert_uint_eq(size_a, size_b);
+        ck_assert_mem_eq(a, b, size_a);
+        assert_ok(fram_world_load_memory(other, a, size_a, &e), e);
+        ck_assert_uint_eq(fram_world_hash(other), fram_world_hash(w));
+        fram_data_free(ctx, a);
+        fram_data_free(ctx, b);
+    }
+    fram_world_destroy(other);
+    close_world(w, s);
+    close_all();
+}
+END_TEST
+
 /* Where the list of files stands in a checkpoint, behind its size. */
 static char *list_in(char *data, size_t size)
 {
@@ -342,4 +376,5 @@ END_TEST
 
 TEST_MAIN("saved_states", a_world_goes_on_from_a_checkpoint_as_the_resumed_run, states_of_other_files_are_refused,
           a_run_does_not_go_on_from_a_state_of_a_program, states_of_other_versions_are_refused,
-          what_a_failed_world_saves_is_no_good_state, damaged_lists_of_files_are_refused)
+          what_a_failed_world_saves_is_no_good_state, the_same_state_has_the_same_bytes,
+          damaged_lists_of_files_are_refused)
