@@ -85,6 +85,12 @@ try deb "apt install gcc libc6-dev pkg-config" \
     "apt-get -qq install -y --no-install-recommends gcc libc6-dev pkg-config && echo done"
 try deb "a program by libfram-dev" \
     "cd /tmp && cc /packages/consumer.c -o consumer \$(pkg-config --cflags --libs fram) && ./consumer"
+try deb "apt install what libfram-dev suggests" \
+    "apt-get -qq install -y --no-install-recommends \$(dpkg-query -W -f '\${Suggests}' libfram-dev | tr -d ,) &&
+    echo done"
+try deb "a program by the static library" "cd /tmp && archive=\$(dpkg -L libfram-dev | grep 'libfram\.a$') &&
+    cc /packages/consumer.c -o static \$(pkg-config --cflags fram) \$archive \
+        \$(pkg-config --static --libs fram | sed 's/-lfram //') && ./static"
 try deb "apt purge, nothing left" "apt-get -qq purge -y fram libfram0 libfram-dev python3-fram &&
     ! find / -xdev -path /tmp -prune -o -path /packages -prune -o -path /var/cache -prune -o -name '*fram.h' -print \
         -o -name 'libfram*' -print -o -path '*/bin/fram' -print -o -path '*/dist-packages/fram' -print | grep . &&
