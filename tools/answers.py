@@ -198,8 +198,8 @@ def drillship():
     beside = Run("managed", since=150, until=300)
     drift, least = (abs(run.mean("ice_force_averaged_x")) for run in (managed, beside))
     yield TUTORIALS, (f"the managed field gives {mega(least)} MN on average along X and "
-                      f"{mega(beside.largest_along_x(), 1)} MN at most, an offset of {max(beside.offsets()):.1f} m and a "
-                      f"line tension of {mega(max(beside.columns['line_tension_max']), 1)} MN")
+                      f"{mega(beside.largest_along_x(), 1)} MN at most, an offset of {max(beside.offsets()):.1f} m and "
+                      f"a line tension of {mega(max(beside.columns['line_tension_max']), 1)} MN")
     yield TUTORIALS, (f"the mean load along the drift from {mega(abs(level_ice.mean('ice_force_averaged_x')))} to "
                       f"{mega(least)} or {mega(drift)} MN")
     yield TUTORIALS, f"a single jam at {managed.time_of(managed.loads())} s"
@@ -214,7 +214,7 @@ def station():
         told = ", ".join(f"{mega(load)} MN" if load >= 1e5 else f"{kilo(load)} kN" for load in loads)
         yield STATION, (f"| {words} | {run.station('offset_m', 'greatest'):.2f} m of "
                         f"{run.station('offset_m', 'limit'):g} m | {told}")
-    yield STATION, f"its mean of {mega(run.station('ice_load_N', 'mean'))} MN and peak of {mega(loads[-1])} MN lie inside"
+    yield STATION, f"its mean of {mega(loads[0])} MN and peak of {mega(loads[-1])} MN lie inside"
 
 
 SHORT = (demo, towed, ships, own_ice, moored, positioned, level, ensemble)

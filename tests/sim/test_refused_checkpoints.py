@@ -20,8 +20,8 @@ ice: {mean_floe_area: 100, concentration: 0.5}
 domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}
 output: {checkpoint_interval: 0.5}
 """
-# Types of blocks of earlier layouts, and the ones of today that took their place (sim/recorder.h).
-EARLIER_BLOCKS = {3: 7, 5: 11, 8: 11}
+# Types of blocks of earlier layouts, and the ones of today that took their place (io/record_layout.h).
+EARLIER_BLOCKS = {3: 7, 5: 15, 8: 15}
 
 
 def resume(run):
