@@ -93,26 +93,27 @@ static void add_area(polygon p, vec2 by, box2 box, int32_t nx, int32_t ny, doubl
         }
 }
 
-/* Copies of [lo, hi] that meet [from, to]: moved by `first` to `last` periods. */
-static void copy_range(double lo, double hi, double from, double to, double period, double *first, double *last)
+/* Copies of [lo, hi] that meet [from, to]: moved by `first` periods and the next ones, of which it returns how many. */
+static int32_t copy_range(double lo, double hi, double from, double to, double period, double *first)
 {
     *first = period > 0 ? ceil((from - hi) / period) : 0;
-    *last = period > 0 ? floor((to - lo) / period) : 0;
+    double last = period > 0 ? floor((to - lo) / period) : 0;
+    return (int32_t)fmax(last - *first + 1, 0);
 }
 
 void field_cover_map(const polygon_list *floes, vec2 period, box2 box, int32_t nx, int32_t ny, double *cover)
 {
     for (int32_t i = 0; i < nx * ny; i++)
         cover[i] = 0;
-    for (int32_t i = 0; i < polygon_list_count(floes); i++) {
-        polygon p = polygon_list_get(floes, i);
+    for (int32_t f = 0; f < polygon_list_count(floes); f++) {
+        polygon p = polygon_list_get(floes, f);
         box2 b = polygon_bounds(p);
-        double x0, x1, y0, y1;
-        copy_range(b.lo.x, b.hi.x, box.lo.x, box.hi.x, period.x, &x0, &x1);
-        copy_range(b.lo.y, b.hi.y, box.lo.y, box.hi.y, period.y, &y0, &y1);
-        for (double y = y0; y <= y1; y++)
-            for (double x = x0; x <= x1; x++)
-                add_area(p, vec2_make(x * period.x, y * period.y), box, nx, ny, cover);
+        double x, y;
+        int32_t columns = copy_range(b.lo.x, b.hi.x, box.lo.x, box.hi.x, period.x, &x);
+        int32_t rows = copy_range(b.lo.y, b.hi.y, box.lo.y, box.hi.y, period.y, &y);
+        for (int32_t k = 0; k < rows; k++)
+            for (int32_t i = 0; i < columns; i++)
+                add_area(p, vec2_make((x + i) * period.x, (y + k) * period.y), box, nx, ny, cover);
     }
     vec2 width = {(box.hi.x - box.lo.x) / nx, (box.hi.y - box.lo.y) / ny};
     for (int32_t i = 0; i < nx * ny; i++)

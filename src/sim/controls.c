@@ -145,12 +145,12 @@ static vec3 force_told(const world *w, const control *c)
     return c->role == CONTROL_FORCE ? w->inputs.first[row] : w->inputs.second[row];
 }
 
-static bool has_path(const world *w, int32_t vessel) { return !isnan(path_place(&w->waypoints, vessel, 0).z); }
+static bool goes_along_path(const world *w, int32_t vessel) { return !isnan(path_place(&w->waypoints, vessel, 0).z); }
 
 /* What a carriage or driven hull goes by: its path, while it has one. */
 static vec3 tow_velocity(const world *w, int32_t vessel)
 {
-    if (!has_path(w, vessel))
+    if (!goes_along_path(w, vessel))
         return vessel_tow_velocity(&w->vessels, vessel, w->clock.time[0]);
     vec3 along = path_velocity(&w->waypoints, vessel, w->clock.time[0]);
     return vec3_make(along.x, along.y, 0);
@@ -432,7 +432,7 @@ fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel,
         from.z = places[0].z + plane_angle(from.z - places[0].z);
     if (count > 0 && !table_reserve(ctx, t, &waypoint_table_info, t->count + count + 1))
         return error_memory(error);
-    if (count == 0 && !free && has_path(w, vessel))
+    if (count == 0 && !free && goes_along_path(w, vessel))
         go_on(w, vessel);
     drop_path(w, vessel);
     if (count > 0) {
