@@ -19,7 +19,8 @@ static bool is_near_tile(box2 tile, box2 floe)
 static bool add_copies(context *ctx, polygon p, vec2 period, vec2_array *ring, polygon_list *out)
 {
     for (int n = 0; n < 9; n++) {
-        vec2 by = {(n % 3 - 1) * period.x, (n / 3 - 1) * period.y};
+        int column = n % 3 - 1, row = n / 3 - 1;
+        vec2 by = {column * period.x, row * period.y};
         array_clear(ring);
         for (int32_t k = 0; n != 4 && k < p.count; k++)
             if (!array_push(ctx, ring, vec2_add(p.vertex[k], by)))
