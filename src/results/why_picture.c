@@ -208,6 +208,8 @@ fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const 
     if (status != FRAM_OK)
         return status;
     status = replay_moment_until(&r, d->time, &m, error);
+    if (status == FRAM_ERROR_INPUT) /* a record that begins later: floes that no frame shows are named as that */
+        status = replay_moment_now(&r, &m, error);
     if (status == FRAM_OK)
         status = draw_peak(y, &r, &m, d, rank, path, error);
     replay_moment_free(y->ctx, &m);

@@ -147,11 +147,11 @@ static vec3 force_told(const world *w, const control *c)
 
 static bool goes_along_path(const world *w, int32_t vessel) { return !isnan(path_place(&w->waypoints, vessel, 0).z); }
 
-/* What a carriage or driven hull goes by: its path, while it has one. */
+/* What a carriage or driven hull goes by: its path, while it has one, else the velocity that its ramp leads to. */
 static vec3 tow_velocity(const world *w, int32_t vessel)
 {
     if (!goes_along_path(w, vessel))
-        return vessel_tow_velocity(&w->vessels, vessel, w->clock.time[0]);
+        return w->vessels.tow_velocity[vessel];
     vec3 along = path_velocity(&w->waypoints, vessel, w->clock.time[0]);
     return vec3_make(along.x, along.y, 0);
 }
@@ -214,7 +214,7 @@ static void drop_path(world *w, int32_t vessel)
     w->waypoints.count = kept;
 }
 
-/* A carriage or driven hull goes on as fast as it goes now, whatever its path and its ramp have before it. */
+/* A carriage or driven hull goes on as fast as its path has it now, or at what its ramp leads to: at once. */
 static void go_on(world *w, int32_t vessel)
 {
     w->vessels.tow_velocity[vessel] = tow_velocity(w, vessel);

@@ -134,14 +134,13 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
     import_rings rings = {0};
     import_field field = {0};
-    bool endless = s->domain.boundary == DOMAIN_FEEDING;
     const import_options options = {.name = path,
                                     .degrees = s->ice.file_coordinates == FILE_DEGREES,
                                     .scale = s->ice.file_scale,
                                     .centre = s->ice.file_centre,
                                     .offset = {s->ice.file_x, s->ice.file_y},
                                     .crop = true,
-                                    .tile = endless && s->ice.populations.count == 0, /* those fill the tile alone */
+                                    .tile = s->domain.boundary == DOMAIN_FEEDING,
                                     .domain = domain_of(s),
                                     .simplify = s->ice.simplify,
                                     .bad = s->ice.bad_rings,

@@ -68,6 +68,7 @@ static void peaks(byte_stream *s, vessel_peaks *v)
 {
     peak_picker *p = &v->picker;
     int32_t open = p->open;
+    finite_real(s, &p->from);
     finite_real(s, &p->last);
     whole(s, &p->count, PEAKS_KEPT);
     for (int32_t i = 0; i < p->count && goes(s); i++) {

@@ -245,7 +245,8 @@ static fram_status write_conditions(study_folder *f, fram_error *error)
     return status;
 }
 
-fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
+fram_status study_folder_open(context *ctx, const study *s, const char *path, bool dry, study_folder *f,
+                              fram_error *error)
 {
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)s->conditions, CONDITION_ID);
     char **files = memory_array(ctx, (size_t)s->conditions, sizeof *files);
@@ -256,9 +257,10 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
         status = run_folder_make(path, error);
     if (status == FRAM_OK)
         status = lock_folder(path, &f->lock, error);
+    bool stays = status == FRAM_OK && dry && study_record_is_there(path);
     if (status == FRAM_OK)
         sweep(path);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && !stays)
         status = copy_study(f, error);
     if (status == FRAM_OK)
         status = make_folder(f, "conditions", NULL, error);
@@ -268,7 +270,7 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
         status = write_conditions(f, error);
     if (status == FRAM_OK)
         status = study_folder_check_inputs(f, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && !stays)
         status = study_record_write(f, error);
     text_free(ctx, &f->index);
     text_free(ctx, &f->inputs);

@@ -19,8 +19,10 @@ typedef struct study_folder {
 } study_folder;
 
 /* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
-   in it, when it holds something else, or a file that the study reads in the place of one that it writes. */
-fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error);
+   in it, when it holds something else, or a file that the study reads in the place of one that it writes.  dry: what a
+   study there tells of itself stays. */
+fram_status study_folder_open(context *ctx, const study *s, const char *path, bool dry, study_folder *f,
+                              fram_error *error);
 void study_folder_close(study_folder *f);
 
 /* Before that, in study_folder_check.c: whether the folder is empty or a study's, and no file stands in the place of

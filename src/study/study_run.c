@@ -465,7 +465,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     const volatile int *stop = ctx->stop;
     if (options->stop)
         ctx->stop = options->stop;
-    fram_status status = study_folder_open(ctx, s, options->folder, &w.folder, error);
+    fram_status status = study_folder_open(ctx, s, options->folder, is_dry(&w), &w.folder, error);
     ctx->stop = stop;
     if (status != FRAM_OK)
         return status;

@@ -122,18 +122,13 @@ fram_status vessel_create(context *ctx, const vessel_definition *d, body_table *
     return FRAM_OK;
 }
 
-vec3 vessel_tow_velocity(const vessel_table *vessels, int32_t row, double time)
-{
-    return tow_velocity_at(vessels->tow_velocity[row], vessels->tow_ramp[row], time);
-}
-
 void vessel_drive(const vessel_table *vessels, body_table *bodies, double time)
 {
     for (int32_t i = 0; i < vessels->count; i++) {
         if (vessels->mode[i] == VESSEL_FREE)
             continue;
         int32_t slot = vessels->mode[i] == VESSEL_TOWED ? vessels->carriage[i] : vessels->body[i];
-        bodies->velocity[slot] = vessel_tow_velocity(vessels, i, time);
+        bodies->velocity[slot] = tow_velocity_at(vessels->tow_velocity[i], vessels->tow_ramp[i], time);
         bodies->angular_velocity[slot] = vec3_make(0, 0, 0);
     }
 }

@@ -46,11 +46,9 @@ typedef struct vessel_definition {
    FRAM_ERROR_INPUT names the member that does not fit; after a failure nothing was made. */
 fram_status vessel_create(context *ctx, const vessel_definition *d, body_table *bodies, shape_store *shapes,
                           joint_table *joints, vessel_table *vessels, int32_t *row, fram_error *error);
-/* Prescribed velocity of a carriage or driven hull at a time: tow_velocity times min(1, time / tow_ramp). */
-vec3 vessel_tow_velocity(const vessel_table *vessels, int32_t row, double time);
-/* Set the velocity of prescribed bodies (carriage or driven hull) for the step that ends at `time`: that of
-   then, no rotation.  Bodies move by the velocity at the end of a step, so that after n steps of dt the carriage has
-   moved dt times the sum of the velocities at dt, 2 dt, ... n dt. */
+/* Set the velocity of prescribed bodies (carriage or driven hull) for the step that ends at `time`: tow_velocity times
+   min(1, time / tow_ramp), no rotation.  Bodies move by the velocity at the end of a step, so that after n steps of dt
+   the carriage has moved dt times the sum of the velocities at dt, 2 dt, ... n dt. */
 void vessel_drive(const vessel_table *vessels, body_table *bodies, double time);
 /* Ship coordinates of a global point. */
 vec3 vessel_ship_coordinates(const vessel_table *vessels, const body_table *bodies, int32_t row, vec3 point);

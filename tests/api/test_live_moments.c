@@ -190,7 +190,7 @@ START_TEST(a_ramp_ends_where_a_speed_is_told)
         fram_world *w = open_driven("towed", "  speed: 1\n  course_deg: 0\n  ramp: 0.4\n");
         const double time = 1, place[3] = {2, 0, 3.3};
         step(w, 10);
-        assert_absolute(input(w, "tow_velocity_x"), 0.5, 1e-12);
+        assert_absolute(input(w, "tow_velocity_x"), 1, 1e-12);
         assert_absolute(value(w, "velocity_x"), 0.5, 1e-9);
         if (with_path)
             assert_ok(fram_world_set_path(w, 0, &time, place, 1, &e), e);

@@ -90,6 +90,11 @@ class Folders(StudyTest):
         # The study of the folder itself is no such file.
         for name in ("effective.yaml", "study.yaml"):
             self.assertEqual(self.fram(out / name, "-o", out)["made"], 0)
+        # A script that is only looked at leaves what the folder tells of its study.
+        other.write_text(short + "seeds: 7\n")
+        before = self.contents(out)
+        self.fram(other, "-o", out, "--on", "slurm", "--dry-run")
+        self.assertEqual(self.contents(out), before)
 
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
