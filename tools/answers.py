@@ -2,7 +2,7 @@
 """Numbers that the pages for users give of ready scenes, beside what these scenes give now:  make answers
 
   tools/answers.py            runs what the README and docs/tutorials.md run, compares; exit code 1 where they differ
-  tools/answers.py --long     drillships of tutorial 8 and the scenes of docs/station.md, too (half an hour)
+  tools/answers.py --long     drillships of tutorial 8 and the scenes of docs/station.md, too (ten minutes)
   tools/answers.py --write    writes the numbers of now into the pages, whose dates are for you to change
   tools/answers.py --keep     takes runs that are there as they are (out/)
 

@@ -264,8 +264,8 @@ static fram_status compose_report(report *r, fram_error *error)
     const char *folder = r->d.folder, *slash = strrchr(folder, '/');
     if (folder[0] == '/' && slash[1] && !r->with_paths)
         folder = slash + 1;
-    snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s", r->d.note.status, folder,
-             r->d.note.time, r->d.note.version);
+    snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s",
+             run_is_open(&r->d) ? "not finished" : r->d.note.status, folder, r->d.note.time, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
     fram_status status = report_verdict(r, error);
     if (status == FRAM_OK)
