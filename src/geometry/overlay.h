@@ -36,6 +36,9 @@ fram_status overlay_make_valid(overlay *o, polygon p, polygon_list *out, fram_er
 /* Douglas-Peucker within `tolerance` [m], topology kept: what out held is replaced by a valid ring, p itself where
    simplification would spoil it. */
 fram_status overlay_simplify(overlay *o, polygon p, double tolerance, vec2_array *out, fram_error *error);
+/* What of the interior is farther than `by` [m] from the outline, which may be in several parts or nothing; at hollow
+   corners a mitred part more is left out.  Appends the parts. */
+fram_status overlay_inset(overlay *o, polygon p, double by, polygon_list *out, fram_error *error);
 /* Constrained Delaunay triangulation of the interior: appends triangles (3 vertices each, counter-clockwise), two less
    than p has vertices, which have every vertex of p as a corner and no others.  Without GEOS, exact but for which of
    the two diagonals of four vertices on one circle (to rounding) is taken: a triangle may be so thin that

@@ -1,4 +1,4 @@
-/* Repair and simplification of one ring through GEOS; see overlay.h. */
+/* Repair, simplification and inset of one ring through GEOS; see overlay.h. */
 #include "geometry/overlay_geos.h"
 #include "geometry/polygon_pieces.h"
 #include <string.h>
@@ -68,5 +68,49 @@ fram_status overlay_simplify(overlay *o, polygon p, double tolerance, vec2_array
         out->count = ring_normal_form(out->data, ring.count);
     }
     polygon_list_free(o->ctx, &simple);
+    return status;
+}
+
+/* How far out the mitre of a hollow corner may reach, over the distance of its edges. */
+static const double MITRE_LIMIT = 2;
+/* GEOS smooths hollows of a hundredth of the distance before it moves an outline. */
+static const double LEAST_INSET = 0.98;
+
+/* Whether rings are valid, in p, and away from its outline. */
+static bool is_inset(overlay *o, polygon p, double by, const polygon_list *rings)
+{
+    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+        polygon ring = polygon_list_get(rings, i);
+        if (!overlay_is_valid(o, ring, NULL, NULL))
+            return false;
+        for (int32_t k = 0; k < ring.count; k++) {
+            vec2 off = vec2_sub(polygon_nearest_boundary(p, ring.vertex[k], NULL), ring.vertex[k]);
+            if (vec2_length(off) < LEAST_INSET * by || !polygon_contains(p, ring.vertex[k]))
+                return false;
+        }
+    }
+    return true;
+}
+
+fram_status overlay_inset(overlay *o, polygon p, double by, polygon_list *out, fram_error *error)
+{
+    fram_status status = overlay_check(o, p, "the polygon", error);
+    if (status != FRAM_OK)
+        return status;
+    if (!(by > 0))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "the distance %g is not positive", by);
+    polygon_list inner = {0};
+    GEOSGeometry *shape = shape_of_ring(o, p, &status, error);
+    if (shape)
+        status = take_shape(
+            o, GEOSBufferWithStyle_r(o->geos, shape, -by, 1, GEOSBUF_CAP_FLAT, GEOSBUF_JOIN_MITRE, MITRE_LIMIT),
+            "move an outline inwards", &inner, error);
+    GEOSGeom_destroy_r(o->geos, shape);
+    if (status == FRAM_OK && !is_inset(o, p, by, &inner))
+        status = error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "GEOS moves an outline wrongly by %g m", by);
+    for (int32_t i = 0; i < polygon_list_count(&inner) && status == FRAM_OK; i++)
+        if (!polygon_list_push(o->ctx, out, polygon_list_get(&inner, i)))
+            status = error_memory(error);
+    polygon_list_free(o->ctx, &inner);
     return status;
 }

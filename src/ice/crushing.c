@@ -263,6 +263,34 @@ static bool surface_holds(const crushing_job *j, const crushing_pair *p, vec3 po
     return near && mesh_winding(&body->surface, point) > INSIDE_WINDING;
 }
 
+/* The way from a point inside a prism to the nearest of its faces, in *out the direction there. */
+static vec3 prism_way_out(const shape_store *shapes, int32_t row, vec3 point, vec3 *out)
+{
+    polygon outline = shape_outline(shapes, row);
+    vec2 at = {point.x, point.y};
+    int32_t edge = 0;
+    vec2 aside = vec2_sub(polygon_nearest_boundary(outline, at, &edge), at);
+    double up = shapes->shapes.half_height[row] - fabs(point.z);
+    if (up < vec2_length(aside)) {
+        *out = (vec3){0, 0, point.z < 0 ? -1 : 1};
+        return vec3_scale(*out, up);
+    }
+    vec2 along = vec2_sub(outline.vertex[edge + 1 < outline.count ? edge + 1 : 0], outline.vertex[edge]);
+    *out = (vec3){along.y, -along.x, 0};
+    return (vec3){aside.x, aside.y, 0};
+}
+
+/* The same out of the surface of a pair, in its frame. */
+static vec3 surface_way_out(const crushing_job *j, const crushing_pair *p, vec3 point, vec3 *out)
+{
+    int32_t row = j->bodies->shape[p->surface_body], face = 0;
+    if (j->shapes->shapes.kind[row] == SHAPE_PRISM)
+        return prism_way_out(j->shapes, row, point, out);
+    vec3 way = vec3_sub(mesh_nearest_point(p->surface.surface, point, &face), point);
+    *out = mesh_area_vector(p->surface.surface, face);
+    return way;
+}
+
 /* A floe without any patch lies outside the surface or wholly inside; inside, one contact at the floe's middle holds it
    against the nearest way out.  Ice that is held or carried was crushed as the surface came over it, and is no floe
    that slipped in: the rim of a tile that the hull has passed. */
@@ -274,11 +302,9 @@ static fram_status push_buried(const crushing_job *j, const crushing_pair *p)
     vec3 point = mat3_tmul_vec(p->surface.rotation, vec3_sub(inner, p->surface.offset));
     if (!surface_holds(j, p, point))
         return FRAM_OK;
-    int32_t face = 0;
-    vec3 way = vec3_sub(mesh_nearest_point(p->surface.surface, point, &face), point);
+    vec3 out, way = surface_way_out(j, p, point, &out);
     double distance = vec3_length(way);
-    vec3 out = distance > 0 ? way : mesh_area_vector(p->surface.surface, face);
-    vec3 normal = vec3_unit(mat3_mul_vec(p->surface.rotation, out));
+    vec3 normal = vec3_unit(mat3_mul_vec(p->surface.rotation, distance > 0 ? way : out));
     double thickness = j->floes->thickness[p->floe];
     double area = polygon_perimeter(shape_outline(j->shapes, p->prism.shape)) * thickness;
     crushing_patch patch = {.floe = p->floe,
@@ -299,6 +325,24 @@ static fram_status push_buried(const crushing_job *j, const crushing_pair *p)
     return FRAM_OK;
 }
 
+/* The surface of a floe that lies wholly inside another one closes round and pushes nothing: then it is the floe that
+   has slipped in, as it would be if the numbers of the two were exchanged. */
+static fram_status push_swallowed(const crushing_job *j, const crushing_pair *p, const patch_component_array *found)
+{
+    for (int32_t i = 0; i < found->count; i++)
+        if (vec3_length(found->data[i].area) > CLOSED_PATCH * found->data[i].surface)
+            return FRAM_OK;
+    crushing_pair q = {.floe = j->bodies->owner[p->surface_body],
+                       .floe_body = p->surface_body,
+                       .surface_body = p->floe_body,
+                       .policy = p->policy,
+                       .prism = {j->shapes, j->bodies->shape[p->surface_body]},
+                       .rotation = quat_matrix(j->bodies->orientation[p->surface_body]),
+                       .position = j->bodies->position[p->surface_body]};
+    surface_frame_set(&q.surface, j->bodies, q.surface_body, q.floe_body, &q.rotation, false, j->settings->skin);
+    return push_buried(j, &q);
+}
+
 /* clear: of the pair; without a patch the narrow phase has to look at it again. */
 static fram_status crush_pair(const crushing_job *j, int32_t a, int32_t b, double *clear, const pair_policies *policies)
 {
@@ -313,6 +357,8 @@ static fram_status crush_pair(const crushing_job *j, int32_t a, int32_t b, doubl
         *clear = 0;
     int32_t first = j->contacts->count;
     status = found->count > 0 ? push_patches(j, &p, found) : push_buried(j, &p);
+    if (status == FRAM_OK && found->count > 0 && j->bodies->material[p.surface_body] == MATERIAL_ICE)
+        status = push_swallowed(j, &p, found);
     if (j->contacts->count > first)
         contact_keys_part(j->contacts->data + first, j->contacts->count - first);
     return status;

@@ -65,36 +65,45 @@ static bool place_hull(const fracture_job *j, const trim_place *at, const solid 
     return true;
 }
 
-/* Rings moved inwards by `rim` [m]; of a concave ring that part which is inside all its edges' lines, moved. */
-static bool inset(const fracture_job *j, const polygon_list *rings, double rim, polygon_list *out)
+/* A convex ring moved inwards by `rim` [m], which may leave nothing of it. */
+static bool inset_convex(const fracture_job *j, polygon p, double rim, polygon_list *out)
 {
     vec2_array *from = &j->scratch->trim.ring, *to = &j->scratch->trim.clipped;
+    if (!array_resize(j->ctx, from, p.count))
+        return false;
+    memcpy(from->data, p.vertex, (size_t)p.count * sizeof *p.vertex);
+    for (int32_t k = 0; k < p.count && from->count > 0; k++) {
+        vec2 e = vec2_sub(p.vertex[k + 1 < p.count ? k + 1 : 0], p.vertex[k]);
+        double length = vec2_length(e);
+        if (!(length > 0))
+            continue;
+        vec2 n = {e.y / length, -e.x / length};
+        if (!polygon_clip_half_plane(j->ctx, (polygon){from->data, from->count}, n, vec2_dot(n, p.vertex[k]) - rim, to))
+            return false;
+        vec2_array swap = *from;
+        *from = *to;
+        *to = swap;
+    }
+    return !(from->count >= 3 && polygon_area((polygon){from->data, from->count}) > 0) ||
+           polygon_list_push(j->ctx, out, (polygon){from->data, from->count});
+}
+
+/* Rings moved inwards by `rim` [m]; convex ones by their edges' lines, since those are most and cost least so. */
+static fram_status inset(const fracture_job *j, const polygon_list *rings, double rim, polygon_list *out)
+{
+    fram_status status = FRAM_OK;
     polygon_list_clear(out);
-    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+    for (int32_t i = 0; i < polygon_list_count(rings) && status == FRAM_OK; i++) {
         polygon p = polygon_list_get(rings, i);
         if (!(polygon_area(p) > 0))
             continue;
-        if (!array_resize(j->ctx, from, p.count))
-            return false;
-        memcpy(from->data, p.vertex, (size_t)p.count * sizeof *p.vertex);
-        for (int32_t k = 0; k < p.count && from->count > 0; k++) {
-            vec2 e = vec2_sub(p.vertex[k + 1 < p.count ? k + 1 : 0], p.vertex[k]);
-            double length = vec2_length(e);
-            if (!(length > 0))
-                continue;
-            vec2 n = {e.y / length, -e.x / length};
-            if (!polygon_clip_half_plane(j->ctx, (polygon){from->data, from->count}, n, vec2_dot(n, p.vertex[k]) - rim,
-                                         to))
-                return false;
-            vec2_array swap = *from;
-            *from = *to;
-            *to = swap;
-        }
-        if (from->count >= 3 && polygon_area((polygon){from->data, from->count}) > 0 &&
-            !polygon_list_push(j->ctx, out, (polygon){from->data, from->count}))
-            return false;
+        bool convex = polygon_is_convex(p);
+        if (!convex && rim > 0)
+            status = overlay_inset(j->plane, p, rim, out, j->error);
+        else if (convex ? !inset_convex(j, p, rim, out) : !polygon_list_push(j->ctx, out, p))
+            status = error_memory(j->error);
     }
-    return true;
+    return status;
 }
 
 static fram_status find_sections(const fracture_job *j, const trim_place *at)
@@ -128,14 +137,12 @@ static bool take_all(const fracture_job *j)
 static fram_status take_common(const fracture_job *j, double rim)
 {
     trim_work *t = &j->scratch->trim;
-    if (!inset(j, &t->top, rim, &t->inner))
-        return error_memory(j->error);
+    fram_status status = inset(j, &t->top, rim, &t->inner);
     polygon_list swap = t->top;
     t->top = t->inner;
     t->inner = swap;
-    if (!inset(j, &t->bottom, rim, &t->inner))
-        return error_memory(j->error);
-    fram_status status = FRAM_OK;
+    if (status == FRAM_OK)
+        status = inset(j, &t->bottom, rim, &t->inner);
     for (int32_t i = 0; i < polygon_list_count(&t->top); i++)
         for (int32_t k = 0; k < polygon_list_count(&t->inner) && status == FRAM_OK; k++)
             status = overlay_intersection(j->plane, polygon_list_get(&t->top, i), polygon_list_get(&t->inner, k),

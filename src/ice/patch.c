@@ -31,25 +31,20 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
 
 /* ---- components ---- */
 
-static int32_t find_root(patch_scratch *s, int32_t part)
+static int32_t *above(patch_part *part, bool whole) { return whole ? &part->whole : &part->root; }
+
+/* The top above a part, to which the way is shortened. */
+static int32_t find_top(patch_scratch *s, int32_t part, bool whole)
 {
     patch_part *all = s->parts.data;
-    while (all[part].root != part) {
-        all[part].root = all[all[part].root].root;
-        part = all[part].root;
-    }
+    for (int32_t *up; *(up = above(&all[part], whole)) != part; part = *up)
+        *up = *above(&all[*up], whole);
     return part;
 }
 
-static int32_t find_whole(patch_scratch *s, int32_t part)
-{
-    patch_part *all = s->parts.data;
-    while (all[part].whole != part) {
-        all[part].whole = all[all[part].whole].whole;
-        part = all[part].whole;
-    }
-    return part;
-}
+static int32_t find_root(patch_scratch *s, int32_t part) { return find_top(s, part, false); }
+
+static int32_t find_whole(patch_scratch *s, int32_t part) { return find_top(s, part, true); }
 
 /* Whether two parts that touch have been joined. */
 static bool are_joined(patch_scratch *s, int32_t a, int32_t b)

@@ -504,6 +504,40 @@ START_TEST(simplification)
 }
 END_TEST
 
+/* Moved inwards: mitred at hollow corners, in as many parts as are left, whatever a convex ring's lines give. */
+START_TEST(insets)
+{
+    setup();
+    polygon_list l = {0};
+    const vec2 notched[] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}, {-5, 1}, {-3, 1}, {-3, -1}, {-5, -1}};
+    for (int far = 0; far < 2; far++) {
+        vec2 p[8];
+        for (int i = 0; i < 8; i++)
+            p[i] = vec2_add(notched[i], vec2_scale((vec2){7e5, -3e5}, far));
+        polygon_list_clear(&l);
+        assert_ok(overlay_inset(o, RING(p), 0.5, &l, &error), error);
+        ck_assert_int_eq(polygon_list_count(&l), 1);
+        ck_assert_int_eq(polygon_list_get(&l, 0).count, 8);
+        assert_absolute(list_area(&l), 9 * 9 - 2 * 3, far ? 1e-8 : 1e-13);
+        check_normal(&l);
+    }
+    /* The notch meets the far side, and two arms are left. */
+    polygon_list_clear(&l);
+    const vec2 fork[] = {{0, 0}, {6, 0}, {6, 2}, {1, 2}, {1, 3}, {6, 3}, {6, 5}, {0, 5}};
+    assert_ok(overlay_inset(o, RING(fork), 0.6, &l, &error), error);
+    ck_assert_int_eq(polygon_list_count(&l), 2);
+    assert_absolute(list_area(&l), 2 * 4.8 * 0.8, 1e-13);
+    check_normal(&l);
+    polygon_list_clear(&l);
+    assert_ok(overlay_inset(o, RING(square), 2, &l, &error), error);
+    ck_assert_int_eq(polygon_list_count(&l), 0);
+    assert_fails(overlay_inset(o, RING(square), 0, &l, &error), error, FRAM_ERROR_INPUT, "not positive");
+    assert_fails(overlay_inset(o, RING(bow), 1, &l, &error), error, FRAM_ERROR_INPUT, "edges 0 and 2");
+    polygon_list_free(&plain, &l);
+    overlay_free(o);
+}
+END_TEST
+
 typedef fram_status (*call)(overlay *, polygon_list *, vec2_array *, fram_error *);
 
 static fram_status call_difference(overlay *h, polygon_list *l, vec2_array *v, fram_error *e)
@@ -537,6 +571,11 @@ static fram_status call_union(overlay *h, polygon_list *l, vec2_array *v, fram_e
     polygon_list_free(&plain, &parts);
     return status;
 }
+static fram_status call_inset(overlay *h, polygon_list *l, vec2_array *v, fram_error *e)
+{
+    (void)v;
+    return overlay_inset(h, RING(square), 0.5, l, e);
+}
 static fram_status call_repair(overlay *h, polygon_list *l, vec2_array *v, fram_error *e)
 {
     (void)v;
@@ -551,7 +590,7 @@ static fram_status call_simplify(overlay *h, polygon_list *l, vec2_array *v, fra
 START_TEST(no_memory)
 {
     const call calls[] = {call_difference, call_hole,   call_touching_hole, call_intersection,
-                          call_union,      call_repair, call_simplify};
+                          call_union,      call_repair, call_simplify,      call_inset};
     context_init(&plain);
     for (size_t c = 0; c < sizeof calls / sizeof *calls; c++)
         for (long n = 1;; n++) {
@@ -578,4 +617,4 @@ END_TEST
 
 TEST_MAIN("overlay", known_overlays, outlines_that_do_not_meet, outlines_that_touch, nearly_common_edge, areas_balance,
           same_input_same_bits, broken_and_united, union_of_tiles, validity_and_its_reasons, validity_as_geos_sees_it,
-          repair, repair_of_random_rings, simplification, no_memory)
+          repair, repair_of_random_rings, simplification, insets, no_memory)

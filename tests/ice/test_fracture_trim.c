@@ -6,8 +6,12 @@
 
 static const double SPEED = 0.5;
 
-/* A plate, and a hull that stands clear of it and is said to touch it with two patches. */
-static int32_t start(fracture_rig *r, solid_array *solids, motion kind)
+static const vec2 box_plan[] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
+/* With a notch in the stern, as for a tow. */
+static const vec2 notched_plan[] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}, {-5, 1}, {-3, 1}, {-3, -1}, {-5, -1}};
+
+/* A plate, and a hull of this plan that stands clear of it and is said to touch it with two patches. */
+static int32_t start_with(fracture_rig *r, solid_array *solids, motion kind, polygon plan)
 {
     fram_error e = {0};
     fracture_rig_make(r);
@@ -15,7 +19,7 @@ static int32_t start(fracture_rig *r, solid_array *solids, motion kind)
     const vec2 corner[4] = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
     int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind), index, shape;
     mesh box = {0};
-    ck_assert(mesh_make_box(&r->ctx, (vec3){-5, -5, -5}, (vec3){5, 5, 5}, &box));
+    assert_ok(mesh_make_prism(&r->ctx, plan, -5, 5, &box, &e), e);
     polyhedron_array pieces = {0};
     ck_assert(array_push(&r->ctx, &pieces, (polyhedron){.radius = 0}));
     assert_ok(polyhedron_hull(&r->ctx, box.vertex.data, box.vertex.count, 1e-9, &pieces.data[0], &e), e);
@@ -25,6 +29,11 @@ static int32_t start(fracture_rig *r, solid_array *solids, motion kind)
     r->bodies.shape[r->hull] = shape;
     r->bodies.position[r->hull] = (vec3){-100, 0, 0};
     return row;
+}
+
+static int32_t start(fracture_rig *r, solid_array *solids, motion kind)
+{
+    return start_with(r, solids, kind, (polygon){box_plan, 4});
 }
 
 /* One step in which the hull moves along x and its two patches carry nothing. */
@@ -75,24 +84,49 @@ START_TEST(a_floe_under_a_hull_stays)
 END_TEST
 
 /* A hull among two plates takes its place out of each, in the frame of each, of whatever thickness: what it cuts is
-   found anew unless both lie alike. */
+   found anew unless both lie alike.  A notch on its far side is nothing to the ice. */
 START_TEST(plates_that_lie_side_by_side)
+{
+    for (int notched = 0; notched < 2; notched++) {
+        fracture_rig r;
+        solid_array solids = {0};
+        polygon plan = notched ? (polygon){notched_plan, 8} : (polygon){box_plan, 4};
+        int32_t row[2] = {start_with(&r, &solids, MOTION_STATIC, plan), -1};
+        const vec2 corner[4] = {{-20, 20}, {20, 20}, {20, 100}, {-20, 100}};
+        row[1] = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC);
+        r.bodies.position[r.hull] = (vec3){-22, 20, 0};
+        r.bodies.velocity[r.hull] = (vec3){SPEED, 0, 0};
+        for (int i = 0; i < 2; i++) {
+            ck_assert(fracture_rig_load(&r, row[i], (vec2){-20, i ? -38 : 18}, 0, 0.5));
+            r.patches.data[r.patches.count - 1].normal = (vec3){1, 0, 0};
+        }
+        (void)fracture_rig_break(&r);
+        /* From x = -20 to -17 less the rim, 5 m less the rim to both sides of y = 20. */
+        double rim = r.settings.edge_threshold, area = 2 * (3 - rim) * (5 - rim);
+        assert_relative(r.crushed, 920 * area, 1e-9);
+        fracture_rig_free(&r);
+        solid_array_free(&r.ctx, &solids);
+    }
+}
+END_TEST
+
+/* A floe that floats loses the whole section, notch and all, of a hull that has drawn back from it. */
+START_TEST(a_notch_stays_ice)
 {
     fracture_rig r;
     solid_array solids = {0};
-    int32_t row[2] = {start(&r, &solids, MOTION_STATIC), -1};
-    const vec2 corner[4] = {{-20, 20}, {20, 20}, {20, 100}, {-20, 100}};
-    row[1] = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC);
-    r.bodies.position[r.hull] = (vec3){-22, 20, 0};
-    r.bodies.velocity[r.hull] = (vec3){SPEED, 0, 0};
-    for (int i = 0; i < 2; i++) {
-        ck_assert(fracture_rig_load(&r, row[i], (vec2){-20, i ? -38 : 18}, 0, 0.5));
-        r.patches.data[r.patches.count - 1].normal = (vec3){1, 0, 0};
+    int32_t row = start_with(&r, &solids, MOTION_DYNAMIC, (polygon){notched_plan, 8});
+    r.settings.crush_notches = true;
+    double back = 0;
+    r.bodies.position[r.hull] = (vec3){-16, 0, 0};
+    while (r.floes.number[row] == 0 && back < 1) {
+        (void)step(&r, row, -SPEED);
+        back += SPEED * r.settings.time_step;
     }
-    (void)fracture_rig_break(&r);
-    /* From x = -20 to -17 less the rim, 5 m less the rim to both sides of y = 20. */
-    double rim = r.settings.edge_threshold, area = 2 * (3 - rim) * (5 - rim);
-    assert_relative(r.crushed, 920 * area, 1e-9);
+    /* It is where it was when it last pressed on, the step before the first: 10 m wide from -20 on, 2 x 1 m of notch.
+     */
+    assert_absolute(back, r.settings.edge_threshold, 2 * SPEED * r.settings.time_step);
+    assert_absolute(r.crushed, 920 * ((9 + back) * 10 - 2 * (1 + back)), 1);
     fracture_rig_free(&r);
     solid_array_free(&r.ctx, &solids);
 }
@@ -312,4 +346,4 @@ START_TEST(rams_meet_the_notch)
 END_TEST
 
 TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays,
-          plates_that_lie_side_by_side, rams_meet_the_notch)
+          plates_that_lie_side_by_side, a_notch_stays_ice, rams_meet_the_notch)
