@@ -155,8 +155,7 @@ fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_ent
         status = build_hydrodynamics(s, entry, &v, error);
     if (status == FRAM_OK)
         status = build_flows(ctx, s, entry, &v, error);
-    /* The lift of a hull that drives itself is given past Munk's moment (vessel/manoeuvre.h). */
-    v.hydrodynamics.measured = v.flows.water.count > 0 && is_automatic(entry->keys->propulsion.bollard_pull);
+    v.hydrodynamics.measured = v.flows.water.count > 0;
     v.wash = build_wash(s, entry->keys, &v);
     if (status == FRAM_OK && !array_push(ctx, &m->vessels, v))
         status = error_memory(error);

@@ -30,6 +30,9 @@ static manoeuvring ship_of(const scenario *s, const vessel_model *hull, const wo
         double density = s->environment.water_density;
         hull_lift lift = hull_lift_of(h->length, h->beam, h->draught, hull->floats.volume, density);
         out.whole = hull_lift_moved(lift, h->midships - hull->centre.x);
+        /* A table was measured on a hull that is held askew: it has all of u v, and nothing of turning. */
+        if (hull->flows.water.count > 0)
+            out.whole.y_v = out.whole.n_v = 0;
     }
     return out;
 }

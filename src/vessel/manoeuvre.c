@@ -28,7 +28,8 @@ hull_lift manoeuvring_lift(const manoeuvring *m)
 {
     hull_lift l = m->whole;
     l.y_r += m->a11;
-    l.n_v += m->a22 - m->a11;
+    if (l.y_v != 0 || l.n_v != 0)
+        l.n_v += m->a22 - m->a11;
     l.n_r += m->a26;
     return l;
 }

@@ -4,7 +4,10 @@
 
    A regression of forces that were measured on models holds all that goes with u v and u r, so also the moment of Munk
    and the other terms that Kirchhoff's equations have of them:  Y = -a11 u r,  N = -(a22 - a11) u v - a26 u r. Where
-   the equations of motion hold these already the hull's lift is the regression less these. */
+   the equations of motion hold these already the hull's lift is the regression less these.
+
+   A table of the current has all that goes with u v.  A hull that has one has no y_v and n_v of the regression, and its
+   equations of motion leave Munk's moment out (docs/decisions/0555). */
 #ifndef VESSEL_MANOEUVRE_H
 #define VESSEL_MANOEUVRE_H
 
@@ -25,7 +28,7 @@ typedef struct manoeuvring {
     double mass;          /* of the ship alone [kg] */
     double inertia;       /* in yaw, with that of the water [kg m2] */
     double a11, a22, a26; /* added mass of surge, sway, and of sway by yaw; 0 where the ship has none [kg, kg, kg m] */
-    hull_lift whole;      /* all that goes with u v and u r */
+    hull_lift whole;      /* all that goes with u v and u r; y_v and n_v 0: a table has what goes with u v */
 } manoeuvring;
 
 /* What the equations of motion do not hold of it. */

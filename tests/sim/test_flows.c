@@ -87,24 +87,27 @@ START_TEST(turning_is_damped)
 END_TEST
 
 /* Munk's moment of a free hull in an oblique current is what the equilibrium and the capability plot take, once: in a
-   table of coefficients it is measured with the rest. */
+   table of coefficients it is measured with the rest, and so is the lift of a ship that drives itself. */
 START_TEST(munk_is_in_a_table)
 {
-    for (int table = 0; table < 2; table++) {
+    vec3 alone = {0, 0, 0};
+    for (int n = 0; n < 3; n++) {
+        bool table = n > 0, drives = n > 1;
         char text[1024];
         snprintf(text, sizeof text,
                  "run: {time_step: 0.001}\nvessel:\n  mode: free\n  hydrodynamics: {source: estimate}\n"
                  "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n"
-                 "  current_coefficients:\n    table: %s\n"
+                 "  current_coefficients:\n    table: %s\n%s"
                  "ice: {source: none}\ndomain: {boundary: open}\n"
-                 "environment: {current_speed: 0.8, current_direction_deg: 45}\n",
-                 table ? "[{angle_deg: 0}, {angle_deg: 45, cn: 0.1}, {angle_deg: 180}]" : "[]");
+                 "environment: {current_speed: 0.8, current_direction_deg: 135}\n",
+                 table ? "[{angle_deg: 0}, {angle_deg: 135, cy: 0.2, cn: 0.1}, {angle_deg: 180}]" : "[]",
+                 drives ? "  propulsion: {bollard_pull: 1, open_water_speed: 20, rudder_area: 0}\n" : "");
         scene k;
         scene_open(&k, text);
         int32_t body = k.w.vessels.body[0];
         const hydrodynamics *h = &k.m.vessels.data[0].hydrodynamics;
         double inertia = k.w.bodies.inertia[body].zz + h->added_mass.m[5][5], half = 0.8 / sqrt(2.0);
-        double munk = -(h->added_mass.m[1][1] - h->added_mass.m[0][0]) * half * half;
+        double munk = (h->added_mass.m[1][1] - h->added_mass.m[0][0]) * half * half;
         double still = steady_media_load(&k.m, &k.w, 0, &k.m.media, 0).z;
         scene_steps(&k, 1);
         assert_relative(k.w.bodies.angular_velocity[body].z * inertia / 0.001, still, 1e-3);
@@ -112,6 +115,9 @@ START_TEST(munk_is_in_a_table)
             assert_relative(still, 0.5 * 1025 * 0.64 * 0.1 * 60 * 4 * 60, 1e-6);
         else
             assert_relative(still, munk, 0.02); /* and the drag of its sides, which balance */
+        if (drives)
+            assert_relative(k.w.bodies.velocity[body].y, alone.y, 1e-3);
+        alone = k.w.bodies.velocity[body];
         scene_close(&k);
     }
 }

@@ -28,6 +28,11 @@ START_TEST(moment_of_munk_acts_once)
         assert_absolute(y, u * (m.whole.y_v * v + m.whole.y_r * r), 1e-3);
         assert_absolute(n, u * (m.whole.n_v * v + m.whole.n_r * r), 1e-1);
     }
+    /* What goes with u v is a table's: nothing is put in for the moment of Munk, which does not act then. */
+    manoeuvring tabled = m;
+    tabled.whole.y_v = tabled.whole.n_v = 0;
+    hull_lift turns = manoeuvring_lift(&tabled);
+    ck_assert(turns.y_v == 0 && turns.n_v == 0 && turns.y_r == l.y_r && turns.n_r == l.n_r);
     m.a11 = m.a22 = m.a26 = 0;
     assert_relative(manoeuvring_lift(&m).n_v, m.whole.n_v, 1e-15);
 }
