@@ -1,6 +1,7 @@
 #include "sim/turning.h"
 
 #include "base/transcendental.h"
+#include "fluid/flow_apply.h"
 #include "fluid/hull_load.h"
 #include "sim/propulsion_forces.h"
 
@@ -32,8 +33,10 @@ static wrench drag_of(const turning_search *t, double sway, double rate)
         return (wrench){{0, 0, 0}, {0, 0, 0}};
     const mat3 upright = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     fluid_motion moving = {t->hull->centre, upright, {t->speed, sway, 0}, {0, 0, rate}};
+    media panels = flows_media(&t->water, &t->hull->flows, moving.velocity);
     fluid_load load;
-    fluid_load_solid(t->ctx, &t->water, &t->m->drag[MATERIAL_HULL], &t->m->solids.data[t->hull->solid], &moving, &load);
+    fluid_load_solid(t->ctx, &panels, &t->m->drag[MATERIAL_HULL], &t->m->solids.data[t->hull->solid], &moving, &load);
+    flows_add(&t->water, &t->hull->flows, upright, moving.velocity, &load);
     wrench out = load.water_drag;
     vec3 damping = propulsion_damping(t->hull, vec3_make(t->speed, sway, rate));
     out.force.x += damping.x;

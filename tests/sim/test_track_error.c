@@ -186,6 +186,63 @@ START_TEST(odd_data_leave_no_nan)
 }
 END_TEST
 
+enum { TABLE_LAST = 72 };
+#define SIDE (121 * 8.8)
+
+/* A table of the current: what goes with u v of this lift, and the cross flow's drag on the side. */
+static void write_table(char *text, size_t size, hull_lift l, double forward, double cross)
+{
+    const double unit = 0.5 * 1025 * SIDE;
+    int at = snprintf(text, size, "  current_coefficients: {lateral_area: %g, length: 121, x: %.9g, table: [", SIDE,
+                      forward);
+    for (int i = 0; i <= TABLE_LAST; i++) {
+        double flow = PI * i / TABLE_LAST, s = real_sin(flow), both = s * real_cos(flow);
+        at +=
+            snprintf(text + at, size - (size_t)at, "{angle_deg: %g, cy: %.9g, cn: %.9g}%s", 180.0 * i / TABLE_LAST,
+                     l.y_v * both / unit + cross * s * s, l.n_v * both / (unit * 121), i < TABLE_LAST ? ", " : "]}\n");
+    }
+}
+
+/* Of a ship with this table, whose faces have no drag: linear damping holds its turn.  Its lift, and how far forward of
+   amidships its mass is. */
+static turning_ability ability_by(const char *table, hull_lift *l, double *forward)
+{
+    static const char *const sets[] = {"environment.hull_drag.water_form=0", "environment.hull_drag.water_skin=0"};
+    char text[8192];
+    scene k;
+    snprintf(text, sizeof text, SHIP_AT("%s", "waypoints: [{x: 7000, y: 0}]"), table);
+    scene_open_with(&k, text, sets, 2);
+    vessel_model *v = &k.m.vessels.data[0];
+    v->hydrodynamics.damping.m[1][1] = 3e5;
+    v->hydrodynamics.damping.m[5][5] = 4e8;
+    turning_ability out = turning_ability_of(&k.ctx, &k.m, 0, &k.w.propulsion.settings[0], 4);
+    *l = k.w.propulsion.settings[0].ship.whole;
+    *forward = v->centre.x - v->particulars.midships;
+    scene_close(&k);
+    return out;
+}
+
+/* A table that holds the regression's part of sliding is the same ship; with the drag of its side it turns on more. */
+START_TEST(the_table_is_known_to_the_turn)
+{
+    char table[6144];
+    hull_lift l, left;
+    double forward;
+    turning_ability without = ability_by("", &l, &forward);
+    write_table(table, sizeof table, l, forward, 0);
+    turning_ability same = ability_by(table, &left, &forward);
+    ck_assert(left.y_v == 0 && left.n_v == 0 && left.y_r == l.y_r && left.n_r == l.n_r);
+    write_table(table, sizeof table, l, forward, 0.7);
+    turning_ability wider = ability_by(table, &left, &forward);
+    printf("without a table %.2f and %.2f m, with it %.2f and %.2f, with drag of the side %.2f\n", without.radius,
+           without.corner, same.radius, same.corner, wider.radius);
+    assert_relative(same.radius, without.radius, 2e-3);
+    assert_relative(same.corner, without.corner, 2e-3);
+    assert_relative(same.drift, without.drift, 2e-3);
+    ck_assert(wider.radius > 1.1 * without.radius);
+}
+END_TEST
+
 TEST_MAIN("track_error", error_is_the_distance_and_is_told, the_transient_does_not_count,
           a_circle_that_is_too_narrow_is_told, room_to_turn_can_be_given, driven_patterns_are_mirrored,
-          odd_data_leave_no_nan)
+          odd_data_leave_no_nan, the_table_is_known_to_the_turn)

@@ -213,6 +213,24 @@ static void give_damping(scene *k, double sway, double yaw)
     s->turning = turning_ability_of(&k->ctx, &k->m, 0, s, s->turning.speed);
 }
 
+/* A table of the current, as if it were given: the cross flow on a ship's side, and a moment that turns it abeam. */
+static void give_table(scene *k)
+{
+    propulsion_settings *s = &k->w.propulsion.settings[0];
+    vessel_model *hull = &k->m.vessels.data[0];
+    hull->flows.water = (flow_table){
+        .count = 5,
+        .angle = {0, PI / 4, PI / 2, 3 * PI / 4, PI},
+        .coefficient = {{0.05, 0, 0}, {0, 0.4, -0.06}, {0, 0.7, 0}, {0, 0.4, 0.06}, {-0.05, 0, 0}},
+        .frontal = hull->particulars.beam * hull->particulars.draught,
+        .lateral = hull->particulars.length * hull->particulars.draught,
+        .length = hull->particulars.length,
+    };
+    hull->hydrodynamics.measured = true;
+    s->ship.whole.y_v = s->ship.whole.n_v = 0;
+    s->turning = turning_ability_of(&k->ctx, &k->m, 0, s, s->turning.speed);
+}
+
 /* The autopilot takes the damping of a turn for what it is, not for a moment from outside. */
 static void check_seen(scene *k, double yaw)
 {
@@ -228,7 +246,8 @@ static void check_seen(scene *k, double yaw)
     ck_assert(seen < 0.3 * damps);
 }
 
-/* The radius that is told is the one on which the ship turns in the end, to either side, and with damping. */
+/* The radius that is told is the one on which the ship turns in the end, to either side, by a table of the current, and
+   with damping. */
 START_TEST(turns_as_it_is_told)
 {
     static const pattern_case any = {"circle", 3, 2, 4, true};
@@ -238,6 +257,8 @@ START_TEST(turns_as_it_is_told)
         scene k;
         open_on_track(&k, &any);
         give_damping(&k, damping[i][0], damping[i][1]);
+        if (i == 1)
+            give_table(&k);
         propulsion_settings *s = &k.w.propulsion.settings[0];
         double rate = s->steering_rate;
         s->steering_rate = 1e-12;
