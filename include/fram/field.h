@@ -130,7 +130,8 @@ FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *
 typedef struct fram_field_population {
     int floes;
     double area;          /* [m2] */
-    double size_distance; /* Kolmogorov and Smirnov's, by number, of the diameters of the circles of equal area [1] */
+    double size_distance; /* Kolmogorov and Smirnov's, by number, of the diameters of the circles of equal area; for a
+                             law of one diameter the part of the floes more than 1 % off it [1] */
     /* Floes, and what the law expects of so many, in the bins of fram_field_summary's kind. */
     double bin_edge[FRAM_FIELD_BINS + 1]; /* [m] */
     int bin[FRAM_FIELD_BINS];

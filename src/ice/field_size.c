@@ -12,7 +12,8 @@ enum { MEAN_SLICES = 8192, HALVINGS = 200, SHIFT_HALVINGS = 60 };
 enum { SLICES_A_WORD = 1024 };
 /* More floes than this are a mistake in the units rather than a field. */
 static const double MOST_FLOES = 5e6;
-/* Half the width of the histogram of floes that are all of one size, relative. */
+/* Floes so near each other are of one size, relative: rounding parts what is packed, and cells meet their areas to
+   0.2 %.  Half the width of the histogram of floes that are all of one size. */
 static const double ONE_SIZE = 0.01;
 /* |b| of a power law under which it is D^0: the formula for b loses eps/b, this one b log(hi/lo). */
 static const double FLAT = 1e-8;
@@ -308,15 +309,25 @@ fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64
     return FRAM_OK;
 }
 
+/* A law of one diameter is a step, where a sample that meets it but for rounding would be half of it off. */
+static bool law_is_one_size(const size_law *law, double *size)
+{
+    bool range = law->kind == SIZE_UNIFORM || law->kind == SIZE_POWER;
+    *size = range ? law->lo : law->mean;
+    return law->kind == SIZE_CONSTANT || (range && law->lo >= law->hi);
+}
+
+static bool is_of_size(double d, double size) { return fabs(d - size) <= ONE_SIZE * size; }
+
 double size_law_distance(const size_law *law, double *sample, int32_t count)
 {
-    double most = 0;
+    double most = 0, size;
+    bool one = law_is_one_size(law, &size);
     if (count > 0)
         numbers_sort(sample, count);
     for (int32_t i = 0; i < count; i++) {
-        if (law->kind == SIZE_CONSTANT) {
-            /* A law of one value: the part of the sample that is another, but for rounding. */
-            most += fabs(sample[i] - law->mean) > 1e-9 * law->mean ? 1.0 / count : 0;
+        if (one) {
+            most += is_of_size(sample[i], size) ? 0 : 1.0 / count;
             continue;
         }
         double part = size_law_part(law, sample[i]);
@@ -327,7 +338,8 @@ double size_law_distance(const size_law *law, double *sample, int32_t count)
 
 void size_law_histogram(const size_law *law, const double *sample, int32_t count, size_histogram *out)
 {
-    double lo = HUGE_VAL, hi = 0;
+    double lo = HUGE_VAL, hi = 0, size;
+    bool one = law_is_one_size(law, &size);
     for (int32_t i = 0; i < count; i++) {
         lo = fmin(lo, sample[i]);
         hi = fmax(hi, sample[i]);
@@ -347,8 +359,9 @@ void size_law_histogram(const size_law *law, const double *sample, int32_t count
         out->expected[k] = count * (after - before);
     }
     for (int32_t i = 0; i < count; i++) {
+        double d = one && is_of_size(sample[i], size) ? size : sample[i];
         int k = 0;
-        while (k + 1 < SIZE_BINS && sample[i] > out->edge[k + 1])
+        while (k + 1 < SIZE_BINS && d > out->edge[k + 1])
             k++;
         out->bin[k]++;
     }

@@ -43,11 +43,13 @@ double size_law_part(const size_law *law, double d);
 fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
                           real_array *out, fram_error *error);
 
-/* Kolmogorov and Smirnov's distance of a sample from the law; the sample is sorted by it. */
+/* Kolmogorov and Smirnov's distance of a sample from the law; of a law of one diameter the part of the sample that is
+   more than 1 % off it.  The sample is sorted by it. */
 double size_law_distance(const size_law *law, double *sample, int32_t count);
 
 /* A sample by size, and as many as the law expects of so many: bin i holds up to edge[i + 1], edge[i] excluded (but for
-   the first).  The bins cover the sample in equal ratios; the first and the last count what the law has beyond. */
+   the first).  The bins cover the sample in equal ratios; the first and the last count what the law has beyond.  What
+   is within 1 % of the only diameter of a law counts as of that. */
 enum { SIZE_BINS = 12 };
 typedef struct size_histogram {
     double edge[SIZE_BINS + 1]; /* [m] */

@@ -111,6 +111,28 @@ START_TEST(too_many_floes_are_refused)
 }
 END_TEST
 
+/* Laws of one diameter are met by floes that rounding, or the areas of cells, part from it: in the histogram, too. */
+START_TEST(rounding_is_no_other_size)
+{
+    static const size_law of_one[] = {{.kind = SIZE_CONSTANT, .mean = 8},
+                                      {.kind = SIZE_UNIFORM, .lo = 8, .hi = 8},
+                                      {.kind = SIZE_POWER, .lo = 8, .hi = 8, .exponent = 1.7}};
+    static const double off[] = {1e-15, 1e-3, 9e-3};
+    for (int k = 0; k < 9; k++) {
+        const size_law *law = &of_one[k / 3];
+        const double o = off[k % 3];
+        double sample[4] = {8 * (1 + o), 8 * (1 - o), 8, 8 * (1 - o)};
+        size_histogram h;
+        size_law_histogram(law, sample, 4, &h);
+        for (int i = 0; i < SIZE_BINS; i++)
+            assert_absolute(h.bin[i], h.expected[i], 0);
+        assert_absolute(size_law_distance(law, sample, 4), 0, 0);
+        sample[3] = 8.1;
+        assert_absolute(size_law_distance(law, sample, 4), 0.25, 0);
+    }
+}
+END_TEST
+
 /* A sample of half its diameter is found out. */
 START_TEST(the_distance_sees_a_wrong_sample)
 {
@@ -126,4 +148,5 @@ END_TEST
 
 TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse, next_to_nothing_is_refused,
           the_least_diameter_of_a_power_law_has_nothing_under_it, quantiles_have_their_closed_forms,
-          samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused, the_distance_sees_a_wrong_sample)
+          samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused, rounding_is_no_other_size,
+          the_distance_sees_a_wrong_sample)

@@ -90,6 +90,21 @@ START_TEST(sizes_at_lower_concentrations)
 }
 END_TEST
 
+/* Cells meet their areas to a part in some hundreds, which is no other size. */
+START_TEST(floes_of_one_size)
+{
+    const size_law law = {.kind = SIZE_CONSTANT, .mean = 8};
+    context ctx;
+    context_init(&ctx);
+    field_request q = request_of(&law, 0.8, 1);
+    q.domain = (box2){{0, 0}, {170, 170}};
+    q.periodic = true;
+    polygon_list floes = {0};
+    make_good(&ctx, &q, &floes);
+    polygon_list_free(&ctx, &floes);
+}
+END_TEST
+
 /* A periodic field continues with itself: its copies beside it do not touch it. */
 START_TEST(without_a_seam)
 {
@@ -196,4 +211,4 @@ START_TEST(memory_ends)
 END_TEST
 
 TEST_MAIN("field_sized", every_seed_of_a_power_law_at_98_percent, other_laws, sizes_at_lower_concentrations,
-          without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
+          floes_of_one_size, without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
