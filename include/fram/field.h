@@ -153,7 +153,8 @@ FRAM_API fram_status fram_field_draw_cover(const fram_field *field, double cell,
 /* A row per floe, as CSV: diameter of the circle of equal area, area, vertices, thickness (where known), its population
    (from 0; -1: not drawn), and area and vertices of the shape that was drawn before it had a place. */
 FRAM_API fram_status fram_field_table(const fram_field *field, const char *path, fram_error *error);
-/* As GeoJSON whose numbers read back to the bit. */
+/* As GeoJSON whose numbers read back to the bit: outlines and thickness.  Strengths of populations, and which of their
+   floes break, are not in it; the log warns where there are such. */
 FRAM_API fram_status fram_field_save(const fram_field *field, const char *path, fram_error *error);
 
 #ifdef __cplusplus

@@ -188,5 +188,13 @@ fram_status fram_field_save(const fram_field *f, const char *path, fram_error *e
     fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
     if (status != FRAM_OK)
         return status;
-    return geojson_write(&f->context->inner, path, &f->floes.outlines, f->floes.thickness.data, error);
+    context *ctx = &f->context->inner;
+    status = geojson_write(ctx, path, &f->floes.outlines, f->floes.thickness.data, error);
+    if (status == FRAM_OK && f->other_ice)
+        log_write(ctx, LOG_WARNING,
+                  "%s: the file keeps outlines and thickness, not the strengths of ice.populations nor which floes "
+                  "break: a scenario that reads it gives all floes its own ice.flexural_strength, "
+                  "ice.crushing_strength and ice.breakable",
+                  path);
+    return status;
 }

@@ -9,13 +9,25 @@
 
 _Static_assert((int)FRAM_FIELD_BINS == (int)SIZE_BINS, "one number of bins");
 
+/* Whether a floe is of other ice than those that a file gives the same scenario. */
+static bool is_other_ice(const scenario *s, const floe_traits *t)
+{
+    const floe_traits own = scenario_traits(s, t->thickness);
+    return t->flexural_strength < own.flexural_strength || t->flexural_strength > own.flexural_strength ||
+           t->crushing_strength < own.crushing_strength || t->crushing_strength > own.crushing_strength ||
+           t->breakable != own.breakable;
+}
+
 static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fram_error *error)
 {
     context *ctx = &f->context->inner;
     fram_status status = build_outlines(ctx, s, &f->drawn, &f->window, error);
-    for (int32_t i = 0; status == FRAM_OK && i < f->drawn.traits.count; i++)
-        if (!array_push(ctx, &f->floes.thickness, f->drawn.traits.data[i].thickness))
+    for (int32_t i = 0; status == FRAM_OK && i < f->drawn.traits.count; i++) {
+        const floe_traits *t = &f->drawn.traits.data[i];
+        f->other_ice = f->other_ice || is_other_ice(s, t);
+        if (!array_push(ctx, &f->floes.thickness, t->thickness))
             status = error_memory(error);
+    }
     if (status != FRAM_OK)
         return status;
     f->floes.outlines = f->drawn.outlines;

@@ -13,6 +13,7 @@ struct fram_field {
     import_field floes;
     drawn_ice drawn; /* of a scenario, without outlines: those are in floes */
     bool tile;       /* of a scenario that is fed: what repeats itself */
+    bool other_ice;  /* some are not as strong as the scenario's ice, or do not break: files keep nothing of it */
     double target;   /* concentration that the scenario asks for, or NaN [1] */
     box2 window;     /* what is shown [m] */
     vec2 period;     /* of an endless field, whose tile is the window; 0, 0: it ends [m] */

@@ -106,6 +106,7 @@ printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
     'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' 'ice: {source: file, file: packed.geojson}' >file.yaml
 expect 0 "$FRAM" field file.yaml -o again.geojson --json
 cmp -s packed.geojson again.geojson || fail "a scenario reads a generated field as another one"
+! grep -qF "not the strengths" err || fail "a field of one strength is said to lose it"
 same "$(value 'j["made"]["populations"], j["made"]["placed"] == j["floes"]')" "[] True" "a field of a file"
 same "$(value 'j["made"]["asked_concentration"]')" None "a concentration is asked of a field of a file"
 # A thickness in centimetres of a feature is told as one of the scenario is.
@@ -127,10 +128,20 @@ same "$(value 'abs(j["made"]["concentration"] - 0.98) < 1e-6, j["made"]["largest
 same "$(value 'j["made"]["populations"][0]["kolmogorov_smirnov"] < 0.03, j["floes"] > 800')" "True True" cells
 # A law of size that the least area cuts is told where it stands in a file, too.
 printf 'diameter_min[m],diameter_max[m],floes\n2,3,9\n3,9,9\n' >cut.csv
-cut=(--set domain.x_min=160 --set domain.y_min=160 --set ice.concentration=0.4)
+small=(--set domain.x_min=160 --set domain.y_min=160 --set ice.concentration=0.4)
+cut=("${small[@]}")
 cut+=(--set "ice.populations[0].size=histogram" --set "ice.populations[0].histogram=cut.csv")
 expect 0 "$FRAM" field managed.yaml "${cut[@]}" --set ice.smallest_floe_area=8
 says "ice.smallest_floe_area: 8 m2, 3.19 m across, leaves out 0.52 of the floes" err
+# What populations have of their own beside thickness is not in a written file.
+for own in flexural_strength=3e5 crushing_deviation=2e5 breakable=false; do
+    expect 0 "$FRAM" field managed.yaml "${small[@]}" --set ice.breakable=true --set "ice.populations[0].$own" \
+        -o own.geojson
+    says "own.geojson: the file keeps outlines and thickness, not the strengths of ice.populations nor which" err
+done
+expect 0 "$FRAM" field managed.yaml "${small[@]}" --set ice.breakable=false --set "ice.populations[0].breakable=false" \
+    -o own.geojson
+! grep -qF "not the strengths" err || fail "floes that do not break anyway are said to lose that"
 # The written tile of an endless field starts it again to the bit; windows count what lies across the tile's edge.
 for ice in 'source: voronoi, mean_floe_area: 60' \
     'source: packed, populations: [{size: uniform, diameter_min: 8, diameter_max: 14}]'; do
