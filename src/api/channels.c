@@ -56,7 +56,7 @@ static const struct {
     {"thrusters_saturated", "1 while the demand cannot be met"},
     {"thruster", "thrust and direction of each"},
     {"line_tension_max", "highest tension of a line"},
-    {"lines_parted", "lines that have broken"},
+    {"lines_parted", "lines that have parted or were let go"},
     {"line", "tension of each"},
     {"estimated_load", "force (x, y) and yaw moment (z) that the observer believes in, global frame"},
     {"estimated", "what the observer believes"},
