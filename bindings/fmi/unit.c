@@ -247,32 +247,54 @@ static bool is_order_of(const unit *u, const variable *v, const variable *positi
     return strncmp(order.name, other.name, vessel) == 0 && strncmp(order.name + vessel, "thruster_", 9) == 0;
 }
 
-static bool is_positioning(const unit *u, const variable *v)
+/* Whether the name of an input, behind that of its vessel, begins so. */
+static bool is_called(const unit *u, const variable *v, const char *name)
 {
     fram_channel input;
     if (fram_world_input(u->world, v->index, &input, NULL) != FRAM_OK)
         return false;
     const char *point = strrchr(input.name, '.');
-    return strcmp(point ? point + 1 : input.name, "positioning") == 0;
+    return strncmp(point ? point + 1 : input.name, name, strlen(name)) == 0;
+}
+
+static unit_status tell_input(unit *u, variable *v)
+{
+    fram_error e;
+    if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
+        return unit_fail_by(u, &e);
+    v->told = v->value; /* as the importer sees it: a limited order is not told again */
+    return UNIT_OK;
+}
+
+/* A tow velocity is judged with both axes as they are: those that become smaller go first, or one that grows would be
+   judged with what the other is no more. */
+static unit_status tell_slower(unit *u)
+{
+    unit_status status = UNIT_OK;
+    for (int i = 0; i < u->count && status == UNIT_OK; i++) {
+        variable *v = &u->variables[i];
+        if (v->kind == VARIABLE_INPUT && v->value != v->told && is_called(u, v, "tow_velocity_") &&
+            fabs(v->value) < fabs(fram_world_input_value(u->world, v->index)))
+            status = tell_input(u, v);
+    }
+    return status;
 }
 
 /* Inputs that changed, in their order: positioning comes before the orders that it would refuse.  When the vessel's own
    controller hands over, its thrusters have its last orders, and the importer's, changed or not, take their place. */
 static unit_status tell_inputs(unit *u)
 {
-    fram_error e;
     const variable *handed_over = NULL;
-    for (int i = 0; i < u->count; i++) {
+    unit_status status = tell_slower(u);
+    for (int i = 0; i < u->count && status == UNIT_OK; i++) {
         variable *v = &u->variables[i];
         if (v->kind != VARIABLE_INPUT || (v->value == v->told && !is_order_of(u, v, handed_over)))
             continue;
-        if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
-            return unit_fail_by(u, &e);
-        v->told = v->value; /* as the importer sees it: a limited order is not told again */
-        if (v->value == 0 && is_positioning(u, v))
+        status = tell_input(u, v);
+        if (v->value == 0 && is_called(u, v, "positioning"))
             handed_over = v;
     }
-    return UNIT_OK;
+    return status;
 }
 
 unit_status unit_exit_initialization(unit *u)

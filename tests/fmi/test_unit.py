@@ -36,6 +36,12 @@ environment: {current_speed: 6, current_direction_deg: 180}
 SI = {"s": {"s": 1}, "m": {"m": 1}, "kg": {"kg": 1}, "m/s": {"m": 1, "s": -1}, "rad/s": {"rad": 1, "s": -1},
       "deg": {"rad": 1, "factor": math.pi / 180}, "N": {"kg": 1, "m": 1, "s": -2}, "N m": {"kg": 1, "m": 2, "s": -2},
       "N s": {"kg": 1, "m": 1, "s": -1}, "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}}
+TOWED = """
+run: {duration: 20, time_step: 0.05, speed_limit: 5}
+vessel: {mode: prescribed, speed: 4, heading_deg: 90,
+         hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 1}}
+ice: {source: none}
+"""
 OUTPUTS = ("offset_x", "velocity_x", "yaw", "ice_force_x", "contacts", "kinetic_energy", "splits", "bendings")
 
 
@@ -135,6 +141,19 @@ class Units:
         self.assertFalse([text for status, _, text in instance.told if status >= ERROR])
         instance.free()
         world.free()
+
+    def test_what_is_allowed_once_is_allowed_again(self):
+        (self.folder / "towed.yaml").write_text(TOWED)
+        self.fram("fmu", self.folder / "towed.yaml", "-o", self.folder / "towed.fmu", "-q", "--fmi", self.version)
+        unit = Unit(self.folder / "towed.fmu", self.folder / "towed")
+        one, dt = unit.instance().initialise(), unit.step_size
+        # Under a limit of 5 m/s 4 m/s may go from any axis to any other, whichever is told first.
+        for i, told in enumerate(((4, 0), (0, 4), (-4, 0), (0, -4))):
+            for name, value in zip(("tow_velocity_x", "tow_velocity_y"), told):
+                one.set(name, value)
+            one.step(i * dt, dt)
+            self.assertEqual([round(v, 9) for v in one.get("velocity_x", "velocity_y")], list(told))
+        one.free()
 
     def test_orders_hold_after_the_vessels_own_controller(self):
         """What an importer's inputs say is what the thrusters do, also where it says what it said before."""
