@@ -418,7 +418,7 @@ unit_status unit_set(unit *u, const uint32_t references[], size_t count, const d
 
 /* A communication step is a whole multiple of the time step within this share of it. */
 #define STEP_TOLERANCE 1e-6
-/* Times of the importer are those of the unit within this share of a time step. */
+/* Times of the importer are those of the unit within this share of a time step, and what its steps may have missed. */
 #define TIME_TOLERANCE 0.01
 
 double unit_time(const unit *u)
@@ -434,7 +434,7 @@ static unit_status check_step(unit *u, double now, double step, double count)
 {
     char text[200] = "";
     double dt = fram_scenario_time_step(u->scenario), own = unit_time(u);
-    double tolerance = TIME_TOLERANCE * dt + 1e-12 * fabs(own);
+    double tolerance = TIME_TOLERANCE * dt + STEP_TOLERANCE * fram_world_time(u->world) + 1e-12 * fabs(own);
     if (!(count >= 1 && count < 1e9 && fabs(step - count * dt) <= STEP_TOLERANCE * dt * count))
         snprintf(text, sizeof text,
                  "a communication step of %.15g s is no whole multiple of the scenario's time step, %.15g s", step, dt);

@@ -153,6 +153,13 @@ class Units:
                 one.set(name, value)
             one.step(i * dt, dt)
             self.assertEqual([round(v, 9) for v in one.get("velocity_x", "velocity_y")], list(told))
+        # What steps miss of whole time steps adds up in the importer's time: here to more than the hundredth of one
+        # by which that may be another than the unit's.
+        now, long = 4 * dt + 0.0099 * dt, 200 * dt * (1 + 9e-7)
+        one.step(now, long)
+        one.step(now + long, dt)
+        one.step(now + long + 1.01 * dt, dt, status=ERROR)
+        self.assertIn("stands at", one.told[-1][2])
         one.free()
 
     def test_orders_hold_after_the_vessels_own_controller(self):
