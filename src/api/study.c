@@ -3,14 +3,13 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
-#include "base/hash.h"
-#include "io/scenario_file.h"
 #include "sim/bench_looks.h"
 #include "sim/recording.h"
 #include "sim/scene_size.h"
 #include "study/extent.h"
 #include "study/processes.h"
 #include "study/study_file.h"
+#include "study/study_folder.h"
 #include "study/study_record.h"
 #include "study/study_run.h"
 #include "study/study_worst.h"
@@ -133,21 +132,28 @@ static fram_status measure_condition(context *ctx, const fram_study *s, int32_t 
     return status;
 }
 
-/* Builds the vessels of a condition, and takes its name and the most that a run may take of memory. */
-static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t condition, hull_store *store,
-                                     char id[CONDITION_ID], double *bytes, fram_error *error)
+/* What conditions have in common while they are looked at, and what is found. */
+typedef struct condition_looks {
+    hull_store store;
+    text_buffer known; /* files that were read */
+    double bytes;      /* the most that a run may take of memory */
+} condition_looks;
+
+/* Builds the vessels of a condition, and takes its name, by which a study tells it from others. */
+static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t condition, condition_looks *looks,
+                                     char id[CONDITION_ID], fram_error *error)
 {
     scenario one = {0};
-    char hash[SHA256_TEXT_SIZE] = "";
+    condition_name name = {.id = ""};
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    *bytes = fmax(*bytes, scene_size_of(&one).bytes);
-    status = study_build_check(ctx, &s->inner, condition, &one, store, error);
+    looks->bytes = fmax(looks->bytes, scene_size_of(&one).bytes);
+    status = study_build_check(ctx, &s->inner, condition, &one, &looks->store, error);
     if (status == FRAM_OK)
-        status = scenario_hash(ctx, &one, hash, error);
-    memcpy(id, hash, CONDITION_ID - 1);
-    id[CONDITION_ID - 1] = '\0';
+        status = condition_name_find(ctx, &one, &looks->known, &name, error);
+    memcpy(id, name.id, CONDITION_ID);
+    text_free(ctx, &name.files);
     scenario_free(ctx, &one);
     return status;
 }
@@ -156,23 +162,23 @@ static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t 
 static fram_status look_at_conditions(context *ctx, const fram_study *s, int32_t *differ, int *jobs, fram_error *error)
 {
     int32_t count = s->inner.conditions;
-    double bytes = 0;
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)count, CONDITION_ID);
     fram_status status = id ? FRAM_OK : error_memory(error);
-    hull_store store = {.next = 0};
+    condition_looks looks = {.bytes = 0};
     for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
         status = work_continue(ctx, "looking at the conditions", c, count, error);
         if (status == FRAM_OK)
-            status = look_at_condition(ctx, s, c, &store, id[c], &bytes, error);
+            status = look_at_condition(ctx, s, c, &looks, id[c], error);
     }
-    hull_store_free(ctx, &store);
+    hull_store_free(ctx, &looks.store);
+    text_free(ctx, &looks.known);
     int32_t *first = status == FRAM_OK ? twins_find(ctx, id, count) : NULL;
     if (status == FRAM_OK && !first)
         status = error_memory(error);
     *differ = 0;
     for (int32_t c = 0; first && c < count; c++)
         *differ += first[c] == c;
-    *jobs = processes_that_fit(processes_cores(), processes_memory(), bytes);
+    *jobs = processes_that_fit(processes_cores(), processes_memory(), looks.bytes);
     memory_free(ctx, first);
     memory_free(ctx, id);
     return status;

@@ -66,33 +66,45 @@ fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
 
 /* ---- making the folder ---- */
 
-/* What decides the result of a run, but for its seed. */
-static fram_status name_condition(study_folder *f, int32_t condition, const scenario *one, fram_error *error)
+fram_status condition_name_find(context *ctx, const scenario *one, text_buffer *known, condition_name *name,
+                                fram_error *error)
 {
-    char hash[SHA256_TEXT_SIZE], of[SHA256_TEXT_SIZE];
-    text_buffer b = {0}, inputs = {0};
-    fram_status status = scenario_hash(f->ctx, one, of, error);
+    char hash[SHA256_TEXT_SIZE] = "";
+    text_buffer b = {0};
+    *name = (condition_name){.id = ""};
+    fram_status status = scenario_hash(ctx, one, name->scenario_hash, error);
     if (status == FRAM_OK)
-        status = run_inputs_list(f->ctx, one, &f->inputs, &inputs, error);
-    text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? of : "");
+        status = run_inputs_list(ctx, one, known, &name->files, error);
+    if (status != FRAM_OK)
+        return status;
+    text_format(ctx, &b, "%s %s", FRAM_VERSION, name->scenario_hash);
     /* Of each file the hash: the same files elsewhere are the same input. */
     run_input file;
-    const char *at = status == FRAM_OK ? inputs.data : "", *end = status == FRAM_OK ? at + inputs.count : at;
+    const char *at = name->files.data, *end = at + name->files.count;
     while (run_inputs_next(&at, end, &file))
-        text_format(f->ctx, &b, " %s", file.digest);
-    if (status == FRAM_OK && b.failed)
+        text_format(ctx, &b, " %s", file.digest);
+    if (b.failed)
         status = error_memory(error);
-    if (status == FRAM_OK) {
+    else
         sha256_text(b.data, (size_t)b.count, hash);
-        memcpy(f->id[condition], hash, CONDITION_ID - 1);
-        f->id[condition][CONDITION_ID - 1] = '\0';
-        study_index_row(f, condition, of, inputs.data);
-        f->files[condition] = inputs.count > 0 ? memory_string(f->ctx, inputs.data) : NULL;
-        if (inputs.count > 0 && !f->files[condition])
+    if (status == FRAM_OK)
+        memcpy(name->id, hash, CONDITION_ID - 1);
+    text_free(ctx, &b);
+    return status;
+}
+
+static fram_status name_condition(study_folder *f, int32_t condition, const scenario *one, fram_error *error)
+{
+    condition_name name;
+    fram_status status = condition_name_find(f->ctx, one, &f->inputs, &name, error);
+    if (status == FRAM_OK) {
+        memcpy(f->id[condition], name.id, CONDITION_ID);
+        study_index_row(f, condition, name.scenario_hash, name.files.data);
+        f->files[condition] = name.files.count > 0 ? memory_string(f->ctx, name.files.data) : NULL;
+        if (name.files.count > 0 && !f->files[condition])
             status = error_memory(error);
     }
-    text_free(f->ctx, &b);
-    text_free(f->ctx, &inputs);
+    text_free(f->ctx, &name.files);
     return status;
 }
 

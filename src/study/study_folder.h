@@ -2,6 +2,8 @@
 #ifndef STUDY_STUDY_FOLDER_H
 #define STUDY_STUDY_FOLDER_H
 
+#include "base/hash.h"
+#include "model/scenario.h"
 #include "study/run_row.h"
 #include "study/study.h"
 
@@ -17,6 +19,16 @@ typedef struct study_folder {
     text_buffer inputs;       /* files of the conditions that were looked at so far (sim/run_inputs.h), as long */
     double run_bytes;         /* of memory that a run takes, about: the largest of all conditions */
 } study_folder;
+
+/* What a condition is called by, so that others of this name have the same runs. */
+typedef struct condition_name {
+    char id[CONDITION_ID], scenario_hash[SHA256_TEXT_SIZE];
+    text_buffer files; /* that its scenario names (sim/run_inputs.h) */
+} condition_name;
+/* By all that decides the result of a run but for its seed, the contents of the files too; `known` as for
+   run_inputs_list.  Free name->files, after an error too. */
+fram_status condition_name_find(context *ctx, const scenario *one, text_buffer *known, condition_name *name,
+                                fram_error *error);
 
 /* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
    in it, when it holds something else, or a file that the study reads in the place of one that it writes.  dry: what a

@@ -96,6 +96,16 @@ class Folders(StudyTest):
         self.fram(other, "-o", out, "--on", "slurm", "--dry-run")
         self.assertEqual(self.contents(out), before)
 
+    def test_files_of_one_name_make_one_condition_where_they_are_the_same(self):
+        for month, wind in (("jan", 5), ("feb", 9), ("mar", 5)):
+            (self.at / month).mkdir()
+            (self.at / month / "wind.csv").write_text(f"time[s],x[m/s],y[m/s]\n0,{wind},0\n")
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nkeep: summary\n"
+                           "vary: {grid: {environment.wind_file: [jan/wind.csv, feb/wind.csv, mar/wind.csv]}}\n")
+        told = self.fram("check", study)
+        self.assertEqual((told["conditions"], told["different"], told["runs_most"]), (3, 2, 2))
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 2)
+
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
         path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
