@@ -394,6 +394,33 @@ static bool has_worst(const study *s, const scenario *one)
     return of_lines ? v->mooring.lines.count > 0 : figure != ROW_thruster_power_mean || v->thrusters.count > 0;
 }
 
+/* Keys of the study in their order: `set`, then what conditions vary. */
+static const char *key_at(const study *s, int32_t i)
+{
+    return i < s->set.count ? s->set.data[i].key : s->keys.data[i - s->set.count];
+}
+
+/* Of vessels.a.speed and vessels[0].speed the later one alone would count.  Each value over those of the file has left
+   its place in the scenario, as the file would call it, behind those of the file; the seed's is the last. */
+static fram_status check_spellings(const study *s, const scenario *one, fram_error *error)
+{
+    int32_t count = s->set.count + s->keys.count;
+    const scenario_place *place = one->places.data + one->places.count - 1 - count;
+    for (int32_t i = 0; i < count; i++) {
+        for (int32_t k = i + 1; k < count; k++) {
+            if (strcmp(place[i].key, place[k].key) != 0)
+                continue;
+            bool set = k < s->set.count, table = !set && s->table;
+            return error_set(error, FRAM_ERROR_INPUT, table ? s->table : s->file,
+                             set     ? s->set.data[k].line
+                             : table ? 0
+                                     : s->keys_line,
+                             key_at(s, k), "is the same key as %s: give it once", key_at(s, i));
+        }
+    }
+    return FRAM_OK;
+}
+
 static fram_status check_conditions(context *ctx, study *s, fram_error *error)
 {
     fram_status status = FRAM_OK;
@@ -403,7 +430,9 @@ static fram_status check_conditions(context *ctx, study *s, fram_error *error)
         scenario one = {0};
         status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
         if (status == FRAM_OK) {
-            status = check_vessel(ctx, s, c, &one, error);
+            status = c == 0 ? check_spellings(s, &one, error) : FRAM_OK;
+            if (status == FRAM_OK)
+                status = check_vessel(ctx, s, c, &one, error);
             if (status == FRAM_OK)
                 status = take_first(ctx, s, c, &one, &first, error);
             worst = worst || has_worst(s, &one);

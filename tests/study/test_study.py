@@ -782,6 +782,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         (self.at / "full" / "letter.txt").write_text("x")
         self.fram(self.write("seeds: 1\n"), "-o", self.at / "full", code=2)
         self.assertEqual([p.name for p in (self.at / "full").iterdir()], ["letter.txt"])
+        # One key is one, however an item of a list is called.
+        (self.at / "base.yaml").write_text(BASE.replace("vessel: {", "vessels: [{name: a, ").replace("2}}", "2}}]"))
+        (self.at / "c.csv").write_text("vessels.a.speed,vessels[0].speed\n1,2\n")
+        for text, at in (('vary: {grid: {vessels.a.speed: [1], "vessels[0].speed": [5]}}', "study.yaml:2: vessels[0]"),
+                         ("set: {vessels.0.speed: 1, vessels.a.speed: 2}", "study.yaml:2: vessels.a"),
+                         ("vary: {table: c.csv}", "c.csv:0: vessels[0]")):
+            self.refused(text + "\n", at + ".speed: is the same key as vessels.")
 
 
 if __name__ == "__main__":
