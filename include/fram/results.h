@@ -65,7 +65,7 @@ typedef struct fram_comparison_row {
 typedef struct fram_comparison {
     const fram_comparison_row *rows;
     int count;
-    bool same_scenario, same_state; /* by hash */
+    bool same_scenario, same_state; /* by hash, the files that a scenario names too */
     void *inside;
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */

@@ -112,6 +112,13 @@ static const scenario *next_vessel(const pair *p, int32_t at, int32_t *index)
     return NULL;
 }
 
+/* The hash has files by their names alone; what is in them is told beside it. */
+static bool is_same_scenario(const run_note *a, const run_note *b)
+{
+    return strcmp(a->scenario_hash, b->scenario_hash) == 0 && a->inputs.count == b->inputs.count &&
+           (a->inputs.count == 0 || memcmp(a->inputs.data, b->inputs.data, (size_t)a->inputs.count) == 0);
+}
+
 static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
@@ -122,7 +129,7 @@ static void find_rows(pair *p)
         for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
             find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_name(s, v));
     }
-    p->result->same_scenario = strcmp(p->d[0].note.scenario_hash, p->d[1].note.scenario_hash) == 0;
+    p->result->same_scenario = is_same_scenario(&p->d[0].note, &p->d[1].note);
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
     /* Without an end there is no final state. */
     p->result->same_state = p->result->same_state && !run_is_open(&p->d[0]);

@@ -102,12 +102,30 @@ static fram_status read_tracks(context *ctx, json_walk *w, run_note *n, fram_err
     return status;
 }
 
+static fram_status read_inputs(context *ctx, json_walk *w, run_note *n, fram_error *error)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        char digest[SHA256_TEXT_SIZE] = "";
+        const note_member members[] = {{"sha256", digest, sizeof digest, NULL}};
+        status = json_walk_element(w, first, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_object(w, members, sizeof members / sizeof *members, error);
+        text_add(ctx, &n->inputs, digest);
+    }
+    return status == FRAM_OK && n->inputs.failed ? error_memory(error) : status;
+}
+
 static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
 {
     if (strcmp(key, "tracks") == 0)
         return read_tracks(ctx, w, n, error);
     if (strcmp(key, "events") == 0)
         return read_events(ctx, w, n, error);
+    if (strcmp(key, "inputs") == 0)
+        return read_inputs(ctx, w, n, error);
     const note_member members[] = {
         {"fram_version", n->version, sizeof n->version, NULL},
         {"compiler", n->compiler, sizeof n->compiler, NULL},
@@ -151,6 +169,13 @@ static fram_status read_note(context *ctx, const char *folder, run_note *n, fram
     }
     memory_free(ctx, text);
     return status;
+}
+
+static void note_free(context *ctx, run_note *n)
+{
+    array_free(ctx, &n->events);
+    array_free(ctx, &n->tracks);
+    text_free(ctx, &n->inputs);
 }
 
 /* ---- the field ---- */
@@ -235,8 +260,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
     if (status == FRAM_OK)
         status = scenario_read_alone(ctx, path, NULL, &d->s, error);
     if (status != FRAM_OK) {
-        array_free(ctx, &d->note.events);
-        array_free(ctx, &d->note.tracks);
+        note_free(ctx, &d->note);
         return status;
     }
     status = path_join(folder, "series.csv", path, error);
@@ -262,8 +286,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
 void run_data_free(context *ctx, run_data *d)
 {
     scenario_free(ctx, &d->s);
-    array_free(ctx, &d->note.events);
-    array_free(ctx, &d->note.tracks);
+    note_free(ctx, &d->note);
     csv_table_free(ctx, &d->series);
     csv_table_free(ctx, &d->fractures);
     array_free(ctx, &d->before.areas);

@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "io/csv_read.h"
 #include "io/path.h"
+#include "io/text_buffer.h"
 #include "model/scenario.h"
 
 /* What befell a vessel, as run.json has it. */
@@ -30,6 +31,7 @@ typedef struct run_note {
     double step_median, step_p99, step_p999, step_longest; /* wall time [ms]; 0: not told */
     ARRAY(run_event) events;
     ARRAY(run_track) tracks;
+    text_buffer inputs; /* SHA-256 of the files that the scenario names, one after the other */
 } run_note;
 
 /* The ice of one frame. */

@@ -101,6 +101,11 @@ def main():
         assert told["same_scenario"] and told["same_state"], told
         told, _ = compare(floes, run(folder, "thin", FLOES, "ice.thickness=0.4"))
         assert not told["same_scenario"] and not told["same_state"], told
+        for name, wind in (("a", 5), ("b", 9), ("c", 5)):
+            (folder / name).mkdir()
+            (folder / name / "wind.csv").write_text(f"time[s],x[m/s],y[m/s]\n0,{wind},0\n")
+        windy = [run(folder, f"wind_{n}", FLOES, f"environment.wind_file={n}/wind.csv") for n in "abc"]
+        assert [compare(windy[0], w)[0]["same_scenario"] for w in windy] == [True, False, True]
         soft = run(folder, "soft", BOX, "ice.crushing_strength=1e6")
         told, rows = compare(box, soft)
         for k, each in enumerate((box, soft)):
