@@ -83,27 +83,36 @@ static int read_hull_words(const command_row *self, hull_words *w, common_option
     return options_read_some(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->path, 0, 1);
 }
 
-/* NULL, or the first particular that was given. */
-static const char *given_particular(const hull_words *w)
+/* NULL, or the first particular that was given of a form other than a box. */
+static const char *given_of_form(const hull_words *w)
 {
     const fram_hull_particulars *p = &w->particulars;
     const struct {
         const char *name;
         double value;
-    } given[] = {{"--length", p->length},
-                 {"--beam", p->beam},
-                 {"--stem-angle-deg", p->stem_angle},
-                 {"--entrance-angle-deg", p->entrance_angle},
-                 {"--flare-angle-deg", p->flare_angle},
-                 {"--stern-angle-deg", p->stern_angle},
-                 {"--parallel-midbody", p->parallel_midbody},
-                 {"--block-coefficient", p->block_coefficient},
-                 {"--bilge-radius", p->bilge_radius},
-                 {"--transom", p->transom}};
+    } given[] = {{"--stem-angle-deg", p->stem_angle},         {"--entrance-angle-deg", p->entrance_angle},
+                 {"--flare-angle-deg", p->flare_angle},       {"--stern-angle-deg", p->stern_angle},
+                 {"--parallel-midbody", p->parallel_midbody}, {"--block-coefficient", p->block_coefficient},
+                 {"--bilge-radius", p->bilge_radius},         {"--transom", p->transom}};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
         if (!isnan(given[i].value))
             return given[i].name;
-    return w->box ? "--box" : w->ship ? "--ship" : NULL;
+    return NULL;
+}
+
+/* NULL, or the first particular that was given. */
+static const char *given_particular(const hull_words *w)
+{
+    const char *of_form = given_of_form(w);
+    if (!isnan(w->particulars.length) || !isnan(w->particulars.beam))
+        return isnan(w->particulars.length) ? "--beam" : "--length";
+    return of_form ? of_form : w->box ? "--box" : w->ship ? "--ship" : NULL;
+}
+
+/* NULL, or what was given of how a file is read. */
+static const char *given_of_file(const hull_words *w)
+{
+    return w->file.scale != 1 ? "--scale" : !isnan(w->file.seal_width) ? "--seal" : w->file.repair ? "--repair" : NULL;
 }
 
 static void take(double *member, double given, double unit)
@@ -377,23 +386,36 @@ static void warn_of_size(const common_options *common, const hull_words *w, cons
                 f->length_waterline);
 }
 
+/* Words that do not go together: an exit code, -1 to go on. */
+static int check_hull_words(const common_options *common, const hull_words *w)
+{
+    const fram_hull_particulars *p = &w->particulars;
+    const char *particular = given_particular(w), *of_file = given_of_file(w), *of_form = given_of_form(w);
+    if (w->path)
+        return particular ? answer_usage(common, particular, "applies to a hull without a file") : -1;
+    if (isnan(p->length) || isnan(p->beam) || isnan(w->condition.draught))
+        return answer_usage(common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
+    if (of_file)
+        return answer_usage(common, of_file, "applies to a hull from a file");
+    if (w->box && w->ship)
+        return answer_usage(common, "--ship", "cannot be combined with --box");
+    if (!w->ship && !(isnan(p->bilge_radius) && isnan(p->transom)))
+        return answer_usage(common, isnan(p->transom) ? "--bilge-radius" : "--transom",
+                            "applies to a ship: add --ship");
+    if (w->box && of_form)
+        return answer_usage(common, of_form, "applies to an icebreaker or a ship, not to a box");
+    return -1;
+}
+
 int command_hull(const command_row *self, int argc, char **argv)
 {
     common_options common;
     hull_words w = words_default();
     int code = read_hull_words(self, &w, &common, argc, argv);
+    if (code < 0)
+        code = check_hull_words(&common, &w);
     if (code >= 0)
         return code;
-    const char *particular = given_particular(&w);
-    if (w.path && particular)
-        return answer_usage(&common, particular, "applies to a hull without a file");
-    if (!w.path && (isnan(w.particulars.length) || isnan(w.particulars.beam) || isnan(w.condition.draught)))
-        return answer_usage(&common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
-    if (w.box && w.ship)
-        return answer_usage(&common, "--ship", "cannot be combined with --box");
-    if (!w.ship && !w.path && !(isnan(w.particulars.bilge_radius) && isnan(w.particulars.transom)))
-        return answer_usage(&common, isnan(w.particulars.transom) ? "--bilge-radius" : "--transom",
-                            "applies to a ship: add --ship");
     const command_files files = {
         .inputs = {w.path}, .outputs = {{"--draw", w.draw, PICTURE_ENDINGS}, {"--output", w.output, "stl obj gdf"}}};
     code = refuse_outputs(&common, &files);

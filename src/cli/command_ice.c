@@ -14,6 +14,52 @@ typedef struct ice_words {
     fram_ice_floe floe;
 } ice_words;
 
+/* What an option holds; of a text nothing. */
+static double number_of(const option_row *row)
+{
+    switch (row->kind) {
+    case OPTION_REAL:
+        return *(const double *)row->value;
+    case OPTION_INTEGER:
+        return *(const int *)row->value;
+    case OPTION_FLAG:
+        return *(const bool *)row->value;
+    default:
+        return 0;
+    }
+}
+
+/* What a row of the help begins with: the calculations that have a use for the option. */
+static bool is_for(const option_row *row, const char *what)
+{
+    size_t length = strlen(what), end = strcspn(row->meaning, ":");
+    for (const char *at = strstr(row->meaning, what); at; at = strstr(at + 1, what))
+        if ((size_t)(at - row->meaning) + length <= end && strchr(",:", at[length]))
+            return true;
+    return false;
+}
+
+/* An exit code when an option that the calculation has no use for has another value than before; -1 to go on. */
+static int refuse_misplaced(const common_options *common, const char *what, const option_row *rows, size_t count,
+                            const double before[])
+{
+    for (size_t i = 0; i < count; i++) {
+        double now = number_of(&rows[i]);
+        if (now == before[i] || (isnan(now) && isnan(before[i])) || is_for(&rows[i], what))
+            continue;
+        char message[80];
+        snprintf(message, sizeof message, "is for %.*s", (int)strcspn(rows[i].meaning, ":"), rows[i].meaning);
+        return answer_usage(common, rows[i].name, message);
+    }
+    return -1;
+}
+
+static bool is_calculation(const char *what)
+{
+    return strcmp(what, "wedge") == 0 || strcmp(what, "sheet") == 0 || strcmp(what, "break") == 0 ||
+           strcmp(what, "split") == 0;
+}
+
 static int read_ice_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
 {
     double angle = 180;
@@ -52,7 +98,15 @@ static int read_ice_words(const command_row *self, ice_words *w, common_options 
         {"--place", NULL, OPTION_REAL, &w->floe.place, "Y",
          "split: distance of the load from the middle of the side [m] (0)"},
     };
-    int code = options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
+    enum { ROWS = sizeof rows / sizeof *rows };
+    double before[ROWS];
+    for (size_t i = 0; i < ROWS; i++)
+        before[i] = number_of(&rows[i]);
+    int code = options_read(self, rows, ROWS, common, argc, argv, &w->what, 1);
+    if (code < 0 && !is_calculation(w->what))
+        return answer_usage(common, w->what, "is not a calculation; choose wedge, sheet, break or split");
+    if (code < 0)
+        code = refuse_misplaced(common, w->what, rows, ROWS, before);
     if (code < 0 && !(angle > 0 && angle <= 360))
         return answer_usage(common, "--included-angle", "expected more than 0 and at most 360 degrees");
     w->floe.thickness = w->load.thickness;
@@ -166,14 +220,11 @@ int command_ice(const command_row *self, int argc, char **argv)
     int code = read_ice_words(self, &w, &common, argc, argv);
     if (code >= 0)
         return code;
-    bool wedge = strcmp(w.what, "wedge") == 0, sheet = strcmp(w.what, "sheet") == 0;
     if (strcmp(w.what, "break") == 0)
         return answer_break(&w, &common);
     if (strcmp(w.what, "split") == 0)
         return answer_split(&w, &common);
-    if (!wedge && !sheet)
-        return answer_usage(&common, w.what, "is not a calculation; choose wedge, sheet, break or split");
     if (isnan(w.a_over_l))
         return answer_usage(&common, "--a-over-l", "is needed");
-    return wedge ? answer_wedge(&w, &common) : answer_sheet(&w, &common);
+    return strcmp(w.what, "wedge") == 0 ? answer_wedge(&w, &common) : answer_sheet(&w, &common);
 }

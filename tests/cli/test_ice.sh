@@ -98,6 +98,18 @@ for what in break split; do
     same "$(cat out)" "$bare" "$what with the defaults of the help"
 done
 
+# Options of the other calculations.
+expect 2 "$FRAM" ice split --length 80 --flexural-strength 6e5
+says "--flexural-strength: is for break" err
+expect 2 "$FRAM" ice wedge --a-over-l 0.1 --nu 0.2
+says "--nu: is for sheet, break" err
+expect 2 "$FRAM" ice break --a-over-l 0.1
+says "--a-over-l: is for wedge, sheet" err
+expect 2 "$FRAM" ice sheet --a-over-l 0.1 --wedges 4
+says "--wedges: is for break" err
+expect 2 "$FRAM" ice split --thin-plate
+says "--thin-plate: is for break" err
+
 expect 2 "$FRAM" ice wedge
 says '--a-over-l' err
 expect 2 "$FRAM" ice wedge --a-over-l 7 --json
