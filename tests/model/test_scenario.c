@@ -26,7 +26,9 @@ static scenario_floe a_floe(void)
 
 START_TEST(defaults_pass_their_own_checks)
 {
-    static const double scales[] = {1, 30, 100};
+    const scenario_section *run = scenario_schema.keys[section_find(&scenario_schema, "run")].section;
+    const scenario_key *scale = &run->keys[section_find(run, "scale")];
+    const double scales[] = {scale->lo, 1, 30, 100, scale->hi};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         scenario s;
         scenario_defaults(&s, scales[i]);
