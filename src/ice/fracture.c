@@ -12,6 +12,7 @@ static void free_floe(context *ctx, floe_work *f)
     array_free(ctx, &f->outline);
     polygon_list_free(ctx, &f->whole);
     polygon_list_free(ctx, &f->wedges);
+    array_free(ctx, &f->bends);
     polygon_list_free(ctx, &f->remnants);
     polygon_list_free(ctx, &f->pieces);
     polygon_list_free(ctx, &f->room);
@@ -110,7 +111,8 @@ static fracture_event event_of(const fracture_job *j, const fracture_load *l, co
     return fracture_event_of(l, place, kind, length);
 }
 
-static fram_status commit(const fracture_job *j, const fracture_load *l, const edge_bend *bend, fracture_event *event)
+/* bends: one per wedge, or NULL where there are none. */
+static fram_status commit(const fracture_job *j, const fracture_load *l, const edge_bend *bends, fracture_event *event)
 {
     fracture_scratch *s = j->scratch;
     bool broke;
@@ -119,8 +121,10 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, const e
     if (!fracture_gather(j->ctx, s, &s->floe.whole, fracture_motion(j, l->floe), 0, 0) ||
         !fracture_gather(j->ctx, s, &s->floe.wedges, MOTION_DYNAMIC, 0, 1))
         return error_memory(j->error);
+    for (int32_t i = 0, wedges = polygon_list_count(&s->floe.wedges); i < wedges; i++)
+        s->piece.rows.data[s->piece.rows.count - wedges + i].bend = i;
     fram_status status =
-        fracture_birth(j, &l->floe, 1, (birth_terms){.least = 2, .most = HUGE_VAL, .bend = bend}, event, &broke);
+        fracture_birth(j, &l->floe, 1, (birth_terms){.least = 2, .most = HUGE_VAL, .bends = bends}, event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, *event) ? FRAM_OK : error_memory(j->error);
@@ -221,17 +225,28 @@ static fram_status cut_stencil(const fracture_job *j, const fracture_load *l, cr
                                                                                       : error_memory(j->error);
 }
 
+/* The wedges that a load has cut come off as the edge stood under that load, not under the first. */
+static bool note_bends(const fracture_job *j, const fracture_load *l, const crack_start *start)
+{
+    floe_work *f = &j->scratch->floe;
+    edge_bend bend = fracture_bend_of(j, l, start);
+    while (f->bends.count < polygon_list_count(&f->wedges))
+        if (!array_push(j->ctx, &f->bends, bend))
+            return false;
+    return true;
+}
+
 /* All failing patches cut in turn; the event tells of the first that did. */
 static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads loads)
 {
     fracture_scratch *s = j->scratch;
     polygon_list_clear(&s->floe.whole);
     polygon_list_clear(&s->floe.wedges);
+    array_clear(&s->floe.bends);
     if (!polygon_list_push(j->ctx, &s->floe.whole, outline))
         return error_memory(j->error);
     const fracture_load *first = NULL;
     fracture_event event;
-    edge_bend bend;
     for (int32_t i = 0; i < loads.count; i++) {
         const fracture_load *l = &loads.load[i];
         if (l->wedge_ratio < 1)
@@ -242,13 +257,14 @@ static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads 
         fram_status status = cut_stencil(j, l, &start, &cut);
         if (status != FRAM_OK)
             return status;
+        if (cut && !note_bends(j, l, &start))
+            return error_memory(j->error);
         if (!cut || first)
             continue;
         first = l;
         event = event_of(j, l, &start, FRACTURE_BENDING, l->stress.breaking_radius);
-        bend = fracture_bend_of(j, l, &start);
     }
-    return first ? commit(j, first, &bend, &event) : FRAM_OK;
+    return first ? commit(j, first, s->floe.bends.data, &event) : FRAM_OK;
 }
 
 /* ---- contacts of broken floes ---- */

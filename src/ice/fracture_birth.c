@@ -19,7 +19,7 @@ typedef struct birth {
     const fracture_job *job;
     parent from;
     fracture_event *event;
-    const edge_bend *bend;
+    const edge_bend *bends;
     body_books before, after; /* of the parents and of the pieces */
 } birth;
 
@@ -118,7 +118,7 @@ static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece, 
     }
     if (status != FRAM_OK)
         return status;
-    place_child(b, to->floes->body[row], piece->wedge ? b->bend : NULL);
+    place_child(b, to->floes->body[row], piece->wedge && b->bends ? &b->bends[piece->bend] : NULL);
     body_books_add(to->bodies, to->floes->body[row], &b->after);
     b->event->pieces++;
     b->event->piece_area += to->floes->area[row];
@@ -272,7 +272,7 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
 {
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         polygon ring = polygon_list_get(rings, i);
-        cut_piece piece = {polygon_list_count(&s->piece.outlines), (uint8_t)kind, tile, wedge, polygon_area(ring)};
+        cut_piece piece = {polygon_list_count(&s->piece.outlines), (uint8_t)kind, tile, wedge, polygon_area(ring), 0};
         if (!polygon_list_push(ctx, &s->piece.outlines, ring) || !array_push(ctx, &s->piece.rows, piece))
             return false;
     }
@@ -337,7 +337,7 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
                            fracture_event *event, bool *broke)
 {
     fracture_scratch *s = j->scratch;
-    birth b = {.job = j, .from = parent_of(j, parents[0]), .event = event, .bend = terms.bend};
+    birth b = {.job = j, .from = parent_of(j, parents[0]), .event = event, .bends = terms.bends};
     *broke = false;
     double parent_area = 0;
     for (int32_t i = 0; i < count; i++)

@@ -144,7 +144,8 @@ double fracture_contact_width(const fracture_job *j, const fracture_load *l, vec
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
     double most = EDGE_MOST_DEFLECTION * l->thickness;
-    bool floats = body_is_free(j->state->bodies, l->body);
+    /* Level ice is held; the slot of its tile may be a wedge's by now, of an earlier load. */
+    bool floats = !l->tile && body_is_free(j->state->bodies, l->body);
     return (edge_bend){*start, fracture_break_size(j->settings, l), floats ? 0 : fmin(fmax(l->rise, -most), most),
                        l->rate};
 }

@@ -70,6 +70,7 @@ typedef struct cut_piece {
     int32_t tile;   /* cell of the sheet that it lies in plus 1; 0: of no sheet, or in several */
     int32_t wedge;  /* number in the stencil plus 1; 0: what is left of the floe */
     double area;    /* [m2] */
+    int32_t bend;   /* of a wedge: which of the birth's bends it has */
 } cut_piece;
 typedef ARRAY(cut_piece) cut_piece_array;
 
@@ -136,14 +137,32 @@ typedef struct load_work {
     strength_memory strengths;
 } load_work;
 
+/* What a break in bending takes out. */
+typedef struct break_size {
+    double radius;       /* of the wedges: R_bending [m] */
+    double side;         /* of the cracks between them [m] */
+    double width;        /* of the contact along the edge, between the end wedges; 0: narrow [m] */
+    double strip_length; /* of the strip there, from the edge [m] */
+} break_size;
+
+/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack; and goes
+   on up as the edge did. */
+typedef struct edge_bend {
+    crack_start start;
+    break_size size;
+    double rise; /* [m] */
+    double rate; /* [m/s] */
+} edge_bend;
+
 /* One floe being cut, in its own frame. */
 typedef struct floe_work {
     vec2_array outline;
-    polygon_list whole;    /* what is left uncut; remnants in the end */
-    polygon_list wedges;   /* broken off */
-    polygon_list remnants; /* of one ring under one stencil */
-    polygon_list pieces;   /* wedges of one ring under one stencil */
-    polygon_list room;     /* spare of `whole` */
+    polygon_list whole;     /* what is left uncut; remnants in the end */
+    polygon_list wedges;    /* broken off, */
+    ARRAY(edge_bend) bends; /* and how the edge stood where each did */
+    polygon_list remnants;  /* of one ring under one stencil */
+    polygon_list pieces;    /* wedges of one ring under one stencil */
+    polygon_list room;      /* spare of `whole` */
 } floe_work;
 
 /* Cut pieces on their way to become floes. */
@@ -278,13 +297,6 @@ bool fracture_splits(const fracture_settings *settings, polygon outline, const f
 /* The stencil's 2 N points around the start, at the ends of cracks of this length [m]. */
 enum { MOST_STENCIL = 64 };
 int fracture_stencil(int32_t wedges, double side, const crack_start *start, vec2 out[MOST_STENCIL]);
-/* What a break in bending takes out. */
-typedef struct break_size {
-    double radius;       /* of the wedges: R_bending [m] */
-    double side;         /* of the cracks between them [m] */
-    double width;        /* of the contact along the edge, between the end wedges; 0: narrow [m] */
-    double strip_length; /* of the strip there, from the edge [m] */
-} break_size;
 typedef struct break_shape {
     vec2 outline[MOST_STENCIL + 4];
     int count;
@@ -332,21 +344,12 @@ fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, poly
 /* Whether a ring has convex parts that contacts can be made with (bodies/shape.h). */
 fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
-/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack; and goes
-   on up as the edge did. */
-typedef struct edge_bend {
-    crack_start start;
-    break_size size;
-    double rise; /* [m] */
-    double rate; /* [m/s] */
-} edge_bend;
-
 /* Pieces fewer than `least`, or so small that more than `most` [m2], or a thousandth of the parents' area, would be
-   lost with them: nothing breaks.  bend: of an edge that gave, or NULL. */
+   lost with them: nothing breaks.  bends: of an edge that gave, by the `bend` of the wedges, or NULL. */
 typedef struct birth_terms {
     int32_t least;
     double most;
-    const edge_bend *bend;
+    const edge_bend *bends;
 } birth_terms;
 
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,

@@ -280,7 +280,7 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     fracture_sheet_touch(j);
     edge_bend bend = fracture_bend_of(j, l, start);
     status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
-                            (birth_terms){.least = 2, .most = HUGE_VAL, .bend = &bend}, &event, &broke);
+                            (birth_terms){.least = 2, .most = HUGE_VAL, .bends = &bend}, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? fracture_sheet_changed(j) : error_memory(j->error);

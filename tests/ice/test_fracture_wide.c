@@ -366,6 +366,33 @@ START_TEST(pieces_stay_bent)
 }
 END_TEST
 
+/* Each load's pieces come off as the edge stood under it, though another one has broken the same ice before in the
+   step: of a sheet, where the first wedges, at a seam, take the slots of its tiles, and of floes that are cut by all
+   loads at once. */
+START_TEST(pieces_of_each_load)
+{
+    static const double GIVES[] = {0.04, 0.06};
+    for (edge_kind kind = EDGE_OF_SHEET; kind <= EDGE_FLOATS; kind++) {
+        fracture_rig r;
+        vec2 tip = loaded_edge(&r, kind, false, 1e6, GIVES[0], 0), beside = {-15, tip.y}, at = {-15, tip.y + 0.01};
+        ck_assert(kind == EDGE_OF_SHEET ? sheet_load(&r, at, 1.2e6, 0.4) : fracture_rig_load(&r, 0, at, 1.2e6, 0.4));
+        r.patches.data[1].compliance = GIVES[1] / 1.2e6;
+        ck_assert_int_eq(fracture_rig_break(&r), kind == EDGE_OF_SHEET ? 2 : 1);
+        int pieces[2] = {0, 0};
+        for (int32_t k = 0; k < r.floes.count; k++) {
+            if (!came_off(&r, k))
+                continue;
+            int32_t body = r.floes.body[k], of = r.bodies.position[body].x < -7.5;
+            double give = kind == EDGE_FLOATS ? 0 : -GIVES[of];
+            assert_absolute(height_at(&r, body, of ? beside : tip), give, 0.02 * fabs(give) + 1e-12);
+            pieces[of]++;
+        }
+        ck_assert(pieces[0] >= 3 && pieces[1] >= 3);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
 /* What patches stood on is remembered: the edge under the only one by this much [m]. */
 static void stood(fracture_rig *r, double up)
 {
@@ -437,4 +464,4 @@ START_TEST(rigid_edges)
 END_TEST
 
 TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, round_a_stem, sheets, openings_in_a_strip, slit_in_a_floe,
-          pieces_stay_bent, pieces_go_on, rigid_edges)
+          pieces_stay_bent, pieces_of_each_load, pieces_go_on, rigid_edges)
