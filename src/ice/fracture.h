@@ -151,6 +151,7 @@ typedef struct edge_stress {
     double breaking_radius;                 /* R_bending [m] */
     double strip_capacity;                  /* what of wedge_capacity the strip carries [N] */
     double strip_length;                    /* from the edge to where the strip breaks [m]; 0 without a strip */
+    double inertia;                         /* largest moment under the load as it rises, over that of one at rest */
 } edge_stress;
 /* Length of the cracks on both sides of a wedge that breaks off at this R_bending [m]. */
 double fracture_wedge_side(const fracture_settings *f, double radius);

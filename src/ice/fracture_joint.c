@@ -135,14 +135,15 @@ static fram_status find_parts(const fracture_job *j, const fracture_load *l)
     return status;
 }
 
-/* Loads of the edge's ice at its strength; a narrow load's metre is one of a long strip. */
+/* Loads of the edge's ice at its strength, by as much over those at rest as inertia makes; a narrow load's metre is one
+   of a long strip. */
 static edge_strength strength_of(const fracture_load *l, const edge_stress *s, edge_ice edge)
 {
     double h = l->thickness, metre = l->ice.flexural_strength * h * h / 6;
     if (edge.strip > 0)
         metre = s->strip_capacity / edge.strip;
     else
-        metre /= strip_solve(HUGE_VAL).moment * s->length;
+        metre /= strip_solve(HUGE_VAL).moment * s->length * s->inertia;
     return (edge_strength){s->wedge_capacity - s->strip_capacity, metre};
 }
 

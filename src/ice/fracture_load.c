@@ -36,6 +36,7 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
     s.wedge_stress = ice->flexural_strength * load / b.load;
     s.breaking_radius = s.length * b.place;
     wedge_ramp r = edge_rise(&edges, ice, h, s.wedge_radius, edge.rise);
+    s.inertia = r.moment;
     s.wedge_stress *= r.moment;
     s.wedge_capacity /= r.moment;
     s.strip_capacity /= r.moment;

@@ -4,12 +4,16 @@
 /* Ice of 1 m with its edge at y = 0: a sheet of tiles of 400 or 30 m, or a floe that floats. */
 typedef enum edge_kind { EDGE_OF_TILE, EDGE_OF_TILES, EDGE_OF_FLOE, EDGE_KINDS } edge_kind;
 
-static void make_edge(fracture_rig *r, edge_kind kind, bool joint)
+/* Loads each for itself, together, and together on an edge with inertia: they come in one step of 10 ms. */
+typedef enum edge_rules { APART, JOINT, RISING } edge_rules;
+
+static void make_edge(fracture_rig *r, edge_kind kind, edge_rules rules)
 {
     fracture_rig_make(r);
     r->settings.splitting = SPLITTING_NONE;
     r->settings.wide_contacts = true;
-    r->settings.joint_loads = joint;
+    r->settings.joint_loads = rules != APART;
+    r->settings.edges_give = r->settings.edge_inertia = rules == RISING;
     if (kind == EDGE_OF_FLOE) {
         static const vec2 FLOE[] = {{-150, 0}, {150, 0}, {150, 200}, {-150, 200}};
         ck_assert_int_ge(fracture_rig_floe(r, (polygon){FLOE, 4}, 1, MOTION_DYNAMIC), 0);
@@ -34,10 +38,10 @@ typedef struct edge_press {
     double x, load, width;
 } edge_press;
 
-static bool breaks(edge_kind kind, bool joint, const edge_press *loads, int count, double part)
+static bool breaks(edge_kind kind, edge_rules rules, const edge_press *loads, int count, double part)
 {
     fracture_rig r;
-    make_edge(&r, kind, joint);
+    make_edge(&r, kind, rules);
     for (int i = 0; i < count; i++)
         press(&r, kind, (vec2){loads[i].x, 0.01}, part * loads[i].load, loads[i].width);
     int events = fracture_rig_break(&r);
@@ -46,13 +50,13 @@ static bool breaks(edge_kind kind, bool joint, const edge_press *loads, int coun
 }
 
 /* By how many times these loads break the edge, to 2e-4. */
-static double ratio_of(edge_kind kind, bool joint, const edge_press *loads, int count)
+static double ratio_of(edge_kind kind, edge_rules rules, const edge_press *loads, int count)
 {
     double lo = 0.1, hi = 1;
-    ck_assert(breaks(kind, joint, loads, count, hi) && !breaks(kind, joint, loads, count, lo));
+    ck_assert(breaks(kind, rules, loads, count, hi) && !breaks(kind, rules, loads, count, lo));
     while (hi > lo * (1 + 2e-4)) {
         double part = sqrt(lo * hi);
-        *(breaks(kind, joint, loads, count, part) ? &hi : &lo) = part;
+        *(breaks(kind, rules, loads, count, part) ? &hi : &lo) = part;
     }
     return 1 / hi;
 }
@@ -62,15 +66,15 @@ START_TEST(parts_are_a_whole)
 {
     for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         const edge_press whole = {1, 1e6, 20};
-        double together = ratio_of(kind, true, &whole, 1);
+        double together = ratio_of(kind, JOINT, &whole, 1);
         assert_relative(1e6 / together, 550e3, 0.05);
         for (int parts = 2; parts <= 4; parts++) {
             edge_press part[4];
             for (int i = 0; i < parts; i++)
                 part[i] = (edge_press){1 + 20 * ((i + 0.5) / parts - 0.5), 1e6 / parts, 20.0 / parts};
-            assert_relative(ratio_of(kind, true, part, parts), together, 1e-3);
+            assert_relative(ratio_of(kind, JOINT, part, parts), together, 1e-3);
             if (parts == 2)
-                ck_assert_double_lt(ratio_of(kind, false, part, parts), 0.7 * together);
+                ck_assert_double_lt(ratio_of(kind, APART, part, parts), 0.7 * together);
         }
     }
 }
@@ -81,26 +85,32 @@ START_TEST(wide_halves)
 {
     for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
         const edge_press whole = {0, 2e6, 100}, half[2] = {{-25, 1e6, 50}, {25, 1e6, 50}};
-        assert_relative(ratio_of(kind, true, half, 2), ratio_of(kind, true, &whole, 1), 1e-3);
+        assert_relative(ratio_of(kind, JOINT, half, 2), ratio_of(kind, JOINT, &whole, 1), 1e-3);
     }
 }
 END_TEST
 
 /* Two narrow loads P bear 2/(1/A + A/(A + 2 B d)^2), each alone A; beyond three characteristic lengths they are alone.
-   One that lifts the edge holds it against the other. */
+   One that lifts the edge holds it against the other.  Inertia makes A and B larger alike. */
 START_TEST(two_columns)
 {
     static const double WAYS[] = {0.5, 2, 5, 10, 20, 40, 60};
-    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), metre = 0.5e6 / 6 / (0.4559381 * l);
-    for (edge_kind kind = 0; kind < EDGE_KINDS; kind++) {
+    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), strip = 0.5e6 / 6 / (0.4559381 * l);
+    for (int turn = 0; turn < 2 * EDGE_KINDS; turn++) {
+        edge_kind kind = turn / 2;
+        edge_rules rules = turn % 2 ? RISING : JOINT;
         const edge_press one = {2, 1e6, 0};
-        double bears = 1e6 / ratio_of(kind, true, &one, 1);
-        assert_relative(bears, 1e6 / ratio_of(kind, false, &one, 1), 1e-12);
+        double bears = 1e6 / ratio_of(kind, rules, &one, 1), at_rest = 1e6 / ratio_of(kind, APART, &one, 1);
+        double metre = strip * bears / at_rest;
+        if (rules == RISING && kind != EDGE_OF_FLOE)
+            ck_assert_double_gt(bears, 1.1 * at_rest);
+        else
+            assert_relative(bears, at_rest, 1e-12);
         for (int i = 0; i < 7; i++) {
             double d = WAYS[i], at = bears + 2 * metre * d, other = d < 3 * l ? bears / (at * at) : 0;
             const edge_press pair[] = {{2, 1e6, 0}, {2 - d, 1e6, 0}}, apart[] = {{2, 1e6, 0}, {2 - d, -2e5, 0}};
-            assert_relative(ratio_of(kind, true, pair, 2), 1e6 * (1 / bears + other), 2e-3);
-            assert_relative(ratio_of(kind, true, apart, 2), 1e6 / bears - 2e5 * other, 2e-3);
+            assert_relative(ratio_of(kind, rules, pair, 2), 1e6 * (1 / bears + other), 2e-3);
+            assert_relative(ratio_of(kind, rules, apart, 2), 1e6 / bears - 2e5 * other, 2e-3);
         }
     }
 }
@@ -112,7 +122,7 @@ START_TEST(as_the_edge_leads)
     fracture_rig r;
     double found[4];
     for (int i = 0; i < 4; i++) {
-        make_edge(&r, EDGE_OF_FLOE, true);
+        make_edge(&r, EDGE_OF_FLOE, JOINT);
         if (i != 1)
             press(&r, EDGE_OF_FLOE, (vec2){-143, 0.01}, 1e6, 0);
         if (i > 0)
@@ -154,7 +164,7 @@ START_TEST(pieces_beside_a_hull)
             double ratio[3];
             for (int by = 0; by < 3; by++) {
                 fracture_rig r;
-                make_edge(&r, kind, true);
+                make_edge(&r, kind, JOINT);
                 r.settings.under_pieces = true;
                 int32_t piece = fracture_rig_floe(&r, (polygon){PIECE, 4}, 1, MOTION_DYNAMIC);
                 press(&r, kind, (vec2){2, 0.01}, 1e6, 0);
@@ -179,7 +189,7 @@ START_TEST(each_floe_by_itself)
     double found[2];
     for (int i = 0; i < 2; i++) {
         fracture_rig r;
-        make_edge(&r, EDGE_OF_FLOE, true);
+        make_edge(&r, EDGE_OF_FLOE, JOINT);
         press(&r, EDGE_OF_FLOE, (vec2){2, 0.01}, 1e6, 0);
         int32_t other = fracture_rig_floe(&r, (polygon){FLOE, 4}, 1, MOTION_DYNAMIC);
         ck_assert_int_ge(other, 0);
@@ -201,7 +211,7 @@ START_TEST(under_the_heavier)
         double ratio[2];
         for (int slight = 0; slight < 2; slight++) {
             fracture_rig r;
-            make_edge(&r, kind, true);
+            make_edge(&r, kind, JOINT);
             press(&r, kind, (vec2){-3, 0.01}, 4e5, 10);
             press(&r, kind, (vec2){7, 0.01}, 4e5, 10);
             r.patches.data[0].horizontal_area = r.patches.data[1].horizontal_area = 4;
@@ -226,7 +236,7 @@ START_TEST(no_load_hides_another)
         double least = 0;
         for (int i = 0; i < 12; i++) {
             const edge_press pair[] = {{0, 939e3 * (0.6 + 0.03 * i), 50}, {12.5, 313e3 * 0.74, 0}};
-            double ratio = ratio_of(kind, true, pair, 2);
+            double ratio = ratio_of(kind, JOINT, pair, 2);
             ck_assert_double_gt(ratio, fmax(least, 1.15));
             least = ratio;
         }
@@ -269,7 +279,8 @@ START_TEST(many_small_ones)
         loads[i] = (edge_press){0.5 * (i - 19.5), 1e6 / 40, 0};
     const edge_press whole = {0, 1e6, 20};
     for (edge_kind kind = 0; kind < EDGE_KINDS; kind++)
-        assert_relative(ratio_of(kind, true, loads, 40), ratio_of(kind, true, &whole, 1), 0.02);
+        for (edge_rules rules = JOINT; rules <= RISING; rules++)
+            assert_relative(ratio_of(kind, rules, loads, 40), ratio_of(kind, rules, &whole, 1), 0.02);
 }
 END_TEST
 
