@@ -367,6 +367,8 @@ fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_ki
 fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count);
 /* Static floes lose the ice whose place a hull has taken (docs/decisions/0041); *trimmed says whether any did. */
 fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed);
+/* The index of tiles, made where this step has none yet. */
+fram_status fracture_sheet_index(const fracture_job *j);
 /* After a change of the sheet: the index anew, and the cells of sheet.touched among those that changed. */
 fram_status fracture_sheet_changed(const fracture_job *j);
 void fracture_sheet_touch(const fracture_job *j);

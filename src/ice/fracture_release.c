@@ -242,12 +242,16 @@ fram_status fracture_release(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
     bool together;
+    /* A trim that was refused after all has touched the sheet, and left no index. */
+    fram_status status = fracture_sheet_index(j);
+    if (status != FRAM_OK)
+        return status;
     if (!hangs_together(j, &together))
         return error_memory(j->error);
     if (!together) {
         if (!mark_held(j))
             return error_memory(j->error);
-        fram_status status = release_loose(j);
+        status = release_loose(j);
         if (status != FRAM_OK)
             return status;
     }

@@ -12,7 +12,7 @@ tile_sheet_view fracture_sheet_view(const fracture_job *j)
     return (tile_sheet_view){&j->settings->tiles, &j->scratch->sheet.index, s->bodies, s->shapes, s->floes};
 }
 
-static fram_status make_index(const fracture_job *j)
+fram_status fracture_sheet_index(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
     if (!s->sheet.index_is_made && !tile_index_build(j->ctx, &s->sheet.index, &j->settings->tiles, j->state->floes))
@@ -73,7 +73,7 @@ static bool nearest_start(const tile_segment_array *boundary, vec2 load, double 
 
 fram_status fracture_sheet_boundary(const fracture_job *j, vec2 place, double reach, tile_segment_array *out)
 {
-    fram_status status = make_index(j);
+    fram_status status = fracture_sheet_index(j);
     if (status != FRAM_OK)
         return status;
     tile_sheet_view v = fracture_sheet_view(j);
@@ -233,7 +233,7 @@ void fracture_sheet_touch(const fracture_job *j)
 fram_status fracture_sheet_changed(const fracture_job *j)
 {
     j->scratch->sheet.index_is_made = false;
-    return make_index(j);
+    return fracture_sheet_index(j);
 }
 
 /* A geometry that admits no sound cut leaves the sheet as it is, for this step. */
@@ -323,7 +323,7 @@ static fram_status renew_start(const fracture_job *j, const fracture_load *l, cr
 
 fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count)
 {
-    fram_status status = make_index(j);
+    fram_status status = fracture_sheet_index(j);
     if (status == FRAM_OK)
         status = find_starts(j, load, count);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {

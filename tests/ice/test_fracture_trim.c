@@ -1,6 +1,6 @@
 /* How far a hull has drawn back from ice: what decides when the crushed ice goes; and that a floe which floats keeps
    the notch of a ram (docs/decisions/0177). */
-#include "fracture_rig.h"
+#include "sheet_rig.h"
 
 #include "ice_rig.h"
 
@@ -10,14 +10,11 @@ static const vec2 box_plan[] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
 /* With a notch in the stern, as for a tow. */
 static const vec2 notched_plan[] = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}, {-5, 1}, {-3, 1}, {-3, -1}, {-5, -1}};
 
-/* A plate, and a hull of this plan that stands clear of it and is said to touch it with two patches. */
-static int32_t start_with(fracture_rig *r, solid_array *solids, motion kind, polygon plan)
+/* The hull becomes one of this plan, 10 m high. */
+static void make_hull(fracture_rig *r, solid_array *solids, polygon plan)
 {
     fram_error e = {0};
-    fracture_rig_make(r);
-    r->settings.crush_trims = true;
-    const vec2 corner[4] = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
-    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind), index, shape;
+    int32_t index, shape;
     mesh box = {0};
     assert_ok(mesh_make_prism(&r->ctx, plan, -5, 5, &box, &e), e);
     polyhedron_array pieces = {0};
@@ -27,6 +24,16 @@ static int32_t start_with(fracture_rig *r, solid_array *solids, motion kind, pol
     assert_ok(solid_add(&r->ctx, solids, &box, &pieces, 0, &index, &e), e);
     assert_ok(shape_add_solid(&r->ctx, &r->shapes, index, &shape, &e), e);
     r->bodies.shape[r->hull] = shape;
+}
+
+/* A plate, and a hull of this plan that stands clear of it and is said to touch it with two patches. */
+static int32_t start_with(fracture_rig *r, solid_array *solids, motion kind, polygon plan)
+{
+    fracture_rig_make(r);
+    r->settings.crush_trims = true;
+    const vec2 corner[4] = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
+    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind);
+    make_hull(r, solids, plan);
     r->bodies.position[r->hull] = (vec3){-100, 0, 0};
     return row;
 }
@@ -127,6 +134,34 @@ START_TEST(a_notch_stays_ice)
      */
     assert_absolute(back, r.settings.edge_threshold, 2 * SPEED * r.settings.time_step);
     assert_absolute(r.crushed, 920 * ((9 + back) * 10 - 2 * (1 + back)), 1);
+    fracture_rig_free(&r);
+    solid_array_free(&r.ctx, &solids);
+}
+END_TEST
+
+/* A trim that no sound outline is left of, here with a slot that ends nanometres before what the hull has reached,
+   leaves its tile as it is: in the first step of a run or of one that goes on, too, which knows no tiles yet. */
+START_TEST(a_refused_trim_leaves_the_tile)
+{
+    static const vec2 SLOT[] = {{-15 + 3e-9, -1}, {30, -1}, {30, 1}, {-15 + 3e-9, 1}};
+    fracture_rig r;
+    solid_array solids = {0};
+    polygon_list openings = {0};
+    double back = 1.05 * fracture_rig_settings().edge_threshold;
+    fracture_rig_make(&r);
+    r.settings.crush_trims = true;
+    ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){SLOT, 4}));
+    sheet_make(&r, (box2){{-20, -20}, {20, 20}}, 40, &openings);
+    make_hull(&r, &solids, (polygon){box_plan, 4});
+    r.bodies.position[r.hull] = (vec3){-20 - back, 0, 0};
+    r.bodies.velocity[r.hull] = (vec3){-back / r.settings.time_step, 0, 0};
+    ck_assert(sheet_load(&r, (vec2){-16, 0}, 0, 0.5));
+    r.patches.data[0].normal = (vec3){1, 0, 0};
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    ck_assert_int_eq(sheet_count(&r, true), 1);
+    ck_assert_int_eq(r.floes.number[0], 0);
+    ck_assert_double_eq(r.crushed, 0);
+    polygon_list_free(&r.ctx, &openings);
     fracture_rig_free(&r);
     solid_array_free(&r.ctx, &solids);
 }
@@ -346,4 +381,4 @@ START_TEST(rams_meet_the_notch)
 END_TEST
 
 TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays,
-          plates_that_lie_side_by_side, a_notch_stays_ice, rams_meet_the_notch)
+          plates_that_lie_side_by_side, a_notch_stays_ice, a_refused_trim_leaves_the_tile, rams_meet_the_notch)
