@@ -246,8 +246,8 @@ static fram_status write_sizes(const manage_run *m, const manage_summary *s, con
     csv_text_header(m->ctx, columns, 6, &table);
     for (int k = 0; k <= MANAGE_CLASSES + 1; k++) {
         bool sheet = k > MANAGE_CLASSES;
-        double row[6] = {k > 0 && !sheet ? manage_class_size[k - 1] : 0,
-                         k < MANAGE_CLASSES ? manage_class_size[k] : HUGE_VAL};
+        double row[6] = {k > 0 && !sheet ? m->unit * manage_class_size[k - 1] : 0,
+                         k < MANAGE_CLASSES ? m->unit * manage_class_size[k] : HUGE_VAL};
         for (int p = 0; p < MANAGE_PLACES; p++)
             row[2 + p] = sheet ? s->place[p].sheet : s->place[p].share[k];
         row[5] = sheet;
@@ -293,6 +293,7 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
     if (both) {
         manage_options same = *options;
         same.limit = run.limit;
+        same.unit = run.unit;
         status = manage_read(ctx, options->beside, &same, &other, error);
         both = status == FRAM_OK;
     }

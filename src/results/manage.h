@@ -21,8 +21,8 @@ typedef struct manage_options {
     const char *output; /* the page; NULL: FOLDER/manage.html; tables go beside it */
     double limit;       /* largest size of a floe that counts as managed [m]; a NaN: the vessel's beam */
     double depth;       /* of the windows along the drift [m]; a NaN: as much as the corridor is wide */
-    bool met;           /* keep what manage_met_ice sums up, */
-    double unit;        /* by sizes over this length [m] */
+    double unit;        /* a metre of full size in the run, by which sizes are classed [m]; 0: by its run.scale */
+    bool met;           /* keep what manage_met_ice sums up */
 } manage_options;
 
 typedef struct manage_summary {

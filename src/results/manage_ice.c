@@ -56,7 +56,7 @@ static void count_in(manage_cover *out, managed_cover *fine, const manage_floe *
         fine->sheet += part;
         return;
     }
-    while (k < MANAGE_CLASSES && size > manage_class_size[k])
+    while (k < MANAGE_CLASSES && size > unit * manage_class_size[k])
         k++;
     out->of_class[k] += part;
     managed_cover_add(fine, size / unit, part);

@@ -22,7 +22,7 @@ typedef struct manage_window {
     double length, width;
 } manage_window;
 
-/* Upper sizes of the classes [m]; above the last one more class, and the sheet beside them. */
+/* Upper sizes of the classes, in full size [m]; above the last one more class, and the sheet beside them. */
 enum { MANAGE_CLASSES = 10 };
 extern const double manage_class_size[MANAGE_CLASSES];
 
@@ -37,8 +37,8 @@ typedef struct manage_cover {
 } manage_cover;
 
 double manage_size(double area);
-/* limit: the largest size that counts as managed [m].  fine: the same by finer bins of size, which are of full size,
-   with the volume; may be NULL.  unit: a metre of full size in the ice that is measured [m]. */
+/* limit: the largest size that counts as managed [m].  fine: the same by finer bins of size, with the volume; may be
+   NULL.  unit: a metre of full size in the ice that is measured [m]; classes and bins are of full size. */
 fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count, const manage_window *window,
                            double limit, double unit, manage_cover *out, managed_cover *fine, fram_error *error);
 

@@ -233,16 +233,18 @@ static fram_status series_chart(management_page *p, bool alarm, const char *titl
 /* Part of the ice in floes no larger than a size; what is missing at the end is larger, or unbroken. */
 static fram_status size_chart(management_page *p, fram_error *error)
 {
-    double sum[MANAGE_PLACES][MANAGE_CLASSES];
+    double sum[MANAGE_PLACES][MANAGE_CLASSES], size[MANAGE_CLASSES];
     chart_line lines[MANAGE_PLACES];
     int32_t n = 0;
+    for (int i = 0; i < MANAGE_CLASSES; i++)
+        size[i] = p->m->unit * manage_class_size[i];
     for (int k = 0; k < MANAGE_PLACES; k++) {
         double so_far = 0;
         for (int i = 0; i < MANAGE_CLASSES; i++)
             sum[k][i] = so_far += 100 * p->s->place[k].share[i];
         if (!(p->s->place[k].windows > 0 && isfinite(sum[k][0])))
             continue;
-        lines[n] = chart_line_make(place_name[k], manage_class_size, sum[k], MANAGE_CLASSES, k == MANAGE_AT);
+        lines[n] = chart_line_make(place_name[k], size, sum[k], MANAGE_CLASSES, k == MANAGE_AT);
         lines[n++].colour = k + 1;
     }
     if (n == 0)

@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-/* Slower than this, ice comes from nowhere [m/s]. */
+/* Slower than this in full size, ice comes from nowhere [m/s]. */
 static const double STILL = 0.01;
-/* Over which a vessel's own way is taken [s], so that it does not swing with surge and sway. */
+/* Over which a vessel's own way is taken in full size [s], so that it does not swing with surge and sway. */
 static const double WAY_TIME = 60;
 
 /* ---- which vessel ---- */
@@ -153,13 +153,17 @@ static vec2 vessel_way(const manage_run *m, int32_t i)
 {
     int32_t a = i, b = i;
     const manage_moment *all = m->moments.data;
-    while (a > 0 && all[i].time - all[a - 1].time <= 0.5 * WAY_TIME)
+    double half = 0.5 * WAY_TIME * sqrt(scenario_size(&m->d.s));
+    while (a > 0 && all[i].time - all[a - 1].time <= half)
         a--;
-    while (b + 1 < m->moments.count && all[b + 1].time - all[i].time <= 0.5 * WAY_TIME)
+    while (b + 1 < m->moments.count && all[b + 1].time - all[i].time <= half)
         b++;
     double time = all[b].time - all[a].time;
     return time > 0 ? vec2_scale(vec2_sub(all[b].place, all[a].place), 1 / time) : vec2_make(0, 0);
 }
+
+/* Whether ice that comes so fast comes at all. */
+static bool drifts(const manage_run *m, double speed) { return speed > STILL * sqrt(scenario_size(&m->d.s)); }
 
 static void find_updrift(manage_run *m)
 {
@@ -168,7 +172,7 @@ static void find_updrift(manage_run *m)
         manage_moment *now = &m->moments.data[i];
         vec2 come = held ? now->velocity : vec2_sub(now->velocity, vessel_way(m, i));
         now->speed = vec2_length(come);
-        if (now->speed > STILL)
+        if (drifts(m, now->speed))
             now->updrift = vec2_scale(come, -1 / now->speed);
     }
 }
@@ -233,7 +237,7 @@ static void schedule(manage_run *m, int32_t k)
     int32_t first = -1, last = -1, seen = k;
     for (int p = 0; p < MANAGE_PLACES; p++)
         at->looked[p] = -1;
-    if (!(at->speed > STILL) || !(at->width > 0))
+    if (!drifts(m, at->speed) || !(at->width > 0))
         return;
     at->looked[MANAGE_AT] = k;
     for (int32_t i = k; i >= 0; i--) {
@@ -328,7 +332,7 @@ static void plan_windows(manage_run *m, const replay *r, int32_t i)
     manage_moment *now = &m->moments.data[i];
     const replay_pose *own = pose_of(r, replay_hull(r, m->vessel));
     double lo, hi;
-    if (!own || !(now->speed > STILL))
+    if (!own || !drifts(m, now->speed))
         return;
     extents(r, own, now->updrift, &lo, &now->reach);
     extents(r, own, vec2_perp(now->updrift), &lo, &hi);
@@ -381,7 +385,7 @@ static fram_status read_all(manage_run *m, const manage_options *options, fram_e
     m->helpers = others < MANAGE_HELPERS ? others : MANAGE_HELPERS;
     m->limit = options->limit;
     m->depth = options->depth;
-    m->unit = options->met ? options->unit : 1;
+    m->unit = options->unit > 0 ? options->unit : scenario_size(&m->d.s);
     status = read_ways(m, error);
     if (status == FRAM_OK && m->moments.count == 0)
         status = error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, NULL, "the record shows no vessel");

@@ -106,6 +106,18 @@ for r, side in zip(bins, (0.075, 0.2)):
 assert abs(ice["largest_m"] - math.sqrt(0.16 / math.pi)) < 1e-7, ice
 END
 
+# So are the classes of fram manage, and ice comes that in full size would come at 0.03 m/s.
+sed 's/velocity_x: -[0-9.]*/velocity_x: -0.005/g' model.yaml >slow.yaml
+"$FRAM" run slow.yaml -o slow -q
+expect 0 "$FRAM" manage slow --vessel ship --json -q
+python3 - <<'END' || fail "sizes and drift of a model in fram manage"
+import csv, json
+assert json.load(open("out"))["run"]["at_vessel"]["windows"] > 0
+rows = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(open("slow/manage-sizes.csv"))]
+met = [(r["size_over[m]"], r["size_up_to[m]"]) for r in rows if r["at_vessel[1]"] > 0]
+assert met == [(0.05, 0.125), (0.125, 0.25)], met
+END
+
 # Unbroken ice is not passed over.
 grep -v thrusters held.yaml >fast.yaml
 "$FRAM" run fast.yaml -o level -q --set vessel.mode=prescribed --set ice.breakable=true \

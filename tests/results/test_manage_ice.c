@@ -84,6 +84,9 @@ START_TEST(sizes_of_a_model_are_told_apart)
     managed_law law;
     const manage_window window = {{0.5, 0}, {1, 0}, 2, 1};
     assert_ok(manage_measure(&f.ctx, f.floe, f.count, &window, 0.1, unit, &c, &fine, &error), error);
+    /* 1.8 and 9 m of full size: of the classes up to 2 and up to 10. */
+    assert_relative(c.of_class[1], 5 * 0.0016 / 2, 1e-12);
+    assert_relative(c.of_class[3], 5 * 0.04 / 2, 1e-12);
     managed_ice_add(&sum, &fine, c.largest / unit);
     assert_ok(manage_met_law(&sum, unit, (double)NAN, &law, &error), error);
     ck_assert(law.edge[0] < size[0] && law.edge[1] > size[0]);
