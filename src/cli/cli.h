@@ -119,7 +119,7 @@ typedef struct output_file {
     const char *option, *path, *endings;
 } output_file;
 /* What a command reads and writes; NULL in places that are free.  runs: folders, of which all is read. */
-enum { FILES_ROOM = 4 };
+enum { FILES_ROOM = 6 };
 typedef struct command_files {
     const char *inputs[FILES_ROOM], *runs[FILES_ROOM];
     output_file outputs[FILES_ROOM];

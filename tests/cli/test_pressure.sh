@@ -212,6 +212,13 @@ for bad in "--panel 0" "--panel -1" "--panel 41" "--panel 1e-4" "--from 5" "--fr
     expect 2 "$FRAM" pressure run -o none $bad
     [ "$(wc -l <err)" -le 2 ] || fail "$bad: more than one message: $(cat err)"
 done
+# No file that its scenario reads is written over.
+mkdir blown
+printf 'time,x,y\n0,1,0\n' | tee blown/zones.csv >wind.csv
+expect 0 "$FRAM" run plate.yaml -o windy --until 0.1 --quiet --set environment.wind_file=blown/zones.csv
+expect 2 "$FRAM" pressure windy -o blown --force
+says "--output: names what the command reads" err
+cmp -s wind.csv blown/zones.csv || fail "fram pressure writes over a file of the scenario"
 expect 2 "$FRAM" pressure nowhere -o none
 [ ! -e none ] || fail "a refusal leaves a folder"
 finish "pressure on plates and hulls by panel"
