@@ -121,6 +121,7 @@ typedef struct fram_field_making {
     double area_change;     /* of a drawn floe by being moved, the largest, relative: rounding */
     int vertex_changes;     /* drawn floes whose number of vertices was changed by being moved */
     bool tile;              /* the field is the tile that repeats itself (domain.boundary: feeding), not the domain */
+    double tile_x, tile_y;  /* after which it does, 0 for a domain [m] */
 } fram_field_making;
 /* false, and nothing is written, for a field of a file. */
 FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *making, size_t size);

@@ -87,6 +87,8 @@ bool(fram_field_making_get)(const fram_field *f, fram_field_making *making, size
         .area_change = d->packed.area_change,
         .vertex_changes = d->packed.vertex_changes,
         .tile = f->tile,
+        .tile_x = f->period.x,
+        .tile_y = f->period.y,
     };
     result_give(making, size, &full);
     return true;

@@ -81,6 +81,8 @@ static void print_making(const fram_field *field)
     else
         printf("; asked for: %.3f %%\n", 100 * m.target);
     printf("  largest overlap %.2g m\n", m.largest_overlap);
+    if (m.tile)
+        printf("  the tile repeats itself after %.12g m in x and %.12g m in y\n", m.tile_x, m.tile_y);
     for (int i = 0; i < m.populations; i++)
         print_population(field, i);
     if (m.rounds > 0)
@@ -154,6 +156,8 @@ static void json_making(json *j, const fram_field *field)
     json_real(j, "asked_concentration", m.target);
     json_real(j, "concentration", m.reached);
     json_real(j, "free_area_m2", m.free_area);
+    if (m.tile)
+        json_reals(j, "tile_m", (const double[]){m.tile_x, m.tile_y}, 2);
     json_real(j, "largest_overlap_m", m.largest_overlap);
     json_integer(j, "placed", m.placed);
     json_integer(j, "rounds", m.rounds);

@@ -101,6 +101,9 @@ typedef struct feeding_definition {
 fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d, const feeding_world *w,
                           fram_error *error);
 
+/* That window, tile and band of a definition go together where the largest floe reaches so far from its centre [m], and
+   the band that it gets; the errors are those of feeding_begin. */
+fram_status feeding_check(const feeding_definition *d, double radius, double *band, fram_error *error);
 /* The width of the band that a definition without one gets, for a pattern whose largest floe has this radius [m]. */
 double feeding_band(double largest_radius);
 

@@ -70,8 +70,9 @@ static double largest_radius(const pattern_table *p)
     return most;
 }
 
-static fram_status check_sizes(const feeding_definition *d, double band, double radius, fram_error *error)
+fram_status feeding_check(const feeding_definition *d, double radius, double *band_of, fram_error *error)
 {
+    double band = *band_of = isnan(d->band) ? feeding_band(radius) : d->band;
     vec2 size = vec2_sub(d->window.hi, d->window.lo), spare = vec2_sub(d->tile, size);
     double room = 2 * TILE_ROOM * (radius + feeding_clearance(band));
     if (!(spare.x >= room && spare.y >= room))
@@ -171,8 +172,8 @@ fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d,
     fram_status status = make_pattern(ctx, w, error);
     if (status != FRAM_OK)
         return status;
-    double radius = largest_radius(w->pattern), band = isnan(d->band) ? feeding_band(radius) : d->band;
-    status = check_sizes(d, band, radius, error);
+    double band;
+    status = feeding_check(d, largest_radius(w->pattern), &band, error);
     if (status == FRAM_OK && !table_resize(ctx, w->feeding, &feeding_table_info, 1))
         status = error_memory(error);
     if (status != FRAM_OK)

@@ -143,8 +143,9 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
     if (status != FRAM_OK)
         return status;
     scenario larger = *s;
-    if (s->domain.boundary == DOMAIN_FEEDING) {
-        double floe_area;
+    double floe_area = 0;
+    bool fed = s->domain.boundary == DOMAIN_FEEDING;
+    if (fed) {
         status = feeding_floe_area(ctx, s, &floe_area, error);
         larger = feeding_scenario(s, floe_area);
         if (status == FRAM_OK)
@@ -153,6 +154,8 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
     *domain = (box2){{larger.domain.x_min, larger.domain.y_min}, {larger.domain.x_max, larger.domain.y_max}};
     if (status == FRAM_OK)
         status = draw_ice(ctx, &larger, &w, out, error);
+    if (status == FRAM_OK && fed)
+        status = feeding_outlines_check(ctx, s, m, &w, floe_area, &out->outlines, error);
     status = name_ice(s, status, error);
     world_free(ctx, &w);
     return status;

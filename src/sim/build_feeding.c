@@ -36,15 +36,14 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
 }
 
 /* A vessel must lie inside the band at the start; the water that is kept clear around it may reach into that. */
-static fram_status check_place(context *ctx, const world *w, fram_error *error)
+static fram_status check_place(context *ctx, const world *w, box2 window, double band, fram_error *error)
 {
     polygon_list hulls = {0};
     fram_status status = build_footprints(ctx, w, &hulls, error);
-    double band = w->feeding.band[0];
     for (int32_t i = 0; i < polygon_list_count(&hulls) && status == FRAM_OK; i++) {
         box2 box = polygon_bounds(polygon_list_get(&hulls, i));
-        double room = fmin(fmin(box.lo.x - w->feeding.lo[0].x, w->feeding.hi[0].x - box.hi.x),
-                           fmin(box.lo.y - w->feeding.lo[0].y, w->feeding.hi[0].y - box.hi.y));
+        double room = fmin(fmin(box.lo.x - window.lo.x, window.hi.x - box.hi.x),
+                           fmin(box.lo.y - window.lo.y, window.hi.y - box.hi.y));
         if (room < band)
             status =
                 error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
@@ -71,7 +70,7 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
     if (status == FRAM_OK)
         status = feeding_begin(ctx, w->scratch.plane, &d, &fed, error);
     if (status == FRAM_OK)
-        status = check_place(ctx, w, error);
+        status = check_place(ctx, w, m->domain, w->feeding.band[0], error);
     polygon_list_free(ctx, &keep_out);
     return name_key(s, status, error);
 }
@@ -100,6 +99,24 @@ scenario feeding_scenario(const scenario *s, double floe_area)
     larger.domain.y_min = middle.y - tile.y / 2;
     larger.domain.y_max = middle.y + tile.y / 2;
     return larger;
+}
+
+fram_status feeding_outlines_check(context *ctx, const scenario *s, const model *m, const world *w, double floe_area,
+                                   const polygon_list *outlines, fram_error *error)
+{
+    const feeding_definition d = {
+        .window = m->domain, .tile = tile_of(s, m->domain, floe_area), .band = s->domain.band};
+    double radius = 0, band;
+    for (int32_t i = 0; i < polygon_list_count(outlines); i++) {
+        polygon floe = polygon_list_get(outlines, i);
+        vec2 centre = polygon_moments_of(floe).centroid;
+        for (int32_t k = 0; k < floe.count; k++)
+            radius = fmax(radius, vec2_length(vec2_sub(floe.vertex[k], centre)));
+    }
+    fram_status status = feeding_check(&d, radius, &band, error);
+    if (status == FRAM_OK)
+        status = check_place(ctx, w, m->domain, band, error);
+    return name_key(s, status, error);
 }
 
 fram_status build_field(context *ctx, const scenario *s, const model *m, world *w, field_report *report,

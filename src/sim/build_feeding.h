@@ -14,6 +14,10 @@ fram_status build_field(context *ctx, const scenario *s, const model *m, world *
 /* The mean floe of a field that is fed, by which its tile is found where the scenario does not say [m2]: of the
    populations, whose histograms are read, or ice.mean_floe_area. */
 fram_status feeding_floe_area(context *ctx, const scenario *s, double *area, fram_error *error);
+/* What building the field of such a tile refuses, of floes that are drawn: tile, window and band that do not go
+   together, a vessel in the band.  w: the world with its vessels. */
+fram_status feeding_outlines_check(context *ctx, const scenario *s, const model *m, const world *w, double floe_area,
+                                   const polygon_list *outlines, fram_error *error);
 /* The scenario whose domain is the tile of one that is fed. */
 scenario feeding_scenario(const scenario *s, double floe_area);
 

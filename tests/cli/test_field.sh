@@ -153,6 +153,7 @@ for ice in 'source: voronoi, mean_floe_area: 60' \
     same "$(value '[abs(w["concentration"] - j["area_m2"] / 15600) < 1e-9 for w in j["windows"][:2] + j["windows"][4:]],
         abs(j["windows"][2]["concentration"] - j["windows"][3]["concentration"]) < 1e-9')" "[True, True, True] True" \
         "windows of an endless field, $ice"
+    same "$(value 'j["made"]["tile_m"]')" "[120, 130]" "the tile of an endless field, $ice"
     sed '/^ice/d' endless.yaml >again.yaml
     echo 'ice: {source: file, file: tile.geojson}' >>again.yaml
     expect 0 "$FRAM" field again.yaml -o back.geojson
@@ -337,6 +338,17 @@ says "only lengths are taken here" err
 fed=(--set domain.boundary=feeding --set vessel.present=false)
 expect 0 "$FRAM" field zones.yaml "${fed[@]}" --set ice.open_water_file=
 says "% of the tile" out
+says "the tile repeats itself after" out
+# Tiles, windows and places that a run refuses are refused as by that.
+for bad in vessel.present=true domain.tile_x=101 domain.band=0.1 "domain.x_max=-90"; do
+    fault=0
+    "$FRAM" run zones.yaml -o fed -q --until 0.01 "${fed[@]}" --set ice.open_water_file= --set vessel.x=90 \
+        --set domain.x_min=-100 --set domain.x_max=100 --set "$bad" 2>ran || fault=$?
+    same "$fault" 2 "a run with $bad"
+    expect 2 "$FRAM" field zones.yaml "${fed[@]}" --set ice.open_water_file= --set vessel.x=90 \
+        --set domain.x_min=-100 --set domain.x_max=100 --set "$bad"
+    same "$(tail -1 err)" "$(tail -1 ran)" "what fram field says of $bad"
+done
 expect 2 "$FRAM" field zones.yaml "${fed[@]}"
 says "ring 2: the ring is a hole" err
 # Zones that lie beside the domain, as in other coordinates, are told; of a file only when all of it does.
