@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
+#include "sim/build_feeding.h"
 #include "sim/sanity.h"
 #include "sim/steady_load.h"
 
@@ -304,6 +305,27 @@ static fram_status sweep(const scenario *s, world *w, capability *c, fram_error 
     return find_limits(w, &h, c, error);
 }
 
+/* Floes that are drawn have water between them, and their areas add up to what is asked for to half a floe. */
+static const double DENSEST = 0.999, HALF_A_FLOE = 0.51;
+
+static fram_status limit_concentration(context *ctx, scenario *met, fram_error *error)
+{
+    double floe, asked = met->ice.concentration;
+    fram_status status = feeding_floe_area(ctx, met, &floe, error);
+    if (status != FRAM_OK)
+        return status;
+    const scenario tile = feeding_scenario(met, floe);
+    const scenario_domain *d = &tile.domain;
+    double area = (d->x_max - d->x_min) * (d->y_max - d->y_min);
+    met->ice.concentration = fmin(asked, fmin(DENSEST, 1 - HALF_A_FLOE * floe / area));
+    if (met->ice.concentration < asked)
+        log_write(ctx, LOG_WARNING,
+                  "the ice that came covers %.4g of the water, and fields of floes have some between them: loads are "
+                  "measured in one of %.4g",
+                  asked, met->ice.concentration);
+    return FRAM_OK;
+}
+
 static fram_status measure_met(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
 {
     const size_law sizes = managed_size_law(&c->options.met->law);
@@ -313,7 +335,9 @@ static fram_status measure_met(context *ctx, const scenario *s, const world *w, 
     fram_status status = capability_met_scenario(s, c->options.met, c->side, &population, &sizes, &met, error);
     if (status != FRAM_OK)
         return status;
-    status = capability_ice_measured(ctx, &met, c, error);
+    status = limit_concentration(ctx, &met, error);
+    if (status == FRAM_OK)
+        status = capability_ice_measured(ctx, &met, c, error);
     /* The window's, not the scenario's. */
     bool input = status == FRAM_ERROR_INPUT && error;
     if (input && (strcmp(error->key, "domain") == 0 || strcmp(error->key, "domain.band") == 0 ||

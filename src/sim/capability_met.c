@@ -32,7 +32,7 @@ fram_status capability_met_scenario(const scenario *s, const capability_met_ice 
     out->sizes = sizes;
     scenario_ice *ice = &out->ice;
     ice->source = ICE_VORONOI;
-    ice->concentration = fmin(met->law.concentration, 1);
+    ice->concentration = met->law.concentration;
     ice->thickness = met->law.thickness;
     ice->roundness = usual.ice.roundness;
     ice->open_water.count = 0;

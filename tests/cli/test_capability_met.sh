@@ -129,6 +129,15 @@ expect 0 "$FRAM" capability held.yaml -o c --ice-from level --unbroken-as 15 "${
 python3 -c 'import json; j = json.load(open("c/capability.json"))["ice_from"]
 assert j["unbroken"] == 1 and j["unbroken_as_m"] == 15 and abs(j["mean_size_m"] - 15) < 1e-9, j' ||
     fail "floes for unbroken ice"
+# A window that was full of it is made as dense as drawn floes can be, which is told.
+"$FRAM" run fast.yaml -o full -q --set vessel.mode=prescribed --set ice.breakable=true --set ice.keep_out_margin=0 \
+    --set domain.boundary=feeding --set domain.drift_speed=0.5 --set domain.drift_direction_deg=180 \
+    --set run.duration=0.5 --set run.transient=0.5 --set output.frame_interval=0.25 --set ice.level.x_min=20
+expect 0 "$FRAM" capability held.yaml -o f --ice-from full --unbroken-as 15 "${ask[@]}"
+says "the ice that came covers 1 of the water" err
+python3 -c 'import json; j = json.load(open("f/capability.json"))
+assert abs(j["ice_from"]["concentration"] - 1) < 1e-9 and 0.995 < j["ice_concentration"] < 0.999, j' ||
+    fail "a field for ice without water"
 
 # What cannot be.
 expect 2 "$FRAM" capability held.yaml -o d --ice-from nowhere "${ask[@]}"
