@@ -575,6 +575,14 @@ def check_files_beside(browser, run):
     browser.open(page)
     browser.run("fram.seek(7.4)")
     browser.until("document.getElementById('note').textContent.includes('is missing')", "a missing file is not named")
+    # A moment of it is not waited for: the page says so and stops playing there, and goes on at others.
+    said = "document.getElementById('waiting')"
+    browser.until(f"!{said}.hidden && {said}.textContent.includes('missing')", "a moment that is gone is waited for")
+    browser.run("fram.seek(0)")
+    browser.until(f"{said}.hidden", "a moment that is there is said to be gone")
+    browser.choose("speed", "20")
+    browser.click_on("play")
+    browser.until(f"!fram.playing && fram.time < fram.end && !{said}.hidden", "the page plays on where a file is gone")
     # Neither that nor one that brings nothing stops the history of a floe, which has all other frames.
     browser.run("(fram.seek(0), fram.pick(fram.record.bodies.find((b) => b.number === 0)))")
     browser.click_on("whole")

@@ -29,7 +29,7 @@ class Player {
         this.record = record;
         const files = 1 + record.frames.reduce((most, f) => Math.max(most, f.chunk ?? -1), -1);
         this.chunks = new Chunks($('record').dataset.beside, files, () => this.arrived(),
-            (name) => tell(`${name} is missing or damaged: it belongs beside this page.`));
+            (name) => this.lose(name));
         this.store = new FrameStore(record, this.chunks);
         this.poses = new Poses(record, this.store);
         this.time = record.frames[0].time;
@@ -56,7 +56,10 @@ class Player {
     /** When the first frame is there, which may lie in a file beside the page. */
     begin() {
         const { record } = this, first = this.store.get(0);
-        if (!first) { setTimeout(() => this.begin(), 20); return; }
+        if (!first) {
+            if (!this.sayGone([0])) setTimeout(() => this.begin(), 20);
+            return;
+        }
         this.scene = new Scene($('view'), record, this.poses, first);
         this.controls = new OrbitControls(this.scene.camera, $('view'));
         this.legend = new Legend();
@@ -157,6 +160,19 @@ class Player {
     arrived() {
         this.dirty = true;
         if (this.picked) this.history.more();
+    }
+
+    lose(name) {
+        this.dirty = true;
+        tell(`${name} is missing or damaged: it belongs beside this page.`);
+    }
+
+    /** Whether the file of one of these frames is lost, which is said where others are waited for. */
+    sayGone(frames) {
+        const { lost } = this.chunks, gone = frames.some((f) => lost.has(this.record.frames[f].chunk));
+        $('waiting').textContent = gone ? 'the file of this moment is missing or damaged' : 'loading ...';
+        $('waiting').hidden = false;
+        return gone;
     }
 
     connect() {
@@ -473,14 +489,16 @@ class Player {
         this.last = now;
         if (this.playing && !this.waiting) {
             this.time = Math.min(this.end, this.time + passed * Number($('speed').value));
-            if (this.time >= this.end) {
-                this.toggle();
-                if (this.recorder) this.recorder.stop();
-            }
+            if (this.time >= this.end) this.stop();
             this.dirty = true;
         }
         if (this.dirty) this.draw();
         requestAnimationFrame((t) => this.tick(t));
+    }
+
+    stop() {
+        this.toggle();
+        if (this.recorder) this.recorder.stop();
     }
 
     /** What a frame costs this script, without the drawing itself, is measured in prepare(). */
@@ -495,8 +513,11 @@ class Player {
         const before = this.hullAt; // where it was drawn last: the poses may be of another moment by now
         const state = this.poses.show(this.frameAt(this.time));
         this.waiting = !state;
-        $('waiting').hidden = !this.waiting;
-        if (!state) return false;
+        $('waiting').hidden = true;
+        if (!state) {
+            if (this.sayGone(this.poses.wanted) && this.playing) this.stop();
+            return false;
+        }
         this.hullAt = this.hull && this.centre();
         if (['follow', 'below'].includes($('camera').value) && before) {
             const moved = this.hullAt.clone().sub(before);

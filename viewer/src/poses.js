@@ -38,7 +38,10 @@ export class Poses {
         const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last);
         const e = ends && this.someEnd(f, g) ? Math.max(f - 1, 0) : f;
         const zero = this.store.get(e), one = this.store.get(f), two = this.store.get(g);
-        if (!zero || !one || !two) return null;
+        if (!zero || !one || !two) {
+            this.wanted = [e, f, g];
+            return null;
+        }
         const part = when - f, a = frames[f], b = frames[g], place = this.later.of(b.order);
         const span = b.time - a.time || 1;
         if (f !== this.frame) {
