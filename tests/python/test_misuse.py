@@ -390,6 +390,15 @@ class Runs(unittest.TestCase):
         run = self.broken("run.json", b"{}")
         self.assert_refused(lambda: run.hash, "run.json", 0, "state_hash")
         self.assertIn("None", repr(run))
+        # That of a run which goes on is of its beginning: how far it has come its series tell, in whole rows.
+        run = self.broken("run.json", b'{"status": "running", "time_s": 0.0, "state_hash": "0123"}')
+        time = run.columns()["time"][-1]
+        with (self.bad / "series.csv").open("a") as series:
+            series.write("99")
+        for text in (repr(run), run._repr_html_()):
+            self.assertTrue("running" in text and f"{time}" in text and "0123" not in text, text)
+        (self.bad / "series.csv").unlink()
+        self.assertIn("running at t = 0.0 s", repr(run))
         self.assertIn("&lt;b&gt;&amp;", self.broken("run.json", b'{"title": "<b>&"}')._repr_html_())
         run = self.broken("station.json", b"{")
         self.assert_refused(lambda: run.station, "station.json", 1)

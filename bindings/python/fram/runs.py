@@ -112,6 +112,19 @@ def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[st
     return {name: table[:, i] for i, name in enumerate(units)}, units
 
 
+def _last_time(path: pathlib.Path) -> Optional[float]:
+    """Time of the last whole row [s]; None without rows."""
+    with _open_text(path) as file:
+        at = list(_read_units(_rows(file, path), path, ["time"])).index("time")
+        last = None
+        for line in file:
+            last = line if line[-1] in "\r\n" else last
+    try:
+        return None if last is None else float(last.split(",")[at])
+    except (IndexError, ValueError) as error:
+        raise InputError("input", "expected a row of numbers at the end", file=str(path)) from error
+
+
 class Run:
     """The folder of a run, read when asked for; it may still be going on."""
 
@@ -241,9 +254,21 @@ class Run:
         """The ice from above at a time [s], by matplotlib.  Returns the axes."""
         return plot_outlines([floe.outline for floe in self.floes(time)], axes)
 
+    def _progress(self) -> dict[str, Any]:
+        """`info` for who reads it; that of a run which goes on or was killed is of its beginning, its series go on."""
+        info = self.info
+        if info.get("status") != "running":
+            return info
+        try:
+            time = _last_time(self.folder / "series.csv")
+        except (InputError, FileError):
+            time = None
+        known = {key: value for key, value in info.items() if key not in ("steps", "state_hash")}
+        return known if time is None else {**known, "time_s": time}
+
     def __repr__(self) -> str:
         try:
-            info = self.info
+            info = self._progress()
         except (InputError, FileError):
             return f"<fram.Run {self.folder}: unreadable>"
         return f"<fram.Run {self.folder}: {info.get('status')} at t = {info.get('time_s')} s>"
@@ -254,7 +279,7 @@ class Run:
         return Run, (self.folder,)
 
     def _repr_html_(self) -> str:
-        info = self.info
+        info = self._progress()
         rows = "".join(f"<tr><td>{key}</td><td>{html.escape(str(info.get(key, '')))}</td></tr>"
                        for key in ("title", "status", "steps", "time_s", "wall_s", "state_hash"))
         return f"<table>{rows}</table>"
