@@ -56,7 +56,8 @@ typedef struct vessel_model {
 typedef ARRAY(vessel_model) vessel_model_array;
 
 typedef struct model {
-    double time_step; /* [s] */
+    double time_step;   /* [s] */
+    int32_t step_parts; /* such steps that a step of the run takes: 1, or more where shorter ones are tried */
     force_source forces;
     media media;           /* where the histories do not say otherwise */
     media_history history; /* of current, wind and drift */

@@ -95,6 +95,7 @@ static model settings_of(const scenario *s)
     const scenario_friction *f = &s->ice.friction;
     model out = {
         .time_step = s->run.time_step,
+        .step_parts = 1,
         .forces = e->water ? FORCES_FLUID : FORCES_NONE,
         .media = {.gravity = e->gravity,
                   .water_density = e->water_density,

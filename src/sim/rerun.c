@@ -109,7 +109,7 @@ static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool
     status = world_copy(r->ctx, from, &w, error);
     if (status == FRAM_OK) {
         if (parts > 1)
-            status = rerun_divide_step(r->ctx, from, parts, &w, error);
+            status = rerun_divide_step(r->ctx, from, parts, &m, &w, error);
         if (status == FRAM_OK)
             status = follow(r, &m, &w, !accurate && parts == 1, largest, error);
         world_free(r->ctx, &w);

@@ -16,8 +16,9 @@ static fram_status divide_loads(context *ctx, const world *from, int32_t parts, 
     return FRAM_OK;
 }
 
-fram_status rerun_divide_step(context *ctx, const world *from, int32_t parts, world *w, fram_error *error)
+fram_status rerun_divide_step(context *ctx, const world *from, int32_t parts, model *m, world *w, fram_error *error)
 {
+    m->step_parts = parts;
     w->clock.step[0] = from->clock.step[0] * parts;
     fram_status status = divide_loads(ctx, from, parts, w, error);
     for (int32_t v = 0; v < w->stations.count && status == FRAM_OK; v++) {

@@ -17,7 +17,8 @@ fram_status station_forces(context *ctx, const model *m, world *w, fram_error *e
     for (int32_t i = 0; i < stations->count && status == FRAM_OK; i++) {
         if (!station_is_kept(stations, &w->vessels, i))
             continue;
-        const station_moment now = {w->clock.step[0], time, dt, last_ice_load(w, i)};
+        const int64_t step = w->clock.step[0];
+        const station_moment now = {step, step / m->step_parts, time, dt, last_ice_load(w, i)};
         status = station_step(ctx, stations, i, &now, &w->vessels, &w->bodies, &w->waypoints, &w->thrusters, &w->events,
                               error);
     }

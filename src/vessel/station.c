@@ -151,11 +151,11 @@ static bool watch(context *ctx, station_table *s, int32_t row, const station_mom
 
 /* ---- control ---- */
 
-/* Noise is a pure function of the station's seed and the step. */
+/* Noise is a pure function of the station's seed and the moment's number. */
 static void measure(station_table *s, int32_t row, const station_moment *now, vec3 place)
 {
     random_stream r = random_begin(s->seed[row], STREAM_SENSOR, 0);
-    r.counter = 3 * (uint64_t)now->step;
+    r.counter = 3 * (uint64_t)now->draw;
     vec3 noise = s->noise[row];
     double x = random_normal(&r), y = random_normal(&r), z = random_normal(&r);
     s->measured[row] = vec3_make(place.x + noise.x * x, place.y + noise.y * y, place.z + noise.z * z);

@@ -97,6 +97,7 @@ bool station_is_kept(const station_table *stations, const vessel_table *vessels,
 /* What the step looks like to a station. */
 typedef struct station_moment {
     int64_t step;
+    int64_t draw; /* number of what is drawn in it: the step of the run, also where that is divided */
     double time, dt;
     wrench ice; /* load on the vessel in the step before, global */
 } station_moment;

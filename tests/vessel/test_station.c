@@ -47,7 +47,7 @@ static void close_held(held *h)
 /* One step of 0.1 s under a load of ice. */
 static void step(held *h, int64_t number, wrench ice)
 {
-    const station_moment now = {number, 0.1 * (double)number, 0.1, ice};
+    const station_moment now = {number, number, 0.1 * (double)number, 0.1, ice};
     fram_error error = {0};
     assert_ok(station_step(&h->b.ctx, &h->stations, 0, &now, &h->b.vessels, &h->b.bodies, &h->path, &h->b.thrusters,
                            &h->b.events, &error),
