@@ -22,8 +22,8 @@ typedef struct peak_floe {
 
 /* A body of a chain, in the step of the peak: sim/force_chain.h. */
 typedef struct peak_link {
-    int32_t slot, number;
-    vec3 place, push; /* centre of mass, of a body that forces do not move the point of the push [m]; [N] */
+    int32_t slot, number; /* number -1: no floe, or one that broke in the step */
+    vec3 place, push; /* centre of mass, of a body that forces do not move or that broke where it is pushed [m]; [N] */
     double others, water, inertia;
 } peak_link;
 

@@ -129,9 +129,9 @@ static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, 
         char name[24];
         name_floe(link[i].number, name);
         text_format(ctx, out, " -> %s (%.4g %s)",
-                    link[i].number >= 0    ? name
-                    : f->end == CHAIN_WALL ? "wall"
-                                           : "body",
+                    link[i].number >= 0                         ? name
+                    : i == f->links - 1 && f->end == CHAIN_WALL ? "wall"
+                                                                : "body",
                     vec3_length(link[i].push) * unit.factor, unit.name);
     }
     text_format(ctx, out, "; the end: %s\n", chain_end_text((chain_end)f->end));

@@ -185,10 +185,16 @@ static void add_chain(const world *w, double time_step, int32_t hull, force_chai
     f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
     for (int32_t i = 0; i < count; i++) {
         const chain_link *l = &chain->link[i];
-        /* The middle of a sheet or a wall may be far away. */
-        vec3 place = w->bodies.motion[l->body] == MOTION_DYNAMIC ? w->bodies.position[l->body] : l->point;
-        d->link[d->link_count++] =
-            (peak_link){l->body, number_at(w, l->body), place, l->push, l->others, l->water, l->inertia};
+        bool gone = world_came_since_contacts(w, l->body);
+        /* The middle of a sheet or a wall may be far away, and that of what broke in this step is no more. */
+        bool whole = w->bodies.motion[l->body] == MOTION_DYNAMIC && !gone;
+        d->link[d->link_count++] = (peak_link){l->body,
+                                               gone ? -1 : number_at(w, l->body),
+                                               whole ? w->bodies.position[l->body] : l->point,
+                                               l->push,
+                                               l->others,
+                                               l->water,
+                                               l->inertia};
     }
 }
 

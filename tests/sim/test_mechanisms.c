@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "sim/force_chain.h"
+#include "sim/peak_watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -162,6 +163,28 @@ START_TEST(free_floe_that_is_hit)
 }
 END_TEST
 
+/* A piece that has come into the slot of the last floe since is not what was pushed. */
+static void check_that_pieces_are_no_links(scene *k, int floes)
+{
+    static peak_detail d;
+    peak_watch watch;
+    fram_error error = {0};
+    int32_t last = scene_floe(k, floes - 1);
+    peak_watch_init(&k->ctx, k->m.time_step, 0, &watch);
+    assert_ok(peak_watch_keep(&watch, &k->w, &error), error);
+    for (int gone = 0; gone < 2; gone++) {
+        k->w.bodies.generation[last] += (uint32_t)gone;
+        assert_ok(peak_watch_explain(&watch, &k->w, 0, &d, &error), error);
+        ck_assert_int_eq(d.link_count, floes + 1);
+        for (int i = 0; i < floes - 1; i++)
+            ck_assert_int_eq(d.link[i].number, i);
+        ck_assert_int_eq(d.link[floes - 1].number, gone ? -1 : floes - 1);
+        assert_absolute(d.link[floes - 1].place.x, 24 + 8 * (floes - 1) - (gone ? 4 : 0), 0.1);
+    }
+    k->w.bodies.generation[last]--;
+    peak_watch_free(&watch);
+}
+
 /* k floes in a row between a hull that is pushed by a known force and a wall: the chain is found, each link bears that
    force, and it ends at the wall.  With open water in place of the wall they are an accumulation. */
 static void push_row(int floes, bool wall)
@@ -204,6 +227,7 @@ static void push_row(int floes, bool wall)
         /* The wall is pushed where the last floe touches it. */
         assert_absolute(chain.link[floes].point.x, 20 + 8 * floes, 0.1);
         assert_absolute(chain.link[floes].point.y, 0, 4);
+        check_that_pieces_are_no_links(&k, floes);
         /* A floe of a sheet that drifts as one body holds like a wall. */
         k.w.bodies.motion[scene_floe(&k, floes - 1)] = MOTION_CARRIED;
         force_chain_follow(&k.w, k.m.time_step, k.w.vessels.body[0], scene_floe(&k, 0), &chain);
