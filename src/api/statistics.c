@@ -214,7 +214,7 @@ fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition 
                      ? extremes_of_maxima(&c->inner, all.data, all.count, d->block, methods[i], &ask, &r[i], error)
                      : extremes_of_series(&c->inner, &data.set, methods[i], &ask, &r[i], error);
         if (status == FRAM_OK)
-            extremes_doubt_parted(&r[i], data.parted, data.count, data.offset, ask.levels);
+            extremes_cut_parted(&r[i], ask.levels, data.parted, data.count, data.offset, data.held);
         if (status == FRAM_OK)
             give_extreme(&r[i], &out->method[out->methods++]);
     }

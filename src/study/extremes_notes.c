@@ -183,20 +183,26 @@ void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t c
             largest, 1 / above);
 }
 
-void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs, bool offset, int levels)
+void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_t runs, bool offset, double least)
 {
-    char why[200];
-    snprintf(why, sizeof why,
-             "Lines parted in %d of %d runs, and the vessel drifted on from there: levels of its offset are not told. "
-             "Lines without breaking_load tell them.",
-             (int)parted, (int)runs);
-    if (parted > 0 && offset)
-        extremes_cut(out, levels, -HUGE_VAL, why);
-    else if (parted > 0)
-        say(out,
-            "Lines parted in %d of %d runs, and hold no more than that: what the ice asks for above it is not in the "
-            "series. Lines without breaking_load tell it.",
-            (int)parted, (int)runs);
+    char why[240];
+    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted, (int)runs);
+    char *rest = why + used;
+    size_t room = sizeof why - (size_t)used;
+    if (parted == 0)
+        return;
+    if (offset)
+        snprintf(rest, room,
+                 "and the vessel drifted on from there: levels of its offset are not told. Lines without breaking_load "
+                 "tell them.");
+    else if (least < HUGE_VAL)
+        snprintf(rest, room,
+                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.3g kN on are not "
+                 "told. Lines without breaking_load tell them.",
+                 least * 1e-3);
+    else
+        snprintf(rest, room, "whose tensions from there on are those of a mooring with fewer lines.");
+    extremes_cut(out, levels, offset ? -HUGE_VAL : least, why);
 }
 
 /* So many of the draws of a bootstrap must have a fit. */

@@ -25,8 +25,9 @@ void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t co
 /* Where the largest of the sample (ascending) is one that the law of peaks hardly ever has, or passes far more often.
  */
 void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t count);
-/* Tensions of runs in which lines parted, or offsets: those have no levels, since the vessel drifts on from there. */
-void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs, bool offset, int levels);
+/* Tensions of runs in which lines parted are told up to the least that was the largest of such a run [N], infinite:
+   all; offsets have no levels, since the vessel drifts on from there. */
+void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_t runs, bool offset, double least);
 /* The same of the series: halves that differ. */
 void extremes_doubt_series(extreme_result *out, const series_set *s);
 

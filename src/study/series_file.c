@@ -381,12 +381,22 @@ static void trim(double_array *value, const double_array *time, double step, dou
     value->count -= first;
 }
 
+/* Without values none. */
+static double greatest_of(const double_array *value)
+{
+    double most = value->count > 0 ? value->data[0] : HUGE_VAL;
+    for (int32_t i = 1; i < value->count; i++)
+        most = fmax(most, value->data[i]);
+    return most;
+}
+
 static fram_status read_file(context *ctx, const series_source *source, int32_t i, series_data *out, fram_error *error)
 {
     const char *path = source->files[i];
     series_rows rows = {0};
     double_array *value = &out->values[i];
     double from = -HUGE_VAL; /* times of a file may begin below zero */
+    int32_t parted = out->parted;
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)
@@ -405,6 +415,8 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
         else
             trim(value, &rows.time, 1, -1, source->minima);
         out->parts[i] = (series_part){value->data, value->count};
+        if (out->parted > parted && !source->minima)
+            out->held = fmin(out->held, greatest_of(value));
     }
     array_free(ctx, &rows.time);
     array_free(ctx, &rows.line);
@@ -432,7 +444,7 @@ static fram_status check_different(context *ctx, const series_source *source, fr
 
 fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error)
 {
-    *out = (series_data){.count = source->count};
+    *out = (series_data){.count = source->count, .held = HUGE_VAL};
     if (source->channel && strcmp(source->channel, "time") == 0 && !source->maxima && !(source->step > 0))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel",
                          "`time` tells when the values of the others were taken: name one of those");

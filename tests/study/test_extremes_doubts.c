@@ -397,7 +397,31 @@ START_TEST(no_end_of_an_interval_lies_under_the_law_s_location)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
+/* Of lines that parted at 300 kN and more. */
+START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
+{
+    static const extreme_result found = {.answered = true,
+                                         .most_probable = {2e5, 1e5, 3e5},
+                                         .level = {{2.9e5, 1e5, 4e5}, {3e5, 1e5, 4e5}, {4e5, 3e5, 6e5}}};
+    static extreme_result r[4];
+    for (int i = 0; i < 4; i++)
+        r[i] = found;
+    extremes_cut_parted(&r[0], 3, 0, 5, false, HUGE_VAL);
+    ck_assert(r[0].answered && isfinite(r[0].level[2].level) && r[0].note[0] == '\0');
+    extremes_cut_parted(&r[1], 3, 2, 5, false, 3e5);
+    ck_assert(r[1].answered && isfinite(r[1].most_probable.level) && isfinite(r[1].level[0].level));
+    ck_assert(isnan(r[1].level[1].level) && isnan(r[1].level[2].level));
+    ck_assert_msg(strstr(r[1].note, "in 2 of 5 runs") && strstr(r[1].note, "levels from 300 kN"), "%s", r[1].note);
+    extremes_cut_parted(&r[2], 3, 2, 5, true, HUGE_VAL);
+    ck_assert(!r[2].answered && isnan(r[2].level[0].level));
+    /* Least tensions have no such end. */
+    extremes_cut_parted(&r[3], 3, 2, 5, false, HUGE_VAL);
+    ck_assert(r[3].answered && isfinite(r[3].level[2].level) && strstr(r[3].note, "fewer lines."));
+}
+END_TEST
+
+TEST_MAIN("extremes_doubts", levels_that_parted_lines_did_not_hold_are_not_told,
+          many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
           rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
           no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
           a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,

@@ -143,6 +143,11 @@ class StationTest(StudyTest):
             for method in json.loads(done.stdout)["methods"]:
                 self.assertEqual("Lines parted in 1 of 2 runs" in method["note"], tells, method)
                 self.assertFalse(channel == "offset_x" and method["answered"], method)
+                # No tension is told that the lines of the run did not hold.
+                told = [l["level"] for l in (method["most_probable"], *method["levels"]) if l["level"] is not None]
+                if channel == "line_tension_max":
+                    self.assertTrue(all(t < float(parted[0]["line_tension_largest[N]"]) for t in told), method)
+                    self.assertIn("of a mooring with fewer lines: levels from", method["note"])
         year = {r["figure"]: r for r in self.rows("out", "annual.csv")}
         self.assertNotEqual(year["load_largest"]["level"], "")
         for figure in ("line_tension_largest", "offset_largest"):
