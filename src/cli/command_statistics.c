@@ -287,11 +287,16 @@ static int refuse_unused(const common_options *common, const fram_extremes_defin
         by = strcmp(d->method, methods_by[i].method) == 0 ? methods_by[i].by : by;
     if (d->maxima)
         by = BY_BLOCK | BY_FIT;
+    /* An order is a separation in values. */
+    bool ordered = by & BY_ORDER && given & BY_ORDER && d->method && strcmp(d->method, "acer") == 0;
+    if (ordered)
+        by &= ~(unsigned)BY_SEPARATION;
     for (size_t i = 0; i < sizeof by_names / sizeof *by_names; i++) {
         char text[80];
         if (!(given & ~by & 1u << i))
             continue;
-        snprintf(text, sizeof text, "has no effect on %s; leave it out", d->maxima ? "maxima" : d->method);
+        snprintf(text, sizeof text, "has no effect on %s%s; leave it out", d->maxima ? "maxima" : d->method,
+                 ordered && by_names[i] == by_names[2] ? " with --order" : "");
         return answer_usage(common, by_names[i], text);
     }
     return -1;

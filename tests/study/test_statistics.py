@@ -272,6 +272,7 @@ class Statistics(unittest.TestCase):
                                   (("--method", "gumbel"), "gumbel", ("--order", 3)),
                                   (("--method", "gev", "--block", 3), "gev", ("--separation", 3)),
                                   (("--method", "acer"), "acer", ("--fit", "moments")),
+                                  (("--method", "acer", "--order", 3), "acer with --order", ("--separation", 3)),
                                   (("--method", "pot", "--fit", "moments"), "pot", ("--block", 3)),
                                   (maxima, "maxima", ("--threshold", 3)), (maxima, "maxima", ("--order", 3)),
                                   ((*maxima, "--fit", "moments"), "maxima", ("--separation", 3))):
