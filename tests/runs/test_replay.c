@@ -43,6 +43,20 @@ static void remove_folder(const char *folder)
     ck_assert_int_eq(system(command), 0);
 }
 
+/* A run of a scene, opened to be read; its folder goes with the last reader. */
+static void run_and_open(context *ctx, const char *from, char folder[PATH], replay *r)
+{
+    fram_error error = {0};
+    run_scene(ctx, from, folder);
+    assert_ok(replay_open(ctx, folder, r, &error), error);
+}
+
+static void close_and_remove(replay *r, const char *folder)
+{
+    replay_close(r);
+    remove_folder(folder);
+}
+
 START_TEST(a_run_is_read_back)
 {
     context ctx;
@@ -96,8 +110,7 @@ START_TEST(a_run_is_read_back)
     ck_assert_int_ge(pieces, 2);
     /* Breaking loses next to no area, and births and deaths are in step. */
     ck_assert_double_le(fabs(area[1] / area[0] - 1), 0.01);
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 
@@ -119,8 +132,7 @@ START_TEST(contacts_of_large_floes_are_kept_whole)
     bool found = true;
     double most = 0;
     context_init(&ctx);
-    run_scene(&ctx, blow, folder);
-    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    run_and_open(&ctx, blow, folder, &r);
     while (found) {
         assert_ok(replay_next(&r, &found, &error), error);
         for (int32_t i = 0; found && i < r.frame.poses.count && r.frame.forces.count == 1; i++) {
@@ -135,8 +147,7 @@ START_TEST(contacts_of_large_floes_are_kept_whole)
         }
     }
     ck_assert_double_gt(most, 1e8);
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 
@@ -161,8 +172,7 @@ START_TEST(level_ice_is_known)
         bool found = false;
         int32_t tiles = 0, fixed = 0, shown[PLAN_STYLE_COUNT] = {0};
         context_init(&ctx);
-        run_scene(&ctx, from[k], folder);
-        assert_ok(replay_open(&ctx, folder, &r, &error), error);
+        run_and_open(&ctx, from[k], folder, &r);
         assert_ok(replay_next(&r, &found, &error), error);
         assert_ok(replay_moment_now(&r, &m, &error), error);
         assert_ok(replay_plan_make(&r, &m, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &plan, &error), error);
@@ -178,8 +188,7 @@ START_TEST(level_ice_is_known)
         ck_assert_int_eq(shown[PLAN_FIXED_ICE], fixed);
         replay_plan_free(&ctx, &plan);
         replay_moment_free(&ctx, &m);
-        replay_close(&r);
-        remove_folder(folder);
+        close_and_remove(&r, folder);
     }
 }
 END_TEST
@@ -212,8 +221,7 @@ START_TEST(a_propeller_astern_pushes_along_the_ship)
     replay_moment m = {0};
     fram_error error = {0};
     context_init(&ctx);
-    run_scene(&ctx, backing, folder);
-    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    run_and_open(&ctx, backing, folder, &r);
     assert_ok(replay_moment_at(&r, 0.4, &m, &error), error);
     ck_assert_int_eq(r.frame.forces.count, 1);
     const replay_force *f = &r.frame.forces.data[0];
@@ -221,8 +229,7 @@ START_TEST(a_propeller_astern_pushes_along_the_ship)
     ck_assert_double_lt(f->force.x, -100);
     assert_absolute(f->force.y / f->force.x, 0, 1e-4);
     replay_moment_free(&ctx, &m);
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 
@@ -254,8 +261,7 @@ START_TEST(a_moment_lies_between_its_frames)
     replay_close(&r);
     assert_ok(replay_open(&ctx, folder, &r, &error), error);
     ck_assert_int_eq(replay_moment_at(&r, -1, &m, &error), FRAM_ERROR_INPUT);
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 
@@ -311,8 +317,7 @@ START_TEST(a_turn_between_frames_is_the_short_one)
     replay_moment m = {0};
     fram_error error = {0};
     context_init(&ctx);
-    run_scene(&ctx, spinning, folder);
-    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    run_and_open(&ctx, spinning, folder, &r);
     double before = radians(250);
     for (int i = 1; i < 12; i++) {
         assert_ok(replay_moment_at(&r, 0.1 * i, &m, &error), error);
@@ -326,8 +331,7 @@ START_TEST(a_turn_between_frames_is_the_short_one)
         before = yaw;
     }
     replay_moment_free(&ctx, &m);
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 
@@ -455,8 +459,7 @@ START_TEST(contacts_of_an_earlier_layout_are_read)
         assert_ok(replay_next(&r, &found, &error), error);
         ck_assert_double_eq(r.frame.poses.data[0].contact_force, newton[i]);
     }
-    replay_close(&r);
-    remove_folder(folder);
+    close_and_remove(&r, folder);
 }
 END_TEST
 

@@ -27,13 +27,25 @@ static const capability_options plain = {.directions = 8,
 
 static double speed_for(double force, double area) { return sqrt(force / (1.25 * 0.5 * 1025 * area)); }
 
+static void find_in(scene *k, const char *text, const char *const *overrides, int count, const capability_options *o,
+                    capability *c)
+{
+    fram_error error = {0};
+    scene_open_with(k, text, overrides, count);
+    assert_ok(capability_find(&k->ctx, &k->s, o, c, &error), error);
+}
+
+static void close_found(scene *k, capability *c)
+{
+    capability_free(&k->ctx, c);
+    scene_close(k);
+}
+
 START_TEST(limits_by_hand)
 {
     scene k;
-    scene_open(&k, box);
     capability c;
-    fram_error error = {0};
-    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    find_in(&k, box, NULL, 0, &plain, &c);
     assert_relative(c.intact[0].speed, speed_for(60e3, 48), 2e-3);
     assert_relative(c.intact[4].speed, speed_for(30e3, 48), 2e-3);
     assert_relative(c.intact[2].speed, speed_for(100e3, 240), 2e-3);
@@ -49,8 +61,7 @@ START_TEST(limits_by_hand)
     /* Use grows with the square of the speed; ring 1 of direction 0 is 0.5 m/s. */
     double share = 0.25 / (speed_for(60e3, 48) * speed_for(60e3, 48));
     assert_relative(c.use[1].use, share, 2e-3);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
@@ -88,15 +99,12 @@ START_TEST(loads_of_wind_and_damping)
     static const char *const blown[] = {"environment.wind_speed=20", "environment.wind_direction_deg=70",
                                         "environment.hull_drag.air_form=1", "environment.current_speed=0.7"};
     scene k;
-    scene_open_with(&k, box, blown, sizeof blown / sizeof *blown);
     capability c;
-    fram_error error = {0};
-    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    find_in(&k, box, blown, sizeof blown / sizeof *blown, &plain, &c);
     assert_relative(c.loads.wind[0].x, -0.5 * 1.225 * 400 * 24, 1e-3);
     assert_relative(c.loads.wind[2].y, 0.5 * 1.225 * 400 * 120, 1e-3);
     assert_relative(c.loads.drag[2].y, 0.5 * 1025 * 240, 1e-3);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
@@ -106,10 +114,8 @@ START_TEST(no_loads_without_water)
     static const char *const dry[] = {"environment.wind_speed=20", "environment.hull_drag.air_form=1",
                                       "environment.water=false", "vessel.hydrodynamics.source=estimate"};
     scene k;
-    scene_open_with(&k, box, dry, sizeof dry / sizeof *dry);
     capability c;
-    fram_error error = {0};
-    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    find_in(&k, box, dry, sizeof dry / sizeof *dry, &plain, &c);
     const vec3 none = {0, 0, 0};
     for (int i = 0; i < plain.directions; i++) {
         assert_vec3_close(c.loads.wind[i], none, 0);
@@ -117,8 +123,7 @@ START_TEST(no_loads_without_water)
         assert_vec3_close(c.loads.damping[i], none, 0);
         ck_assert_msg(c.intact[i].beyond && c.intact[i].at.use < 1e-3, "use %g", c.intact[i].at.use);
     }
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
@@ -126,15 +131,12 @@ END_TEST
 START_TEST(out_of_order_from_the_start)
 {
     scene k;
-    scene_open_with(&k, box, (const char *const[]){"vessel.thrusters[1].failure_time=0"}, 1);
     capability c;
-    fram_error error = {0};
-    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    find_in(&k, box, (const char *const[]){"vessel.thrusters[1].failure_time=0"}, 1, &plain, &c);
     ck_assert_int_eq(c.failures, 2);
     ck_assert(c.failure[0].number == 0 && c.failure[1].number == 2);
     ck_assert(c.intact[2].speed < 1e-3 && c.intact[0].speed > 1);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
     static const char moored[] =
         "vessel:\n  mode: free\n  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}\n"
         "  mooring:\n    lines:\n"
@@ -143,12 +145,10 @@ START_TEST(out_of_order_from_the_start)
         "      - {kind: spring, distance: 300, stiffness: 1.0e4, pretension: 1.0e5, breaking_load: 4.0e5,\n"
         "         fairlead_distance: 30, direction_deg: 180}\n"
         "ice: {source: none}\ndomain: {boundary: open}\n";
-    scene_open(&k, moored);
-    assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
+    find_in(&k, moored, NULL, 0, &plain, &c);
     ck_assert_int_eq(c.failures, 1);
     ck_assert(c.failure[0].line && c.failure[0].number == 1);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
@@ -167,9 +167,7 @@ static capability find_with(const char *const *overrides, int count, const capab
 {
     scene k;
     capability c;
-    fram_error error = {0};
-    scene_open_with(&k, sprung, overrides, count);
-    assert_ok(capability_find(&k.ctx, &k.s, o, &c, &error), error);
+    find_in(&k, sprung, overrides, count, o, &c);
     scene_close(&k);
     return c;
 }
@@ -295,8 +293,7 @@ START_TEST(use_as_it_is_written)
     }
     ck_assert(differ);
     csv_table_free(&k.ctx, &t);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
     static const char *const files[] = {"capability.csv", "capability_use.csv", "capability.json", "capability.png",
                                         "capability.svg"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
@@ -428,8 +425,7 @@ START_TEST(measured_ice)
     assert_relative(load[1].x, by_hand.x, 1e-12);
     assert_relative(load[1].y, by_hand.y, 1e-12);
     assert_relative(load[1].z, by_hand.z, 1e-12);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
@@ -473,8 +469,7 @@ START_TEST(speeds_that_are_measured)
     k.s.vessel.centre_of_gravity_y = 1;
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     ck_assert(c.loads.runs == 4);
-    capability_free(&k.ctx, &c);
-    scene_close(&k);
+    close_found(&k, &c);
 }
 END_TEST
 
