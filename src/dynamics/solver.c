@@ -106,6 +106,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
         if (!contact_rows_recall(s, contacts, memory) || !solver_warm_start(s))
             return error_memory(error);
     }
+    contact_rows_reach_caps(s, bodies, contacts);
     int32_t iterations;
     status = iterate(s, settings, &iterations, error);
     if (status != FRAM_OK)

@@ -389,8 +389,11 @@ bool acceleration_go_on(stage *st, double energy, double wanted)
     gather_joints(s);
     direction_products sum = products_of(st, wanted, &value);
     a->scale = fmax(a->scale, sum.square);
-    if (energy <= NOTHING_LEFT * a->scale || sum.direction[0] <= NOTHING_LEFT * a->scale)
+    if (energy <= NOTHING_LEFT * a->scale)
         return false;
+    /* Impulses on what a joint locks change no velocity, and may have far to go. */
+    if (sum.direction[0] <= NOTHING_LEFT * a->scale)
+        return s->guided.count > 0 && !st->positions;
     if (failed(a, value, energy)) {
         roll_back(s);
         a->wanted_start = a->kept_wanted;

@@ -33,6 +33,83 @@ void contact_load_immovable(const body_table *bodies, contact *c)
     }
 }
 
+/* ---- guided bodies ---- */
+
+/* A direction answers when it has more than this share of the free inverse mass. */
+#define ANSWERING_SHARE 1e-12
+
+static vec3 point_velocity(const body_table *bodies, const contact *c, int32_t slot)
+{
+    vec3 v = body_point_velocity(bodies, slot, c->point);
+    v.z += body_is_dynamic(bodies, slot) || c->give == 0 ? 0 : c->recoil;
+    return v;
+}
+
+/* The unit direction in the plane of the tangents that no impulse changes a velocity along; with both such: that of the
+   slip u.  false: none. */
+static bool locked_tangent(sym3 w, const vec3 tangent[2], const double u[2], double along[2])
+{
+    vec3 w1 = sym3_mul_vec(w, tangent[0]), w2 = sym3_mul_vec(w, tangent[1]);
+    double k11 = vec3_dot(tangent[0], w1), k12 = vec3_dot(tangent[0], w2), k22 = vec3_dot(tangent[1], w2);
+    double least = ANSWERING_SHARE * (w.xx + w.yy + w.zz);
+    if (k11 + k22 > least && k11 * k22 - k12 * k12 > least * (k11 + k22))
+        return false;
+    bool both = k11 + k22 <= least;
+    along[0] = both ? u[0] : k11 > k22 ? -k12 : k22;
+    along[1] = both ? u[1] : k11 > k22 ? k11 : -k12;
+    double length = sqrt(along[0] * along[0] + along[1] * along[1]);
+    if (length == 0)
+        return false;
+    along[0] /= length;
+    along[1] /= length;
+    return true;
+}
+
+void contact_reach_cap(const body_table *bodies, const contact *c, sym3 w, guided_point *p)
+{
+    vec3 va = point_velocity(bodies, c, c->a), vb = point_velocity(bodies, c, c->b), tangent[2], u = vec3_sub(va, vb);
+    double least = RESOLVED_SHARE * (vec3_length(va) + vec3_length(vb));
+    double approach = p->bias - vec3_dot(u, c->normal), limit = c->impulse_limit;
+    if (approach <= least || !isfinite(limit) || vec3_dot(c->normal, sym3_mul_vec(w, c->normal)) * limit >= approach)
+        return;
+    p->normal_mass = fmax(p->normal_mass, limit / approach);
+    contact_tangents(c->normal, &tangent[0], &tangent[1]);
+    double along[2], slip[2] = {vec3_dot(u, tangent[0]), vec3_dot(u, tangent[1])}, cone = c->friction_kinetic * limit;
+    if (!locked_tangent(w, tangent, slip, along))
+        return;
+    double sliding = along[0] * slip[0] + along[1] * slip[1];
+    if (fabs(sliding) <= least || fabs(sliding) * p->slide >= cone)
+        return;
+    double change = (sliding > 0 ? -cone : cone) - (along[0] * p->tangent[0] + along[1] * p->tangent[1]);
+    p->tangent[0] += change * along[0];
+    p->tangent[1] += change * along[1];
+    p->slides = true;
+}
+
+static bool turns(const solver_body *b)
+{
+    return b->inverse_inertia.xx + b->inverse_inertia.yy + b->inverse_inertia.zz > 0;
+}
+
+void contact_rows_reach_caps(solver *s, const body_table *bodies, const contact_array *contacts)
+{
+    for (int32_t i = 0; i < s->contacts.count && s->guided.count > 0; i++) {
+        contact_row *row = &s->contacts.data[i];
+        const solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
+        if ((!a->guided && !b->guided) || turns(a) || turns(b))
+            continue;
+        guided_point p = {row->bias, row->slide, row->normal_mass, {row->impulse[1], row->impulse[2]}, false};
+        contact_reach_cap(bodies, &contacts->data[row->contact], inverse_mass_of_both(a->inverse_mass, b->inverse_mass),
+                          &p);
+        row->normal_mass = p.normal_mass;
+        row->impulse[1] = p.tangent[0];
+        row->impulse[2] = p.tangent[1];
+        row->slip = p.slides ? HUGE_VAL : row->slip;
+    }
+}
+
+/* ---- rows ---- */
+
 static void fill_row(contact_row *row, const solver_body *a, const solver_body *b, const contact *c, vec3 arm_a,
                      vec3 arm_b)
 {

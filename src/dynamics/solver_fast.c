@@ -279,6 +279,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         if (!fast_warm_start(&st))
             return error_memory(error);
     }
+    fast_rows_reach_caps(&st);
     if (!sweep_until_settled(&st, sweep_task, &f->impulse, (int64_t)IMPULSE_ROWS * f->plan.points, settings->iterations,
                              &report->iterations))
         return error_memory(error);

@@ -112,6 +112,8 @@ void fast_driven_make(stage *st);
 double fast_energy(const fast_rows *f);
 /* Rows of bodies and contacts. */
 bool fast_rows_make(stage *st);
+/* contact_reach_cap for all points of guided bodies, after the warm start. */
+void fast_rows_reach_caps(stage *st);
 /* Whether the rows of a batch are still those of its contacts: bodies, normals, arms. */
 bool fast_batch_fits(const stage *st, int32_t number);
 

@@ -369,6 +369,56 @@ bool fast_rows_make(stage *st)
     return true;
 }
 
+/* ---- guided bodies ---- */
+
+static bool is_guided(const solver *s, int32_t slot)
+{
+    int32_t place = s->place.data[slot];
+    return place >= 0 && s->bodies.data[place].guided;
+}
+
+static void reach_cap(const stage *st, const contact *c, const contact_batch *batch, int32_t point, int32_t lane)
+{
+    const fast_rows *f = st->s->fast;
+    double *row = row_of(&f->point, POINT_ROWS * point) + lane;
+    double *impulse = row_of(&f->impulse, IMPULSE_ROWS * point) + lane;
+    sym3 w = inverse_mass_of_both(tensor_of(row_of(&f->tensor, batch->a[lane])),
+                                  tensor_of(row_of(&f->tensor, batch->b[lane])));
+    guided_point p = {row[BATCH_LANES * POINT_BIAS],
+                      row[BATCH_LANES * POINT_SLIDE],
+                      row[BATCH_LANES * POINT_MASS],
+                      {impulse[BATCH_LANES], impulse[BATCH_LANES * 2]},
+                      false};
+    contact_reach_cap(st->bodies, c, w, &p);
+    row[BATCH_LANES * POINT_MASS] = p.normal_mass;
+    impulse[BATCH_LANES] = p.tangent[0];
+    impulse[BATCH_LANES * 2] = p.tangent[1];
+    row[BATCH_LANES * POINT_SLIP] = p.slides ? HUGE_VAL : row[BATCH_LANES * POINT_SLIP];
+}
+
+static void reach_caps_task(const stage *st, batch_task *task)
+{
+    const solver *s = st->s;
+    for (int32_t i = task->first; i < task->end; i++) {
+        const contact_batch *batch = &s->fast->plan.batches.data[i];
+        for (int32_t lane = 0; lane < BATCH_LANES && batch->driven; lane++) {
+            const contact *first = batch->contact[0][lane] < 0 ? NULL : &st->contacts->data[batch->contact[0][lane]];
+            if (!first || (!is_guided(s, first->a) && !is_guided(s, first->b)) || !is_driven(st, first->a) ||
+                !is_driven(st, first->b))
+                continue;
+            for (int32_t k = 0; k < batch->points; k++)
+                if (batch->contact[k][lane] >= 0)
+                    reach_cap(st, &st->contacts->data[batch->contact[k][lane]], batch, batch->first + k, lane);
+        }
+    }
+}
+
+void fast_rows_reach_caps(stage *st)
+{
+    if (st->s->guided.count > 0)
+        stage_run(st, reach_caps_task);
+}
+
 /* ---- rows again ---- */
 
 /* Bits are compared: the rows hold the very numbers. */

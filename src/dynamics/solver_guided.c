@@ -11,8 +11,9 @@
 
 /* What contacts see of the mass that a guide takes away, as a share of 1 / m: a row between a guided body and one that
    nothing can move has no answer of its own, but a normal impulse must grow to its cap while they approach, and
-   friction to its cone while they slide.  Small enough to be nothing beside a free direction; what is left of it is
-   that slips of rounding, 1e-16 of the speed, bring forces of 1e-9 N per tonne and step. */
+   friction to its cone while they slide (slow bodies: contact_reach_cap).  Small enough to be nothing beside a free
+   direction; what is left of it is that slips of rounding, 1e-16 of the speed, bring forces of 1e-9 N per tonne and
+   step. */
 #define GUIDED_GIVE 0.1
 
 /* ---- which bodies, and their free mass ---- */

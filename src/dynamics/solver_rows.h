@@ -119,6 +119,20 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
                               contact_array *contacts, fram_error *error);
 /* The impulse of a contact between two bodies that nothing can move. */
 void contact_load_immovable(const body_table *bodies, contact *c);
+/* A point of a guided body against one that nothing moves, or an edge that bends. */
+typedef struct guided_point {
+    double bias, slide; /* as of contact_row */
+    double normal_mass;
+    double tangent[2]; /* impulses */
+    bool slides;       /* whatever contacts carry */
+} guided_point;
+/* Where even the whole cap does not stop the approach the normal takes it in one sweep, and friction along what nothing
+   answers starts on the cone: both are decided, and steps by a share of the mass may be far too short for them. Changes
+   nothing where a sweep reaches as far without it.  Velocities of the table are those without impulses; w: sum of the
+   free inverse masses. */
+void contact_reach_cap(const body_table *bodies, const contact *c, sym3 w, guided_point *p);
+/* The same for all rows, after the warm start. */
+void contact_rows_reach_caps(solver *s, const body_table *bodies, const contact_array *contacts);
 /* Impulses of the last step into the rows, within this step's bounds; solver_warm_start applies them.
    false: no memory. */
 bool contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory);
@@ -228,6 +242,17 @@ static inline double correction_share(const contact *c, double rate)
 static inline double correction_velocity(const contact *c, const solver_settings *settings, double dt)
 {
     return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
+}
+
+/* The inverse mass by which both bodies of a contact give way to each other. */
+static inline sym3 inverse_mass_of_both(sym3 a, sym3 b)
+{
+    return (sym3){.xx = a.xx + b.xx,
+                  .yy = a.yy + b.yy,
+                  .zz = a.zz + b.zz,
+                  .xy = a.xy + b.xy,
+                  .xz = a.xz + b.xz,
+                  .yz = a.yz + b.yz};
 }
 
 static inline row_axis row_axis_make(const solver_body *a, const solver_body *b, vec3 direction, vec3 arm_a, vec3 arm_b)
