@@ -24,7 +24,8 @@ typedef struct verdict {
     report *r;
     ARRAY(finding) findings;
     bool failed;     /* no memory for one */
-    bool kept, lost; /* a limit of station is set: every vessel stayed within, or one did not */
+    bool kept, lost; /* a limit of station is set: every vessel stayed within, or one did not, */
+    bool unsure;     /* or may not have */
     int32_t lines, parted;
     char load[128]; /* of a single vessel */
 } verdict;
@@ -110,26 +111,19 @@ static void judge_tracks(verdict *v)
 
 typedef struct limit_use {
     double most, part; /* largest value; part of the time beyond */
-    double first;      /* [s] when it was first passed */
+    double first;      /* [s] when it was first passed; HUGE_VAL: not that it is known */
+    bool unsure;       /* it may have been, in steps without a row */
 } limit_use;
 
-/* When the run's own events of every step tell that something began (kind) from a time on, or that it went on then and
-   was not yet over; HUGE_VAL without.  The series may have left those steps out. */
-static double begun_from(const report *r, const char *kind, const char *over, double from)
+/* What the run's own events tell of the steps that the series leaves out.  What was lost before the transient ended is
+   regained within 0.9 of the limit only: it may have been within the limit since. */
+static limit_use limit_between(const report *r, station_event lost, station_event regained)
 {
-    const run_note *n = &r->d.note;
-    const char *name = scenario_vessel_name(&r->d.s, r->vessel);
-    double since = HUGE_VAL;
-    for (int32_t i = 0; i < n->events.count; i++) {
-        const run_event *e = &n->events.data[i];
-        if (strcmp(e->vessel, name ? name : "") != 0)
-            continue;
-        if (strcmp(e->kind, kind) == 0)
-            since = fmin(since, fmax(e->time, from));
-        else if (strcmp(e->kind, over) == 0 && e->time <= from)
-            since = HUGE_VAL;
-    }
-    return since;
+    double from = r->d.s.run.transient;
+    if (!run_leaves_out_steps(&r->d))
+        return (limit_use){.first = HUGE_VAL};
+    return (limit_use){.first = run_event_from(&r->d, r->vessel, lost, from),
+                       .unsure = run_event_goes_on(&r->d, r->vessel, lost, regained, from)};
 }
 
 /* Of the size of one channel, or of a vector of two, after the transient. */
@@ -137,9 +131,8 @@ static limit_use limit_of(const report *r, const char *x_name, const char *y_nam
 {
     const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, x_name);
     const double *y = y_name ? run_vessel_channel(&r->d, r->vessel, y_name) : NULL;
-    limit_use u = {0};
-    u.first = begun_from(r, y_name ? "position_lost" : "heading_lost",
-                         y_name ? "position_regained" : "heading_regained", r->d.s.run.transient);
+    limit_use u = y_name ? limit_between(r, EVENT_POSITION_LOST, EVENT_POSITION_REGAINED)
+                         : limit_between(r, EVENT_HEADING_LOST, EVENT_HEADING_REGAINED);
     int32_t first = run_first_row(&r->d), rows = r->d.series.rows, beyond = 0;
     for (int32_t i = first; time && x && i < rows; i++) {
         double size = y ? sqrt(x[i] * x[i] + y[i] * y[i]) : fabs(x[i]);
@@ -149,6 +142,7 @@ static limit_use limit_of(const report *r, const char *x_name, const char *y_nam
             u.first = fmin(u.first, time[i]);
     }
     u.part = rows > first ? (double)beyond / (rows - first) : 0;
+    u.unsure = u.unsure && !isfinite(u.first);
     return u;
 }
 
@@ -164,7 +158,13 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
     }
     v->kept = true;
     v->lost |= isfinite(u.first);
-    if (isfinite(u.first) && !(u.most > limit))
+    v->unsure |= u.unsure;
+    if (u.unsure)
+        find(v, VERDICT_CAUTION, "Make output.csv_interval shorter to see.",
+             "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, between two rows of the series, which "
+             "reaches %s %s.",
+             name, what, limit, unit, v->r->d.s.run.transient, most, unit);
+    else if (isfinite(u.first) && !(u.most > limit))
         find(v, VERDICT_BAD, "Make output.csv_interval shorter to see by how much.",
              "%sthe %s passed its limit of %.4g %s at %.6g s, between two rows of the series, which reaches %s %s.",
              name, what, limit, unit, u.first, most, unit);
@@ -214,7 +214,8 @@ static void judge_lines(verdict *v)
     whose(r, name);
     v->lines += number;
     v->parted += gone;
-    double broke = begun_from(r, "line_break", "", 0), when = fmin(broke, begun_from(r, "line_release", "", 0));
+    double broke = run_event_from(&r->d, r->vessel, EVENT_LINE_BREAK, 0);
+    double when = fmin(broke, run_event_from(&r->d, r->vessel, EVENT_LINE_RELEASE, 0));
     /* Lines that were let go did not. */
     bool beyond = gone > 0 && (isfinite(broke) || !isfinite(when));
     if (gone > 0)
@@ -453,13 +454,13 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
     else if (v->lines == 1)
         snprintf(lines, sizeof lines, " The line did not part.");
     bool several = scenario_vessel_count(&r->d.s) > 1;
-    const char *who = several ? "Every vessel with a limit" : "The vessel";
-    snprintf(out, TEXT_SIZE, "%s%s%s%s",
-             v->lost   ? (several ? "A vessel did not hold its station." : "The vessel did not hold its station.")
-             : v->kept ? who
-                       : (finished ? "The run finished." : "The run has not finished."),
-             v->kept && !v->lost ? (finished ? " held its station." : " held its station as far as the run went.") : "",
-             lines, v->kept ? "" : v->load);
+    const char *who = !several ? "The vessel" : v->lost || v->unsure ? "A vessel" : "Every vessel with a limit";
+    const char *did = v->lost     ? " did not hold its station."
+                      : v->unsure ? " may not have held its station."
+                      : finished  ? " held its station."
+                                  : " held its station as far as the run went.";
+    const char *end = finished ? "The run finished." : "The run has not finished.";
+    snprintf(out, TEXT_SIZE, "%s%s%s%s", v->kept ? who : end, v->kept ? did : "", lines, v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;
     for (int32_t i = 0; i < v->findings.count; i++)
         worst = v->findings.data[i].grade > worst ? v->findings.data[i].grade : worst;

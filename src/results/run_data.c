@@ -6,7 +6,6 @@
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/replay.h"
-#include "vessel/event.h"
 
 #include <math.h>
 #include <string.h>
@@ -321,14 +320,39 @@ static int32_t lines_gone_unasked(const run_data *d, int32_t vessel)
     return (int32_t)fmax(parted[d->series.rows - 1] - released, 0);
 }
 
-int32_t run_lines_broken(const run_data *d, int32_t vessel)
+static bool is_event(const run_data *d, const run_event *e, int32_t vessel, station_event kind)
 {
     const char *name = scenario_vessel_name(&d->s, vessel);
-    int32_t broken = 0;
+    return strcmp(e->kind, event_name(kind)) == 0 && strcmp(e->vessel, name ? name : "") == 0;
+}
+
+double run_event_from(const run_data *d, int32_t vessel, station_event kind, double from)
+{
+    double first = HUGE_VAL;
     for (int32_t i = 0; i < d->note.events.count; i++) {
         const run_event *e = &d->note.events.data[i];
-        broken += strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 && strcmp(e->vessel, name ? name : "") == 0;
+        if (e->time >= from && is_event(d, e, vessel, kind))
+            first = fmin(first, e->time);
     }
+    return first;
+}
+
+bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at)
+{
+    bool on = false;
+    for (int32_t i = 0; i < d->note.events.count; i++) {
+        const run_event *e = &d->note.events.data[i];
+        if (e->time <= at && is_event(d, e, vessel, on ? over : kind))
+            on = !on;
+    }
+    return on;
+}
+
+int32_t run_lines_broken(const run_data *d, int32_t vessel)
+{
+    int32_t broken = 0;
+    for (int32_t i = 0; i < d->note.events.count; i++)
+        broken += is_event(d, &d->note.events.data[i], vessel, EVENT_LINE_BREAK);
     /* A note may lack events: of a run that goes on, or that had more than it holds. */
     int32_t gone = lines_gone_unasked(d, vessel);
     return broken > gone ? broken : gone;
@@ -351,6 +375,8 @@ int32_t run_first_row(const run_data *d)
         first++;
     return first;
 }
+
+bool run_leaves_out_steps(const run_data *d) { return floor(d->s.output.csv_interval / d->s.run.time_step + 0.5) > 1; }
 
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
 {

@@ -8,6 +8,7 @@
 #include "io/path.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
+#include "vessel/event.h"
 
 /* What befell a vessel, as run.json has it. */
 typedef struct run_event {
@@ -64,12 +65,18 @@ bool run_is_open(const run_data *d);
 const double *run_channel(const run_data *d, const char *name);
 /* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
+/* When the run's own events of every step tell that something began from a time on [s]; HUGE_VAL: they do not. */
+double run_event_from(const run_data *d, int32_t vessel, station_event kind, double from);
+/* Whether something had begun at a time and was not yet over. */
+bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at);
 /* Lines of a vessel that parted, whenever that was, but not those that the scenario let go. */
 int32_t run_lines_broken(const run_data *d, int32_t vessel);
 /* Events of a kind in fractures.csv, enum fracture_kind. */
 int32_t run_fractures(const run_data *d, int kind);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
+/* Whether rows of the series are more than a step apart. */
+bool run_leaves_out_steps(const run_data *d);
 /* That the series has no rows. */
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error);
 
