@@ -204,6 +204,37 @@ expect 0 "$FRAM" manage clear -q
 grep -q "No ice came to the vessel" clear/manage.html || fail "the page does not say that no ice came"
 grep -qE 'Floe sizes|Managed ice at the vessel' clear/manage.html && fail "the page has charts of nothing"
 
+# A model of 1:150 has the windows of full size, and times of its own scale: also where its ice comes at 4 mm/s, and the
+# ship goes twice as fast after a minute of full size.
+python3 - <<'PY'
+for name, k in (("whole", 1), ("tank", 1 / 150)):
+    t = k ** 0.5
+    path = ", ".join(f"{{time: {60 * i * t!r}, x: {x * k!r}}}" for i, x in enumerate((0, 3, 9)))
+    open(name + ".yaml", "w").write(f"""
+run: {{duration: {120 * t!r}, time_step: {t / 4!r}, scale: {30 * k!r}}}
+vessel:
+  mode: towed
+  hull: {{form: box, length: {40 * k!r}, beam: {10 * k!r}, draught: {4 * k!r}, freeboard: {2 * k!r}}}
+  path: [{path}]
+ice: {{source: floes, thickness: {k!r}, floes: [{{length: {30 * k!r}, width: {8 * k!r}, x: {150 * k!r}}}]}}
+domain: {{x_min: {-100 * k!r}, x_max: {200 * k!r}, y_min: {-50 * k!r}, y_max: {50 * k!r}, boundary: open}}
+environment: {{water: false}}
+output: {{frame_interval: {10 * t!r}}}
+""")
+PY
+for run in whole tank; do
+    expect 0 "$FRAM" run $run.yaml -o $run -q
+    expect 0 "$FRAM" manage $run --json -q
+    mv out $run.json
+done
+python3 - <<'PY' || fail "a model has other results than full size"
+import json
+whole, tank = (json.load(open(name + ".json"))["run"] for name in ("whole", "tank"))
+assert whole["at_vessel"]["windows"] == tank["at_vessel"]["windows"] == 13, (whole, tank)
+for key in ("unmanaged_comes_in_least", "unmanaged_comes_in_median"):
+    assert 0 < whole[key] < 3000 and abs(tank[key] * 150 ** 0.5 / whole[key] - 1) < 1e-4, (key, whole[key], tank[key])
+PY
+
 # What cannot be told is refused.
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere
