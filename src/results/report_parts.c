@@ -115,6 +115,6 @@ void report_statistics(report *r, const char *channel, const char *name, double 
     html_number(&r->page, s.deviation);
     html_number(&r->page, s.least);
     html_number(&r->page, s.greatest);
-    html_number(&r->page, s.peaks > 0 ? s.significant : (double)NAN);
+    html_number(&r->page, isfinite(s.mean) ? s.significant : (double)NAN);
     html_row_end(&r->page);
 }

@@ -281,6 +281,10 @@ def check_water(folder, pictures):
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
     assert message in page, page[page.index("The run failed"):][:600]
+    # What is significant of a value that is held is the value.
+    tables = Tables()
+    tables.feed(page)
+    assert tables.rows["contact points"] == ["0"] * 5, tables.rows["contact points"]
     if pictures:
         assert 'alt="Position"' in page
         for chart in ("Histogram of the load", "Exceedance of the load", "Roll and pitch"):
