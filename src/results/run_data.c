@@ -310,14 +310,15 @@ const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *
     return own ? own : run_channel(d, name);
 }
 
-/* By the channel, which counts lines that were let go too: at least so many parted. */
+/* By the channel, which counts lines that were let go until its last row too: at least so many parted. */
 static int32_t lines_gone_unasked(const run_data *d, int32_t vessel)
 {
-    const double *parted = run_vessel_channel(d, vessel, "lines_parted");
-    if (!parted || d->series.rows == 0 || vessel >= scenario_vessel_count(&d->s))
+    const double *parted = run_vessel_channel(d, vessel, "lines_parted"), *time = run_channel(d, "time");
+    int32_t last = d->series.rows - 1;
+    if (!parted || !time || last < 0 || vessel >= scenario_vessel_count(&d->s))
         return 0;
-    double released = scenario_released_lines(scenario_vessel_entry(&d->s, vessel).keys, d->s.run.duration);
-    return (int32_t)fmax(parted[d->series.rows - 1] - released, 0);
+    double released = scenario_released_lines(scenario_vessel_entry(&d->s, vessel).keys, time[last]);
+    return (int32_t)fmax(parted[last] - released, 0);
 }
 
 static bool is_event(const run_data *d, const run_event *e, int32_t vessel, station_event kind)
