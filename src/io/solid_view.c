@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Nearer than this nothing is drawn [m]. */
-static const double nearest = 0.5;
+/* Nearer than this part of the distance of what is looked at nothing is drawn, of whatever size the scene is. */
+static const double nearest = 1e-3;
 /* Light from behind the left shoulder of who looks along Y; the rest comes from everywhere. */
 static const vec3 light = {-0.2624, -0.4592, 0.8487};
 static const double ambient = 0.58;
@@ -21,6 +21,7 @@ fram_status solid_view_begin(context *ctx, const solid_camera *camera, int width
     v->right = vec3_unit(vec3_cross(v->ahead, vec3_make(0, 0, 1)));
     v->up = vec3_cross(v->right, v->ahead);
     v->focal = camera->zoom * v->height;
+    v->nearest = nearest * vec3_length(vec3_sub(camera->target, camera->eye));
     size_t count = (size_t)v->width * (size_t)v->height;
     v->nearness = memory_array(ctx, count, sizeof *v->nearness);
     v->pixel = memory_array(ctx, count, 3);
@@ -90,17 +91,17 @@ static void fill(solid_view *v, const spot p[3], const unsigned char rgb[3])
     }
 }
 
-/* What of a polygon of up to four corners lies beyond `nearest`; the number of its corners. */
-static int clip(const vec3 in[3], vec3 out[4])
+/* What of a triangle lies beyond z, in up to four corners; their number. */
+static int clip(double z, const vec3 in[3], vec3 out[4])
 {
     int count = 0;
     for (int i = 0; i < 3; i++) {
         vec3 a = in[i], b = in[(i + 1) % 3];
-        bool a_in = a.z >= nearest, b_in = b.z >= nearest;
+        bool a_in = a.z >= z, b_in = b.z >= z;
         if (a_in)
             out[count++] = a;
         if (a_in != b_in)
-            out[count++] = vec3_mad(a, vec3_sub(b, a), (nearest - a.z) / (b.z - a.z));
+            out[count++] = vec3_mad(a, vec3_sub(b, a), (z - a.z) / (b.z - a.z));
     }
     return count;
 }
@@ -119,7 +120,7 @@ void solid_view_triangle(solid_view *v, vec3 a, vec3 b, vec3 c, const double rgb
     unsigned char colour[3];
     shade(rgb, ambient + (1 - ambient) * fmax(0, vec3_dot(normal, light)) * 1.15, colour);
     vec3 corner[3] = {to_eye(v, a), to_eye(v, b), to_eye(v, c)}, kept[4];
-    int count = clip(corner, kept);
+    int count = clip(v->nearest, corner, kept);
     for (int i = 2; i < count; i++) {
         spot p[3] = {spot_of(v, kept[0]), spot_of(v, kept[i - 1]), spot_of(v, kept[i])};
         fill(v, p, colour);
@@ -129,7 +130,7 @@ void solid_view_triangle(solid_view *v, vec3 a, vec3 b, vec3 c, const double rgb
 void solid_view_line(solid_view *v, vec3 a, vec3 b, const double rgb[3])
 {
     vec3 p = to_eye(v, a), q = to_eye(v, b);
-    if (p.z < nearest || q.z < nearest)
+    if (p.z < v->nearest || q.z < v->nearest)
         return;
     spot s = spot_of(v, p), t = spot_of(v, q);
     double length = fmax(fabs(t.x - s.x), fabs(t.y - s.y));
@@ -165,7 +166,7 @@ void solid_view_water(solid_view *v, const double rgb[3], double cover)
 bool solid_view_place(const solid_view *v, vec3 p, double *x, double *y)
 {
     vec3 e = to_eye(v, p);
-    if (e.z < nearest)
+    if (e.z < v->nearest)
         return false;
     spot s = spot_of(v, e);
     *x = s.x / SOLID_FINE;

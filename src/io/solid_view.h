@@ -18,6 +18,7 @@ typedef struct solid_view {
     int width, height; /* fine pixels */
     vec3 eye, right, up, ahead;
     double focal;         /* fine pixels */
+    double nearest;       /* depth from which on things are drawn [m] */
     float *nearness;      /* 1 over the depth along `ahead` [1/m]; 0: nothing there */
     unsigned char *pixel; /* r g b */
 } solid_view;

@@ -48,5 +48,14 @@ def size(files):
     assert len(set(sizes)) == 1, sizes
 
 
+def hulls(files):
+    """As much of each picture is a hull's red."""
+    red = []
+    for file in files:
+        width, height, at = read(file)
+        red.append(sum(r > 1.6 * g for r, g, _ in (at(x, y) for x in range(width) for y in range(height))))
+    assert max(red) > 1000 and max(red) - min(red) < 0.01 * max(red), red
+
+
 if __name__ == "__main__":
-    {"scales": scales, "wet": wet, "size": size}[sys.argv[1]](sys.argv[2:])
+    {"scales": scales, "wet": wet, "size": size, "hulls": hulls}[sys.argv[1]](sys.argv[2:])

@@ -333,6 +333,20 @@ if [ $pictures = yes ]; then
     [ ! -e endless ] || fail "a refused video left a folder"
     expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
     cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
+    # A model looks as it does in full size.
+    for scale in 30 0.2; do
+        python3 -S - $scale >model.yaml <<'PY'
+import sys
+k = float(sys.argv[1])
+print(f"""run: {{duration: 0.01, time_step: 0.01, scale: {k}}}
+vessel: {{mode: prescribed, hull: {{form: box, length: {k}, beam: {k / 3}, draught: {k / 9}, freeboard: {k / 9}}}}}
+ice: {{source: none}}
+domain: {{x_min: {-2 * k}, x_max: {2 * k}, y_min: {-1.5 * k}, y_max: {1.5 * k}}}""")
+PY
+        expect 0 "$FRAM" run model.yaml -o model$scale -q
+        expect 0 "$FRAM" video model$scale --pictures --camera follow --width 480 --height 360 -o model$scale/video
+    done
+    expect 0 python3 "$FRAM_SOURCE/tests/cli/pixels.py" hulls model*/video/frame-000000.png
     # A folder with something in it is left alone; by force a shorter series leaves nothing of a longer one.
     expect 2 "$FRAM" video run --pictures --fps 1 --width 480 --height 360 -o frames
     says "the folder is not empty" err
