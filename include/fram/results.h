@@ -35,7 +35,7 @@ FRAM_API fram_status fram_export_vtk(fram_context *context, const char *run, con
 FRAM_API fram_status fram_export_geojson(fram_context *context, const char *run, const char *output, double time,
                                          fram_result *result, fram_error *error, size_t size);
 #define fram_export_geojson(...) fram_export_geojson(__VA_ARGS__, sizeof(fram_result))
-/* NetCDF-4, which is HDF5: all channels, all fractures, all floes over the frames (RUN/run.nc).
+/* NetCDF-4, which is HDF5: all channels, all fractures, all floes over the frames that there are (RUN/run.nc).
    FRAM_ERROR_UNSUPPORTED in a build without NetCDF.  After FRAM_ERROR_IO for want of room HDF5 (1.10) may crash in its
    exit handler, when it tries again: leave by _exit. */
 FRAM_API fram_status fram_export_netcdf(fram_context *context, const char *run, const char *output, fram_result *result,

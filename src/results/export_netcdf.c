@@ -74,7 +74,7 @@ typedef struct floe_tracks {
 static fram_status count_floes(floe_tracks *t, const char *folder, fram_error *error)
 {
     bool found = true;
-    fram_status status = replay_open(t->ctx, folder, &t->r, error);
+    fram_status status = replay_open_any(t->ctx, folder, &t->r, error);
     if (status != FRAM_OK)
         return status;
     while (status == FRAM_OK) {
@@ -170,17 +170,19 @@ static fram_status put_frames(floe_tracks *t, netcdf_file *f, const char *folder
     return status;
 }
 
+/* Of a run without frames nothing. */
 static fram_status put_floes(context *ctx, netcdf_file *f, const char *folder, export_report *report, fram_error *error)
 {
     floe_tracks t = {.ctx = ctx};
     fram_status status = count_floes(&t, folder, error);
-    if (status == FRAM_OK) {
+    bool frames = t.time.count > 0;
+    if (status == FRAM_OK && frames) {
         report->frames = t.time.count;
         report->time = t.time.data[0];
         t.values = memory_array(ctx, (size_t)t.floes + 1, TRACK_COLUMNS * sizeof *t.values);
         status = t.values ? FRAM_OK : error_memory(error);
     }
-    if (status == FRAM_OK && t.floes > 0)
+    if (status == FRAM_OK && frames && t.floes > 0)
         status = put_frames(&t, f, folder, error);
     memory_free(ctx, t.values);
     array_free(ctx, &t.row);

@@ -314,7 +314,7 @@ static fram_status read_ahead(replay *r, fram_error *error)
     return FRAM_OK;
 }
 
-fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error)
+fram_status replay_open_any(context *ctx, const char *folder, replay *r, fram_error *error)
 {
     char path[PATH_ROOM];
     memset(r, 0, sizeof *r);
@@ -325,10 +325,18 @@ fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error 
     if (status != FRAM_OK)
         return status;
     status = read_ahead(r, error);
-    if (status == FRAM_OK && !r->has_next)
-        status = wrong(r, RECORD_WITHOUT_FRAME, error);
     if (status != FRAM_OK)
         replay_close(r);
+    return status;
+}
+
+fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error)
+{
+    fram_status status = replay_open_any(ctx, folder, r, error);
+    if (status != FRAM_OK || r->has_next)
+        return status;
+    status = wrong(r, RECORD_WITHOUT_FRAME, error);
+    replay_close(r);
     return status;
 }
 

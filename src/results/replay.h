@@ -80,6 +80,8 @@ typedef struct replay {
 /* The record of a run's folder.  FRAM_ERROR_INPUT when there is none, when it holds no frame, or when an earlier Fram
    wrote it.  A record that is damaged or was cut short is read up to there, with a warning in the log. */
 fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error);
+/* The same, but that a record which holds no frame is none that fails: there is no first frame. */
+fram_status replay_open_any(context *ctx, const char *folder, replay *r, fram_error *error);
 /* To the next frame; found is false after the last. */
 fram_status replay_next(replay *r, bool *found, fram_error *error);
 void replay_close(replay *r);

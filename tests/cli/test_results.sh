@@ -215,6 +215,15 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+    # A run without frames has its columns; one without a record is refused.
+    expect 0 "$FRAM" run scene.yaml -o bare --quiet --until 0.1 --set output.frame_interval=0
+    expect 0 "$FRAM" export bare --netcdf --json
+    same "$(value 'j["frames"], j["time_s"]')" "0 0" "frames of a run without"
+    grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without frames has no columns of its fractures"
+    grep -q floe_thickness bare/run.nc && fail "run.nc of a run without frames has floes"
+    rm bare/run.nc bare/record.fram
+    expect 2 "$FRAM" export bare --netcdf
+    [ ! -e bare/run.nc ] || fail "a refused export left a file"
     # SIGTERM, as Ctrl-C, as soon as the file has begun leaves nothing half-written; where it is whole by then, that.
     "$FRAM" export run --netcdf -o stopped.nc 2>err >out &
     until compgen -G 'stopped.nc*' >found || ! kill -0 $!; do :; done 2>kills
