@@ -1,7 +1,6 @@
 #include "base/channel_statistics.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 static int falling(const void *a, const void *b)
@@ -123,4 +122,22 @@ channel_statistics channel_statistics_of(const double *time, const double *value
     if (s.least == s.greatest) /* no peaks: the value that is held */
         s.significant = s.significant_above = s.least;
     return s;
+}
+
+/* As the header says. */
+enum { LAGS_ALL = 512 };
+
+double correlation_integral(lag_covariance *covariance, const void *of, int32_t lags, bool sparse)
+{
+    double variance = covariance(of, 0), sum = 0.5;
+    int32_t before = 1, next = 1;
+    for (int32_t lag = 1; variance > 0 && lag < lags; lag += next) {
+        double c = covariance(of, lag) / variance;
+        if (!(c > 0))
+            break;
+        next = sparse ? 1 + lag / LAGS_ALL : 1;
+        sum += 0.5 * (before + next) * c;
+        before = next;
+    }
+    return sum;
 }

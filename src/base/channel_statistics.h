@@ -3,6 +3,7 @@
 #ifndef BASE_CHANNEL_STATISTICS_H
 #define BASE_CHANNEL_STATISTICS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Deviations of a normal distribution that hold 95 % of it between them and their opposite. */
@@ -20,5 +21,12 @@ typedef struct channel_statistics {
     int32_t peaks;            /* on the side of `peak` */
 } channel_statistics;
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient);
+
+/* Covariance of a series with itself so many values later. */
+typedef double lag_covariance(const void *of, int32_t lag);
+/* Integral of a correlation over the lags below `lags`, up to its first zero (Bartlett 1946) [values]; a half where it
+   has none.  sparse: of a long series only the first 512 lags are all looked at; those beyond are a 512th of themselves
+   apart, as what is correlated over so many values allows. */
+double correlation_integral(lag_covariance *covariance, const void *of, int32_t lags, bool sparse);
 
 #endif

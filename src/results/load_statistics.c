@@ -6,28 +6,31 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEVELS = 120, BARS = 30, CORRELATED_MOST = 20000 };
+/* LOAD_PAIRS: pairs of values that a correlation is told from at each lag, about. */
+enum { LEVELS = 120, BARS = 30, LOAD_PAIRS = 20000 };
 
-/* Long series are thinned: a correlation that dies within a few steps of the thinned one counts as none. */
+typedef struct load_pairs {
+    const double *value;
+    int32_t count, stride; /* of values; from where a pair begins to where the next one does */
+    double mean;
+} load_pairs;
+
+static double load_covariance(const void *of, int32_t lag)
+{
+    const load_pairs *p = of;
+    int32_t n = (p->count - 1) / p->stride + 1;
+    double sum = 0;
+    for (int64_t i = 0; i + lag < p->count; i += p->stride)
+        sum += (p->value[i] - p->mean) * (p->value[i + lag] - p->mean) / n;
+    return sum;
+}
+
 static double integral_time_scale(const double *value, int32_t count, double step)
 {
-    int32_t every = count / CORRELATED_MOST + 1, n = count / every;
-    double mean = 0, variance = 0, sum = 0.5;
-    for (int32_t i = 0; i < n; i++)
-        mean += value[i * every] / n;
-    for (int32_t i = 0; i < n; i++)
-        variance += (value[i * every] - mean) * (value[i * every] - mean) / n;
-    if (!(variance > 0))
-        return 0.5 * step;
-    for (int32_t lag = 1; lag < n; lag++) {
-        double covariance = 0;
-        for (int32_t i = 0; i + lag < n; i++)
-            covariance += (value[i * every] - mean) * (value[(i + lag) * every] - mean) / n;
-        if (covariance <= 0)
-            break;
-        sum += covariance / variance;
-    }
-    return sum * step * every;
+    load_pairs pairs = {value, count, (count - 1) / LOAD_PAIRS + 1, 0};
+    for (int32_t i = 0; i < count; i++)
+        pairs.mean += value[i] / count;
+    return correlation_integral(load_covariance, &pairs, count, pairs.stride > 1) * step;
 }
 
 static bool add_level(context *ctx, load_distribution *d, double level, double part)

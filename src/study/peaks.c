@@ -1,37 +1,39 @@
 #include "study/peaks.h"
+
+#include "base/channel_statistics.h"
 #include "base/sort.h"
 
 #include <math.h>
 
 /* ---- nature ---- */
 
-/* Values that the time scale is told from, at most; and the longest lag, as a part of the values. */
-enum { SCALE_VALUES_MOST = 20000, LAG_PART = 4 };
+/* Pairs of values that a correlation is told from at each lag, about; and the longest lag, as a part of the values. */
+enum { SCALE_PAIRS = 20000, LAG_PART = 4 };
 
-static double covariance(const series_set *s, double mean, int32_t lag, int32_t stride)
+typedef struct series_pairs {
+    const series_set *s;
+    double mean;
+    int64_t stride; /* from where a pair begins to where the next one does: not that of lags, which are all looked at */
+} series_pairs;
+
+static double series_covariance(const void *of, int32_t lag)
 {
+    const series_pairs *pairs = of;
     double sum = 0;
     int64_t n = 0;
-    for (int32_t p = 0; p < s->count; p++) {
-        const series_part *part = &s->parts[p];
-        for (int64_t i = 0; i + (int64_t)lag * stride < part->count; i += stride, n++)
-            sum += (part->value[i] - mean) * (part->value[i + (int64_t)lag * stride] - mean);
+    for (int32_t p = 0; p < pairs->s->count; p++) {
+        const series_part *part = &pairs->s->parts[p];
+        for (int64_t i = 0; i + lag < part->count; i += pairs->stride, n++)
+            sum += (part->value[i] - pairs->mean) * (part->value[i + lag] - pairs->mean);
     }
     return n > 0 ? sum / (double)n : 0;
 }
 
 static double time_scale(const series_set *s, const series_nature *n)
 {
-    int32_t stride = (int32_t)(n->values / SCALE_VALUES_MOST) + 1;
-    int32_t lags = (int32_t)(n->values / stride / s->count / LAG_PART);
-    double variance = covariance(s, n->mean, 0, stride), sum = 0.5;
-    for (int32_t lag = 1; variance > 0 && lag < lags; lag++) {
-        double c = covariance(s, n->mean, lag, stride) / variance;
-        if (!(c > 0))
-            break;
-        sum += c;
-    }
-    return fmax(sum * stride, 1) * s->step;
+    const series_pairs pairs = {s, n->mean, (n->values - 1) / SCALE_PAIRS + 1};
+    int32_t lags = (int32_t)(n->values / s->count / LAG_PART);
+    return fmax(correlation_integral(series_covariance, &pairs, lags, pairs.stride > 1), 1) * s->step;
 }
 
 series_nature series_nature_of(const series_set *s)

@@ -16,7 +16,7 @@ typedef struct series_set {
 } series_set;
 
 /* Of all values: number, mean, and the integral time scale [s], which is the integral of the autocorrelation up to its
-   first zero (Bartlett 1946); at least a step.  Long series are thinned for it. */
+   first zero (Bartlett 1946); at least a step.  Of long series some pairs of values are looked at for it. */
 typedef struct series_nature {
     int64_t values;
     double mean, deviation, least, greatest, time_scale;

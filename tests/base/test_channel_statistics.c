@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "base/channel_statistics.h"
+#include "base/transcendental.h"
 
 #include <math.h>
 
@@ -92,5 +93,36 @@ START_TEST(peaks_may_be_many)
 }
 END_TEST
 
-TEST_MAIN("channel_statistics", statistics_of_a_channel, equal_values_scatter_by_nothing, nothing_is_measured,
-          peaks_have_a_side, peaks_may_be_many)
+/* exp(-lag / scale), up to an end. */
+typedef struct decay {
+    double scale;
+    int32_t end, looks;
+} decay;
+
+static double decay_covariance(const void *of, int32_t lag)
+{
+    decay *d = *(decay *const *)of;
+    d->looks++;
+    return lag < d->end ? 3 * real_exp(-lag / d->scale) : -1;
+}
+
+/* The sum of a geometric series, by all lags; and with fewer looks within 0.1 %. */
+START_TEST(correlations_are_summed_over_every_lag)
+{
+    for (int32_t scale = 1; scale < 100000; scale *= 7)
+        for (int sparse = 0; sparse < 2; sparse++) {
+            decay d = {scale, 1000000, 0}, *of = &d;
+            double r = real_exp(-1.0 / scale), found = correlation_integral(decay_covariance, &of, 900000, sparse);
+            assert_relative(found, 0.5 * (1 + r) / (1 - r), sparse ? 1e-3 : 1e-9);
+            ck_assert_int_le(d.looks, sparse ? 5000 : 900000);
+        }
+    decay cut = {1e9, 4, 0}, *of = &cut;
+    assert_relative(correlation_integral(decay_covariance, &of, 100, true), 3.5, 1e-8);
+    assert_relative(correlation_integral(decay_covariance, &of, 3, true), 2.5, 1e-8);
+    cut.end = 0;
+    ck_assert(correlation_integral(decay_covariance, &of, 100, false) == 0.5);
+}
+END_TEST
+
+TEST_MAIN("channel_statistics", correlations_are_summed_over_every_lag, statistics_of_a_channel,
+          equal_values_scatter_by_nothing, nothing_is_measured, peaks_have_a_side, peaks_may_be_many)

@@ -4,8 +4,8 @@
 #include "base/random.h"
 #include "results/load_statistics.h"
 
-/* From 20,000 values on only every second is looked at. */
-enum { LONG = 19000, SHORT = 500, SERIES = 300 };
+/* Of LONG values every seventh begins a pair. */
+enum { LONG = 130000, SHORT = 500, SERIES = 300 };
 
 /* First-order autoregression of variance 1: its values are worth n (1 - a) / (1 + a) independent ones (Bartlett 1946).
  */

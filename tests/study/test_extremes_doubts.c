@@ -174,6 +174,33 @@ START_TEST(a_largest_peak_that_the_law_does_not_have_is_told)
 }
 END_TEST
 
+/* First-order autoregression: its time scale is (1 + a) / (1 - a) / 2 steps, at least one, and no longer in twenty
+   files than in one. */
+START_TEST(time_scales_do_not_grow_with_the_data)
+{
+    enum { FILES = 20, EACH = 30000 };
+    static double value[FILES][EACH];
+    for (double a = 0; a < 1; a += 0.9) {
+        series_part parts[FILES];
+        for (uint32_t k = 0; k < FILES; k++) {
+            random_stream r = random_begin(3, 17, k);
+            double x = random_normal(&r);
+            for (int32_t i = 0; i < EACH; i++) {
+                value[k][i] = x;
+                x = a * x + sqrt(1 - a * a) * random_normal(&r);
+            }
+            parts[k] = (series_part){value[k], EACH};
+        }
+        for (int32_t count = 1; count <= FILES; count += FILES - 1) {
+            const series_set set = {parts, count, 0.1};
+            double found = series_nature_of(&set).time_scale, wanted = 0.1 * fmax(1, 0.5 * (1 + a) / (1 - a));
+            ck_assert_msg(fabs(found / wanted - 1) < 0.1, "a %g, %d files: %g s instead of %g", a, count, found,
+                          wanted);
+        }
+    }
+}
+END_TEST
+
 /* Independent Weibull peaks over a mean that is far from them: the jackknife's bound is that of the fit. */
 START_TEST(independent_peaks_keep_their_bound)
 {
@@ -420,7 +447,7 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", levels_that_parted_lines_did_not_hold_are_not_told,
+TEST_MAIN("extremes_doubts", time_scales_do_not_grow_with_the_data, levels_that_parted_lines_did_not_hold_are_not_told,
           many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
           rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
           no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
