@@ -149,13 +149,21 @@ static vec3 still_load(const void *user, double heading)
     return steady_media_load(h->m, h->w, h->vessel, &begin, heading);
 }
 
-/* Of one vessel's lines. */
+/* By one of the vessel's lines that holds. */
 static bool is_moored(const world *w, int32_t vessel)
 {
     bool moored = false;
     for (int32_t i = 0; i < w->lines.count; i++)
-        moored = moored || w->lines.vessel[i] == vessel;
+        moored = moored || (w->lines.vessel[i] == vessel && !w->lines.broken[i]);
     return moored;
+}
+
+/* Lines that the first step lets go: whether they hold nothing already. */
+static void let_go(world *w, int32_t vessel, bool gone)
+{
+    for (int32_t i = 0; i < w->lines.count; i++)
+        if (w->lines.vessel[i] == vessel && w->lines.release_time[i] <= 0)
+            w->lines.broken[i] = gone;
 }
 
 /* From which on a turn is told [deg]. */
@@ -184,7 +192,7 @@ static void tell_equilibrium(context *ctx, const vessel_entry *entry, bool found
 
 static void find_equilibrium(context *ctx, const vessel_entry *entry, const model *m, int32_t vessel, world *w)
 {
-    if (!is_moored(w, vessel) || !entry->keys->mooring.equilibrium)
+    if (!is_moored(w, vessel))
         return;
     int32_t body = w->vessels.body[vessel];
     const still_hull hull = {m, w, vessel};
@@ -356,7 +364,12 @@ fram_status build_station(context *ctx, const scenario *s, const vessel_entry *e
     status = station_add(ctx, &d, vessel, &w->vessels, &w->bodies, &w->stations, error);
     if (status != FRAM_OK)
         return status;
-    find_equilibrium(ctx, entry, m, vessel, w);
+    if (v->mooring.equilibrium) {
+        /* The first step books that they were let go. */
+        let_go(w, vessel, true);
+        find_equilibrium(ctx, entry, m, vessel, w);
+        let_go(w, vessel, false);
+    }
     /* Who is not on positioning believes nothing until it is switched on. */
     if (d.positioning)
         station_begin(&w->stations, &d, vessel, &w->vessels, &w->bodies);

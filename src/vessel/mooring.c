@@ -197,10 +197,11 @@ static bool parts(context *ctx, line_table *lines, int32_t row, double time, dou
                   bool *good)
 {
     station_event kind;
-    if (tension > lines->breaking_load[row])
-        kind = EVENT_LINE_BREAK;
-    else if (time >= lines->release_time[row])
+    /* A line that is let go does not part, however hard it would pull where the others hold the vessel. */
+    if (time >= lines->release_time[row])
         kind = EVENT_LINE_RELEASE;
+    else if (tension > lines->breaking_load[row])
+        kind = EVENT_LINE_BREAK;
     else
         return false;
     /* The number of a line counts those of its own vessel. */

@@ -103,4 +103,50 @@ START_TEST(bow_into_the_current)
 }
 END_TEST
 
-TEST_MAIN("moored_start", bow_into_the_current, wind_across_the_current, current_alone)
+/* Four springs of a ship without a turret, whose fourth is another from time to time. */
+static void open_of_springs(scene *k, const char *others, const char *fourth)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "run: {time_step: 0.1}\n"
+             "vessel:\n  mode: free\n  x: 5\n  y: -3\n"
+             "  hull: {form: box, length: 100, beam: 20, draught: 7, freeboard: 4}\n"
+             "  mooring:\n    lines:\n"
+             "      - {kind: spring, count: 3, spacing_deg: 90, distance: 100, pretension: 5e5, stiffness: 1e5,\n"
+             "         fairlead_distance: 10%s}\n%s"
+             "ice: {source: none}\ndomain: {boundary: open}\n"
+             "environment: {current_speed: 0.5, current_direction_deg: 270}\n",
+             others, fourth);
+    scene_open(k, text);
+}
+
+/* A line that is let go at the start does not count where the vessel begins, however hard it would pull there; it is
+   booked as let go in the first step. */
+START_TEST(without_lines_that_are_let_go)
+{
+    static const char fourth[] =
+        "      - {kind: spring, direction_deg: 270, distance: 100, pretension: 5e5,\n"
+        "         stiffness: 1e5, fairlead_distance: 10, breaking_load: 6e5, release_time: 0}\n";
+    scene k, wanted;
+    open_of_springs(&wanted, "", "");
+    open_of_springs(&k, "", fourth);
+    vec3 at = k.w.bodies.position[0];
+    ck_assert(wanted.w.bodies.position[0].y > -3 + 3);
+    assert_vec3_close(at, wanted.w.bodies.position[0], 1e-3);
+    ck_assert_int_eq(k.w.lines.broken[3], 0);
+    scene_steps(&k, 1);
+    ck_assert_int_eq(k.w.events.count, 1);
+    ck_assert_int_eq(k.w.events.kind[0], EVENT_LINE_RELEASE);
+    ck_assert_int_eq(k.w.events.number[0], 3);
+    ck_assert_int_eq(k.w.lines.broken[3], 1);
+    scene_close(&k);
+    scene_close(&wanted);
+    /* Where none is left the vessel begins where it is put. */
+    open_of_springs(&k, ", release_time: 0", fourth);
+    assert_absolute(k.w.bodies.position[0].x, 5, 1e-12);
+    assert_absolute(k.w.bodies.position[0].y, -3, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("moored_start", without_lines_that_are_let_go, bow_into_the_current, wind_across_the_current, current_alone)
