@@ -270,6 +270,18 @@ static void tell_motion(const teller *t)
     }
 }
 
+/* Without water a free vessel floats on nothing; that is of use while nothing but contacts acts on it. */
+static void tell_dry(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    bool pulled = v->mooring.lines.count > 0 || v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
+    if (v->mode == VESSEL_FREE && pulled && !t->s->environment.water)
+        sanity_say(t->tell, t->to,
+                   "%s: without water (environment.water: false) nothing holds it upright and afloat: its lines, "
+                   "thrusters or propulsion pull it over and down; take %s.mode: towed, or environment.water: true",
+                   t->e->path, t->e->path);
+}
+
 /* ---- areas of the wind and the current ---- */
 
 /* Over length or beam times draught or freeboard. */
@@ -342,5 +354,6 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
         tell_line(&t, i);
     tell_fairleads(&t);
     tell_motion(&t);
+    tell_dry(&t);
     tell_flows(&t);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Thirty-six more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
+# Thirty-eight more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
 # remedy.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
 
@@ -55,6 +55,9 @@ told ship.yaml "lines[0].length: 900 m|pulls with 3.982e+05 N from the start, mo
     --set "vessel.mooring.lines[0].breaking_load=7e5"
 told ship.yaml "lines[0].length: 8 m|from the start: it is the length without tension" --set "$no_end" \
     --set "$spring" --set "vessel.mooring.lines[0].length=8" --set "vessel.mooring.lines[0].stiffness=5e4"
+told ship.yaml "vessel: without water (environment.water: false) nothing holds it upright|take vessel.mode: towed" \
+    --set environment.water=false
+told drive.yaml "vessel: without water (environment.water: false)" --set environment.water=false
 # A beam current on the drag of a hull that goes ahead: not where the sides have theirs, nor for one from ahead.
 across=environment.current_direction_deg
 told ship.yaml "vessel: a current of 0.346 m/s comes across the hull|vessel.current_coefficients" --set $across=120
