@@ -87,10 +87,12 @@ static void respond(context *ctx, const model *m, world *w)
         respond_vessel(m, &now, w, v);
 }
 
-/* What the solver moved with the hulls, as a force on each. */
+/* What the solver moved with the hulls, as a force on each; those whose motion is given it does not move. */
 static void add_carried_mass(const model *m, world *w)
 {
     for (int32_t v = 0; v < w->vessels.count; v++) {
+        if (w->vessels.mode[v] == VESSEL_PRESCRIBED)
+            continue;
         hull_response *response = &w->scratch.responses.data[v];
         int32_t body = w->vessels.body[v];
         vec3 gain = vec3_sub(w->bodies.velocity[body], response->velocity), mass = w->bodies.added_mass[body];

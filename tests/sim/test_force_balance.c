@@ -65,6 +65,20 @@ START_TEST(water_that_moves_along)
 }
 END_TEST
 
+/* A hull whose motion is given is not moved by the water: nothing answers to it. */
+START_TEST(a_driven_hull_has_no_response)
+{
+    scene k;
+    scene_open_with(&k, field, (const char *const[]){"vessel.mode=prescribed", moved, "ice.source=none"}, 3);
+    for (int i = 0; i < 20; i++) {
+        scene_steps(&k, 1);
+        assert_vec3_close(k.w.scratch.responses.data[0].force, vec3_make(0, 0, 0), 0);
+    }
+    ck_assert(k.w.bodies.added_mass[k.w.vessels.body[0]].x > 0);
+    scene_close(&k);
+}
+END_TEST
+
 /* The ice load as a tank has it: what the carriage needs more than in open water. */
 START_TEST(reaction_less_open_water)
 {
@@ -87,4 +101,4 @@ START_TEST(reaction_less_open_water)
 END_TEST
 
 TEST_MAIN("force_balance", accurate_solver, sequential_solver, fast_solver, water_that_moves_along,
-          reaction_less_open_water)
+          a_driven_hull_has_no_response, reaction_less_open_water)
