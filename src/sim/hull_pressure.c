@@ -66,13 +66,25 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose,
     return good;
 }
 
+/* Times are those of steps to this part of a step. */
+#define STEP_ROUNDING 1e-6
+
+/* A step belongs to the time in which it ends: windows side by side have each step once.  A run may end by less than a
+   step after its duration. */
+static int64_t last_step(const pressure_map *p)
+{
+    double dt = p->s.run.time_step, last = (double)step_at(p->end, dt);
+    return (int64_t)(p->o->to > 0 ? fmin(last, floor(p->o->to / dt + STEP_ROUNDING)) : last);
+}
+
 /* Where nothing tells how far the run went, as far as its scenario does.  A program may have gone on beyond that. */
 static fram_status find_last_time(pressure_map *p, fram_error *error)
 {
     double until;
     fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
     p->end = until > 0 ? until : p->s.run.duration;
-    if (status == FRAM_OK && p->o->to > p->end + 1e-6 * p->s.run.time_step)
+    p->last = last_step(p);
+    if (status == FRAM_OK && p->o->to > p->end + STEP_ROUNDING * p->s.run.time_step)
         log_write(p->ctx, LOG_WARNING, "the run has gone to %.10g s: pressures are up to there, not to %.10g s", p->end,
                   p->o->to);
     if (p->o->to > 0)
@@ -91,8 +103,8 @@ static fram_status step_checked(pressure_map *p, rerun_check *check, const model
 
 static fram_status step_through(pressure_map *p, rerun_check *check, const model *m, world *w, fram_error *error)
 {
-    double slack = 1e-6 * m->time_step;
-    int64_t first = w->clock.step[0], last = step_at(p->end, m->time_step);
+    double slack = STEP_ROUNDING * m->time_step;
+    int64_t first = w->clock.step[0], last = p->last;
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && w->clock.step[0] < last) {
         work_tell(p->ctx, "computing again", (double)(w->clock.step[0] - first), (double)(last - first));
@@ -156,7 +168,7 @@ static fram_status build_and_compute(pressure_map *p, fram_error *error)
 
 static fram_status check_times(const pressure_map *p, fram_error *error)
 {
-    if ((double)step_at(p->end, p->s.run.time_step) * p->s.run.time_step > p->o->from * (1 + 1e-12))
+    if (((double)p->last - STEP_ROUNDING) * p->s.run.time_step > p->o->from)
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "from", "no step ends after %g s and up to %g s",
                      p->o->from, p->end);

@@ -42,6 +42,7 @@ typedef struct pressure_map {
     int32_t vessel; /* row */
     vec3 centre;    /* of its mass, ship coordinates */
     double end;     /* of the time that is looked at [s] */
+    int64_t last;   /* step that ends by then */
     hull_panels panels;
     panel_load *load;    /* by panel */
     int32_array touched; /* panels of this step */

@@ -38,9 +38,9 @@ def table(path):
     return [{k.split("[")[0]: number(v) for k, v in r.items()} for r in csv.DictReader(open(path))]
 
 
-def loads(run, name, since, heading=0.0):
+def loads(run, name, since, heading=0.0, until=1e9):
     """Mean ice load in the vessel's axes."""
-    rows = [r for r in table(f"{run}/series.csv") if r["time"] > since + 1e-6]
+    rows = [r for r in table(f"{run}/series.csv") if since + 1e-6 < r["time"] < until + 1e-6]
     x, y, z = (sum(r[f"{name}ice_force_{a}"] for r in rows) / len(rows) for a in "xyz")
     return (x * math.cos(heading) + y * math.sin(heading), y * math.cos(heading) - x * math.sin(heading), z), rows
 
@@ -204,8 +204,20 @@ assert 1e6 < worst[0] <= 3e6, worst
 PYTHON
 expect 2 "$FRAM" pressure run
 expect 2 "$FRAM" pressure run -o map
-expect 0 "$FRAM" pressure run -o map --force --to 0.1 --quiet
+# A time between two steps: the one that ends after it belongs to the time that follows.
+expect 0 "$FRAM" pressure run -o map --panel 2 --force --from 2.5 --to 2.553 --quiet
+expect 0 "$FRAM" pressure run -o rest --panel 2 --from 2.553 --to 2.6 --quiet
+python3 - <<'PYTHON' || fail "two times that meet between two steps"
+from tables import balance, loads, table
+for folder, since, until in ("map", 2.5, 2.54), ("rest", 2.54, 2.6):
+    panels = table(folder + "/panels.csv")
+    balance(panels, loads("run", "", since, until=until)[0])
+    for p in panels:
+        wanted = p["pressure_mean"] * (until - since)
+        assert abs(p["pressure_cumulative"] - wanted) <= 1e-6 * (1 + wanted), p
+PYTHON
 for bad in "--panel 0" "--panel -1" "--panel 41" "--panel 1e-4" "--from 5" "--from 2 --to 1" "--vessel ghost" \
+    "--from 2.54 --to 2.553" \
     "--frames 3,1" "--frames 1,,2" "--frames 0:1" "--frames 0:-1:5" "--frames x" "--stringers 1,nan" \
     "--frames 0:1e-9:5" "--frames 100,200" "--stringers -90"; do
     # shellcheck disable=SC2086
