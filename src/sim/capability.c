@@ -372,21 +372,34 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
     return status;
 }
 
-/* The scenario with the vessel that is asked for alone. */
-static fram_status choose_vessel(const scenario *s, const char *name, scenario *alone, fram_error *error)
+/* The vessel that is asked for. */
+static fram_status choose_vessel(const scenario *s, const char *name, int32_t *row, fram_error *error)
 {
-    int32_t row = 0;
-    if (name) {
-        fram_status status = scenario_choose_vessel(s, NULL, name, &row, error);
-        if (status != FRAM_OK)
-            return status;
-    }
-    if (!name && scenario_vessel_count(s) > 1)
+    *row = 0;
+    if (name)
+        return scenario_choose_vessel(s, NULL, name, row, error);
+    if (scenario_vessel_count(s) > 1)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
                          "the scenario has %d vessels: name the one whose capability is asked for",
                          (int)scenario_vessel_count(s));
-    *alone = scenario_of_vessel(s, row);
     return FRAM_OK;
+}
+
+/* What is wrong with the vessel alone is wrong in the list that the file has. */
+static fram_status name_in_list(const scenario *s, int32_t row, fram_status status, fram_error *error)
+{
+    static const char alone[] = "vessel";
+    const size_t length = sizeof alone - 1;
+    if (status != FRAM_ERROR_INPUT || !error || !scenario_names_vessels(s) || strncmp(error->key, alone, length) != 0)
+        return status;
+    char member[sizeof error->key];
+    memcpy(member, error->key, sizeof member);
+    if (member[length] != '.' && member[length] != '\0')
+        return status;
+    snprintf(error->key, sizeof error->key, "%s", member + length + (member[length] == '.'));
+    vessel_entry entry = scenario_vessel_entry(s, row);
+    vessel_name_error(s, &entry, error);
+    return status;
 }
 
 /* Currents come across the hull here whatever the scenario's own one does. */
@@ -400,15 +413,11 @@ static void warn_of_sides(context *ctx, const scenario *s, const capability_opti
                   form);
 }
 
-fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
-                            fram_error *error)
+/* Of the scenario's single vessel. */
+static fram_status find_alone(context *ctx, const scenario *s, const capability_options *o, capability *c,
+                              fram_error *error)
 {
-    *c = (capability){.options = *o, .wind_speed = s->environment.wind_speed};
-    scenario alone = *s;
-    fram_status status = choose_vessel(s, o->vessel, &alone, error);
-    s = &alone;
-    if (status == FRAM_OK)
-        status = check(s, o, error);
+    fram_status status = check(s, o, error);
     if (status != FRAM_OK)
         return status;
     warn_of_sides(ctx, s, o);
@@ -422,4 +431,16 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
     status = find_with_model(ctx, s, &m, c, error);
     model_free(ctx, &m);
     return status;
+}
+
+fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
+                            fram_error *error)
+{
+    int32_t row;
+    *c = (capability){.options = *o, .wind_speed = s->environment.wind_speed};
+    fram_status status = choose_vessel(s, o->vessel, &row, error);
+    if (status != FRAM_OK)
+        return status;
+    const scenario alone = scenario_of_vessel(s, row);
+    return name_in_list(s, row, find_alone(ctx, &alone, o, c, error), error);
 }

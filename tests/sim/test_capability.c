@@ -557,6 +557,35 @@ START_TEST(refusals)
 }
 END_TEST
 
+/* What is wrong with a vessel of a list is told by its place there, which counts vessels that are not present. */
+START_TEST(refusals_name_the_place_in_the_list)
+{
+    static const char fleet[] =
+        "ice: {source: none}\ndomain: {boundary: open}\nvessels:\n"
+        "  - {name: gone, present: false, mode: free, hull: {form: box, length: 60, beam: 12, draught: 4}}\n"
+        "  - {name: driven, mode: prescribed, y: 90, hull: {form: box, length: 60, beam: 12, draught: 4}}\n"
+        "  - name: moored\n    mode: free\n    hull: {form: box, length: 60, beam: 12, draught: 4}\n"
+        "    mooring:\n      depth: 100\n"
+        "      lines: [{count: 4, spacing_deg: 90, distance: 400, pretension: 9e4, weight: 1000}]\n";
+    context ctx;
+    scenario s;
+    capability c;
+    capability_options o = plain;
+    fram_error error = {0};
+    context_init(&ctx);
+    assert_ok(scenario_parse(&ctx, "fleet.yaml", fleet, strlen(fleet), NULL, &s, &error), error);
+    o.vessel = "moored";
+    ck_assert_int_eq(capability_find(&ctx, &s, &o, &c, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, "vessels[2].mooring.lines[0].pretension");
+    ck_assert_str_eq(error.file, "fleet.yaml");
+    ck_assert_int_eq(error.line, 11);
+    o.vessel = "driven";
+    ck_assert_int_eq(capability_find(&ctx, &s, &o, &c, &error), FRAM_ERROR_INPUT);
+    ck_assert_msg(strncmp(error.key, "vessels[1]", 10) == 0 && error.line == 5, "%s in line %d", error.key, error.line);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
 /* The balances alone, and the runs before them, see the flag. */
 START_TEST(a_stop_flag_is_seen)
 {
@@ -578,4 +607,5 @@ END_TEST
 TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
           no_loads_without_water, out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn,
           balances_are_those_of_a_run, use_as_it_is_written, broken_ice_by_formula, measured_ice,
-          speeds_that_are_measured, ice_that_was_met, refusals, a_stop_flag_is_seen)
+          speeds_that_are_measured, ice_that_was_met, refusals, refusals_name_the_place_in_the_list,
+          a_stop_flag_is_seen)
