@@ -14,7 +14,8 @@ vec3 path_velocity(const waypoint_table *path, int32_t vessel, double time);
 
 /* Velocities of prescribed bodies (carriage or driven hull) whose vessel has a path, for the step that ends at `time`,
    such that they stand on it then: in the place of vessel_drive's.  The hull turns about its centre of mass as the
-   heading of the path does. */
+   heading of the path does.  At rest they are 0: what rounding leaves of place and heading is made up when the path
+   goes on. */
 void vessel_follow(const vessel_table *vessels, const waypoint_table *path, body_table *bodies, double time, double dt);
 
 #endif

@@ -4,6 +4,8 @@
 #include "sim/ice_loads.h"
 #include "vessel/path.h"
 
+#include <stdio.h>
+
 static const char path[] =
     "run: {time_step: 0.05}\n"
     "vessel:\n  mode: towed\n  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}\n"
@@ -76,4 +78,41 @@ START_TEST(begins_inside_the_walls)
 }
 END_TEST
 
-TEST_MAIN("path", driven_hull, towed_hull, places_between_points, begins_inside_the_walls)
+/* A driven hull that has crushed its way into ice at rest and stands there carries nothing, whatever its heading: its
+   velocity is 0, without what rounding leaves of place and yaw.  Then it goes on and ends where it should. */
+START_TEST(at_rest_in_the_ice)
+{
+    static const char text[] =
+        "run: {time_step: 0.01}\n"
+        "vessel:\n  mode: %s\n  hull: {form: box, length: 10, beam: 20, draught: 1.5, freeboard: 1}\n"
+        "  path:\n    - {time: 0, x: -5.3, y: 3.1, heading_deg: %g}\n"
+        "    - {time: 0.1, x: -3.7, y: 3.7, heading_deg: %g}\n"
+        "    - {time: 0.3, x: -3.7, y: 3.7, heading_deg: %g}\n    - {time: 0.4, x: -6.1, y: 2.9, heading_deg: %g}\n"
+        "ice: {source: floes, thickness: 1, floes: [{fixed: true, length: 60, width: 120, x: 30}]}\n"
+        "domain: {boundary: open}\n";
+    for (int i = 0; i < 36; i++) {
+        char scene_text[1024];
+        scene k;
+        double to = i % 4 * 90 + 0.3 * i + (i % 3 - 1) * 360;
+        snprintf(scene_text, sizeof scene_text, text, i < 32 ? "prescribed" : "towed", to - 2, to, to, to - 1);
+        scene_open(&k, scene_text);
+        int32_t slot = k.w.vessels.carriage[0] >= 0 ? k.w.vessels.carriage[0] : k.w.vessels.body[0];
+        scene_steps(&k, 10);
+        ck_assert(vec3_length(k.w.scratch.ice_loads.data[0].total.force) > 1e5);
+        scene_steps(&k, 1); /* which turns by what the steps of the turn left */
+        for (int n = 0; n < 19; n++) {
+            scene_steps(&k, 1);
+            assert_vec3_close(k.w.bodies.velocity[slot], vec3_make(0, 0, 0), 0);
+            assert_vec3_close(k.w.bodies.angular_velocity[slot], vec3_make(0, 0, 0), 0);
+            if (i < 32)
+                assert_absolute(vec3_length(k.w.scratch.ice_loads.data[0].total.force), 0, 0);
+        }
+        scene_steps(&k, 15);
+        if (i < 32)
+            check_place(&k, -6.1, 2.9, degrees(plane_angle(radians(to - 1))), 1e-12);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+TEST_MAIN("path", driven_hull, towed_hull, places_between_points, at_rest_in_the_ice, begins_inside_the_walls)
