@@ -277,14 +277,15 @@ static fram_status integrate(context *ctx, const model *m, world *w, fram_error 
 }
 
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked; the tiles
-   of a sheet that drifts leave with their cells.  Where none drifts, what sleeps has not moved since it was looked at
-   here: it fell asleep after that, at the end of its step. */
+   of a sheet that drifts leave with their cells, and those of one that is held stay where it reaches out of the domain.
+   Where none drifts, what sleeps has not moved since it was looked at here: it fell asleep after that, at the end of
+   its step. */
 static void remove_strays(const model *m, world *w)
 {
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
         bool stays =
-            body < 0 || (w->drift.count == 0 ? w->bodies.motion[body] == MOTION_ASLEEP : w->floes.tile[i] != 0);
+            body < 0 || w->floes.tile[i] != 0 || (w->drift.count == 0 && w->bodies.motion[body] == MOTION_ASLEEP);
         if (stays)
             continue;
         vec3 r = w->bodies.position[body];

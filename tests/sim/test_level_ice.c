@@ -378,6 +378,22 @@ START_TEST(a_sheet_is_held_somewhere)
 }
 END_TEST
 
+/* A sheet goes on beyond an open domain, and is held there: its tiles are no floes that have left. */
+START_TEST(a_sheet_goes_on_beyond_the_domain)
+{
+    static const char *const wide[] = {"ice.level.x_max=300", "ice.level.y_min=-150", "ice.level.y_max=150",
+                                       "ice.level.anchored_x_min=false"};
+    scene k;
+    scene_open_with(&k, SHIP, wide, 4);
+    assert_relative(ice_mass(&k), 300.0 * 300 * 0.5 * k.s.ice.density, 1e-3);
+    double mass = ice_mass(&k);
+    scene_steps(&k, 2);
+    ck_assert_double_eq(k.w.clock.ice_left[0], 0);
+    ck_assert_double_eq(ice_mass(&k), mass);
+    scene_close(&k);
+}
+END_TEST
+
 /* A seam of tiles leaves slivers of contact that give way until rounding is left of them: with them this solver's
    velocities were no numbers, at which a step fails. */
 START_TEST(slivers_on_seams_carry_nothing)
@@ -395,6 +411,6 @@ START_TEST(slivers_on_seams_carry_nothing)
 }
 END_TEST
 
-TEST_MAIN("level_ice", a_sheet_is_held_somewhere, slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull,
-          ram_back_off_return, crushed_ice_is_never_less, trimming_keeps_the_load, dead_shapes_go,
-          the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
+TEST_MAIN("level_ice", a_sheet_is_held_somewhere, a_sheet_goes_on_beyond_the_domain, slivers_on_seams_carry_nothing,
+          a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less, trimming_keeps_the_load,
+          dead_shapes_go, the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
