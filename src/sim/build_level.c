@@ -185,10 +185,39 @@ fram_status build_level(context *ctx, const scenario *s, world *w, field_report 
 
 /* ---- level ice that drifts ---- */
 
-static double sheet_mass(const scenario *s, box2 extent)
+/* What openings leave of a sheet. */
+static fram_status ice_area(context *ctx, box2 extent, const polygon_list *openings, double *area, fram_error *error)
 {
-    double area = (extent.hi.x - extent.lo.x) * (extent.hi.y - extent.lo.y);
-    return automatic_or(s->ice.level.mass, isfinite(area) ? area * s->ice.thickness * s->ice.density : 0);
+    const tile_grid one_cell = tile_grid_over(extent, HUGE_VAL);
+    polygon_list left = {0};
+    int32_array cells = {0};
+    overlay *plane = overlay_create(ctx);
+    if (!plane)
+        return error_memory(error);
+    fram_status status = tile_sheet(ctx, &one_cell, plane, openings, 0, &left, &cells, error);
+    *area = 0;
+    for (int32_t i = 0; i < polygon_list_count(&left); i++)
+        *area += polygon_area(polygon_list_get(&left, i));
+    polygon_list_free(ctx, &left);
+    array_free(ctx, &cells);
+    overlay_free(plane);
+    return status;
+}
+
+/* 0: what is simulated of it tells. */
+static fram_status find_sheet_mass(context *ctx, const scenario *s, box2 extent, const polygon_list *openings,
+                                   double *mass, fram_error *error)
+{
+    double length = extent.hi.x - extent.lo.x, width = extent.hi.y - extent.lo.y, area = length * width;
+    *mass = automatic_or(s->ice.level.mass, 0);
+    if (!is_automatic(s->ice.level.mass) || !isfinite(area))
+        return FRAM_OK;
+    fram_status status = polygon_list_count(openings) > 0 ? ice_area(ctx, extent, openings, &area, error) : FRAM_OK;
+    *mass = area * s->ice.thickness * s->ice.density;
+    if (status == FRAM_OK && !(area > 0))
+        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
+                           "nothing is left of the sheet of %.4g m by %.4g m beside its openings", length, width);
+    return status;
 }
 
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error)
@@ -198,17 +227,18 @@ fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, 
         return FRAM_OK;
     box2 extent = {{automatic_or(l->x_min, -HUGE_VAL), automatic_or(l->y_min, -HUGE_VAL)},
                    {automatic_or(l->x_max, HUGE_VAL), automatic_or(l->y_max, HUGE_VAL)}};
-    double mass = sheet_mass(s, extent);
     *out = (drift_definition){.drifts = true,
                               .window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
                               .extent = extent,
                               .ice = tile_definition(s, MOTION_CARRIED),
                               .smallest = s->ice.smallest_floe_area,
                               .smallest_piece = s->ice.smallest_piece_area,
-                              .line_load = automatic_or(l->line_load, HUGE_VAL),
-                              .mass = mass,
-                              .bounded = mass > 0};
-    return push_openings(ctx, s, &out->openings) ? FRAM_OK : error_memory(error);
+                              .line_load = automatic_or(l->line_load, HUGE_VAL)};
+    if (!push_openings(ctx, s, &out->openings))
+        return error_memory(error);
+    fram_status status = find_sheet_mass(ctx, s, extent, &out->openings, &out->mass, error);
+    out->bounded = out->mass > 0;
+    return status;
 }
 
 fram_status build_drifting(context *ctx, const scenario *s, const model *m, world *w, field_report *report,

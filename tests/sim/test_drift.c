@@ -311,6 +311,29 @@ START_TEST(a_floe_stops_after_the_distance_of_its_energy)
 }
 END_TEST
 
+/* Open water in a floe is no mass of it, nor what reaches out of it, nor twice where openings overlap. */
+START_TEST(basins_have_no_mass)
+{
+    static const char text[] =
+        "vessel: {present: false}\n"
+        "ice:\n  source: level\n  thickness: 0.5\n  density: 900\n"
+        "  level:\n    x_min: 0\n    x_max: 400\n    y_min: -50\n    y_max: 50\n    line_load: 0\n"
+        "    openings:\n"
+        "      - {x: 100, length: 40, width: 50}\n"
+        "      - {x: 120, y: 10, length: 20, width: 20}\n"
+        "      - {x: 400, y: -50, length: 100, width: 60}\n"
+        "domain: {x_min: -40, x_max: 60, y_min: -40, y_max: 40, boundary: feeding}\n";
+    static const char *const all[] = {"ice.level.openings[0].x=200", "ice.level.openings[0].length=420",
+                                      "ice.level.openings[0].width=120"};
+    scene k;
+    scene_open(&k, text);
+    double area = 400.0 * 100 - (40.0 * 50 + 10 * 20 + 50 * 30);
+    assert_relative(k.w.drift.mass[0], area * 0.5 * 900, 1e-9);
+    scene_close(&k);
+    check_refusal(text, all, 3, "ice.level.openings");
+}
+END_TEST
+
 /* The sheet is crushed at the pier, drifts back by 1 m and comes again: nothing before the old face, and ice at it. */
 START_TEST(no_load_before_the_old_face)
 {
@@ -462,6 +485,6 @@ START_TEST(drifts_as_it_is_told)
 END_TEST
 
 TEST_MAIN("drift", drifts_as_it_is_told, whichever_moves, nothing_gets_lost, pieces_have_the_velocity_of_the_sheet,
-          curved_drift, reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy,
+          curved_drift, reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy, basins_have_no_mass,
           no_load_before_the_old_face, a_limited_drive, an_ample_drive, water_takes_a_floe_along,
           water_takes_a_sheet_along_at_its_depth, refusals_name_their_key)
