@@ -492,36 +492,6 @@ START_TEST(slipped_inside)
 }
 END_TEST
 
-/* Of two floes the one inside is pushed out, whichever has the lower number: up, where it is nearest to a face, or
-   aside. */
-START_TEST(one_floe_inside_another)
-{
-    for (int turn = 0; turn < 4; turn++) {
-        bool small_first = turn % 2, aside = turn / 2;
-        ice_rig r;
-        ice_rig_make(&r, 0.01);
-        int32_t slot[2];
-        for (int i = 0; i < 2; i++) {
-            bool is_small = small_first == (i == 0);
-            slot[is_small] = is_small ? ice_rig_plate_body(&r, 1, 0.8, 0.3, MOTION_DYNAMIC)
-                                      : ice_rig_plate_body(&r, 10, 8, 2, MOTION_STATIC);
-        }
-        vec3 at = aside ? (vec3){-4.3, 0, 0} : (vec3){-3, 1, 0.6}, out = aside ? (vec3){-1, 0, 0} : (vec3){0, 0, 1};
-        ice_rig_place(&r, slot[1], at, 0, 0, 0);
-        ice_rig_pair(&r, slot[0], slot[1]);
-        place_all(&r, 0.1, 0.3);
-        ice_rig_crush(&r);
-        const crushing_patch *p = only_patch(&r);
-        ck_assert_int_eq(p->floe_body, slot[1]);
-        assert_relative(p->area, 2 * 1.8 * 0.3, 1e-12);
-        assert_vec3_close(p->normal, turned(0.1, 0.3, out), 1e-12);
-        ck_assert_int_eq(r.contacts.count, 1);
-        assert_relative(r.contacts.data[0].depth, 0.3, 1e-12);
-        ice_rig_free(&r);
-    }
-}
-END_TEST
-
 START_TEST(flags)
 {
     ice_rig r;
@@ -807,6 +777,6 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("crushing", vertical_wall, overlap_over_the_thickness, inclined_plate, corner, tilted_floe, flat_bottom,
-          independent_of_cuts, random_poses, surface_on_a_seam, closed_patches, several_patches, slipped_inside,
-          one_floe_inside_another, flags, keys, two_points, horizontal_area_over_a_seam, pressure_area_law,
-          top_plane_area, floe_against_floe, large_and_small, a_patch_that_is_gone, memory_runs_out)
+          independent_of_cuts, random_poses, surface_on_a_seam, closed_patches, several_patches, slipped_inside, flags,
+          keys, two_points, horizontal_area_over_a_seam, pressure_area_law, top_plane_area, floe_against_floe,
+          large_and_small, a_patch_that_is_gone, memory_runs_out)

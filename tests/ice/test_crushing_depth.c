@@ -137,4 +137,34 @@ START_TEST(ways_through_many_pieces)
 }
 END_TEST
 
-TEST_MAIN("crushing depth", depth_is_continuous, flat_top, ways_through_many_pieces)
+/* Of two floes the one inside is pushed out, whichever has the lower number: up, where it is nearest to a face, or
+   aside. */
+START_TEST(one_floe_inside_another)
+{
+    for (int turn = 0; turn < 4; turn++) {
+        bool small_first = turn % 2, aside = turn / 2;
+        ice_rig r;
+        ice_rig_make(&r, 0.01);
+        int32_t slot[2];
+        for (int i = 0; i < 2; i++) {
+            bool is_small = small_first == (i == 0);
+            slot[is_small] = is_small ? ice_rig_plate_body(&r, 1, 0.8, 0.3, MOTION_DYNAMIC)
+                                      : ice_rig_plate_body(&r, 10, 8, 2, MOTION_STATIC);
+        }
+        vec3 at = aside ? (vec3){-4.3, 0, 0} : (vec3){-3, 1, 0.6}, out = aside ? (vec3){-1, 0, 0} : (vec3){0, 0, 1};
+        ice_rig_place(&r, slot[1], at, 0, 0, 0);
+        ice_rig_pair(&r, slot[0], slot[1]);
+        ice_rig_crush(&r);
+        ck_assert_int_eq(r.patches.count, 1);
+        const crushing_patch *p = &r.patches.data[0];
+        ck_assert_int_eq(p->floe_body, slot[1]);
+        assert_relative(p->area, 2 * 1.8 * 0.3, 1e-12);
+        assert_vec3_close(p->normal, out, 1e-12);
+        ck_assert_int_eq(r.contacts.count, 1);
+        assert_relative(r.contacts.data[0].depth, 0.3, 1e-12);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+TEST_MAIN("crushing depth", depth_is_continuous, flat_top, ways_through_many_pieces, one_floe_inside_another)
