@@ -49,10 +49,18 @@ static inline uint32_t manifold_feature(bool swapped, uint32_t reference, uint32
            (after & 127u);
 }
 
-/* Faces that are seams inside a compound: they part pieces, but no contact may take their normal. */
-typedef struct seam_masks {
-    uint64_t a, b;
-} seam_masks;
+/* What a piece knows of its seams inside a compound: they part pieces, but no contact may take their normal. */
+typedef struct piece_seams {
+    uint64_t faces;                 /* bit k: face k is a seam, all of it; of prisms */
+    const polyhedron_array *pieces; /* of the solid that it was cut from, in that one's frame; NULL: it was not */
+    int32_t piece;                  /* among them */
+    mat3 rotation;                  /* of that frame to the common one */
+    vec3 centre;
+} piece_seams;
+
+typedef struct pair_seams {
+    piece_seams a, b;
+} pair_seams;
 
 /* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the
    far side of the piece.  The sharpest corner that still finds its face has a half angle of atan(1/8). */
@@ -68,7 +76,7 @@ static inline bool clearly_less(double depth, double than, double slack)
 /* Manifold of two convex polyhedra given in a common frame: up to 4 points; normal from b to a.  Returns the number of
    points; axis in: remembered separating axis or zero, out: new one when separated.  The feature of a point is a small
    integer that names the features met. */
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near, vec3 *normal,
                        manifold_point out[4], vec3 *axis);
 
 #endif

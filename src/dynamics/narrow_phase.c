@@ -28,19 +28,21 @@ enum { LEAST_PAIRS = 32, MOST_PAIRS = 512 };
 
 /* ---- piece against piece ---- */
 
-/* The piece as a polyhedron in room; seams get the faces that are none. */
-static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron *room, uint64_t *seams)
+/* The piece as a polyhedron in room, and what it knows of its seams. */
+static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron *room, piece_seams *seams)
 {
-    *seams = 0;
+    *seams = (piece_seams){.piece = piece, .rotation = p->rotation, .centre = p->centre};
     if (p->is_prism) {
         prism q = prism_piece(p, piece);
-        *seams = q.seams;
+        seams->faces = q.seams;
         if (!prism_polyhedron_reserve(ctx, room))
             return false;
         prism_polyhedron(&q, room);
         return true;
     }
-    return polyhedron_place(ctx, &solid_pieces(p)->data[piece], p->rotation, p->centre, room);
+    const polyhedron_array *pieces = solid_pieces(p);
+    seams->pieces = pieces->data[piece].seam > 0 ? pieces : NULL;
+    return polyhedron_place(ctx, &pieces->data[piece], p->rotation, p->centre, room);
 }
 
 /* Points of two pieces, -1 without memory. */
@@ -53,10 +55,10 @@ static int touch_pieces(context *ctx, narrow_room *s, const party *a, const part
         prism p = prism_piece(a, piece_a), q = prism_piece(b, piece_b);
         return prism_manifold(&p, &q, near, &s->piece_a, &s->piece_b, normal, out, axis);
     }
-    seam_masks seams;
+    pair_seams seams;
     if (!place_piece(ctx, a, piece_a, &s->piece_a, &seams.a) || !place_piece(ctx, b, piece_b, &s->piece_b, &seams.b))
         return -1;
-    return polyhedra_manifold(&s->piece_a, &s->piece_b, seams, near, normal, out, axis);
+    return polyhedra_manifold(&s->piece_a, &s->piece_b, &seams, near, normal, out, axis);
 }
 
 /* ---- pairs ---- */

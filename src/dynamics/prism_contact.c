@@ -248,7 +248,7 @@ static void add_face(polyhedron *room, vec3 normal, vec3 on, int32_t count)
 {
     int32_t first = room->loop.count;
     room->loop.count += count;
-    room->face.data[room->face.count++] = (polyhedron_face){normal, vec3_dot(normal, on), first, count};
+    room->face.data[room->face.count++] = (polyhedron_face){normal, vec3_dot(normal, on), first, count, false};
 }
 
 void prism_polyhedron(const prism *p, polyhedron *room)
@@ -298,7 +298,8 @@ int prism_meeting_points(const prism *a, const prism *b, const prism_meeting *m,
     if (m->kind == PRISMS_TILTED) {
         prism_polyhedron(a, a_room);
         prism_polyhedron(b, b_room);
-        return polyhedra_manifold(a_room, b_room, (seam_masks){a->seams, b->seams}, near, normal, out, axis);
+        return polyhedra_manifold(a_room, b_room, &(pair_seams){{.faces = a->seams}, {.faces = b->seams}}, near, normal,
+                                  out, axis);
     }
     vec3 outward;
     int count = contact_at_side(m->swapped ? b : a, m->swapped ? a : b, m, near, &outward, out);

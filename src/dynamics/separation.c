@@ -33,11 +33,21 @@ typedef struct best_face {
     double seam_depth; /* least depth along a seam, which bounds what an outer face may stand for */
 } best_face;
 
-/* false: some face of p parts the bodies, and *axis is its normal. */
+/* All faces come after it. */
+static const best_face NO_FACE = {-1, -HUGE_VAL, HUGE_VAL};
+
+static bool comes_after(const best_face *last, int32_t face, double depth)
+{
+    return depth > last->depth || (depth == last->depth && face > last->face);
+}
+
+/* The face of least depth among those that come after *best, by depth and number.  false: some face of p parts the
+   bodies, and *axis is its normal. */
 static bool search_faces(const polyhedron *p, const polyhedron *other, uint64_t seams, double slack, best_face *best,
                          vec3 *axis)
 {
-    *best = (best_face){-1, HUGE_VAL, HUGE_VAL};
+    best_face last = *best;
+    *best = (best_face){-1, HUGE_VAL, last.seam_depth};
     for (int32_t i = 0; i < p->face.count; i++) {
         const polyhedron_face *f = &p->face.data[i];
         double depth = f->offset - lowest(other, f->normal);
@@ -48,7 +58,7 @@ static bool search_faces(const polyhedron *p, const polyhedron *other, uint64_t 
         bool seam = i < 64 && (seams >> i & 1u);
         if (seam) {
             best->seam_depth = fmin(best->seam_depth, depth);
-        } else if (depth < best->depth) {
+        } else if (depth < best->depth && comes_after(&last, i, depth)) {
             best->depth = depth;
             best->face = i;
         }
@@ -177,40 +187,98 @@ static int contact_at_edges(const polyhedron *a, const polyhedron *b, const best
 
 /* ---- both ---- */
 
+/* Whether no point of a contact is on the outside of the whole solid: each lies at another of its pieces, and that one
+   goes on beyond the plane through it.  `outward`: the contact's normal out of this piece. */
+static bool is_inside(const piece_seams *s, const manifold_point *point, int count, vec3 outward)
+{
+    if (!s->pieces)
+        return false;
+    const polyhedron *piece = s->pieces->data;
+    double seam = piece[s->piece].seam;
+    vec3 out = mat3_tmul_vec(s->rotation, outward);
+    for (int i = 0; i < count; i++) {
+        vec3 at = vec3_mad(vec3_sub(point[i].point, s->centre), outward, 0.5 * point[i].depth);
+        at = mat3_tmul_vec(s->rotation, at);
+        bool covered = false;
+        for (int32_t k = 0; k < s->pieces->count && !covered; k++)
+            covered = k != s->piece && polyhedron_contains(&piece[k], at, seam) &&
+                      project(&piece[k], out).high > vec3_dot(out, at) + seam;
+        if (!covered)
+            return false;
+    }
+    return true;
+}
+
+/* Whether a contact at a face of `holder` pushes at the inside of either solid.  Only faces on cuts can be inside their
+   own: of two that meet in a hollow corner one was not cut, so that one always holds.  The other solid is met where it
+   reaches deepest: if that is no outside, the face bears on no corner or side of the whole. */
+static bool is_barred(const polyhedron *holder, int32_t face, const piece_seams *of_holder, const piece_seams *of_other,
+                      const manifold_point *point, int count)
+{
+    const polyhedron_face *f = &holder->face.data[face];
+    if (f->on_cut && is_inside(of_holder, point, count, f->normal))
+        return true;
+    int deepest = 0;
+    for (int i = 1; i < count; i++)
+        if (point[i].depth > point[deepest].depth)
+            deepest = i;
+    return is_inside(of_other, &point[deepest], 1, vec3_neg(f->normal));
+}
+
+/* The first contact that pushes at no inside, from the one of least depth on. */
+static int first_contact(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near,
+                         best_face *in_a, best_face *in_b, best_edges *edges, vec3 *normal, manifold_point out[4])
+{
+    double seam_depth = fmin(in_a->seam_depth, in_b->seam_depth);
+    bool with_edges = edges->a >= 0 && !seams->a.faces && !seams->b.faces;
+    for (;;) {
+        bool of_b = in_b->face >= 0 && (in_a->face < 0 || clearly_less(in_b->depth, in_a->depth, near.slack));
+        best_face *best = of_b ? in_b : in_a;
+        if (best->face < 0 || best->depth > SEAM_DEPTH_RATIO * seam_depth)
+            return 0;
+        /* Edges along a face have its axis: none are taken where that one was barred. */
+        if (with_edges && clearly_less(edges->depth, fmin(best->depth, seam_depth), near.slack)) {
+            *normal = edges->axis;
+            int count = contact_at_edges(a, b, edges, out);
+            if (!is_inside(&seams->a, out, count, vec3_neg(*normal)) && !is_inside(&seams->b, out, count, *normal))
+                return count;
+            with_edges = false;
+            continue;
+        }
+        const polyhedron *holder = of_b ? b : a, *other = of_b ? a : b;
+        vec3 n = holder->face.data[best->face].normal, none;
+        *normal = of_b ? n : vec3_neg(n);
+        int count = contact_at_face(holder, best->face, other, near, of_b, out);
+        if (count == 0 ||
+            !is_barred(holder, best->face, of_b ? &seams->b : &seams->a, of_b ? &seams->a : &seams->b, out, count))
+            return count;
+        seam_depth = fmin(seam_depth, best->depth);
+        search_faces(holder, other, of_b ? seams->b.faces : seams->a.faces, near.slack, best, &none);
+    }
+}
+
 static bool parted_along(const polyhedron *a, const polyhedron *b, vec3 axis, double slack)
 {
     return vec3_dot(axis, axis) > 0 && project(a, axis).low - project(b, axis).high > slack;
 }
 
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near, vec3 *normal,
                        manifold_point out[4], vec3 *axis)
 {
     if (parted_along(a, b, *axis, near.slack))
         return 0;
-    best_face in_a, in_b;
+    best_face in_a = NO_FACE, in_b = NO_FACE;
     best_edges edges;
-    if (!search_faces(a, b, seams.a, near.slack, &in_a, axis)) {
+    if (!search_faces(a, b, seams->a.faces, near.slack, &in_a, axis)) {
         *axis = vec3_neg(*axis);
         return 0;
     }
-    if (!search_faces(b, a, seams.b, near.slack, &in_b, axis))
+    if (!search_faces(b, a, seams->b.faces, near.slack, &in_b, axis))
         return 0;
     if (!search_edges(a, b, near.slack, &edges)) {
         *axis = edges.axis;
         return 0;
     }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.face >= 0 && (in_a.face < 0 || clearly_less(in_b.depth, in_a.depth, near.slack));
-    const best_face *best = of_b ? &in_b : &in_a;
-    double seam_depth = fmin(in_a.seam_depth, in_b.seam_depth);
-    if (best->face < 0 || best->depth > SEAM_DEPTH_RATIO * seam_depth)
-        return 0;
-    if (!seams.a && !seams.b && edges.a >= 0 && clearly_less(edges.depth, best->depth, near.slack)) {
-        *normal = edges.axis;
-        return contact_at_edges(a, b, &edges, out);
-    }
-    vec3 n = of_b ? b->face.data[best->face].normal : a->face.data[best->face].normal;
-    *normal = of_b ? n : vec3_neg(n);
-    return of_b ? contact_at_face(b, best->face, a, near, true, out)
-                : contact_at_face(a, best->face, b, near, false, out);
+    return first_contact(a, b, seams, near, &in_a, &in_b, &edges, normal, out);
 }

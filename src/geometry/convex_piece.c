@@ -14,12 +14,14 @@
 
 /* Depths that matter, over what is small, from which on most places are found not to be that deep by a face or two. */
 #define WORTH_ASKING 4
+/* Hulls of two pieces are apart by less than this, over what is small, where they were cut: each leaves points that
+   stand out by less than that on its side of the plane, and the cut as much again. */
+#define SEAM_TO_SMALL 4
 
 typedef struct measure {
     const convex_piece *piece;
     double small;
     const hull_list *all;
-    uint8_t *in_cut; /* of each face of the hull */
     int32_t hint;    /* the hull face that the last uncovered place was outside of */
     int32_t nearest; /* the one that the last covered place was nearest to */
     double deepest;
@@ -153,7 +155,7 @@ static void try_face(measure *m, int32_t k, vec3 point, double *best)
         return;
     vec3 nearest = nearest_on_face(hull, f, point, height);
     double distance = vec3_length(vec3_sub(nearest, point));
-    if (distance < *best && !(m->in_cut[k] && goes_on(m, nearest, f->normal))) {
+    if (distance < *best && !(f->on_cut && goes_on(m, nearest, f->normal))) {
         *best = distance;
         m->nearest = k;
     }
@@ -240,21 +242,22 @@ static void measure_face(measure *m, int32_t face)
         climb(m, t, sample[where][0], sample[where][1], best, face);
 }
 
-bool convex_piece_measure(context *ctx, convex_piece *p, const hull_list *all, double small)
+/* Tells the faces of the hull that lie on cuts. */
+static void mark_cuts(convex_piece *p, double small)
+{
+    for (int32_t k = 0; k < p->hull.face.count; k++)
+        p->hull.face.data[k].on_cut = hull_face_in_cut(p, &p->hull.face.data[k], small);
+    p->hull.seam = p->cuts.count > 0 ? SEAM_TO_SMALL * small : 0;
+}
+
+void convex_piece_measure(convex_piece *p, const hull_list *all, double small)
 {
     measure m = {.piece = p, .small = small, .all = all, .face = -1};
-    m.in_cut = memory_array(ctx, (size_t)p->hull.face.count, 1);
-    if (!m.in_cut)
-        return false;
-    for (int32_t k = 0; k < p->hull.face.count; k++)
-        m.in_cut[k] = hull_face_in_cut(p, &p->hull.face.data[k], small);
     for (int32_t f = 0; f < p->surface.face.count; f++)
         measure_face(&m, f);
-    memory_free(ctx, m.in_cut);
     p->concavity = m.deepest;
     p->deepest = m.place;
     p->deepest_face = m.face;
-    return true;
 }
 
 /* Which faces of the hull meet at which vertex of the surface: those of the hull are among them, in their order. */
@@ -295,5 +298,7 @@ fram_status convex_piece_complete(context *ctx, convex_piece *p, double small, f
     fram_status status = polyhedron_hull(ctx, p->surface.vertex.data, p->surface.vertex.count, small, &p->hull, error);
     if (status == FRAM_OK && !list_hull_faces(ctx, p))
         status = error_memory(error);
+    if (status == FRAM_OK)
+        mark_cuts(p, small);
     return status;
 }

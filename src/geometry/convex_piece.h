@@ -29,13 +29,14 @@ typedef ARRAY(const polyhedron *) hull_list;
 void convex_piece_free(context *ctx, convex_piece *p);
 void convex_piece_array_free(context *ctx, convex_piece_array *a);
 
-/* Adjacency, volume, hull and its faces at the vertices, of a piece whose surface and cuts are set.  small [m]: what is
-   nearer than this counts as touching.  FRAM_ERROR_INPUT for a flat piece, FRAM_ERROR_MEMORY. */
+/* Adjacency, volume, hull with the faces on cuts told apart, and its faces at the vertices, of a piece whose surface
+   and cuts are set.  small [m]: what is nearer than this counts as touching.  FRAM_ERROR_INPUT for a flat piece,
+   FRAM_ERROR_MEMORY. */
 fram_status convex_piece_complete(context *ctx, convex_piece *p, double small, fram_error *error);
 
 /* Concavity: the largest distance of the surface, where the hull covers it, to the surface of the union of all hulls
    (p's own may be among them, those of bodies that p is a part of may not); an upper bound of it.  The smaller the
-   others, the smaller it is. false: no memory. */
-bool convex_piece_measure(context *ctx, convex_piece *p, const hull_list *all, double small);
+   others, the smaller it is. */
+void convex_piece_measure(convex_piece *p, const hull_list *all, double small);
 
 #endif

@@ -114,7 +114,7 @@ static fram_status measure_parts(carving *c, int32_t parent, convex_piece_array 
     for (int32_t i = 0; i < parts->count && done; i++)
         done = parts == &c->piece || array_push(c->ctx, &c->hulls, &parts->data[i].hull);
     for (int32_t i = 0; i < parts->count && done; i++)
-        done = convex_piece_measure(c->ctx, &parts->data[i], &c->hulls, c->small);
+        convex_piece_measure(&parts->data[i], &c->hulls, c->small);
     return done ? FRAM_OK : error_memory(c->error);
 }
 

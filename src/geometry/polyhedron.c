@@ -51,6 +51,7 @@ bool polyhedron_place(context *ctx, const polyhedron *model, mat3 r, vec3 centre
         out->edge_direction.data[i] = mat3_mul_vec(r, model->edge_direction.data[i]);
     out->centre = vec3_add(centre, mat3_mul_vec(r, model->centre));
     out->radius = model->radius;
+    out->seam = model->seam;
     return true;
 }
 

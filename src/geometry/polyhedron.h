@@ -9,6 +9,7 @@ typedef struct polyhedron_face {
     vec3 normal;          /* unit, outward */
     double offset;        /* dot(normal, x) = offset on the face */
     int32_t first, count; /* loop[first .. first + count) */
+    bool on_cut;          /* it lies in a plane along which the piece was cut from others: parts of it may be inside */
 } polyhedron_face;
 
 /* Faces with a common plane are one face, and no vertex is straight.  Loops begin at their least vertex.
@@ -20,6 +21,7 @@ typedef struct polyhedron {
     ARRAY(vec3) edge_direction;
     vec3 centre;   /* inside */
     double radius; /* farthest vertex from centre */
+    double seam;   /* faces of the pieces that it was cut from lie this near to its own [m]; 0: it was not cut */
 } polyhedron;
 
 typedef ARRAY(polyhedron) polyhedron_array;

@@ -83,6 +83,32 @@ START_TEST(notched_bodies_are_cut_at_the_notch)
 }
 END_TEST
 
+/* One face of either piece of an L lies on the cut, and both know how near they lie to each other. */
+START_TEST(faces_on_cuts_are_told_apart)
+{
+    context ctx = plain();
+    mesh m = {0};
+    polyhedron_array pieces = {0};
+    fram_error error;
+    double concavity;
+    assert_ok(mesh_make_prism(&ctx, (polygon){l_shape, 6}, 0, 1, &m, &error), error);
+    for (int32_t most = 1; most <= 2; most++) {
+        assert_ok(mesh_convex_pieces(&ctx, &m, 0.01, most, &pieces, &concavity, &error), error);
+        ck_assert_int_eq(pieces.count, most);
+        for (int32_t i = 0; i < most; i++) {
+            int32_t on_cut = 0;
+            polyhedron *p = &pieces.data[i];
+            for (int32_t k = 0; k < p->face.count; k++)
+                on_cut += p->face.data[k].on_cut;
+            ck_assert_int_eq(on_cut, most - 1);
+            ck_assert(most == 1 ? !(p->seam > 0) : p->seam > 0 && p->seam < 0.01);
+        }
+    }
+    polyhedron_array_free(&ctx, &pieces);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
 /* A ring of four beams; one cut too early makes a few pieces more. */
 START_TEST(a_frame_is_cut_into_beams)
 {
@@ -332,6 +358,6 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("mesh_convex_pieces", a_convex_body_is_one_piece, notched_bodies_are_cut_at_the_notch,
-          a_frame_is_cut_into_beams, the_limit_leaves_concavity, deep_places_between_vertices,
-          bodies_apart_and_cavities, a_hull_with_bulb_and_flare, rough_bodies, size_does_not_matter,
-          surfaces_that_are_no_solids, memory_runs_out)
+          faces_on_cuts_are_told_apart, a_frame_is_cut_into_beams, the_limit_leaves_concavity,
+          deep_places_between_vertices, bodies_apart_and_cavities, a_hull_with_bulb_and_flare, rough_bodies,
+          size_does_not_matter, surfaces_that_are_no_solids, memory_runs_out)
