@@ -60,6 +60,7 @@ typedef struct piece_seams {
 
 typedef struct pair_seams {
     piece_seams a, b;
+    bool dropped; /* out: a contact that pushes at an inside was */
 } pair_seams;
 
 /* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the
@@ -76,7 +77,7 @@ static inline bool clearly_less(double depth, double than, double slack)
 /* Manifold of two convex polyhedra given in a common frame: up to 4 points; normal from b to a.  Returns the number of
    points; axis in: remembered separating axis or zero, out: new one when separated.  The feature of a point is a small
    integer that names the features met. */
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near, vec3 *normal,
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, pair_seams *seams, nearness near, vec3 *normal,
                        manifold_point out[4], vec3 *axis);
 
 #endif

@@ -45,9 +45,10 @@ static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron 
     return polyhedron_place(ctx, &pieces->data[piece], p->rotation, p->centre, room);
 }
 
-/* Points of two pieces, -1 without memory. */
+/* Points of two pieces, -1 without memory.  *dropped becomes true where one was for a seam of a solid; where it is NULL
+   solids have none. */
 static int touch_pieces(context *ctx, narrow_room *s, const party *a, const party *b, int32_t piece_a, int32_t piece_b,
-                        nearness near, vec3 *normal, manifold_point out[4], vec3 *axis)
+                        nearness near, bool *dropped, vec3 *normal, manifold_point out[4], vec3 *axis)
 {
     if (a->is_prism && b->is_prism) {
         if (!prism_polyhedron_reserve(ctx, &s->piece_a) || !prism_polyhedron_reserve(ctx, &s->piece_b))
@@ -58,7 +59,12 @@ static int touch_pieces(context *ctx, narrow_room *s, const party *a, const part
     pair_seams seams;
     if (!place_piece(ctx, a, piece_a, &s->piece_a, &seams.a) || !place_piece(ctx, b, piece_b, &s->piece_b, &seams.b))
         return -1;
-    return polyhedra_manifold(&s->piece_a, &s->piece_b, &seams, near, normal, out, axis);
+    if (!dropped)
+        seams.a.pieces = seams.b.pieces = NULL;
+    int count = polyhedra_manifold(&s->piece_a, &s->piece_b, &seams, near, normal, out, axis);
+    if (dropped)
+        *dropped = *dropped || seams.dropped;
+    return count;
 }
 
 /* ---- pairs ---- */
@@ -111,6 +117,33 @@ static bool touch_of_patch(pair_case *c)
     return true;
 }
 
+/* The contacts of all pieces that are near, and the last axis that parts two of them; apart becomes the least gap
+   before the first contact.  dropped: as of touch_pieces. */
+static bool touch_near_pieces(context *ctx, narrow_room *room, const body_table *bodies, const pair_case *c,
+                              bool *dropped, double *apart, vec3 *last, contact_array *contacts)
+{
+    const party *a = &c->a, *b = &c->b;
+    int32_t first = contacts->count;
+    for (int32_t i = 0; i < room->near_a.count; i++) {
+        for (int32_t j = 0; j < room->near_b.count; j++) {
+            vec3 normal, axis = {0, 0, 0};
+            manifold_point point[4];
+            int32_t piece_a = room->near_a.data[i], piece_b = room->near_b.data[j];
+            int count = touch_pieces(ctx, room, a, b, piece_a, piece_b, c->near, dropped, &normal, point, &axis);
+            if (count < 0 ||
+                !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, c->policy, contacts))
+                return false;
+            if (c->whether && count > 0)
+                return true;
+            if (contacts->count == first)
+                *apart = fmin(*apart, piece_axis_gap(a, piece_a, b, piece_b, axis));
+            if (vec3_dot(axis, axis) > 0)
+                *last = axis;
+        }
+    }
+    return true;
+}
+
 /* Any two bodies, piece by piece.  Where none touches they are as far apart as the nearest two pieces: a piece in a bay
    of another body is parted from it by no plane. */
 static bool touch_compounds(context *ctx, narrow_room *room, const body_table *bodies, pair_case *c,
@@ -120,7 +153,7 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
     c->gap = axis_gap(a, b, c->axis);
     if (c->gap > c->near.slack)
         return true;
-    bool compound = piece_count(a) > 1 || piece_count(b) > 1;
+    bool compound = piece_count(a) > 1 || piece_count(b) > 1, dropped = false;
     box3 box_a, box_b;
     double apart = HUGE_VAL;
     if (!party_boxes(ctx, a, &room->box_a, &box_a) || !party_boxes(ctx, b, &room->box_b, &box_b) ||
@@ -129,24 +162,14 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
         return false;
     int32_t first = contacts->count;
     vec3 last = {0, 0, 0};
-    for (int32_t i = 0; i < room->near_a.count; i++) {
-        for (int32_t j = 0; j < room->near_b.count; j++) {
-            vec3 normal, axis = {0, 0, 0};
-            manifold_point point[4];
-            int32_t piece_a = room->near_a.data[i], piece_b = room->near_b.data[j];
-            int count = touch_pieces(ctx, room, a, b, piece_a, piece_b, c->near, &normal, point, &axis);
-            if (count < 0 ||
-                !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, c->policy, contacts))
-                return false;
-            if (c->whether && count > 0)
-                return touch_of_patch(c);
-            if (contacts->count == first)
-                apart = fmin(apart, piece_axis_gap(a, piece_a, b, piece_b, axis));
-            if (vec3_dot(axis, axis) > 0)
-                last = axis;
-        }
-    }
+    if (!touch_near_pieces(ctx, room, bodies, c, &dropped, &apart, &last, contacts))
+        return false;
+    /* A contact is dropped since another piece bears one.  In a hollow corner two may each count on the other. */
+    if (dropped && contacts->count == first && !touch_near_pieces(ctx, room, bodies, c, NULL, &apart, &last, contacts))
+        return false;
     c->touches = contacts->count > first;
+    if (c->touches && c->whether)
+        return touch_of_patch(c);
     contact_keys_part(contacts->data + first, contacts->count - first);
     c->gap = c->touches ? 0 : axis_gap(a, b, last);
     bool remember = !c->touches && (!compound || c->gap > c->near.slack);

@@ -298,8 +298,8 @@ int prism_meeting_points(const prism *a, const prism *b, const prism_meeting *m,
     if (m->kind == PRISMS_TILTED) {
         prism_polyhedron(a, a_room);
         prism_polyhedron(b, b_room);
-        return polyhedra_manifold(a_room, b_room, &(pair_seams){{.faces = a->seams}, {.faces = b->seams}}, near, normal,
-                                  out, axis);
+        return polyhedra_manifold(a_room, b_room, &(pair_seams){{.faces = a->seams}, {.faces = b->seams}, false}, near,
+                                  normal, out, axis);
     }
     vec3 outward;
     int count = contact_at_side(m->swapped ? b : a, m->swapped ? a : b, m, near, &outward, out);

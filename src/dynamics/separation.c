@@ -225,9 +225,10 @@ static bool is_barred(const polyhedron *holder, int32_t face, const piece_seams 
     return is_inside(of_other, &point[deepest], 1, vec3_neg(f->normal));
 }
 
-/* The first contact that pushes at no inside, from the one of least depth on. */
-static int first_contact(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near,
-                         best_face *in_a, best_face *in_b, best_edges *edges, vec3 *normal, manifold_point out[4])
+/* The first contact that pushes at no inside, from the one of least depth on.  Once one was dropped a face that meets
+   nothing is no answer either. */
+static int first_contact(const polyhedron *a, const polyhedron *b, pair_seams *seams, nearness near, best_face *in_a,
+                         best_face *in_b, best_edges *edges, vec3 *normal, manifold_point out[4])
 {
     double seam_depth = fmin(in_a->seam_depth, in_b->seam_depth);
     bool with_edges = edges->a >= 0 && !seams->a.faces && !seams->b.faces;
@@ -243,16 +244,20 @@ static int first_contact(const polyhedron *a, const polyhedron *b, const pair_se
             if (!is_inside(&seams->a, out, count, vec3_neg(*normal)) && !is_inside(&seams->b, out, count, *normal))
                 return count;
             with_edges = false;
+            seams->dropped = true;
             continue;
         }
         const polyhedron *holder = of_b ? b : a, *other = of_b ? a : b;
         vec3 n = holder->face.data[best->face].normal, none;
         *normal = of_b ? n : vec3_neg(n);
         int count = contact_at_face(holder, best->face, other, near, of_b, out);
-        if (count == 0 ||
-            !is_barred(holder, best->face, of_b ? &seams->b : &seams->a, of_b ? &seams->a : &seams->b, out, count))
+        bool barred = count > 0 && is_barred(holder, best->face, of_b ? &seams->b : &seams->a,
+                                             of_b ? &seams->a : &seams->b, out, count);
+        if (!barred && (count > 0 || !seams->dropped))
             return count;
-        seam_depth = fmin(seam_depth, best->depth);
+        if (barred)
+            seam_depth = fmin(seam_depth, best->depth);
+        seams->dropped = seams->dropped || barred;
         search_faces(holder, other, of_b ? seams->b.faces : seams->a.faces, near.slack, best, &none);
     }
 }
@@ -262,9 +267,10 @@ static bool parted_along(const polyhedron *a, const polyhedron *b, vec3 axis, do
     return vec3_dot(axis, axis) > 0 && project(a, axis).low - project(b, axis).high > slack;
 }
 
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, const pair_seams *seams, nearness near, vec3 *normal,
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, pair_seams *seams, nearness near, vec3 *normal,
                        manifold_point out[4], vec3 *axis)
 {
+    seams->dropped = false;
     if (parted_along(a, b, *axis, near.slack))
         return 0;
     best_face in_a = NO_FACE, in_b = NO_FACE;

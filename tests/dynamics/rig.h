@@ -194,4 +194,13 @@ static inline void rig_run(rig *r, int steps)
         rig_step(r);
 }
 
+/* Depth of the deepest contact [m]. */
+static inline double rig_deepest(const rig *r)
+{
+    double depth = -HUGE_VAL;
+    for (int32_t i = 0; i < r->contacts.count; i++)
+        depth = fmax(depth, r->contacts.data[i].depth);
+    return depth;
+}
+
 #endif

@@ -352,14 +352,6 @@ END_TEST
 
 /* ---- narrow phase ---- */
 
-static double deepest(const rig *r)
-{
-    double depth = -HUGE_VAL;
-    for (int32_t i = 0; i < r->contacts.count; i++)
-        depth = fmax(depth, r->contacts.data[i].depth);
-    return depth;
-}
-
 /* The outline of a body in the global plan view. */
 static polygon plan_of(const rig *r, int32_t slot, vec2 *out)
 {
@@ -387,7 +379,8 @@ START_TEST(level_prisms_touch_as_their_outlines_do)
         if (depth > 0 && depth < 0.5) {
             touching++;
             ck_assert_msg(r.contacts.count >= 2, "pair %d: depth %g, %d contacts", k, depth, r.contacts.count);
-            assert_absolute(deepest(&r), depth, 0.06 * depth + 1e-12); /* either side, when both are nearly as near */
+            assert_absolute(rig_deepest(&r), depth,
+                            0.06 * depth + 1e-12); /* either side, when both are nearly as near */
             vec3 n = r.contacts.data[0].normal;
             assert_absolute(n.z, 0, 1e-12);
             ck_assert(n.x * axis.x + n.y * axis.y < 0); /* from b to a */
@@ -573,92 +566,10 @@ START_TEST(no_contact_takes_the_normal_of_a_seam)
             if (r.contacts.data[i].depth > 0)
                 ck_assert(r.contacts.data[i].depth < 0.0501);
         }
-        assert_absolute(deepest(&r), 0.05, 1e-9);
+        assert_absolute(rig_deepest(&r), 0.05, 1e-9);
         overlay_free(o);
         rig_free(&r);
     }
-}
-END_TEST
-
-/* A solid of this outline, 9 m high, cut into convex pieces. */
-static int32_t cut_solid(rig *r, solid_array *solids, polygon outline, int32_t least)
-{
-    int32_t slot = body_create(&r->ctx, &r->bodies, MOTION_STATIC, MATERIAL_HULL), index;
-    mesh surface = {0};
-    polyhedron_array pieces = {0};
-    double concavity;
-    fram_error e = {0};
-    assert_ok(mesh_make_prism(&r->ctx, outline, -5, 4, &surface, &e), e);
-    assert_ok(mesh_convex_pieces(&r->ctx, &surface, 0.2, 20, &pieces, &concavity, &e), e);
-    ck_assert_int_ge(pieces.count, least);
-    r->shapes.solids = solids;
-    assert_ok(solid_add(&r->ctx, solids, &surface, &pieces, concavity, &index, &e), e);
-    assert_ok(shape_add_solid(&r->ctx, &r->shapes, index, &r->bodies.shape[slot], &e), e);
-    ck_assert(array_resize(&r->ctx, &r->loads, r->bodies.count));
-    return slot;
-}
-
-/* Straight on the sides with +y, -x and +x; a wedge or a dock in the fourth. */
-static const vec2 wedged[] = {{-30, -10}, {0, 8}, {30, -10}, {30, 10}, {-30, 10}};
-static const vec2 docked[] = {{-30, -10}, {-10, -10}, {-10, -2}, {10, -2}, {10, -10}, {30, -10}, {30, 10}, {-30, 10}};
-
-/* A box of 6 by 6 by 4 m, turned, is pushed `normal` and no other way all along a line, 5 cm deep. */
-static void assert_pushed_along(polygon outline, vec2 from, vec2 to, double turn, vec2 normal)
-{
-    rig r = rig_make(0.1);
-    solid_array solids = {0};
-    cut_solid(&r, &solids, outline, 2);
-    int32_t box = rig_box(&r, MOTION_DYNAMIC, vec3_make(6, 6, 4), 900, vec3_make(0, 0, 0));
-    r.bodies.orientation[box] = quat_from_roll_pitch_yaw(0, 0, turn);
-    double lost = 0.05 / 8 * real_sin(turn) / real_cos(turn);
-    double reach = 3 * (fabs(real_sin(turn)) + fabs(real_cos(turn))) - 0.05;
-    for (int k = 0; k <= 325; k++) {
-        vec2 at = vec2_add(from, vec2_scale(vec2_sub(to, from), k / 325.0));
-        r.bodies.position[box] = vec3_make(at.x - reach * normal.x, at.y - reach * normal.y, 0);
-        rig_detect(&r);
-        ck_assert_msg(r.contacts.count > 0, "box at (%g, %g) is not seen", at.x, at.y);
-        for (int32_t i = 0; i < r.contacts.count; i++)
-            assert_vec3_close(r.contacts.data[i].normal, vec3_make(normal.x, normal.y, 0), 1e-9);
-        /* A corner that reaches past a cut by less than an eighth of its depth is not seen there. */
-        assert_absolute(deepest(&r), 0.05 - lost / 2, lost / 2 + 1e-9);
-    }
-    rig_free(&r);
-    solid_array_free(&r.ctx, &solids);
-}
-
-START_TEST(no_contact_takes_the_normal_of_a_cut)
-{
-    polygon shapes[] = {{wedged, sizeof wedged / sizeof *wedged}, {docked, sizeof docked / sizeof *docked}};
-    const double turns[] = {0, 0.003, 0.3, PI / 4};
-    for (int i = 0; i < 4; i++) {
-        for (int k = 0; k < 2; k++)
-            assert_pushed_along(shapes[k], vec2_make(-12.96, 10), vec2_make(13.04, 10), turns[i], vec2_make(0, -1));
-        assert_pushed_along(shapes[1], vec2_make(30, -7), vec2_make(30, 7), turns[i], vec2_make(-1, 0));
-        /* Cuts go along floor or walls of the dock, which are met all the same. */
-        assert_pushed_along(shapes[1], vec2_make(-5, -2), vec2_make(5, -2), turns[i], vec2_make(0, 1));
-        assert_pushed_along(shapes[1], vec2_make(10, -6.9), vec2_make(10, -6.3), turns[i], vec2_make(1, 0));
-    }
-}
-END_TEST
-
-/* Pressed along a side without friction a box keeps its way.  One step ends a little past a cut. */
-START_TEST(a_box_slides_over_a_cut)
-{
-    rig r = rig_make(0.05);
-    r.gravity = vec3_make(0, 0, 0);
-    solid_array solids = {0};
-    cut_solid(&r, &solids, (polygon){wedged, sizeof wedged / sizeof *wedged}, 2);
-    int32_t box = rig_box(&r, MOTION_DYNAMIC, vec3_make(10, 6, 4), 500, vec3_make(-6.64, 13.01, 0));
-    r.bodies.velocity[box] = vec3_make(1, 0, 0);
-    r.loads.data[box].force = vec3_make(0, -1433, 0);
-    for (int k = 0; k < 320; k++) {
-        rig_step(&r);
-        assert_absolute(r.bodies.velocity[box].x, 1, 1e-9);
-        assert_absolute(r.bodies.angular_velocity[box].z, 0, 1e-6);
-    }
-    assert_absolute(r.bodies.position[box].y, 13, 1e-3);
-    rig_free(&r);
-    solid_array_free(&r.ctx, &solids);
 }
 END_TEST
 
@@ -788,7 +699,7 @@ TEST_MAIN("collision", broad_phase_finds_all_pairs, pairs_keep_their_axes, a_sta
           pairs_with_a_crowd_that_stands_are_found, a_new_body_among_what_stands_has_its_own_box,
           another_state_of_what_stands_finds_its_pairs, unmoved_boxes_are_kept, lost_bodies_are_named,
           level_prisms_touch_as_their_outlines_do, contacts_turn_with_the_bodies, order_of_the_bodies_does_not_matter,
-          crossed_edges_meet_in_a_point, no_contact_takes_the_normal_of_a_cut, a_box_slides_over_a_cut,
-          a_body_in_a_bay_is_not_tested_again_and_again, what_is_remembered_of_compounds_leaves_nothing_out,
-          keys_are_unique_and_die_with_their_bodies, tangents_are_orthonormal, patch_pairs_are_left_to_others,
-          no_contact_takes_the_normal_of_a_seam, memory_runs_out)
+          crossed_edges_meet_in_a_point, a_body_in_a_bay_is_not_tested_again_and_again,
+          what_is_remembered_of_compounds_leaves_nothing_out, keys_are_unique_and_die_with_their_bodies,
+          tangents_are_orthonormal, patch_pairs_are_left_to_others, no_contact_takes_the_normal_of_a_seam,
+          memory_runs_out)
