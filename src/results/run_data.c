@@ -310,17 +310,6 @@ const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *
     return own ? own : run_channel(d, name);
 }
 
-/* By the channel, which counts lines that were let go until its last row too: at least so many parted. */
-static int32_t lines_gone_unasked(const run_data *d, int32_t vessel)
-{
-    const double *parted = run_vessel_channel(d, vessel, "lines_parted"), *time = run_channel(d, "time");
-    int32_t last = d->series.rows - 1;
-    if (!parted || !time || last < 0 || vessel >= scenario_vessel_count(&d->s))
-        return 0;
-    double released = scenario_released_lines(scenario_vessel_entry(&d->s, vessel).keys, time[last]);
-    return (int32_t)fmax(parted[last] - released, 0);
-}
-
 static bool is_event(const run_data *d, const run_event *e, int32_t vessel, station_event kind)
 {
     const char *name = scenario_vessel_name(&d->s, vessel);
@@ -349,12 +338,34 @@ bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, st
     return on;
 }
 
+static int32_t count_events(const run_data *d, int32_t vessel, station_event kind)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < d->note.events.count; i++)
+        count += is_event(d, &d->note.events.data[i], vessel, kind);
+    return count;
+}
+
+/* By the channel, which counts lines that were let go until its last row too, by the scenario or by a program: at least
+   so many parted.  What is let go in a step was due when that began. */
+static int32_t lines_gone_unasked(const run_data *d, int32_t vessel)
+{
+    const double *parted = run_vessel_channel(d, vessel, "lines_parted"), *time = run_channel(d, "time");
+    int32_t last = d->series.rows - 1;
+    if (!parted || !time || last < 0 || vessel >= scenario_vessel_count(&d->s))
+        return 0;
+    double began = (floor(time[last] / d->s.run.time_step + 0.5) - 1) * d->s.run.time_step;
+    double due = scenario_released_lines(scenario_vessel_entry(&d->s, vessel).keys, began);
+    return (int32_t)fmax(parted[last] - fmax(due, count_events(d, vessel, EVENT_LINE_RELEASE)), 0);
+}
+
+bool run_lacks_events(const run_data *d) { return run_is_open(d) || d->note.events_left_out > 0; }
+
 int32_t run_lines_broken(const run_data *d, int32_t vessel)
 {
-    int32_t broken = 0;
-    for (int32_t i = 0; i < d->note.events.count; i++)
-        broken += is_event(d, &d->note.events.data[i], vessel, EVENT_LINE_BREAK);
-    /* A note may lack events: of a run that goes on, or that had more than it holds. */
+    int32_t broken = count_events(d, vessel, EVENT_LINE_BREAK);
+    if (!run_lacks_events(d))
+        return broken;
     int32_t gone = lines_gone_unasked(d, vessel);
     return broken > gone ? broken : gone;
 }

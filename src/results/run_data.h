@@ -61,6 +61,8 @@ void run_data_free(context *ctx, run_data *d);
 
 /* Whether the run has no end: it goes on, or was killed. */
 bool run_is_open(const run_data *d);
+/* Whether there may have been events that are not in its note: it is open, or had more than that holds. */
+bool run_lacks_events(const run_data *d);
 /* Values of a channel, NULL when the run does not have it. */
 const double *run_channel(const run_data *d, const char *name);
 /* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */
@@ -69,7 +71,7 @@ const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *
 double run_event_from(const run_data *d, int32_t vessel, station_event kind, double from);
 /* Whether something had begun at a time and was not yet over. */
 bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at);
-/* Lines of a vessel that parted, whenever that was, but not those that the scenario let go. */
+/* Lines of a vessel that parted, whenever that was, but not those that were let go. */
 int32_t run_lines_broken(const run_data *d, int32_t vessel);
 /* Events of a kind in fractures.csv, enum fracture_kind. */
 int32_t run_fractures(const run_data *d, int kind);

@@ -490,6 +490,15 @@ ice: {source: none}
         self.assertIsNotNone(station.station)
         self.assertEqual(station.stations, {"": station.station})
         self.assertEqual(len(station.events), 4)
+        # A line that a program lets go has not parted.
+        world = fram.Scenario.from_text(FREE.replace(", release_time: 0.5", "")).world()
+        with world.record(self.folder / "let_go"):
+            world["line_1_release"] = 1
+            world.step(20)
+        self.assertEqual([event["kind"] for event in fram.open(self.folder / "let_go").events], ["line_release"])
+        said = subprocess.run([FRAM, "extremes", self.folder / "let_go", "--channel", "line_tension_max"], check=True,
+                              capture_output=True, text=True)
+        self.assertNotIn("parted", said.stdout)
         passing = fram.Scenario.from_text(PASSING).run(self.folder / "passing")
         self.assertEqual(passing.stations, {})
         self.assertEqual([(event["kind"], event["vessel"], event["other"]) for event in passing.events],

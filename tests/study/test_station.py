@@ -97,12 +97,12 @@ class StationTest(StudyTest):
         said = subprocess.run([FRAM, "extremes", run, "--channel", "offset_x"], check=True, capture_output=True,
                               text=True)
         self.assertIn("parted in 1 of 1 runs", said.stdout)
-        # One that was killed tells no events, and what was to be let go later was not.
+        # One that was killed tells no events, and what is let go in the step after its last row was not.
         note = json.loads((run / "run.json").read_text())
         (run / "run.json").write_text(json.dumps({**note, "status": "running", "events": []}))
         text = (run / "scenario.yaml").read_text()
-        for key, value in (("duration", 5), ("release_time", 2)):
-            text, count = re.subn(rf"\b{key}: {value}\b", f"{key}: {value}00", text)
+        for key, value, later in (("duration", 5, 500), ("release_time", 2, 5)):
+            text, count = re.subn(rf"\b{key}: {value}\b", f"{key}: {later}", text)
             self.assertEqual(count, 1, text)
         (run / "scenario.yaml").write_text(text)
         said = subprocess.run([FRAM, "extremes", run, "--channel", "offset_x"], check=True, capture_output=True,
