@@ -123,7 +123,7 @@ static limit_use limit_between(const report *r, station_event lost, station_even
     if (!run_leaves_out_steps(&r->d))
         return (limit_use){.first = HUGE_VAL};
     return (limit_use){.first = run_event_from(&r->d, r->vessel, lost, from),
-                       .unsure = run_event_goes_on(&r->d, r->vessel, lost, regained, from)};
+                       .unsure = run_lacks_events(&r->d) || run_event_goes_on(&r->d, r->vessel, lost, regained, from)};
 }
 
 /* Of the size of one channel, or of a vector of two, after the transient. */

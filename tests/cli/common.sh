@@ -44,7 +44,7 @@ as_killed() {
 import json, sys
 note = json.load(open(sys.argv[1]))
 track = {"limit_m": 9, "largest_m": 0, "rms_m": 0, "time_s": 0, "rounds": 0}
-note |= {"status": "running", "steps": 0, "time_s": 0, "tracks": [track]}
+note |= {"status": "running", "steps": 0, "time_s": 0, "tracks": [track], "events": []}
 json.dump(note, open(sys.argv[1], "w"))
 PY
 }

@@ -99,6 +99,11 @@ sed -i 's/transient: 4/transient: 0/' between/scenario.yaml
 verdict between
 says "The vessel did not hold its station." verdict.txt
 holds "passed its limit of 0.05 m at [0-3][.0-9]* s, between two rows of the series" verdict.txt
+# Of one that was killed no events are known.
+as_killed between
+verdict between
+says "The vessel may not have held its station." verdict.txt
+says "may have been beyond its limit of 0.05 m from 0 s on, between two rows of the series" verdict.txt
 
 # Of a fleet each vessel is judged, the last as the first, and what is said of the run comes behind them all.
 {
