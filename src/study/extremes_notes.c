@@ -95,7 +95,8 @@ void extremes_cut_low(extreme_result *out, int levels, double least)
         say(out, "Levels that are not over %.4g are not told: the law is one of what is over it.", least);
 }
 
-void extremes_cut(extreme_result *out, int levels, double least, const char *why)
+/* Values are known up to `least` only, in some runs: levels from there on are not told, and `why` is (a sentence). */
+static void cut_from(extreme_result *out, int levels, double least, const char *why)
 {
     if (out->most_probable.level >= least)
         out->most_probable = none;
@@ -202,7 +203,7 @@ void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_
                  least * 1e-3);
     else
         snprintf(rest, room, "whose tensions from there on are those of a mooring with fewer lines.");
-    extremes_cut(out, levels, offset ? -HUGE_VAL : least, why);
+    cut_from(out, levels, offset ? -HUGE_VAL : least, why);
 }
 
 /* So many of the draws of a bootstrap must have a fit. */

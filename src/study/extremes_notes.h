@@ -15,8 +15,6 @@ fram_status extremes_refuse_short(extreme_result *out);
 fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, int32_t count, double shape);
 /* The law is one of values over `least`: levels that are not are not told. */
 void extremes_cut_low(extreme_result *out, int levels, double least);
-/* Values are known up to `least` only, in some runs: levels from there on are not told, and `why` is (a sentence). */
-void extremes_cut(extreme_result *out, int levels, double least, const char *why);
 /* What speaks against an answer that was found, of data that are `time` long [s]. */
 void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
 /* Where the sample (ascending) speaks for another tail than Gumbel's: the ratio of likelihoods (Coles 2001, 3.3). */

@@ -7,7 +7,6 @@
 #include "study/study_file.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Figures that have extremes. */
@@ -64,20 +63,7 @@ static void cut_at_parting(const condition_rows *of, run_figure figure, int leve
 {
     bool tension = figure == ROW_line_tension_largest;
     const parted_lines parted = study_parted_lines(of);
-    char why[240];
-    if (parted.runs == 0)
-        return;
-    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs, (int)out->sample);
-    if (tension)
-        snprintf(why + used, sizeof why - (size_t)used,
-                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.3g kN on are not "
-                 "told. Lines without breaking_load tell them.",
-                 parted.least * 1e-3);
-    else
-        snprintf(why + used, sizeof why - (size_t)used,
-                 "and the vessel drifted on from there: levels of its offset are not told. Lines without breaking_load "
-                 "tell them.");
-    extremes_cut(out, levels, tension ? parted.least : -HUGE_VAL, why);
+    extremes_cut_parted(out, levels, parted.runs, (int32_t)out->sample, !tension, parted.least);
 }
 
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
