@@ -66,6 +66,7 @@ typedef struct fram_comparison {
     const fram_comparison_row *rows;
     int count;
     bool same_scenario, same_state; /* by hash, the files that a scenario names too */
+    bool only_files_differ;         /* the scenarios are the same but for what is in those */
     void *inside;
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */

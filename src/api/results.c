@@ -154,7 +154,8 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
         const compare_row *row = &in->result.row[i];
         in->rows[i] = (fram_comparison_row){row->name, row->unit, row->a, row->b};
     }
-    const fram_comparison full = {in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in};
+    const fram_comparison full = {
+        in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in->result.only_files_differ, in};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

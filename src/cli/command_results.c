@@ -169,7 +169,10 @@ static void print_compared(const fram_comparison *c)
         print_number(row->b - row->a, 4);
         putchar('\n');
     }
-    printf("scenarios: %s; final states: %s\n", c->same_scenario ? "the same" : "different",
+    printf("scenarios: %s; final states: %s\n",
+           c->same_scenario       ? "the same"
+           : c->only_files_differ ? "the same but for the files that they name"
+                                  : "different",
            c->same_state ? "identical to the bit" : "different");
 }
 

@@ -113,10 +113,13 @@ static const scenario *next_vessel(const pair *p, int32_t at, int32_t *index)
 }
 
 /* The hash has files by their names alone; what is in them is told beside it. */
-static bool is_same_scenario(const run_note *a, const run_note *b)
+static void compare_scenarios(const run_note *a, const run_note *b, compare_result *out)
 {
-    return strcmp(a->scenario_hash, b->scenario_hash) == 0 && a->inputs.count == b->inputs.count &&
-           (a->inputs.count == 0 || memcmp(a->inputs.data, b->inputs.data, (size_t)a->inputs.count) == 0);
+    bool names = strcmp(a->scenario_hash, b->scenario_hash) == 0;
+    bool files = a->inputs.count == b->inputs.count &&
+                 (a->inputs.count == 0 || memcmp(a->inputs.data, b->inputs.data, (size_t)a->inputs.count) == 0);
+    out->same_scenario = names && files;
+    out->only_files_differ = names && !files;
 }
 
 static void find_rows(pair *p)
@@ -129,7 +132,7 @@ static void find_rows(pair *p)
         for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
             find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_name(s, v));
     }
-    p->result->same_scenario = is_same_scenario(&p->d[0].note, &p->d[1].note);
+    compare_scenarios(&p->d[0].note, &p->d[1].note, p->result);
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
     /* Without an end there is no final state. */
     p->result->same_state = p->result->same_state && !run_is_open(&p->d[0]);
@@ -219,7 +222,10 @@ static fram_status compose_comparison(pair *p, fram_error *error)
         html_fact(&p->page, k ? "B" : "A", "%s: %s, %s, scenario %.12s, state %s", p->d[k].folder,
                   p->d[k].s.title[0] ? p->d[k].s.title : "no title", p->d[k].note.status, p->d[k].note.scenario_hash,
                   p->d[k].note.state_hash);
-    html_fact(&p->page, "scenarios", "%s", p->result->same_scenario ? "the same" : "different");
+    html_fact(&p->page, "scenarios", "%s",
+              p->result->same_scenario       ? "the same"
+              : p->result->only_files_differ ? "the same but for the files that they name"
+                                             : "different");
     html_fact(&p->page, "final states", "%s", p->result->same_state ? "identical to the bit" : "different");
     html_table_end(&p->page);
     html_section(&p->page, "Numbers");

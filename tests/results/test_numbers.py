@@ -106,6 +106,10 @@ def main():
             (folder / name / "wind.csv").write_text(f"time[s],x[m/s],y[m/s]\n0,{wind},0\n")
         windy = [run(folder, f"wind_{n}", FLOES, f"environment.wind_file={n}/wind.csv") for n in "abc"]
         assert [compare(windy[0], w)[0]["same_scenario"] for w in windy] == [True, False, True]
+        page = folder / "windy.html"
+        done = subprocess.run([FRAM, "compare", *windy[:2], "-o", page], capture_output=True, text=True, check=True)
+        for text in (done.stdout, page.read_text()):
+            assert "the same but for the files that they name" in text, text
         soft = run(folder, "soft", BOX, "ice.crushing_strength=1e6")
         told, rows = compare(box, soft)
         for k, each in enumerate((box, soft)):
