@@ -118,6 +118,7 @@ class Browser:
 
     def open(self, page):
         """Load a file and wait until its playback is ready; it does not play by itself."""
+        self.call("Page.navigate", url="about:blank")  # at its own address a page would stay as it is
         self.call("Page.navigate", url=pathlib.Path(page).as_uri() + "#still")
         self.until("window.fram?.ready === true", "the page does not get ready")
 
