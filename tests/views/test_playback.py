@@ -593,6 +593,21 @@ def check_files_beside(browser, run):
                                     "f.chunk)).length, fram.chunks.lost.size]")
     assert told == there and lost == 2, f"the history has {told} of {there} frames that are there, {lost} files lost"
     browser.complaints = [c for c in browser.complaints if files[-1].name not in c]
+    check_gaps(browser, run, page)
+
+
+def check_gaps(browser, run, page):
+    """Frames beside a gap are there: the last before it, which needs no other, and the first after it."""
+    subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "-q", "--page-limit", "0.63"], check=True)
+    gone = [sorted((run / "in pieces-frames").iterdir())[k] for k in (0, 3)]
+    for file in gone:
+        file.unlink()
+    browser.open(page)
+    for frame, lost in ("findLast((f) => f.chunk === 2)", 3), ("find((f) => f.chunk === 1)", 0):
+        browser.run(f"(fram.chunks.ask({lost}), fram.seek(fram.record.frames.{frame}.time))")
+        browser.until(f"fram.chunks.lost.has({lost}) && !fram.dirty && !fram.waiting",
+                      f"a frame beside a gap is waited for: {frame}")
+    browser.complaints = [c for c in browser.complaints if not any(file.name in c for file in gone)]
 
 
 def main():

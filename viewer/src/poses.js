@@ -30,13 +30,18 @@ export class Poses {
         return f === g || frames[f].order !== frames[g].order && bodies.some((b) => b.moves && b.death === g);
     }
 
+    /** Whether the file with a frame is asked for in vain. */
+    isLost(f) { return this.store.chunks.lost.has(this.record.frames[f]?.chunk); }
+
     /** Go to a frame number with a fraction; false when the frames are not there yet.  Speeds are of the way to the
      *  next frame, of a body that is not in it of the way from the frame before (as in src/results/replay.c); without
-     *  `ends` the latter are 0, and that frame is not asked for. */
+     *  `ends` the latter are 0, and that frame is not asked for.  A frame beside files that are lost is as one at an
+     *  end of the run. */
     show(when, ends = true) {
         const { frames, bodies } = this.record;
-        const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last);
-        const e = ends && this.someEnd(f, g) ? Math.max(f - 1, 0) : f;
+        const last = frames.length - 1, f = Math.min(Math.floor(when), last);
+        const g = f === last || when === f && this.isLost(f + 1) ? f : f + 1;
+        const e = ends && f > 0 && !this.isLost(f - 1) && this.someEnd(f, g) ? f - 1 : f;
         const zero = this.store.get(e), one = this.store.get(f), two = this.store.get(g);
         if (!zero || !one || !two) {
             this.wanted = [e, f, g];
