@@ -17,20 +17,15 @@ static void chunk_name(const char *folder, int32_t number, char out[NAME_SIZE])
     snprintf(out, NAME_SIZE, "%s/%04d.js", folder, (int)number);
 }
 
-/* The folder's files, by their numbers as far as they go, then the folder, if nothing else is in it. */
-static void remove_chunks(const char *folder)
-{
-    char name[NAME_SIZE];
-    for (int32_t i = 0; i < INT32_MAX; i++) {
-        chunk_name(folder, i, name);
-        if (unlink(name) != 0)
-            break;
-    }
-    (void)rmdir(folder);
-}
-
 /* "0012.js" */
 static bool is_chunk(const char *name) { return name_is_numbered(name, "", 4, ".js"); }
+
+/* The folder's files, be some of them missing, then the folder, if nothing else is in it. */
+static void remove_chunks(const char *folder)
+{
+    folder_remove_files(folder, is_chunk);
+    (void)rmdir(folder);
+}
 
 /* Files of another kind would stop the folder from being replaced in the end: they are told before the work. */
 static fram_status refuse_foreign(const char *folder, fram_error *error)

@@ -608,6 +608,9 @@ def check_gaps(browser, run, page):
         browser.until(f"fram.chunks.lost.has({lost}) && !fram.dirty && !fram.waiting",
                       f"a frame beside a gap is waited for: {frame}")
     browser.complaints = [c for c in browser.complaints if not any(file.name in c for file in gone)]
+    # Made anew it is whole.
+    subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "-q", "--page-limit", "0.63"], check=True)
+    assert all(file.exists() for file in gone) and not list(run.glob("*.new"))
 
 
 def main():
