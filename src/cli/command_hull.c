@@ -399,11 +399,11 @@ static int check_hull_words(const common_options *common, const hull_words *w)
         return answer_usage(common, of_file, "applies to a hull from a file");
     if (w->box && w->ship)
         return answer_usage(common, "--ship", "cannot be combined with --box");
+    if (w->box && of_form)
+        return answer_usage(common, of_form, "does not apply to a box: leave one of them out");
     if (!w->ship && !(isnan(p->bilge_radius) && isnan(p->transom)))
         return answer_usage(common, isnan(p->transom) ? "--bilge-radius" : "--transom",
                             "applies to a ship: add --ship");
-    if (w->box && of_form)
-        return answer_usage(common, of_form, "applies to an icebreaker or a ship, not to a box");
     return -1;
 }
 

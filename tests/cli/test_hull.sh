@@ -248,8 +248,10 @@ for words in "--scale 0.001" "--seal 0.1" --repair; do
     expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 $words
     says "${words% *}: applies to a hull from a file" err
 done
-expect 2 "$FRAM" hull --box --length 100 --beam 20 --draught 7 --stem-angle-deg 20
-says "--stem-angle-deg: applies to an icebreaker or a ship" err
+for option in --stem-angle-deg --bilge-radius --transom; do
+    expect 2 "$FRAM" hull --box --length 100 --beam 20 --draught 7 $option 1
+    says "$option: does not apply to a box" err
+done
 expect 2 "$FRAM" hull ship.obj --draught 3 --mass 1e6
 says "give one of them" err
 expect 2 "$FRAM" hull ship.obj more.obj
