@@ -67,6 +67,7 @@ statistics r-cran-evd   deb:r-cran-evd
 python python3-numpy    deb:python3-numpy
 python python3-cffi     deb:python3-cffi
 python python3-pip      deb:python3-pip
+deb    build-essential  deb:build-essential
 deb    debhelper        cmd:dh
 deb    dh-python        cmd:dh_python3
 deb    libmicrohttpd-dev pc:libmicrohttpd

@@ -84,5 +84,10 @@ class Deps(unittest.TestCase):
         self.assertNotIn("[Y/n]", text)
         self.assertTrue(self.mark.exists())
 
+    def test_packages_of_a_bare_machine_are_named(self):
+        """dpkg-buildpackage asks for build-essential, which no package of the group brings."""
+        done = subprocess.run(["sh", DEPS, "core", "deb"], env=self.environment, capture_output=True, text=True)
+        self.assertIn("build-essential", done.stdout.split())
+
 
 unittest.main()
