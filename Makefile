@@ -45,7 +45,7 @@ demo: build ## run scenes/demo.yaml with a playback page, and say which files to
 site: | $(STAMPS)/site ## the documents as pages with search, build/site/index.html, which open from disk
 	@$(PYTHON) tools/site/site.py
 
-pictures: viewer build | $(STAMPS)/views ## screenshots of all pages at two widths, docs/pictures/pages
+pictures: viewer build | $(STAMPS)/views $(STAMPS)/site ## screenshots of all pages at two widths, docs/pictures/pages
 	@$(PYTHON) tools/pictures.py
 
 scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/
@@ -75,7 +75,7 @@ python: build/python/build.ninja | $(STAMPS)/python ## the wheel of the Python p
 	@cmake --build --preset python -j$(JOBS) --target fram_shared fram_fmu
 	@$(PYTHON) tools/python_wheel.py build/python build/python
 
-wasm: build/viewer/playback.html | $(STAMPS)/wasm ## one page that simulates in a browser, build/wasm/fram.html (20 minutes the first time)
+wasm: build/viewer/playback.html | $(STAMPS)/core $(STAMPS)/wasm ## one page that simulates in a browser, build/wasm/fram.html (20 minutes the first time)
 	@tools/wasm.sh
 
 bench-python: build | $(STAMPS)/python ## what reading poses and outlines from Python costs, against its bound

@@ -5,6 +5,7 @@ dpkg-query that are made up."""
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import tempfile
 import unittest
@@ -88,6 +89,14 @@ class Deps(unittest.TestCase):
         """dpkg-buildpackage asks for build-essential, which no package of the group brings."""
         done = subprocess.run(["sh", DEPS, "core", "deb"], env=self.environment, capture_output=True, text=True)
         self.assertIn("build-essential", done.stdout.split())
+
+    def test_commands_of_make_install_what_their_scripts_call(self):
+        """wasm.sh calls cmake and ninja, pictures.py the maker of the site."""
+        makefile = (DEPS.parents[1] / "Makefile").read_text(encoding="utf-8")
+        for command, groups in {"wasm": ("core", "wasm"), "pictures": ("views", "site")}.items():
+            needs = re.search(f"^{command}: (.*) ## ", makefile, re.M)[1].split()
+            for group in groups:
+                self.assertIn(f"$(STAMPS)/{group}", needs, command)
 
 
 unittest.main()
