@@ -2,10 +2,13 @@
 """The list of faults and its runner: faults are found wherever their text stands, stale ones are named, and verdicts
 hold for equal code alone."""
 
+import contextlib
+import io
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/mutate"))
@@ -27,6 +30,40 @@ after: int second(
 test: runs/all
 survives: nobody looks
 """
+
+
+class Place:
+    """A workplace where nothing is built or run."""
+
+    tests = [{"name": name, "room": name.split("/")[0], "source": ""}
+             for name in ("base/sum", "base/two", "runs/all", "sim/step")]
+    seconds = {test["name"]: 0.1 for test in tests}
+    problem = None
+    folder_is_there = True
+
+    def __init__(self, *_):
+        pass
+
+    def prepare(self):
+        if not self.folder_is_there:
+            raise RuntimeError("no such preset")
+
+    @staticmethod
+    def usual(test):
+        return len(test["name"])
+
+    know = usual
+
+    def put(self, *_):
+        pass
+
+    restore = put
+
+    def make(self, _):
+        return self.problem
+
+    def run(self, *_):
+        return False, "tests/x.c:12:F:sum:adds:0: no", 0.1
 
 
 class Listing(unittest.TestCase):
@@ -79,13 +116,6 @@ class Listing(unittest.TestCase):
         self.assertFalse(again.known(self.root, one, "abc"))
 
     def test_the_test_that_is_named_comes_first(self):
-        class Place:
-            tests = [{"name": name, "room": name.split("/")[0], "source": ""}
-                     for name in ("base/sum", "base/two", "runs/all", "sim/step")]
-
-            @staticmethod
-            def usual(test):
-                return len(test["name"])
         one, two = mutants.read(self.root)
         path = pathlib.Path("two.c")
         names = [[t["name"] for t in mutate.order(Place, m, path, first)] for m in (one, two) for first in (0, 2)]
@@ -93,6 +123,25 @@ class Listing(unittest.TestCase):
         self.assertEqual(names[1], ["base/two", "base/sum"])
         self.assertEqual(names[2], ["runs/all", "base/two", "base/sum", "sim/step"])
         self.assertEqual(names[3], ["runs/all", "base/two"])
+
+    def campaign(self, place):
+        """Exit code of a run of all faults, each known as caught on older code, and what is known afterwards."""
+        path = self.root / "bench/results/mutants.csv"
+        book = verdicts.Verdicts(path)
+        for mutant in mutants.read(self.root):
+            book.put(mutant, {"verdict": verdicts.CAUGHT, "test": "base/sum", "code": "older", "test_code": "older"})
+        with unittest.mock.patch.multiple(mutate, ROOT=self.root, Workplace=place), \
+                unittest.mock.patch.object(sys, "argv", ["mutate.py", "--results", str(path)]), \
+                contextlib.redirect_stdout(io.StringIO()):
+            return mutate.main(), verdicts.Verdicts(path).rows
+
+    def test_verdicts_of_older_code_are_no_answer(self):
+        code, rows = self.campaign(Place)
+        self.assertEqual((code, {row["function"] for row in rows.values()}), (0, {"adds"}))
+        code, rows = self.campaign(type("Broken", (Place,), {"problem": "error: expected ';'"}))
+        self.assertEqual((code, rows), (1, {}))
+        with self.assertRaisesRegex(RuntimeError, "no such preset"):
+            self.campaign(type("Nowhere", (Place,), {"folder_is_there": False}))
 
     def test_failures_are_named(self):
         self.assertEqual(workplace.first_failure("tests/x.c:12:F:vec:lengths:0: no"), "lengths")

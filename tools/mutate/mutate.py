@@ -9,10 +9,12 @@
     --first N     only the N likeliest tests of the fault's own room, with short scenes; what they miss is left open
     --least P     exit code 1 when less than P % (95) are caught
 
-Verdicts stand in bench/results/mutants.csv; one on equal code and by an equal test is not asked for again.
+Verdicts stand in bench/results/mutants.csv; one on equal code and by an equal test is not asked for again.  A fault
+that does not compile has none, and exit code 1 follows.
 """
 
 import argparse
+import concurrent.futures
 import pathlib
 import queue
 import sys
@@ -74,23 +76,28 @@ def judge(place, mutant, path, text, first):
 
 
 def work(place, jobs, verdicts, lock, options, end):
-    """Take faults until there are none, or no time."""
+    """Take faults until there are none, or no time; how many did not compile."""
+    broken = 0
     place.prepare()
     while time.monotonic() < end:
         try:
             mutant, path, text = jobs.get_nowait()
         except queue.Empty:
-            return
+            break
         began = time.monotonic()
         row = judge(place, mutant, path, text, options.first)
         with lock:
             spent = f"{time.monotonic() - began:.0f} s"
             if "problem" in row:
                 print(f"{mutant.place}: does not compile\n{row['problem']}", flush=True)
+                broken += 1
+                # What it was on other code says nothing of it now.
+                verdicts.drop(mutant)
                 continue
             caught = f"[{row['test']} {row['function']}]"
             print(f"{row['verdict']:8} {mutant.room}: {mutant.what} {caught} {spent}", flush=True)
             verdicts.put(mutant, row)
+    return broken
 
 
 def main():
@@ -128,16 +135,17 @@ def main():
     print(f"{jobs.qsize()} of {len(wanted)} to be tried", flush=True)
     lock, end = threading.Lock(), time.monotonic() + 60 * options.minutes
     places = [Workplace(ROOT, n, options.first > 0) for n in range(min(options.jobs, jobs.qsize()))]
-    workers = [threading.Thread(target=work, args=(place, jobs, verdicts, lock, options, end)) for place in places]
-    for worker in workers:
-        worker.start()
-    for worker in workers:
-        worker.join()
+    # A worker that fails says so here: verdicts of older code alone would look like an answer.
+    with concurrent.futures.ThreadPoolExecutor(max(1, len(places))) as pool:
+        workers = [pool.submit(work, place, jobs, verdicts, lock, options, end) for place in places]
+        broken = sum(worker.result() for worker in workers)
     verdicts.keep_only(every)
     verdicts.write()
     share, survivors, missing = table.write(options.results.with_suffix(".md"), ROOT, every, verdicts)
     print(f"{share:.1f} % caught, {survivors} survive, {missing} not tried yet; {options.results.with_suffix('.md')}")
-    return 1 if problems or share < options.least or missing else 0
+    if broken:
+        print(f"{broken} do not compile")
+    return 1 if problems or broken or share < options.least or missing else 0
 
 
 if __name__ == "__main__":

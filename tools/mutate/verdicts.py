@@ -55,6 +55,11 @@ class Verdicts:
         self.rows[mutant.room, mutant.what] = {"room": mutant.room, "kind": mutant.kind, "what": mutant.what, **row}
         self.write()
 
+    def drop(self, mutant):
+        """Forget a verdict, and write the file."""
+        self.rows.pop((mutant.room, mutant.what), None)
+        self.write()
+
     def keep_only(self, mutants):
         """Leave out what is not in the list any more, and sort as the list is."""
         order = [(m.room, m.what) for m in mutants]
