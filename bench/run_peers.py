@@ -12,8 +12,9 @@
 
 --box3d DIR and --jolt DIR name the sources of engines that Debian does not have (github.com/erincatto/box3d,
 github.com/jrouwe/JoltPhysics); they are built in build/bench, and left out by name without.
-Results go to BASE.md, BASE.csv and BASE.json.  What BASE.json holds already is kept unless it is measured again, so
-that a long table can be made in pieces; --fresh begins anew.
+Results go to BASE.md, BASE.csv and BASE.json.  What BASE.json holds already is kept, with the machine and day of its
+measuring, unless it is measured again, so that a long table can be made in pieces; --fresh begins anew.  A scene that
+is measured with other options (rounds, step, iterations, times, solver) begins anew, too.
 
 Ratios are taken inside each round and their median is told: the machine's speed may change between rounds.
 """
@@ -254,15 +255,45 @@ def same_row(a, b, keys):
     return all(a.get(k) == b.get(k) for k in keys)
 
 
-def merged(old, new, options):
-    """What was measured before and not again, and what is new."""
-    out = {"machine": machine(options)}
+def measured(result):
+    """Every row that a machine was measured for: programs of scenes, threads and loads."""
+    programs = [row for scene in result.get("scenes", []) for row in scene["programs"].values()]
+    return programs + result.get("threads", []) + result.get("loads", [])
+
+
+def merged(old, new, now):
+    """What was measured before and not again, each with its machine, and what is new, by the machine of now."""
+    for result, machine_then in ((old, old.get("machine")), (new, now)):
+        for row in measured(result):
+            row.setdefault("machine", machine_then)
+    out = {"machine": now}
     for part, keys in (("scenes", ("floes", "cover")), ("threads", ("floes",)),
                        ("loads", ("floes", "cover", "program"))):
-        fresh = new.get(part, [])
-        kept = [r for r in old.get(part, []) if not any(same_row(r, f, keys) for f in fresh)]
+        fresh, kept = new.get(part, []), []
+        for row in old.get(part, []):
+            again = next((f for f in fresh if same_row(row, f, keys)), None)
+            if not again:
+                kept.append(row)
+            elif part == "scenes" and row["options"] == again["options"]:
+                again["programs"] = {**row["programs"], **again["programs"]}
         out[part] = sorted(kept + fresh, key=lambda r: [str(r[k]).zfill(9) for k in keys])
     return out
+
+
+def told(m):
+    """A machine in words."""
+    peers = "".join(f", {word} {m[name]}" for name, word in (("box3d", "Box3D"), ("jolt", "Jolt")) if name in m)
+    return f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}{peers}"
+
+
+def print_earlier(rows, now, file):
+    """Names of the rows that were not measured by the machine and on the day of the page's head; rows: (name, row)."""
+    earlier = {}
+    for name, row in rows:
+        if row["machine"] != now:
+            earlier.setdefault(f"{row['machine']['date']}, {told(row['machine'])}", []).append(name)
+    for where, names in earlier.items():
+        print(f"\nMeasured {where}: {'; '.join(names)}.", file=file)
 
 
 def write_csv(result, path):
@@ -288,6 +319,8 @@ def goal_rows(result):
         for peer, factor in (("bullet_f64", 8), ("ode", 4), ("box3d", 2)):
             if peer in programs and not (peer == "ode" and scene["cover"] >= PACKED):
                 found = programs[peer]["fram_is_faster_by"]
+                if math.isnan(found):  # measured alone: nothing to compare with in its rounds
+                    continue
                 rows.append((name, f"{factor} times faster than {peer}", f"{found:.1f}", found >= factor))
         if "bullet_f64" in programs:
             fram, bullet = (programs[p]["penetration"] for p in ("fram", "bullet_f64"))
@@ -334,17 +367,17 @@ def write_report(new, options):
     base.parent.mkdir(parents=True, exist_ok=True)
     store = base.with_suffix(".json")
     old = json.loads(store.read_text(encoding="utf-8")) if store.exists() and not options.fresh else {}
-    result = merged(old, new, options)
+    result = merged(old, new, machine(options))
     store.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     write_csv(result, base.with_suffix(".csv"))
     with open(base.with_suffix(".md"), "w", encoding="utf-8") as file:
         m = result["machine"]
         print(f"# Fram beside Bullet, ODE, Box3D and Jolt, {m['date']}\n", file=file)
-        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}"
-              f"{', Box3D ' + m['box3d'] if 'box3d' in m else ''}{', Jolt ' + m['jolt'] if 'jolt' in m else ''}.  One"
-              " thread on one core unless told; ratios are medians of those inside each round.", file=file)
+        print(f"{told(m)}.  One thread on one core unless told; ratios are medians of those inside each round.",
+              file=file)
         for scene in result["scenes"]:
             print_scene(scene, file)
+            print_earlier(scene["programs"].items(), m, file)
         if result["loads"]:
             print("\n### Mean load on the ship over seeds\n", file=file)
             print("| floes | cover % | program | seeds | mean kN | coefficient of variation | least | largest |\n"
@@ -353,6 +386,7 @@ def write_report(new, options):
             print(f"| {r['floes']} | {r['cover']} | {r['program']} | {len(r['kN'])} | {statistics.mean(r['kN']):.0f} |"
                   f" {statistics.stdev(r['kN']) / statistics.mean(r['kN']):.3f} | {min(r['kN']):.0f} |"
                   f" {max(r['kN']):.0f} |", file=file)
+        print_earlier([(f"{r['floes']} floes, {r['cover']} %, {r['program']}", r) for r in result["loads"]], m, file)
         if result["threads"]:
             print("\n### Two threads, 90 % cover\n", file=file)
             print("| floes | rounds | two threads against one | two copies of one thread |\n|---|---|---|---|",
@@ -360,6 +394,7 @@ def write_report(new, options):
         for r in result["threads"]:
             print(f"| {r['floes']} | {len(r['gain'])} | {statistics.median(r['gain']):.2f} |"
                   f" {statistics.median(r['copies']):.2f} |", file=file)
+        print_earlier([(f"{r['floes']} floes", r) for r in result["threads"]], m, file)
         print_goals(result, file)
 
 
