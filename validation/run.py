@@ -141,6 +141,13 @@ def write_book(out, book, names):
     (out / "README.md").write_text(index(book, names))
 
 
+def unmade(verdict, why, made):
+    """The verdict of a case that could not be made: its page stays that of before."""
+    reason = (str(why).splitlines() or [""])[0].replace(f"{ladder.ROOT}/", "")
+    told = f"could not be made ({datetime.date.today()}, {made}): {type(why).__name__}: {reason}"
+    return {**verdict, "good": False, "checks": 1, "failed": [told]}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true")
@@ -175,10 +182,14 @@ def main():
             print(f"validation: {name} skipped: {why}")
             skipped += 1
             continue
-        except Exception:  # one case that cannot be made must not cost the others
+        except Exception as why:  # one case that cannot be made must not cost the others
             traceback.print_exc()
             failed += 1
             skipped += 1
+            book = read_book(options.out / "verdicts.json", modules)
+            if name in book["cases"]:  # one that never was stands among those that are not in this edition
+                book["cases"][name] = unmade(book["cases"][name], why, made)
+                write_book(options.out, book, modules)
             continue
         seconds, reused = time.monotonic() - start, len(ladder.REUSED) - before
         cost = spent(seconds, reused)
