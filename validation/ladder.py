@@ -3,6 +3,7 @@
 import concurrent.futures
 import csv
 import dataclasses
+import hashlib
 import json
 import math
 import os
@@ -65,10 +66,20 @@ def answer(*words):
     return last
 
 
+def same_files(folder):
+    """Whether the files that a run named (hulls, outlines, tables) are what it read."""
+    for file in json.loads((folder / "run.json").read_text())["inputs"]:
+        path = pathlib.Path(file["file"])
+        if not path.is_file() or hashlib.sha256(path.read_bytes()).hexdigest() != file["sha256"]:
+            return False
+    return True
+
+
 def run(scenario, name, **keys):
     """Runs a scenario (a path, or text) with keys replaced ("__" for "."), and returns its channels.
 
-    A finished run of the same program, scenario and keys is read again instead: a ladder that was stopped goes on.
+    A finished run of the same program, scenario, keys and files is read again instead: a ladder that was stopped goes
+    on.
     """
     folder = WORK / name
     if not isinstance(scenario, pathlib.Path):
@@ -79,7 +90,7 @@ def run(scenario, name, **keys):
     sets = [f"--set={key.replace('__', '.')}={value}" for key, value in keys.items()]
     mark = json.dumps([sets, scenario.read_text(), os.stat(FRAM).st_mtime])
     done = folder / "validated"
-    if not done.exists() or done.read_text() != mark:
+    if not done.exists() or done.read_text() != mark or not same_files(folder):
         shutil.rmtree(folder, ignore_errors=True)
         folder.parent.mkdir(parents=True, exist_ok=True)
         answer("run", scenario, "-o", folder, "--quiet", "--threads", 1, *sets)

@@ -5,9 +5,9 @@
   validation/run.py --index           the first page anew, which says what was made on other code than there is now
 
 --quick leaves out the cases of many long runs.  Pages and figures go to DIR (docs/validation), with verdicts.json, from
-which cases that are not run now keep their line on the first page.  Runs that the same program has finished are read
-again (build/validation); remove that folder to begin anew.  Exit code 1 when a check fails: a finding belongs on its
-page, and into docs/limits.md with its size.
+which cases that are not run now keep their line on the first page.  Runs that the same program has finished on the
+same files are read again (build/validation); remove that folder to begin anew.  Exit code 1 when a check fails: a
+finding belongs on its page, and into docs/limits.md with its size.
 """
 
 import argparse

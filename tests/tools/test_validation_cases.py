@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A case of the validation book still runs: its worlds, its page and its verdict, by the library as it is now.  One
-that cannot be made does not agree."""
+that cannot be made does not agree, and runs are read again as long as the files that they name are the same."""
 import contextlib
 import io
 import json
@@ -13,11 +13,22 @@ import tempfile
 ROOT = pathlib.Path(os.environ["FRAM_SOURCE"])
 sys.path.insert(0, str(ROOT / "validation"))
 import case_squeeze  # noqa: E402
+import ladder  # noqa: E402
 import run  # noqa: E402
 
 
 def cannot_be_made(_):
     raise RuntimeError(f"{ROOT}/hull.obj: cannot read it\nmore")
+
+
+def read_again(path, beam):
+    """Whether a run is read again whose hull has this beam now."""
+    ladder.box_obj(path, (-5, -beam / 2, -2), (5, beam / 2, 2))
+    ladder.MADE.clear()
+    ladder.REUSED.clear()
+    ladder.run(f"run: {{duration: 0.1}}\nvessel: {{hull: {{form: file, file: {path}}}}}\n"
+               "ice: {source: floes, floes: [{length: 9, width: 9, x: 50}]}\n", "hull")
+    return ladder.REUSED == ["hull"]
 
 
 with tempfile.TemporaryDirectory() as out:
@@ -37,4 +48,8 @@ with tempfile.TemporaryDirectory() as out:
     verdict = json.loads((pathlib.Path(out) / "verdicts.json").read_text())["cases"]["squeeze"]
     assert not verdict["good"] and verdict["failed"][0].endswith("): RuntimeError: hull.obj: cannot read it"), verdict
     assert "0 of 1 cases agree" in (pathlib.Path(out) / "README.md").read_text()
-print("a case runs, and its page says so; one that cannot be made does not agree")
+
+    ladder.WORK = pathlib.Path(out) / "work"
+    beams = (4, 4, 5, 5)
+    assert [read_again(ladder.WORK / "hull.obj", beam) for beam in beams] == [False, True, False, True]
+print("a case runs, and its page says so; runs are read again while their files are the same")
