@@ -3,7 +3,7 @@
 #   deb      build/packages/*.deb by Debian's own tools, checked by lintian; needs the packages of the group `deb`
 #   archive  build/packages/fram-VERSION-linux-MACHINE.tar.gz: unpack it anywhere and run bin/fram; it carries the
 #            libraries that it needs beside the C library (glibc of this machine or newer), but not NetCDF
-# Both carry the page that plays a run in a browser if it was built (make viewer) or npm is here to build it.
+# Both carry the page that plays a run in a browser if npm is here to build it or it was built before (make viewer).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-2}
@@ -17,9 +17,14 @@ export SOURCE_DATE_EPOCH CCACHE_DIR JOBS=$jobs
 mkdir -p $packages
 
 make_page() {
-    [ -f build/viewer/playback.html ] && return
+    # make knows whether the page is older than what it is made of.
     if command -v npm >/dev/null && make --no-print-directory viewer; then return; fi
-    echo "package: without the page that plays a run in a browser: \`make viewer\` makes it and needs npm" >&2
+    if [ ! -f build/viewer/playback.html ]; then
+        echo "package: without the page that plays a run in a browser: \`make viewer\` makes it and needs npm" >&2
+    elif [ -n "$(find viewer/*.json viewer/*.mjs viewer/.npmrc viewer/src -type f -newer build/viewer/playback.html)" ]
+    then
+        echo "package: the page that plays a run in a browser is older than viewer/: \`make viewer\` makes it anew" >&2
+    fi
 }
 
 # A copy of what git knows of the tree, which nothing that was built before can reach.
