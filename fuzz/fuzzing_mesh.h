@@ -6,6 +6,7 @@
 
 #include "fuzzing.h"
 #include "io/hull_file.h"
+#include "io/mesh_reader.h"
 #include <math.h>
 #include <string.h>
 
@@ -35,6 +36,32 @@ static inline void fuzz_surface(const mesh_file *f)
     }
 }
 
+/* As text, which is exact: the 4-byte floats of a binary file may lay corners of a narrow triangle together. */
+static inline void fuzz_round_trip(context *ctx, mesh_format format, const mesh *m)
+{
+    static void (*const write[MESH_FORMAT_COUNT])(context *, const mesh *, text_buffer *) = {
+        mesh_write_stl_text, mesh_write_obj, mesh_write_obj, mesh_write_gdf};
+    mesh_format exact = format == MESH_STL_BINARY ? MESH_OBJ : format;
+    box3 box = mesh_bounds(m);
+    double reach = fmax(fmax(fabs(box.lo.x), fabs(box.hi.x)),
+                        fmax(fmax(fabs(box.lo.y), fabs(box.hi.y)), fmax(fabs(box.lo.z), fabs(box.hi.z))));
+    if (reach > MESH_FILE_REACH) /* topsides that were added may be beyond what is read */
+        return;
+    text_buffer text = {0};
+    write[exact](ctx, m, &text);
+    if (!text.failed) {
+        mesh_file again;
+        fram_error error = {0};
+        double size = vec3_length(vec3_sub(box.hi, box.lo));
+        PROMISE(mesh_file_parse_as(ctx, "fuzz", exact, text.data, (size_t)text.count, &again, &error) == FRAM_OK);
+        PROMISE(again.surface.face.count == m->face.count);
+        PROMISE(fabs(mesh_solid_properties(&again.surface).volume - mesh_solid_properties(m).volume) <=
+                1e-9 * size * size * size);
+        mesh_file_free(ctx, &again);
+    }
+    text_free(ctx, &text);
+}
+
 static inline void fuzz_hull(context *ctx, mesh_format format, const char *text, size_t size, bool repair)
 {
     mesh_file f;
@@ -59,6 +86,7 @@ static inline void fuzz_hull(context *ctx, mesh_format format, const char *text,
         mesh_report found;
         PROMISE(mesh_check(ctx, &m, true, &found) == FRAM_OK && found.defect == MESH_CLOSED);
         PROMISE(mesh_solid_properties(&m).volume > 0);
+        fuzz_round_trip(ctx, format, &m);
     } else {
         fuzz_refusal(status, &error);
     }
