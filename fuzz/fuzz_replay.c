@@ -54,13 +54,22 @@ static void read_all(context *ctx, replay *r)
     replay_moment_free(ctx, &m);
 }
 
+/* One for all inputs: at the program's end nothing else knows it. */
+static char folder[64], record[96];
+
+static void remove_folder(void)
+{
+    (void)unlink(record);
+    (void)rmdir(folder);
+}
+
 /* A folder whose record.fram is the file in memory; the same one as long as its descriptor has the same number. */
 static const char *folder_with(const char *file)
 {
-    static char folder[64], record[96], linked[64];
+    static char linked[64];
     if (!folder[0]) {
         snprintf(folder, sizeof folder, "/tmp/fram-fuzz-XXXXXX");
-        if (!mkdtemp(folder))
+        if (!mkdtemp(folder) || atexit(remove_folder) != 0)
             abort();
         snprintf(record, sizeof record, "%s/record.fram", folder);
     }
