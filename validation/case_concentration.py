@@ -45,6 +45,8 @@ def case(out):
                        f"{huang(cover) / 1e3:.1f}"])
     overall = math.log(found[-1][0] / found[0][0]) / math.log(COVERS[-1] / COVERS[0])
     c.check(1.3 <= overall <= 4, f"exponent over the whole range {overall:.2f}, published 1.3 to 4")
+    for exponent, low, high in zip(exponents, COVERS, COVERS[1:]):
+        c.check(1.3 <= exponent <= 4, f"local exponent from {low} to {high} {exponent:.2f}, published 1.3 to 4")
     for cover, (mean, _) in zip(COVERS, found):
         near = min(abs(math.log(mean / f(cover))) for f in (zuev, huang))
         c.check(near <= math.log(3), f"at {cover}: within a factor of {math.exp(near):.2f} of the nearer formula")

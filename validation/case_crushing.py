@@ -49,14 +49,16 @@ def impact(corner_first, exponent, dt):
 
 
 def exact(corner_first, exponent):
-    """F = K d^n: largest force, penetration and, for the flat face and the plain corner, the time of the stop."""
+    """F = K d^n: largest force, penetration and the time of the stop."""
     if not corner_first:
         force = STRENGTH * 10
         return force, MASS * SPEED**2 / (2 * force), MASS * SPEED / force
     n = 1 + exponent
     k = STRENGTH * 2**n  # A = 2 h d with h = 1 m
     depth = ((n + 1) * MASS * SPEED**2 / (2 * k)) ** (1 / (n + 1))
-    return k * depth**n, depth, math.pi / 2 / math.sqrt(k / MASS) if exponent == 0 else None
+    # The way over d_max, u, goes at v/d_max sqrt(1 - u^(n+1)): the integral of its inverse is a beta function.
+    whole = math.sqrt(math.pi) * math.gamma(1 + 1 / (n + 1)) / math.gamma(0.5 + 1 / (n + 1))
+    return k * depth**n, depth, whole * depth / SPEED
 
 
 def wall_into_floe(trims):
@@ -87,7 +89,7 @@ def case(out):
         "A floe of 92 t at 0.5 m/s meets a wall: with its face, with a corner, and with a corner under a "
         "pressure-area law of exponent -0.1; and a vertical wall that is driven three thicknesses into a fixed "
         "floe.",
-        "Closed forms: F = K d^n, d_max = ((n+1) m v^2/(2 K))^(1/(n+1)).",
+        "Closed forms: F = K d^n, d_max = ((n+1) m v^2/(2 K))^(1/(n+1)), stop after d_max/v B(1/(n+1), 1/2)/(n+1).",
         "First order in dt for times and penetrations; forces to 1e-3; no rebound; the wall's force is sigma_c L h at "
         "every step and level, however deep (1 % where crushed ice is cut away: a bound set after a first run).",
     )
@@ -97,18 +99,22 @@ def case(out):
                                                 ("corner", True, 0, (4e-3, 2e-3, 1e-3)),
                                                 ("corner, A^-0.1", True, -0.1, (4e-3, 2e-3, 1e-3))):
         force, depth, end = exact(corner_first, exponent)
-        errors = []
+        errors, late = [], []
         for dt in steps:
             f, d, t, rebound, history = impact(corner_first, exponent, dt)
             errors.append(abs(d - depth))
+            late.append(abs(t - end))
             order = math.log2(errors[-2] / errors[-1]) if len(errors) > 1 and errors[-1] > 1e-12 else None
             c.rows.append([name, f"{1e3 * dt:g}", f"{f / 1e3:.3f}", f"{force / 1e3:.3f}", f"{1e3 * d:.4f}",
-                           f"{1e3 * depth:.4f}", "" if order is None else f"{order:.2f}", f"{t:.6f}",
-                           "" if end is None else f"{end:.6f}"])
+                           f"{1e3 * depth:.4f}", "" if order is None else f"{order:.2f}", f"{t:.6f}", f"{end:.6f}"])
         c.check(abs(f / force - 1) <= 1e-3, f"{name}: force off by {abs(f / force - 1):.1e}, at most 1e-3")
         c.check(errors[-1] <= 0.05 * depth, f"{name}: penetration off by {100 * errors[-1] / depth:.2f} %, at most 5 %")
         c.check(order is None or order >= 0.9, f"{name}: observed order "
                 + (f"{order:.2f}" if order is not None else "none (exact)") + ", at least 0.9")
+        exact_stop = late[-1] < 1e-9
+        stop_order = math.inf if exact_stop else ladder.observed_order(late)[-1]
+        c.check(stop_order >= 0.9, f"{name}: stop {1e3 * late[-1]:.2f} ms off at the smallest step, observed order "
+                + ("none (exact)" if exact_stop else f"{stop_order:.2f}") + ", at least 0.9")
         c.check(rebound < 1e-6, f"{name}: stands still after the stop, to {rebound:.0e} m/s")
         if name == "corner":
             curve = history

@@ -63,7 +63,8 @@ def case(out):
         "N/(1 + N) = 0.018768 for sides without drag); (pi/5) rho Cf w^2 R^5 for the bottom, and the sides' skin; "
         "1/2 rho Cd d w^2 b^4.",
         "First order in dt for the drift; 1 % for the wind drift, since sides drag too; torques 0.5 % (level floes use "
-        "closed forms on the sides and a six-point quadrature per triangle on the bottom).",
+        "closed forms on the sides and a six-point quadrature per triangle on the bottom), that of the disc within "
+        "0.1 % of what 64 sides leave of the round one's (a bound set after a first run).",
     )
     c.header = ["quantity", "found", "exact", "relative difference"]
     length = 2 * 92000 / (RHO * (0.01 * 100 + 0.01 * 2 * 10 * DRAUGHT + 1.0 * 10 * DRAUGHT))
@@ -89,9 +90,9 @@ def case(out):
     found = spin_torque(64, 0, 0.01)
     c.rows.append(["disc, torque of skin [kN m]", f"{found / 1e3:.4f}", f"{(bottom + sides) / 1e3:.4f} (round)",
                    f"{found / (bottom + sides) - 1:.1e}"])
-    c.check(abs(found / (bottom + sides) - 1) <= 1.5 * 5 * (1 - rim) / 2 + 5e-3,
-            f"disc: {100 * (found / (bottom + sides) - 1):.2f} % off the round one (64 sides: "
-            f"{-1000 * (1 - rim) / 3:.2f} % expected)")
+    apart, expected = found / (bottom + sides) - 1, -10 * (1 - rim) / 3
+    c.check(abs(apart - expected) <= 1e-3, f"disc: {100 * apart:.2f} % off the round one (64 sides: "
+                                           f"{100 * expected:.2f} % expected), at most 0.1 % from that")
     half = radius / math.sqrt(2)
     exact = 0.5 * RHO * DRAUGHT * spin**2 * half**4
     found = spin_torque(4, 1, 0)
