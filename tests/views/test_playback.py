@@ -582,7 +582,7 @@ def check_files_beside(browser, run):
     browser.until(f"!{said}.hidden && {said}.textContent.includes('missing')", "a moment that is gone is waited for")
     browser.run("fram.seek(0)")
     browser.until(f"{said}.hidden", "a moment that is there is said to be gone")
-    browser.choose("speed", "20")
+    browser.choose("speed", "5")  # so that a slow picture does not leap over the gap
     browser.click_on("play")
     browser.until(f"!fram.playing && fram.time < fram.end && !{said}.hidden", "the page plays on where a file is gone")
     # Neither that nor one that brings nothing stops the history of a floe, which has all other frames.
