@@ -263,6 +263,7 @@ def compare(page, sentence, write):
 
 def main(arguments):
     if "--keep" not in arguments:
+        OUT.mkdir(exist_ok=True)
         for command in commands("--long" in arguments):
             print(command, flush=True)
             subprocess.run(["bash", "-c", command], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,

@@ -97,7 +97,7 @@ START_TEST(two_columns)
     static const double WAYS[] = {0.5, 2, 5, 10, 20, 40, 60};
     double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), strip = 0.5e6 / 6 / (0.4559381 * l);
     for (int turn = 0; turn < 2 * EDGE_KINDS; turn++) {
-        edge_kind kind = turn / 2;
+        edge_kind kind = (edge_kind)(turn / 2);
         edge_rules rules = turn % 2 ? RISING : JOINT;
         const edge_press one = {2, 1e6, 0};
         double bears = 1e6 / ratio_of(kind, rules, &one, 1), at_rest = 1e6 / ratio_of(kind, APART, &one, 1);
