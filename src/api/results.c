@@ -154,8 +154,12 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
         const compare_row *row = &in->result.row[i];
         in->rows[i] = (fram_comparison_row){row->name, row->unit, row->a, row->b};
     }
-    const fram_comparison full = {
-        in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in->result.only_files_differ, in};
+    const fram_comparison full = {.rows = in->rows,
+                                  .count = in->result.count,
+                                  .same_scenario = in->result.same_scenario,
+                                  .same_state = in->result.same_state,
+                                  .inside = in,
+                                  .only_files_differ = in->result.only_files_differ};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

@@ -186,6 +186,7 @@ static void print_comparison(const common_options *common, const fram_comparison
     }
     json j = json_begin();
     json_boolean(&j, "same_scenario", c->same_scenario);
+    json_boolean(&j, "only_files_differ", c->only_files_differ);
     json_boolean(&j, "same_state", c->same_state);
     json_open_list(&j, "rows");
     for (int i = 0; i < c->count; i++) {

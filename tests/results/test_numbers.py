@@ -105,7 +105,8 @@ def main():
             (folder / name).mkdir()
             (folder / name / "wind.csv").write_text(f"time[s],x[m/s],y[m/s]\n0,{wind},0\n")
         windy = [run(folder, f"wind_{n}", FLOES, f"environment.wind_file={n}/wind.csv") for n in "abc"]
-        assert [compare(windy[0], w)[0]["same_scenario"] for w in windy] == [True, False, True]
+        for key, expected in (("same_scenario", [True, False, True]), ("only_files_differ", [False, True, False])):
+            assert [compare(windy[0], w)[0][key] for w in windy] == expected, key
         page = folder / "windy.html"
         done = subprocess.run([FRAM, "compare", *windy[:2], "-o", page], capture_output=True, text=True, check=True)
         for text in (done.stdout, page.read_text()):

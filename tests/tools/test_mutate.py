@@ -124,14 +124,14 @@ class Listing(unittest.TestCase):
         self.assertEqual(names[2], ["runs/all", "base/two", "base/sum", "sim/step"])
         self.assertEqual(names[3], ["runs/all", "base/two"])
 
-    def campaign(self, place):
+    def campaign(self, place, *more):
         """Exit code of a run of all faults, each known as caught on older code, and what is known afterwards."""
         path = self.root / "bench/results/mutants.csv"
         book = verdicts.Verdicts(path)
         for mutant in mutants.read(self.root):
             book.put(mutant, {"verdict": verdicts.CAUGHT, "test": "base/sum", "code": "older", "test_code": "older"})
         with unittest.mock.patch.multiple(mutate, ROOT=self.root, Workplace=place), \
-                unittest.mock.patch.object(sys, "argv", ["mutate.py", "--results", str(path)]), \
+                unittest.mock.patch.object(sys, "argv", ["mutate.py", "--results", str(path), *more]), \
                 contextlib.redirect_stdout(io.StringIO()):
             return mutate.main(), verdicts.Verdicts(path).rows
 
@@ -140,6 +140,8 @@ class Listing(unittest.TestCase):
         self.assertEqual((code, {row["function"] for row in rows.values()}), (0, {"adds"}))
         code, rows = self.campaign(type("Broken", (Place,), {"problem": "error: expected ';'"}))
         self.assertEqual((code, rows), (1, {}))
+        code, rows = self.campaign(Place, "--minutes", "0")
+        self.assertEqual((code, {row["code"] for row in rows.values()}), (1, {"older"}))
         with self.assertRaisesRegex(RuntimeError, "no such preset"):
             self.campaign(type("Nowhere", (Place,), {"folder_is_there": False}))
 

@@ -145,7 +145,10 @@ def main():
     print(f"{share:.1f} % caught, {survivors} survive, {missing} not tried yet; {options.results.with_suffix('.md')}")
     if broken:
         print(f"{broken} do not compile")
-    return 1 if problems or broken or share < options.least or missing else 0
+    left = jobs.qsize()  # the next call goes on with them; those known of older code are no answer until then
+    if left:
+        print(f"{left} not tried in this time")
+    return 1 if problems or broken or left or share < options.least or missing else 0
 
 
 if __name__ == "__main__":
