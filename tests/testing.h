@@ -203,16 +203,7 @@ static inline long testing_first_apart(const double *actual, const double *expec
                       (part));                                                                                         \
     } while (0)
 
-/* ---- a context whose n-th request for memory fails.  Every function that allocates is tested by
-       for (long n = 1;; n++) {
-           failing_memory memory;
-           context ctx = failing_context(&memory, n);
-           fram_status status = ...;                     (the call, then free what it made)
-           ck_assert_int_eq(memory.live, 0);             (nothing leaked, whether it failed or not)
-           if (!memory.failed) { ck_assert_int_eq(status, FRAM_OK); break; }
-           ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
-       }
-   ---- */
+/* ---- a context whose n-th request for memory fails ---- */
 
 /* Counters are atomic, because threads of a pool may allocate. */
 typedef struct failing_memory {
@@ -253,6 +244,38 @@ static inline context failing_context(failing_memory *m, long fail_at)
     ctx.memory = failing_memory_resize;
     ctx.memory_user = m;
     return ctx;
+}
+
+/* Every function that allocates is tested with each of its requests failing in turn:
+       for (failing_turn turn = {0}; failing_next(&turn);) {
+           turn.status = ...;                            (the call with &turn.ctx, then free what it made)
+       }
+   Nothing may be left, and the status says whether a request failed; the turn in which none did is the last. */
+typedef struct failing_turn {
+    long n;                /* the request that fails, from 1 */
+    long stride;           /* from it to that of the next turn; 0: 1 */
+    failing_memory memory; /* what `ctx` draws from */
+    context ctx;
+    fram_error error;   /* for the call; empty at first */
+    fram_status status; /* what the call returned; the test sets it */
+} failing_turn;
+
+/* Judges the turn that ended, if one did; false: it was the last. */
+static inline bool failing_next(failing_turn *t)
+{
+    if (t->n > 0) {
+        fram_status expected = t->memory.failed ? FRAM_ERROR_MEMORY : FRAM_OK;
+        ck_assert_msg(t->memory.live == 0, "request %ld: %ld blocks not freed", t->n, (long)t->memory.live);
+        ck_assert_msg(t->status == expected, "request %ld: status %d, expected %d: %s", t->n, (int)t->status,
+                      (int)expected, t->error.message);
+        if (!t->memory.failed)
+            return false;
+    }
+    t->n += t->n > 0 && t->stride > 0 ? t->stride : 1;
+    t->ctx = failing_context(&t->memory, t->n);
+    t->error = (fram_error){0};
+    t->status = FRAM_ERROR_INTERNAL;
+    return true;
 }
 
 #endif

@@ -141,14 +141,11 @@ END_TEST
    place. */
 START_TEST(memory_runs_out)
 {
-    long stride = getenv("FRAM_TEST_SHORT") ? 5 : 1;
-    for (long n = 1;; n += stride) {
-        failing_memory memory;
-        failing_context(&memory, n);
+    for (failing_turn turn = {.stride = getenv("FRAM_TEST_SHORT") ? 5 : 1}; failing_next(&turn);) {
         fram_context_definition definition;
         fram_context_default(&definition);
         definition.memory = failing_memory_resize;
-        definition.memory_user = &memory;
+        definition.memory_user = &turn.memory;
         fram_context *shared = NULL;
         fram_hull *hull = NULL;
         fram_hull_pieces pieces;
@@ -159,24 +156,21 @@ START_TEST(memory_runs_out)
         fram_hull_condition c;
         fram_hull_condition_default(&c);
         c.mass = 7e6;
-        fram_error error = {0};
-        fram_status status = fram_context_create(&definition, &shared, &error);
-        if (status == FRAM_OK)
-            status = fram_hull_make(shared, &p, &hull, &error);
-        if (status == FRAM_OK)
-            status = fram_hull_cut(hull, (double)NAN, 4, &pieces, &error);
-        if (status == FRAM_OK)
-            status = fram_hull_float(hull, &c, &floating, &error);
-        if (status == FRAM_OK)
-            status = fram_hull_draw(hull, &c, "hull", "/nonexistent/hull.png", &error);
+        turn.status = fram_context_create(&definition, &shared, &turn.error);
+        if (turn.status == FRAM_OK)
+            turn.status = fram_hull_make(shared, &p, &hull, &turn.error);
+        if (turn.status == FRAM_OK)
+            turn.status = fram_hull_cut(hull, (double)NAN, 4, &pieces, &turn.error);
+        if (turn.status == FRAM_OK)
+            turn.status = fram_hull_float(hull, &c, &floating, &turn.error);
+        if (turn.status == FRAM_OK)
+            turn.status = fram_hull_draw(hull, &c, "hull", "/nonexistent/hull.png", &turn.error);
         fram_hull_destroy(hull);
         fram_context_destroy(shared);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert(status == FRAM_ERROR_IO || status == FRAM_ERROR_INPUT || status == FRAM_ERROR_UNSUPPORTED);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        if (turn.status == FRAM_ERROR_IO || turn.status == FRAM_ERROR_INPUT || turn.status == FRAM_ERROR_UNSUPPORTED)
+            turn.status = FRAM_OK; /* the picture has nowhere to go */
+        else
+            ck_assert(turn.memory.failed);
     }
 }
 END_TEST

@@ -294,39 +294,32 @@ END_TEST
 
 START_TEST(memory_runs_out)
 {
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         shape_store s = {0};
         solid_array solids = {0};
-        fram_error e = {0};
         int32_t row;
-        overlay *o = overlay_create(&ctx);
-        fram_status status = o ? shape_add_prism(&ctx, &s, o, (polygon){corner, 6}, 1, 0, &row, &e) : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK)
-            status = shape_add_prism(&ctx, &s, o, (polygon){square, 4}, 1, 0, &row, &e);
-        if (status == FRAM_OK) {
+        overlay *o = overlay_create(&turn.ctx);
+        turn.status =
+            o ? shape_add_prism(&turn.ctx, &s, o, (polygon){corner, 6}, 1, 0, &row, &turn.error) : FRAM_ERROR_MEMORY;
+        if (turn.status == FRAM_OK)
+            turn.status = shape_add_prism(&turn.ctx, &s, o, (polygon){square, 4}, 1, 0, &row, &turn.error);
+        if (turn.status == FRAM_OK) {
             shape_remove(&s, 0);
-            status = shape_compact(&ctx, &s);
+            turn.status = shape_compact(&turn.ctx, &s);
         }
         mesh box = {0};
         polyhedron_array pieces = {0};
-        if (status == FRAM_OK)
-            status = mesh_make_box(&ctx, vec3_make(0, 0, 0), vec3_make(1, 1, 1), &box) ? FRAM_OK : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK)
-            status = solid_add(&ctx, &solids, &box, &pieces, 0, &row, &e);
-        mesh_free(&ctx, &box);
-        polyhedron_array_free(&ctx, &pieces);
-        shape_store_free(&ctx, &s);
-        solid_array_free(&ctx, &solids);
+        if (turn.status == FRAM_OK)
+            turn.status =
+                mesh_make_box(&turn.ctx, vec3_make(0, 0, 0), vec3_make(1, 1, 1), &box) ? FRAM_OK : FRAM_ERROR_MEMORY;
+        if (turn.status == FRAM_OK)
+            turn.status = solid_add(&turn.ctx, &solids, &box, &pieces, 0, &row, &turn.error);
+        mesh_free(&turn.ctx, &box);
+        polyhedron_array_free(&turn.ctx, &pieces);
+        shape_store_free(&turn.ctx, &s);
+        solid_array_free(&turn.ctx, &solids);
         if (o)
             overlay_free(o);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
     }
 }
 END_TEST

@@ -660,36 +660,29 @@ END_TEST
 
 START_TEST(memory_runs_out)
 {
-    for (long n = 1;; n++) {
-        failing_memory memory;
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         rig r = rig_make(0.1);
         for (int i = 0; i < 12; i++)
             regular(&r, MOTION_DYNAMIC, 6, 2, 0, vec3_make(3.4 * (i % 4), 3.4 * floor(i / 4.0), 0));
-        context failing = failing_context(&memory, n);
-        fram_error e = {0};
-        collision_scratch *s = collision_scratch_create(&failing);
+        collision_scratch *s = collision_scratch_create(&turn.ctx);
         broad_table boxes = {0};
         pair_table pairs = {0};
         contact_array contacts = {0};
         index_array patches = {0};
-        fram_status status = s ? broad_phase_update(&failing, &r.bodies, &r.shapes, &r.collision, &boxes, &pairs, s, &e)
-                               : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK)
-            status = narrow_phase_run(&failing, &r.bodies, &r.shapes, &r.policies, &boxes, &pairs, &contacts, &patches,
-                                      s, &e);
-        table_free(&failing, &boxes, &broad_table_info);
-        table_free(&failing, &pairs, &pair_table_info);
-        array_free(&failing, &contacts);
-        array_free(&failing, &patches);
-        collision_scratch_free(&failing, s);
+        turn.status =
+            s ? broad_phase_update(&turn.ctx, &r.bodies, &r.shapes, &r.collision, &boxes, &pairs, s, &turn.error)
+              : FRAM_ERROR_MEMORY;
+        if (turn.status == FRAM_OK)
+            turn.status = narrow_phase_run(&turn.ctx, &r.bodies, &r.shapes, &r.policies, &boxes, &pairs, &contacts,
+                                           &patches, s, &turn.error);
+        table_free(&turn.ctx, &boxes, &broad_table_info);
+        table_free(&turn.ctx, &pairs, &pair_table_info);
+        array_free(&turn.ctx, &contacts);
+        array_free(&turn.ctx, &patches);
+        collision_scratch_free(&turn.ctx, s);
         rig_free(&r);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            ck_assert(n > 6);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        if (!turn.memory.failed)
+            ck_assert(turn.n > 6);
     }
 }
 END_TEST

@@ -117,22 +117,14 @@ START_TEST(memory_runs_out)
     context_init(&plain);
     mesh m = {0};
     sample_sphere_mesh(&plain, 9, 9, 1, &m);
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         mesh_bvh tree = {0};
         int32_array found = {0};
-        fram_status status = mesh_bvh_build(&ctx, &m, &tree);
-        if (status == FRAM_OK && !mesh_bvh_query(&ctx, &tree, everything, &found))
-            status = FRAM_ERROR_MEMORY;
-        array_free(&ctx, &found);
-        mesh_bvh_free(&ctx, &tree);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        turn.status = mesh_bvh_build(&turn.ctx, &m, &tree);
+        if (turn.status == FRAM_OK && !mesh_bvh_query(&turn.ctx, &tree, everything, &found))
+            turn.status = FRAM_ERROR_MEMORY;
+        array_free(&turn.ctx, &found);
+        mesh_bvh_free(&turn.ctx, &tree);
     }
     mesh_free(&plain, &m);
 }

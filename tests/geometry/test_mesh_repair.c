@@ -335,40 +335,33 @@ END_TEST
 
 START_TEST(memory_runs_out)
 {
-    for (long n = 1;; n++) {
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         context ctx = plain_context();
         mesh m = cracked_box(&ctx, 4, 0.02);
-        failing_memory memory;
-        context failing = failing_context(&memory, n);
         mesh copy = {0};
         int32_array source = {0};
         mesh_rims rims = {0};
         mesh_seal_report report;
-        fram_error error;
         int32_t edge, flipped, face;
-        fram_status status = mesh_copy(&failing, &copy, &m) ? FRAM_OK : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK)
-            status = mesh_seal(&failing, &copy, 0.05, &source, &report);
-        if (status == FRAM_OK && !mesh_drop_unused_vertices(&failing, &copy))
-            status = FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK) {
+        turn.status = mesh_copy(&turn.ctx, &copy, &m) ? FRAM_OK : FRAM_ERROR_MEMORY;
+        if (turn.status == FRAM_OK)
+            turn.status = mesh_seal(&turn.ctx, &copy, 0.05, &source, &report);
+        if (turn.status == FRAM_OK && !mesh_drop_unused_vertices(&turn.ctx, &copy))
+            turn.status = FRAM_ERROR_MEMORY;
+        if (turn.status == FRAM_OK) {
             copy.face.count -= 8; /* a hole in the sealed top */
-            status = mesh_rims_find(&failing, &copy, &rims, &edge);
+            turn.status = mesh_rims_find(&turn.ctx, &copy, &rims, &edge);
         }
-        if (status == FRAM_OK)
-            status = mesh_raise_top(&failing, &copy, &rims, 1, &error);
-        if (status == FRAM_OK)
-            status = mesh_orient(&failing, &copy, &flipped, &face);
-        mesh_free(&failing, &copy);
-        mesh_rims_free(&failing, &rims);
-        array_free(&failing, &source);
+        if (turn.status == FRAM_OK)
+            turn.status = mesh_raise_top(&turn.ctx, &copy, &rims, 1, &turn.error);
+        if (turn.status == FRAM_OK)
+            turn.status = mesh_orient(&turn.ctx, &copy, &flipped, &face);
+        mesh_free(&turn.ctx, &copy);
+        mesh_rims_free(&turn.ctx, &rims);
+        array_free(&turn.ctx, &source);
         mesh_free(&ctx, &m);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_ne(status, FRAM_ERROR_MEMORY);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        if (turn.status != FRAM_ERROR_MEMORY)
+            turn.status = FRAM_OK; /* or the hole is told */
     }
 }
 END_TEST

@@ -299,24 +299,16 @@ START_TEST(depth_parts_two_rings)
 }
 END_TEST
 
-START_TEST(no_memory)
+START_TEST(memory_runs_out)
 {
     const vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         oriented_box box;
-        fram_status status = polygon_oriented_box(&ctx, (polygon){square, 4}, &box);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        turn.status = polygon_oriented_box(&turn.ctx, (polygon){square, 4}, &box);
     }
 }
 END_TEST
 
 TEST_MAIN("polygon_convex", convex_rings, rings_that_are_not_convex, rings_that_wind_twice, rounding_is_forgiven,
           convex_as_its_hull, hull_of_points, oriented_box_is_least, oriented_box_of_a_turned_rectangle,
-          oriented_box_of_degenerate_rings, depth_of_squares, depth_parts_two_rings, no_memory)
+          oriented_box_of_degenerate_rings, depth_of_squares, depth_parts_two_rings, memory_runs_out)

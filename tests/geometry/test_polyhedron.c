@@ -287,16 +287,11 @@ START_TEST(bodies_in_other_places)
         assert_vec3_close(q.centre, mat3_mul_vec(turn, p.centre), 1e-13);
     }
     polyhedron_free(&ctx, &q);
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context failing = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         polyhedron out = {0};
-        bool placed = polyhedron_place(&failing, &p, quat_matrix(quat_identity()), p.centre, &out);
-        polyhedron_free(&failing, &out);
-        ck_assert_int_eq(memory.live, 0);
-        ck_assert(placed == !memory.failed);
-        if (placed)
-            break;
+        bool placed = polyhedron_place(&turn.ctx, &p, quat_matrix(quat_identity()), p.centre, &out);
+        polyhedron_free(&turn.ctx, &out);
+        turn.status = placed ? FRAM_OK : FRAM_ERROR_MEMORY;
     }
     polyhedron_free(&ctx, &p);
 }
@@ -328,26 +323,18 @@ START_TEST(memory_runs_out)
     random_stream r = random_begin(9, 1, 1);
     for (int i = 0; i < 40; i++)
         point[i] = (vec3){random_normal(&r), random_normal(&r), random_normal(&r)};
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         polyhedron p = {0};
         polyhedron_array list = {0};
-        fram_error error = {0};
-        fram_status status = polyhedron_hull(&ctx, point, 40, 0, &p, &error);
-        if (status == FRAM_OK && !array_push(&ctx, &list, p))
-            status = error_memory(&error);
+        turn.status = polyhedron_hull(&turn.ctx, point, 40, 0, &p, &turn.error);
+        if (turn.status == FRAM_OK && !array_push(&turn.ctx, &list, p))
+            turn.status = error_memory(&turn.error);
         if (list.count == 0)
-            polyhedron_free(&ctx, &p);
-        polyhedron_array_free(&ctx, &list);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            ck_assert_int_gt(n, 20);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
-        ck_assert_int_eq(error.status, FRAM_ERROR_MEMORY);
+            polyhedron_free(&turn.ctx, &p);
+        polyhedron_array_free(&turn.ctx, &list);
+        if (!turn.memory.failed)
+            ck_assert_int_gt(turn.n, 20);
+        ck_assert_int_eq(turn.error.status, turn.status);
     }
 }
 END_TEST

@@ -67,7 +67,7 @@ START_TEST(runs_are_found_in_order)
 }
 END_TEST
 
-START_TEST(no_memory)
+START_TEST(memory_runs_out)
 {
     failing_memory memory;
     context ctx = failing_context(&memory, 1);
@@ -78,4 +78,4 @@ START_TEST(no_memory)
 }
 END_TEST
 
-TEST_MAIN("ring_tree", runs_are_found_in_order, no_memory)
+TEST_MAIN("ring_tree", runs_are_found_in_order, memory_runs_out)

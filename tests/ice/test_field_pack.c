@@ -362,30 +362,21 @@ START_TEST(a_full_present_field_is_refused)
 }
 END_TEST
 
-START_TEST(memory_may_end_anywhere)
+START_TEST(memory_runs_out)
 {
     const field_population p = {.share = 1, .size = nearly_equal, .shape = convex};
     const field_packed_request r = request_of(&p, 1, 0.6, 60, 1);
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
-        overlay *plane = overlay_create(&ctx);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
+        overlay *plane = overlay_create(&turn.ctx);
         polygon_list outlines = {0};
         field_floe_array floes = {0};
         field_population_report part;
         field_packed_report report;
-        fram_error error;
-        fram_status status =
-            plane ? field_packed(&ctx, plane, &r, &outlines, &floes, &part, &report, &error) : FRAM_ERROR_MEMORY;
-        polygon_list_free(&ctx, &outlines);
-        array_free(&ctx, &floes);
+        turn.status = plane ? field_packed(&turn.ctx, plane, &r, &outlines, &floes, &part, &report, &turn.error)
+                            : FRAM_ERROR_MEMORY;
+        polygon_list_free(&turn.ctx, &outlines);
+        array_free(&turn.ctx, &floes);
         overlay_free(plane);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
     }
 }
 END_TEST
@@ -412,4 +403,4 @@ TEST_MAIN("field_pack", wide_sizes_at_90_percent_for_every_seed, wide_sizes_at_8
           populations_keep_their_shares_and_laws, the_field_flows_around_zones_and_floes_that_are_there,
           a_periodic_field_continues_with_itself, same_seed_same_bits_on_any_number_of_threads,
           an_impossible_field_says_what_was_reached, wrong_requests_are_refused_by_name,
-          a_full_present_field_is_refused, memory_may_end_anywhere, the_cover_map_is_exact)
+          a_full_present_field_is_refused, memory_runs_out, the_cover_map_is_exact)

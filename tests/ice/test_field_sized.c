@@ -187,28 +187,19 @@ START_TEST(wrong_laws_are_refused)
 }
 END_TEST
 
-START_TEST(memory_ends)
+START_TEST(memory_runs_out)
 {
     const size_law law = {.kind = SIZE_UNIFORM, .lo = 9, .hi = 12};
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         polygon_list floes = {0};
         field_report r;
-        fram_error e;
         field_request q = request_of(&law, 0.9, 2);
         q.domain = (box2){{0, 0}, {50, 40}};
-        fram_status status = field_voronoi(&ctx, &q, &floes, &r, &e);
-        polygon_list_free(&ctx, &floes);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        turn.status = field_voronoi(&turn.ctx, &q, &floes, &r, &turn.error);
+        polygon_list_free(&turn.ctx, &floes);
     }
 }
 END_TEST
 
 TEST_MAIN("field_sized", every_seed_of_a_power_law_at_98_percent, other_laws, sizes_at_lower_concentrations,
-          floes_of_one_size, without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
+          floes_of_one_size, without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_runs_out)

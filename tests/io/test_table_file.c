@@ -293,41 +293,24 @@ START_TEST(files_that_are_not_there)
 }
 END_TEST
 
-START_TEST(no_memory_is_an_error)
+START_TEST(memory_runs_out)
 {
     context_init(&ctx);
     size_t size;
     char *data = example_file(&size);
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context failing = failing_context(&memory, n);
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         content b;
         content_begin(&b);
-        fram_status status = table_file_decode(&failing, "test", data, size, &b.file, &error);
-        table_file_free_bytes(&failing, &b.file);
-        content_free(&failing, &b);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        turn.status = table_file_decode(&turn.ctx, "test", data, size, &b.file, &error);
+        table_file_free_bytes(&turn.ctx, &b.file);
+        content_free(&turn.ctx, &b);
     }
     free(data);
     scratch s = scratch_make();
     content a;
     content_fill(&a);
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context failing = failing_context(&memory, n);
-        fram_status status = write_file(&failing, scratch_path(&s, "t"), &a.file);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
-    }
+    for (failing_turn turn = {0}; failing_next(&turn);)
+        turn.status = write_file(&turn.ctx, scratch_path(&s, "t"), &a.file);
     content_free(&ctx, &a);
     scratch_remove(&s, "t");
 }
@@ -335,4 +318,4 @@ END_TEST
 
 TEST_MAIN("table_file", content_comes_back, every_flipped_bit_is_refused, every_other_length_is_refused,
           hostile_words_are_survived, other_versions_and_machines_are_refused_by_name,
-          other_contents_are_refused_by_name, files_that_are_not_there, no_memory_is_an_error)
+          other_contents_are_refused_by_name, files_that_are_not_there, memory_runs_out)

@@ -7,23 +7,14 @@
 
 static inline void hull_make_without_memory(hull_particulars given)
 {
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
-        fram_error error = {0};
+    for (failing_turn turn = {0}; failing_next(&turn);) {
         hull_particulars p = given;
         hull_particulars_fill(&p);
         mesh surface = {0};
         polyhedron_array pieces = {0};
-        fram_status status = hull_make(&ctx, &p, &surface, &pieces, &error);
-        polyhedron_array_free(&ctx, &pieces);
-        mesh_free(&ctx, &surface);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        turn.status = hull_make(&turn.ctx, &p, &surface, &pieces, &turn.error);
+        polyhedron_array_free(&turn.ctx, &pieces);
+        mesh_free(&turn.ctx, &surface);
     }
 }
 

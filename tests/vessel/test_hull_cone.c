@@ -51,7 +51,7 @@ START_TEST(refusals)
 }
 END_TEST
 
-START_TEST(without_memory) { hull_make_without_memory(cone()); }
+START_TEST(memory_runs_out) { hull_make_without_memory(cone()); }
 END_TEST
 
-TEST_MAIN("hull_cone", volume_of_a_frustum, refusals, without_memory)
+TEST_MAIN("hull_cone", volume_of_a_frustum, refusals, memory_runs_out)

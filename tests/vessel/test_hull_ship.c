@@ -214,8 +214,8 @@ START_TEST(refusals)
 }
 END_TEST
 
-START_TEST(without_memory) { hull_make_without_memory(ship(0.8)); }
+START_TEST(memory_runs_out) { hull_make_without_memory(ship(0.8)); }
 END_TEST
 
 TEST_MAIN("hull_ship", displacement_in_closed_form, section_amidships, block_coefficient_is_met, stem_and_entrance,
-          refusals, without_memory)
+          refusals, memory_runs_out)
