@@ -7,11 +7,8 @@
 # Each has its room for a label; those that make threads are labelled so too, since a race needs two of them.
 
 # libcheck kills a test after 4 s by default: too little for a sanitizer on a busy machine.
-set(test_environment "CK_DEFAULT_TIMEOUT=300" "FRAM_BUILD=${CMAKE_BINARY_DIR}" "FRAM_SOURCE=${CMAKE_SOURCE_DIR}"
-    "LC_ALL=C.UTF-8")
-if(TARGET fram_command)
-    list(APPEND test_environment "FRAM=${CMAKE_BINARY_DIR}/fram")
-endif()
+set(test_environment "CK_DEFAULT_TIMEOUT=300" "FRAM=${CMAKE_BINARY_DIR}/fram" "FRAM_BUILD=${CMAKE_BINARY_DIR}"
+    "FRAM_SOURCE=${CMAKE_SOURCE_DIR}" "LC_ALL=C.UTF-8")
 option(FRAM_SHORT_TESTS "tests with long scenes shorten them" OFF)
 if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ OR FRAM_SHORT_TESTS)
     # Tests with long scenes shorten them when this is set.
@@ -87,10 +84,7 @@ if(FRAM_TESTS)
             # The unit is opened as importers do.
             add_dependencies(${program} fram_fmu)
         endif()
-        if(room STREQUAL cli)
-            # The command knows the public interface only, and so do its tests.
-            target_link_libraries(${program} PRIVATE room_cli PkgConfig::check)
-        elseif(TARGET room_${room})
+        if(TARGET room_${room})
             target_include_directories(${program} PRIVATE src include)
             target_link_libraries(${program} PRIVATE room_${room} PkgConfig::check)
         else()
