@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-int exit_code_of(fram_status status)
+static int exit_code_of(fram_status status)
 {
     switch (status) {
     case FRAM_OK:

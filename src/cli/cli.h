@@ -76,7 +76,6 @@ bool words_ask_for_json(int count, char **words);
 int answer_error(const common_options *common, const fram_error *error);
 /* A usage error in the same way. */
 int answer_usage(const common_options *common, const char *key, const char *message);
-int exit_code_of(fram_status status);
 
 /* One JSON object on one line of standard output. */
 typedef struct json {

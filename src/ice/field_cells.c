@@ -226,7 +226,8 @@ static corner corner_at(polygon p, int32_t i)
     return (corner){back, forth, fmin(back_length, forth_length) / 2, vec2_cross(forth, back)};
 }
 
-double cells_corner_area(const polygon_list *cells)
+/* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
+static double cells_corner_area(const polygon_list *cells)
 {
     double area = 0;
     for (int32_t i = 0; i < polygon_list_count(cells); i++) {
@@ -240,8 +241,9 @@ double cells_corner_area(const polygon_list *cells)
     return area;
 }
 
-fram_status cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out,
-                              fram_error *error)
+/* The cells with their corners cut so; one ring per cell. */
+static fram_status cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s,
+                                     polygon_list *out, fram_error *error)
 {
     int32_t count = polygon_list_count(cells);
     for (int32_t i = 0; i < count; i++) {
@@ -322,8 +324,10 @@ static fram_status inset_all(context *ctx, const polygon_list *cells, double ins
     return FRAM_OK;
 }
 
-fram_status cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s,
-                                polygon_list *out, double *inset, fram_error *error)
+/* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the
+   area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
+static fram_status cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s,
+                                       polygon_list *out, double *inset, fram_error *error)
 {
     /* The area of a convex cell falls with the inset at the rate of its perimeter, which falls too: Newton's method
        from zero comes from one side and cannot overshoot. */

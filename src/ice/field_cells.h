@@ -32,19 +32,9 @@ double cells_area(const polygon_list *cells);
 /* Area of a polygon outside of zones, which may lie over one another [m2]. */
 fram_status cells_area_outside(context *ctx, polygon whole, const polygon_list *zones, double *area, fram_error *error);
 
-/* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
-double cells_corner_area(const polygon_list *cells);
-/* The cells with their corners cut so; one ring per cell. */
-fram_status cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out,
-                              fram_error *error);
-
-/* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the
-   area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
-fram_status cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s,
-                                polygon_list *out, double *inset, fram_error *error);
-
-/* Both: `corners` of the area that must go is cut off the corners, as far as every edge keeps a part, and the rest goes
-   off the edges.  cut and out are made anew. */
+/* The cells made smaller, to `target` area [m2], at most the area there is: `corners` of the area that must go is cut
+   off the corners, as far as every edge keeps a part, and the rest goes off the edges, all moved inwards by the one
+   distance `inset` [m].  cut and out are made anew, one ring per cell, in out of 0 vertices where nothing is left. */
 fram_status cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
                          polygon_list *cut, polygon_list *out, double *inset, fram_error *error);
 

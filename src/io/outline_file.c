@@ -105,6 +105,57 @@ fram_status outline_ring_end(outline_walk *w, bool implied)
     return FRAM_OK;
 }
 
+/* ---- plain points ---- */
+
+/* What parts two numbers. */
+static void skip_separator(outline_walk *w)
+{
+    outline_skip_blanks(w);
+    if (w->at < w->end && (*w->at == ',' || *w->at == ';'))
+        w->at++;
+    outline_skip_blanks(w);
+}
+
+static bool at_line_end(const outline_walk *w) { return w->at == w->end || *w->at == '\n'; }
+
+static fram_status read_point(outline_walk *w)
+{
+    vec2 p = {0, 0};
+    fram_status status = outline_number(w, &p.x);
+    if (status == FRAM_OK) {
+        skip_separator(w);
+        status = outline_number(w, &p.y);
+    }
+    if (status != FRAM_OK)
+        return status;
+    outline_skip_blanks(w);
+    if (!at_line_end(w))
+        return outline_refuse(w, "expected x and y on a line, found more");
+    return outline_ring_add(w, p);
+}
+
+static fram_status outline_read_points(outline_walk *w)
+{
+    fram_status status = FRAM_OK;
+    for (; status == FRAM_OK && w->at < w->end; outline_skip_line(w)) {
+        outline_skip_blanks(w);
+        if (w->at < w->end && *w->at == '#')
+            continue;
+        if (at_line_end(w) || *w->at == '>') {
+            status = w->place.ring > 0 ? outline_ring_end(w, true) : FRAM_OK;
+            continue;
+        }
+        if (w->place.ring == 0) {
+            w->place.feature++;
+            w->place.polygon = 1;
+            status = outline_ring_begin(w, 1);
+        }
+        if (status == FRAM_OK)
+            status = read_point(w);
+    }
+    return status == FRAM_OK && w->place.ring > 0 ? outline_ring_end(w, true) : status;
+}
+
 /* ---- forms ---- */
 
 /* The first character that is neither blank nor in a line that begins with #; 0 when there is none. */
@@ -163,55 +214,4 @@ fram_status outline_file_read(context *ctx, const char *path, import_rings *out,
         status = outline_file_parse(ctx, path, data, size, out, error);
     memory_free(ctx, data);
     return status;
-}
-
-/* ---- plain points ---- */
-
-/* What parts two numbers. */
-static void skip_separator(outline_walk *w)
-{
-    outline_skip_blanks(w);
-    if (w->at < w->end && (*w->at == ',' || *w->at == ';'))
-        w->at++;
-    outline_skip_blanks(w);
-}
-
-static bool at_line_end(const outline_walk *w) { return w->at == w->end || *w->at == '\n'; }
-
-static fram_status read_point(outline_walk *w)
-{
-    vec2 p = {0, 0};
-    fram_status status = outline_number(w, &p.x);
-    if (status == FRAM_OK) {
-        skip_separator(w);
-        status = outline_number(w, &p.y);
-    }
-    if (status != FRAM_OK)
-        return status;
-    outline_skip_blanks(w);
-    if (!at_line_end(w))
-        return outline_refuse(w, "expected x and y on a line, found more");
-    return outline_ring_add(w, p);
-}
-
-fram_status outline_read_points(outline_walk *w)
-{
-    fram_status status = FRAM_OK;
-    for (; status == FRAM_OK && w->at < w->end; outline_skip_line(w)) {
-        outline_skip_blanks(w);
-        if (w->at < w->end && *w->at == '#')
-            continue;
-        if (at_line_end(w) || *w->at == '>') {
-            status = w->place.ring > 0 ? outline_ring_end(w, true) : FRAM_OK;
-            continue;
-        }
-        if (w->place.ring == 0) {
-            w->place.feature++;
-            w->place.polygon = 1;
-            status = outline_ring_begin(w, 1);
-        }
-        if (status == FRAM_OK)
-            status = read_point(w);
-    }
-    return status == FRAM_OK && w->place.ring > 0 ? outline_ring_end(w, true) : status;
 }

@@ -32,6 +32,5 @@ fram_status outline_ring_add(outline_walk *w, vec2 position);
 fram_status outline_ring_end(outline_walk *w, bool implied);
 
 fram_status outline_read_wkt(outline_walk *w);
-fram_status outline_read_points(outline_walk *w);
 
 #endif

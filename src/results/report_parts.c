@@ -59,7 +59,9 @@ load_unit report_load_unit(const report *r)
     return load_unit_for(most);
 }
 
-const double *report_scaled(report *r, const char *channel, double factor, int32_t first)
+/* A channel of the vessel or of the world times a factor, from row `first` on; NULL without the channel, and without
+   memory: then the page fails as a whole. */
+static const double *report_scaled(report *r, const char *channel, double factor, int32_t first)
 {
     const double *from = run_vessel_channel(&r->d, r->vessel, channel);
     int32_t rows = r->d.series.rows - first;

@@ -35,9 +35,6 @@ void report_vessel_section(report *r, const char *title);
 /* The unit of its largest load. */
 load_unit report_load_unit(const report *r);
 
-/* A channel of the vessel or of the world times a factor, from row `first` on; NULL without the channel, and without
-   memory: then the page fails as a whole. */
-const double *report_scaled(report *r, const char *channel, double factor, int32_t first);
 typedef struct report_line {
     const char *channel, *name;
 } report_line;

@@ -71,10 +71,6 @@ bool pressure_add(pressure_map *p, const pressure_area *area, vec3 point, vec3 n
 /* At the end of a step, after all of its contacts. */
 void pressure_end_step(pressure_map *p, double time, double time_step);
 
-/* Local pressure on thick massive ice by ISO 19906 (2010), A.8.2.5: 7.40 A^-0.70 MPa up to 10 m2, 1.48 MPa above
-   [Pa]. */
-double iso_local_pressure(double area);
-
 fram_status pressure_write_files(pressure_map *p, fram_error *error);
 /* FRAM_OK without cairo too, without a picture. */
 fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error);

@@ -13,7 +13,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
-double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real_pow(area, -0.7) : 1.48e6; }
+/* Local pressure on thick massive ice by ISO 19906 (2010), A.8.2.5: 7.40 A^-0.70 MPa up to 10 m2, 1.48 MPa above
+   [Pa]. */
+static double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real_pow(area, -0.7) : 1.48e6; }
 
 static fram_status write_text(pressure_map *p, const char *name, text_buffer *text, fram_error *error)
 {

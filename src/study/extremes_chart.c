@@ -49,6 +49,15 @@ chart extremes_chart_make(const extreme_result *r, const char *quantity, double 
     return c;
 }
 
+enum { STABILITY_CHARTS = 2, STABILITY_LINES = 3 };
+typedef struct stability_plot {
+    double threshold[STABILITY_MOST], value[STABILITY_CHARTS][STABILITY_MOST];
+    double bar_x[3 * STABILITY_MOST], bar_y[3 * STABILITY_MOST];
+    double taken[2], taken_y[STABILITY_CHARTS][2];
+    chart_line lines[STABILITY_CHARTS][STABILITY_LINES];
+    char across[200], scale[200];
+} stability_plot;
+
 /* Where the answer's own threshold lies, from the least to the greatest of what is shown. */
 static chart_line taken_line(const extreme_result *r, const double *low, const double *high, int32_t count,
                              stability_plot *room, int c)
@@ -64,8 +73,11 @@ static chart_line taken_line(const extreme_result *r, const double *low, const d
     return chart_line_make("threshold of the answer", room->taken, of, 2, false);
 }
 
-bool stability_chart_make(const extreme_result *r, const char *quantity, stability_plot *room,
-                          chart out[STABILITY_CHARTS])
+/* Threshold stability of an answer by peaks over a threshold (Coles 2001, section 4.3.1): the shape with 95 %
+   intervals, and the scale less shape x threshold, over the threshold.  From the threshold on from which the law holds,
+   both stay the same within their scatter.  Points into `room` and the result.  false: fewer than two thresholds. */
+static bool stability_chart_make(const extreme_result *r, const char *quantity, stability_plot *room,
+                                 chart out[STABILITY_CHARTS])
 {
     double low[STABILITY_MOST], high[STABILITY_MOST];
     int32_t n = r->stability_rows;

@@ -18,21 +18,6 @@ typedef struct extremes_plot {
 chart extremes_chart_make(const extreme_result *r, const char *quantity, double factor, double duration,
                           extremes_plot *room);
 
-/* Threshold stability of an answer by peaks over a threshold (Coles 2001, section 4.3.1): the shape with 95 %
-   intervals, and the scale less shape x threshold, over the threshold.  From the threshold on from which the law holds,
-   both stay the same within their scatter.  Points into `room`, and into the result.  false: fewer than two thresholds.
- */
-enum { STABILITY_CHARTS = 2, STABILITY_LINES = 3 };
-typedef struct stability_plot {
-    double threshold[STABILITY_MOST], value[STABILITY_CHARTS][STABILITY_MOST];
-    double bar_x[3 * STABILITY_MOST], bar_y[3 * STABILITY_MOST];
-    double taken[2], taken_y[STABILITY_CHARTS][2];
-    chart_line lines[STABILITY_CHARTS][STABILITY_LINES];
-    char across[200], scale[200];
-} stability_plot;
-bool stability_chart_make(const extreme_result *r, const char *quantity, stability_plot *room,
-                          chart out[STABILITY_CHARTS]);
-
 /* A chart for each answered result, one below the other, and below that of peaks over a threshold its stability; a file
    without one is an error (FRAM_ERROR_INPUT), since there
    is nothing to draw.  quantity: "load [N]".  SVG when the name ends in .svg, else PNG. */

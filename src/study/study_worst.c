@@ -65,7 +65,8 @@ static char *path_of(const study_folder *f, const char *name, const char *ending
     return path;
 }
 
-char *study_worst_path(const study_folder *f, const worst_run *run, const char *ending)
+/* "DIR/worst/ID-SEED" and an ending, to be freed; NULL without memory. */
+static char *study_worst_path(const study_folder *f, const worst_run *run, const char *ending)
 {
     char name[NAME_ROOM];
     name_of(f, run, name);

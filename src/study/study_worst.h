@@ -24,9 +24,7 @@ typedef struct worst_run {
    several conditions counts for the first of them.  Returns their number, at most `most`, the room in out. */
 int32_t study_worst_find(const study_folder *f, const condition_rows *conditions, run_figure figure, int32_t most,
                          worst_run *out);
-/* "DIR/worst/ID-SEED" and an ending, to be freed; NULL without memory. */
-char *study_worst_path(const study_folder *f, const worst_run *run, const char *ending);
-/* Whether its record, its playback are there, whoever made them. */
+/* Whether a run's record, its playback are there, whoever made them. */
 bool study_worst_has_record(const study_folder *f, const worst_run *run);
 bool study_worst_has_playback(const study_folder *f, const worst_run *run);
 

@@ -124,7 +124,8 @@ fram_status mooring_add_line(context *ctx, const line_definition *d, const vesse
     return FRAM_OK;
 }
 
-double line_curve_tension(const line_curve *c, int32_t points, double offset)
+/* Tension of a curve of `points` points, two at least [N]. */
+static double line_curve_tension(const line_curve *c, int32_t points, double offset)
 {
     if (offset <= c->offset[0])
         return c->tension[0];

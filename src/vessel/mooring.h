@@ -60,9 +60,6 @@ typedef struct line_definition {
 fram_status mooring_add_line(context *ctx, const line_definition *d, const vessel_table *vessels,
                              const body_table *bodies, line_table *lines, fram_error *error);
 
-/* Tension of a curve of `points` points, two at least [N]. */
-double line_curve_tension(const line_curve *curve, int32_t points, double offset);
-
 /* Pull of one line on a vessel at a pose: force [N] and where it acts (global). */
 typedef struct line_pull {
     vec3 force, point;
