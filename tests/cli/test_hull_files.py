@@ -130,10 +130,6 @@ def gdf(panels, isx, isy, words=("", "", ""), second=None):
     return "\n".join(lines + [""]).encode()
 
 
-def panels_of(shape, keep):
-    return [[shape[0][i] for i in face] for face in shape[1] if keep([shape[0][i] for i in face])]
-
-
 def half_box_panels(length, beam, draught, n, m, crack=0):
     """Bottom, side and ends of the port half of a box, down from z = 0; the side's panels are divided
     otherwise than the
@@ -158,10 +154,6 @@ def column_panels(x, y, radius, draught, n, rings):
         p += [[c[i] + (zs[k],), c[(i + 1) % n] + (zs[k],), c[(i + 1) % n] + (zs[k + 1],), c[i] + (zs[k + 1],)]
               for i in range(n)]
     return p
-
-
-def solid_panels(shape):
-    return [[shape[0][i] for i in t] for t in triangles(shape)]
 
 
 # ---- closed forms ----
