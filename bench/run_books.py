@@ -15,10 +15,11 @@ import sys
 import textwrap
 import time
 
-from run_recording import processor
-
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from machine import processor  # noqa: E402  (tools)
+
 RESULTS = HERE / "results"
 BOUND = 1e-9
 # Those that take longest, last.

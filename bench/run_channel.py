@@ -21,6 +21,9 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+import machine  # noqa: E402  (tools)
+
 NEW = ROOT / "build" / "release" / "libfram.so"
 WAYS = (100, 250, 500, 1000, 2000, 5000)  # of the ship in the ice [m]
 SPEED = 2.0  # of scenes/level_ice.yaml [m/s]
@@ -96,8 +99,6 @@ class Worker:
 
 
 def page(new, old, options):
-    from run_users import machine
-    model, load = machine()
     compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
     head = "| channel, m | floes | ms a step | times that of 100 m |"
     if old:
@@ -110,7 +111,8 @@ def page(new, old, options):
         rows.append(row)
     return "\n".join([
         "# A channel behind a ship", "",
-        f"{datetime.date.today()}; {model}; {platform.system()}; {compiler}; load average {load} at the end.",
+        f"{datetime.date.today()}; {machine.processor()}; {platform.system()}; {compiler}; "
+        f"load average {machine.load()} at the end.",
         f"`bench/run_channel.py`, {options.rounds} rounds of {options.steps} steps from each state, "
         "one thread, CPU time, medians.", "",
         "`scenes/level_ice.yaml` with more ice before the bow, `run.time_step: 0.02`, `ice.sleep_speed: 0.2` and",

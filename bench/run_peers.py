@@ -33,8 +33,9 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent / "tools")]
 import penetration  # noqa: E402  (beside this script)
+from machine import processor  # noqa: E402  (tools)
 
 WORK = ROOT / "build" / "bench"
 PEERS = HERE / "peers"
@@ -177,11 +178,9 @@ def version_of(folder):
 
 def machine(options=None):
     engines = {name: getattr(options, name, None) for name in ("box3d", "jolt")}
-    about = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    model = re.search(r"model name\s*:\s*(.*)", about)
     return {
         "date": datetime.date.today().isoformat(),
-        "processor": model.group(1) if model else "unknown",
+        "processor": processor(),
         "cores": len(os.sched_getaffinity(0)),
         "compiler": command("gcc", "--version").splitlines()[0],
         "bullet": answer("pkg-config", "--modversion", "bullet-float64") or "not installed",

@@ -6,15 +6,15 @@ Runs bench/playback.yaml, makes its page, plays it and seeks in it.  Ends with c
 """
 import argparse
 import pathlib
-import platform
 import subprocess
 import sys
 import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "views"))
+sys.path[:0] = [str(HERE.parent / "tests" / "views"), str(HERE.parent / "tools")]
 import chromium  # noqa: E402  (tests/views is no package)
+import machine  # noqa: E402  (tools)
 
 ABOUT = """# The playback page
 
@@ -61,13 +61,6 @@ DEVICE = """(() => { const gl = fram.scene.renderer.getContext(), e = gl.getExte
 
 def at(values, part):
     return sorted(values)[min(len(values) - 1, int(part * len(values)))]
-
-
-def processor():
-    for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-        if line.startswith("model name"):
-            return line.split(":")[1].strip()
-    return platform.machine()
 
 
 def play(browser):
@@ -141,7 +134,7 @@ def main():
         text = table(m, page.stat().st_size)
     print(text)
     if options.write:
-        head = ABOUT.format(day=time.strftime("%Y-%m-%d"), processor=processor())
+        head = ABOUT.format(day=time.strftime("%Y-%m-%d"), processor=machine.processor())
         (HERE / "results" / "playback.md").write_text(head + text + "\n", encoding="utf-8")
     for complaint in broken(m):
         print("BROKEN: " + complaint)

@@ -9,7 +9,6 @@ import argparse
 import json
 import os
 import pathlib
-import platform
 import statistics
 import struct
 import subprocess
@@ -18,6 +17,9 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "tools"))
+import machine  # noqa: E402  (tools)
+
 RESULTS = HERE / "results" / "recording.md"
 ABOUT = """# What recording costs
 
@@ -70,13 +72,6 @@ def kept_rows():
     return {line.split("|")[1].strip(): line for line in whole}
 
 
-def processor():
-    for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-        if line.startswith("model name"):
-            return line.split(":")[1].strip()
-    return platform.machine()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fram", default=HERE.parent / "build" / "release" / "fram")
@@ -108,7 +103,7 @@ def main():
             broken.append(f"{scene}: {size:.1f} bytes")
     if options.write:
         table = "\n".join([HEADS, "|---" * (HEADS.count("|") - 1) + "|"] + [rows[s] for s, _ in SCENES if s in rows])
-        RESULTS.write_text(ABOUT.format(processor=processor()) + table + "\n" + AFTER, encoding="utf-8")
+        RESULTS.write_text(ABOUT.format(processor=machine.processor()) + table + "\n" + AFTER, encoding="utf-8")
     for one in broken:
         print("BROKEN: " + one)
     sys.exit(1 if broken else 0)

@@ -14,12 +14,14 @@ import argparse
 import datetime
 import json
 import pathlib
-import platform
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+import machine  # noqa: E402  (tools)
+
 NEW = ROOT / "build" / "release" / "fram"
 
 FIELD = """
@@ -107,24 +109,13 @@ def line(row):
             f"{shares} |")
 
 
-def machine():
-    try:
-        text = pathlib.Path("/proc/cpuinfo").read_text()
-        model = next(row.split(":")[1].strip() for row in text.splitlines() if row.startswith("model name"))
-    except (OSError, StopIteration):
-        model = platform.machine()
-    load = pathlib.Path("/proc/loadavg")
-    return model, load.read_text().split()[0] if load.exists() else "unknown"
-
-
 def page(rows, options):
-    model, load = machine()
     compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
     head = "| scene | floes | median ms | us per floe | old/new | mean ms | 99.9 % ms | longest ms |" \
            " real time, 1 thread | 2 threads | forces % | collision % | solver % | crushing % | fracture % |"
     return "\n".join([
         "# Scenes of users", "",
-        f"{datetime.date.today()}; {model}; {compiler}; load average {load} at the end.",
+        f"{datetime.date.today()}; {machine.processor()}; {compiler}; load average {machine.load()} at the end.",
         f"`bench/run_users.py`, rounds: {options.repeat}; {options.warm:g} s of warm-up "
         f"({', '.join(f'{name} {warm} s' for name, warm in WARM.items())}) and {options.time:g} s measured; old "
         "and new after each other in each round.", "",

@@ -15,15 +15,15 @@ import datetime
 import importlib
 import json
 import pathlib
-import platform
 import subprocess
 import sys
 import time
 import traceback
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent / "tools")]
 import ladder  # noqa: E402  (beside this script)
+import machine  # noqa: E402  (tools)
 import status  # noqa: E402
 
 RUNGS = {
@@ -36,16 +36,6 @@ RUNGS = {
     7: "Trends known from the literature",
     8: "Statistics",
 }
-
-
-def machine():
-    name = platform.processor() or platform.machine()
-    try:
-        with open("/proc/cpuinfo") as file:
-            name = next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
-    except (OSError, StopIteration):
-        pass
-    return name
 
 
 def revision():
@@ -170,7 +160,7 @@ def main():
     chosen = [n for n, module in modules.items() if not (options.only and n not in options.only
                                                         or options.quick and module.LONG)]
     made = revision()  # once: the program and the cases are those of now, whatever is committed meanwhile
-    head = f"{program()}, revision {made}, {datetime.date.today()}, {machine()}, {options.jobs} runs at a time"
+    head = f"{program()}, revision {made}, {datetime.date.today()}, {machine.processor()}, {options.jobs} runs at a time"
     code = status.of_checkout()
     failed, skipped, begun, reused_before = 0, 0, time.monotonic(), len(ladder.REUSED)
     for name in chosen:

@@ -21,13 +21,14 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 import mutants as listing  # noqa: E402
 import table  # noqa: E402
 from verdicts import CAUGHT, OPEN, SURVIVED, Verdicts, all_tests, digest, test_code  # noqa: E402
 from workplace import LEAST_PATIENCE_S, PATIENCE, Workplace, first_failure, likely  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = HERE.parents[1]
 # Groups of tests that are no rooms: of whole runs.
 OTHERS = {"runs"}
 

@@ -2,10 +2,9 @@
 
 import collections
 import datetime
-import pathlib
-import re
 import subprocess
 
+from machine import processor
 from mutants import Stale, locate
 from verdicts import CAUGHT, OPEN, digest
 
@@ -30,9 +29,7 @@ def first_line(words):
 
 def machine():
     """Processor and compiler: what the times of the tests, and so what hangs, depend on."""
-    told = re.search(r"model name\s*: (.+)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))
-    cores = first_line(["nproc"])
-    return f"{told[1] if told else 'unknown processor'}, {cores} cores, {first_line(['cc', '--version'])}"
+    return f"{processor()}, {first_line(['nproc'])} cores, {first_line(['cc', '--version'])}"
 
 
 def is_of_today(root, mutant, row):
