@@ -14,6 +14,9 @@ import urllib.error
 import urllib.parse
 import urllib.request
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 FRAM = os.environ["FRAM"]
 SCENE = """
 run: {duration: 4, time_step: 0.02}
@@ -22,11 +25,6 @@ ice: {mean_floe_area: 64, concentration: 0.7, breakable: true}
 domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
 output: {frame_interval: 0.1}
 """
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def fetch(address):

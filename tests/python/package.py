@@ -5,14 +5,12 @@ import pathlib
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 SOURCE = pathlib.Path(os.environ.get("FRAM_SOURCE", pathlib.Path(__file__).resolve().parents[2]))
 BUILD = pathlib.Path(os.environ.get("FRAM_BUILD", SOURCE / "build/release"))
 DEBIAN = "/usr/bin/python3"
-
-
-def skip(why):
-    print(f"skipped: {why}")
-    sys.exit(77)
 
 
 def find_package():

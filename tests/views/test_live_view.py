@@ -17,6 +17,9 @@ import tempfile
 
 import chromium
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 FRAM = os.environ["FRAM"]
 SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
 SCENE = """
@@ -43,11 +46,6 @@ SHOWN = """(fram.prepare(), (() => {
              named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length,
              text: document.getElementById('history').innerText, told: fram.history.sorted?.at(-1)?.time }; })())"""
 FRAME = 15  # type of the block of a frame, src/io/record_layout.h
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def advance(world, time):

@@ -18,6 +18,9 @@ import tempfile
 
 import chromium
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 FRAM = os.environ["FRAM"]
 PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
 TOWED = """
@@ -85,11 +88,6 @@ FLOE = """(() => {
     }
     return null;
 })()"""
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def is_deck(p):

@@ -10,6 +10,9 @@ import tempfile
 
 import chromium
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PYTHON = next((name for name in ("/usr/bin/python3", sys.executable) if os.path.exists(name) and
                not subprocess.run([name, "-c", "import markdown"], capture_output=True).returncode), None)
@@ -20,11 +23,6 @@ TYPE = """(() => {
     return [...document.querySelectorAll("#found a")].map((link) => link.href);
 })()"""
 FITS = "document.documentElement.scrollWidth <= document.documentElement.clientWidth"
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def go_to(browser, page):

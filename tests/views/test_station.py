@@ -15,6 +15,9 @@ import tempfile
 
 import chromium
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 FRAM = os.environ["FRAM"]
 PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
 # Numbers of lines count within a vessel: both have a first and a second one.  Those of the other ship end far outside
@@ -100,11 +103,6 @@ GREEN = """((x, y, z) => {
     for (let i = 0; i < out.length; i += 4) n += out[i + 1] > 1.5 * out[i] && out[i + 1] > 1.5 * out[i + 2];
     return n;
 })"""
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def start_of(vessel, along, direction):

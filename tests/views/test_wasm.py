@@ -14,6 +14,9 @@ import tempfile
 
 import chromium
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from skipping import skip  # noqa: E402  (tests is no package)
+
 FRAM = os.environ["FRAM"]
 SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
 PAGE = SOURCE / "build" / "wasm" / "fram.html"
@@ -34,11 +37,6 @@ output: {frame_interval: 0.2}
 WRONG = "run: {duration: 6, time_step: 0.02}\nvessel:\n  mode: towed\n  hull: {length: 48, beam: 12, draft: 4}\n"
 LONG = OWN.replace("duration: 6.008", "duration: 10000")
 OVER = "['finished', 'stopped', 'failed'].includes(simulation.state)"
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(77)
 
 
 def native(folder, name, text):
