@@ -4,6 +4,7 @@
 
 #include "io/scenario_file.h"
 #include "sim/build.h"
+#include "sim/series.h"
 #include "sim/step.h"
 #include "testing.h"
 
@@ -60,6 +61,29 @@ static inline void scene_close(scene *k)
 
 /* Body slot of the n-th floe. */
 static inline int32_t scene_floe(const scene *k, int32_t n) { return k->w.floes.body[n]; }
+
+/* A row of the series as recorded; to be {0} at first. */
+typedef struct scene_row {
+    series_layout layout;
+    double value[400];
+} scene_row;
+
+static inline void scene_take(scene *k, scene_row *r)
+{
+    fram_error error = {0};
+    series_layout_free(&k->ctx, &r->layout); /* of the last row, or nothing */
+    assert_ok(series_columns(&k->ctx, &k->s, &r->layout, &error), error);
+    ck_assert_int_le(r->layout.columns.count, 400);
+    series_row(&k->ctx, &r->layout, &k->w, 0, r->value);
+}
+
+static inline double scene_channel(const scene_row *r, const char *name)
+{
+    for (int32_t i = 0; i < r->layout.columns.count; i++)
+        if (strcmp(r->layout.columns.data[i].name, name) == 0)
+            return r->value[i];
+    ck_abort_msg("no channel %s", name);
+}
 
 /* That the scenario is refused, by its reader or as it is built, with the key at fault. */
 static inline void check_refusal(const char *text, const char *const *overrides, int count, const char *key)

@@ -1,8 +1,6 @@
 /* Channels as recorded: each column holds what its name says, from tables that are filled by hand. */
 #include "scene.h"
 
-#include "sim/series.h"
-
 #include <stdio.h>
 
 static const char moored[] =
@@ -14,42 +12,21 @@ static const char moored[] =
     "ice: {source: voronoi, concentration: 0.5, mean_floe_area: 200}\n"
     "domain: {x_min: -80, x_max: 80, y_min: -60, y_max: 60, boundary: feeding}\n";
 
-typedef struct row {
-    series_layout layout;
-    double value[400];
-} row;
-
-static void take(const scene *k, row *r)
-{
-    fram_error error = {0};
-    series_layout_free((context *)&k->ctx, &r->layout); /* of the last row, or nothing */
-    assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
-    ck_assert_int_le(r->layout.columns.count, 400);
-    series_row(&k->ctx, &r->layout, &k->w, 0, r->value);
-}
-
-static double channel(const row *r, const char *name)
-{
-    for (int32_t i = 0; i < r->layout.columns.count; i++)
-        if (strcmp(r->layout.columns.data[i].name, name) == 0)
-            return r->value[i];
-    ck_abort_msg("no channel %s", name);
-}
-
-static void assert_channels(const row *r, const char *name, vec3 expected)
+static void assert_channels(const scene_row *r, const char *name, vec3 expected)
 {
     const double v[3] = {expected.x, expected.y, expected.z};
     for (int i = 0; i < 3; i++) {
         char full[64];
         snprintf(full, sizeof full, "%s_%c", name, "xyz"[i]);
-        ck_assert_msg(channel(r, full) == v[i], "%s is %.17g, expected %.17g", full, channel(r, full), v[i]);
+        ck_assert_msg(scene_channel(r, full) == v[i], "%s is %.17g, expected %.17g", full, scene_channel(r, full),
+                      v[i]);
     }
 }
 
 START_TEST(station_as_recorded)
 {
     scene k;
-    row r = {0};
+    scene_row r = {0};
     scene_open(&k, moored);
     station_table *s = &k.w.stations;
     s->mooring_load[0] = (wrench){{1, 2, 3}, {4, 5, 6}};
@@ -60,19 +37,19 @@ START_TEST(station_as_recorded)
     int32_t body = k.w.vessels.body[0];
     s->offset[0] = vec3_make(1, 2, 3);
     k.w.bodies.position[body] = vec3_add(k.w.bodies.position[body], vec3_make(19, 20, 0));
-    take(&k, &r);
+    scene_take(&k, &r);
     assert_channels(&r, "mooring_force", vec3_make(1, 2, 3));
     assert_channels(&r, "mooring_moment", vec3_make(4, 5, 6));
     assert_channels(&r, "thruster_force", vec3_make(7, 8, 9));
     assert_channels(&r, "thruster_moment", vec3_make(10, 11, 12));
     assert_channels(&r, "demanded_force", vec3_make(13, 14, 15));
     assert_channels(&r, "estimated_load", vec3_make(16, 17, 18));
-    assert_absolute(channel(&r, "offset_x"), 19, 1e-9);
-    assert_absolute(channel(&r, "offset_y"), 20, 1e-9);
+    assert_absolute(scene_channel(&r, "offset_x"), 19, 1e-9);
+    assert_absolute(scene_channel(&r, "offset_y"), 20, 1e-9);
     double yaw = quat_roll_pitch_yaw(k.w.bodies.orientation[body]).z;
     k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0, 0, yaw + radians(21));
-    take(&k, &r);
-    assert_absolute(channel(&r, "heading_deviation"), 21, 1e-9);
+    scene_take(&k, &r);
+    assert_absolute(scene_channel(&r, "heading_deviation"), 21, 1e-9);
     series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
@@ -82,7 +59,7 @@ END_TEST
 START_TEST(mooring_moments_are_about_the_centre_of_mass)
 {
     scene k;
-    row r = {0};
+    scene_row r = {0};
     scene_open(&k, moored);
     int32_t body = k.w.vessels.body[0];
     vec3 at = k.w.bodies.position[body];
@@ -90,13 +67,13 @@ START_TEST(mooring_moments_are_about_the_centre_of_mass)
     k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0.05, -0.02, 0.4);
     wrench expected = mooring_pull(&k.w.lines, 0, k.w.bodies.position[body], k.w.bodies.orientation[body]);
     scene_steps(&k, 1);
-    take(&k, &r);
+    scene_take(&k, &r);
     ck_assert(fabs(expected.moment.z) > 1e4);
     const double scale = vec3_length(expected.force) * 24;
-    assert_absolute(channel(&r, "mooring_force_x"), expected.force.x, 1e-9 * scale);
-    assert_absolute(channel(&r, "mooring_moment_x"), expected.moment.x, 1e-9 * scale);
-    assert_absolute(channel(&r, "mooring_moment_y"), expected.moment.y, 1e-9 * scale);
-    assert_absolute(channel(&r, "mooring_moment_z"), expected.moment.z, 1e-9 * scale);
+    assert_absolute(scene_channel(&r, "mooring_force_x"), expected.force.x, 1e-9 * scale);
+    assert_absolute(scene_channel(&r, "mooring_moment_x"), expected.moment.x, 1e-9 * scale);
+    assert_absolute(scene_channel(&r, "mooring_moment_y"), expected.moment.y, 1e-9 * scale);
+    assert_absolute(scene_channel(&r, "mooring_moment_z"), expected.moment.z, 1e-9 * scale);
     series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
@@ -105,7 +82,7 @@ END_TEST
 START_TEST(counts_as_recorded)
 {
     scene k;
-    row r = {0};
+    scene_row r = {0};
     scene_open(&k, moored);
     k.w.lines.tension[0] = 700;
     k.w.lines.tension[1] = 500;
@@ -116,18 +93,18 @@ START_TEST(counts_as_recorded)
     k.w.feeding.held_back[0] = 12;
     k.w.feeding.velocity[0] = vec2_make(13, 14);
     k.w.scratch.solver = (solver_report){.residual = 0.5, .mean_depth = 0.25, .max_depth = 0.75, .iterations = 17};
-    take(&k, &r);
-    ck_assert(channel(&r, "solver_residual") == 0.5 && channel(&r, "solver_iterations") == 17);
-    ck_assert(channel(&r, "overlap_mean") == 0.25 && channel(&r, "overlap_max") == 0.75);
-    ck_assert(channel(&r, "line_tension_max") == 700 && channel(&r, "lines_parted") == 1);
-    ck_assert(channel(&r, "thrusters_failed") == 1);
-    assert_relative(channel(&r, "thruster_power"), 4e5, 1e-12);
-    ck_assert(channel(&r, "ice_mass_entered") == 11 && channel(&r, "ice_mass_held_back") == 12);
-    ck_assert(channel(&r, "drift_x") == 13 && channel(&r, "drift_y") == 14);
-    double bodies = channel(&r, "bodies"), floes = channel(&r, "floes");
+    scene_take(&k, &r);
+    ck_assert(scene_channel(&r, "solver_residual") == 0.5 && scene_channel(&r, "solver_iterations") == 17);
+    ck_assert(scene_channel(&r, "overlap_mean") == 0.25 && scene_channel(&r, "overlap_max") == 0.75);
+    ck_assert(scene_channel(&r, "line_tension_max") == 700 && scene_channel(&r, "lines_parted") == 1);
+    ck_assert(scene_channel(&r, "thrusters_failed") == 1);
+    assert_relative(scene_channel(&r, "thruster_power"), 4e5, 1e-12);
+    ck_assert(scene_channel(&r, "ice_mass_entered") == 11 && scene_channel(&r, "ice_mass_held_back") == 12);
+    ck_assert(scene_channel(&r, "drift_x") == 13 && scene_channel(&r, "drift_y") == 14);
+    double bodies = scene_channel(&r, "bodies"), floes = scene_channel(&r, "floes");
     floe_remove(&k.w.bodies, &k.w.shapes, &k.w.floes, 2);
-    take(&k, &r);
-    ck_assert(channel(&r, "bodies") == bodies - 1 && channel(&r, "floes") == floes - 1);
+    scene_take(&k, &r);
+    ck_assert(scene_channel(&r, "bodies") == bodies - 1 && scene_channel(&r, "floes") == floes - 1);
     series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
@@ -137,7 +114,7 @@ END_TEST
 START_TEST(loads_in_the_vessels_axes)
 {
     scene k;
-    row r = {0};
+    scene_row r = {0};
     scene_open(&k, moored);
     int32_t body = k.w.vessels.body[0];
     k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0, 0, PI / 2);
@@ -147,11 +124,11 @@ START_TEST(loads_in_the_vessels_axes)
     k.w.scratch.fluid.data[0] = (fluid_load){.hydrostatic = {{0, 0, 100}, {0, 0, 0}},
                                              .water_drag = {{0, 20, 0}, {0, 0, 0}},
                                              .wind_drag = {{3, 0, 0}, {0, 0, 4}}};
-    take(&k, &r);
-    assert_absolute(channel(&r, "ice_force_body_x"), 500, 1e-9);
-    assert_absolute(channel(&r, "ice_force_body_y"), 0, 1e-9);
-    assert_absolute(channel(&r, "ice_moment_body_x"), 300, 1e-9);
-    assert_absolute(channel(&r, "ice_moment_body_z"), 40, 1e-9);
+    scene_take(&k, &r);
+    assert_absolute(scene_channel(&r, "ice_force_body_x"), 500, 1e-9);
+    assert_absolute(scene_channel(&r, "ice_force_body_y"), 0, 1e-9);
+    assert_absolute(scene_channel(&r, "ice_moment_body_x"), 300, 1e-9);
+    assert_absolute(scene_channel(&r, "ice_moment_body_z"), 40, 1e-9);
     assert_channels(&r, "fluid_force", vec3_make(3, 20, 100));
     assert_channels(&r, "fluid_moment", vec3_make(0, 0, 4));
     series_layout_free(&k.ctx, &r.layout);
@@ -165,9 +142,10 @@ static vec3 counted(double *next)
     return vec3_make(*next - 2, *next - 1, *next);
 }
 
-static void assert_channel(const row *r, const char *name, double expected)
+static void assert_channel(const scene_row *r, const char *name, double expected)
 {
-    ck_assert_msg(channel(r, name) == expected, "%s is %.17g, expected %.17g", name, channel(r, name), expected);
+    ck_assert_msg(scene_channel(r, name) == expected, "%s is %.17g, expected %.17g", name, scene_channel(r, name),
+                  expected);
 }
 
 /* Each part of the ice load is another number, in the order of the columns. */
@@ -181,7 +159,7 @@ START_TEST(parts_of_the_ice_load)
                                         [ZONE_STERN] = "stern",
                                         [ZONE_BOTTOM] = "bottom"};
     scene k;
-    row r = {0};
+    scene_row r = {0};
     char name[80];
     double next = 0, again = 0;
     scene_open(&k, moored);
@@ -199,7 +177,7 @@ START_TEST(parts_of_the_ice_load)
         load->mechanism[m].force = counted(&next);
         load->mechanism[m].moment = counted(&next);
     }
-    take(&k, &r);
+    scene_take(&k, &r);
     assert_channel(&r, "vessel_contacts", 5);
     assert_channels(&r, "ice_force_capped", counted(&again));
     assert_channels(&r, "ice_force_below_cap", counted(&again));
@@ -226,7 +204,7 @@ END_TEST
 START_TEST(propulsion_drift_and_books)
 {
     scene k;
-    row r = {0};
+    scene_row r = {0};
     scene_open(&k, moored);
     world *w = &k.w;
     ck_assert(table_resize(&k.ctx, &w->propulsion, &propulsion_table_info, 1) &&
@@ -259,7 +237,7 @@ START_TEST(propulsion_drift_and_books)
     w->clock.brash_momentum[0] = vec3_make(36, 37, 38);
     w->clock.splits[0] = 39;
     w->clock.bendings[0] = 40;
-    take(&k, &r);
+    scene_take(&k, &r);
     static const struct {
         const char *name;
         double value;
@@ -289,8 +267,8 @@ START_TEST(propulsion_drift_and_books)
                 {"bendings", 40}};
     for (size_t i = 0; i < sizeof told / sizeof *told; i++)
         assert_channel(&r, told[i].name, told[i].value);
-    assert_absolute(channel(&r, "steering_angle"), 20, 1e-12);
-    assert_absolute(channel(&r, "estimated_heading"), 16, 1e-12);
+    assert_absolute(scene_channel(&r, "steering_angle"), 20, 1e-12);
+    assert_absolute(scene_channel(&r, "estimated_heading"), 16, 1e-12);
     assert_channels(&r, "hydrodynamic_force", vec3_make(17, 18, 19));
     assert_channels(&r, "brash_momentum", vec3_make(36, 37, 38));
     assert_channels(&r, "tow_force", vec3_make(41, 42, 43));

@@ -1,40 +1,15 @@
 /* Vessels held in ice: the balance of recorded forces of a towed hull, events of a vessel on station. */
 #include "scene.h"
 
-#include "sim/series.h"
-
 #include <stdio.h>
 
-/* Recorded channels by name. */
-typedef struct record_row {
-    series_layout layout;
-    double value[400];
-} record_row;
-
-static void take_row(const scene *k, record_row *r)
-{
-    fram_error error = {0};
-    series_layout_free((context *)&k->ctx, &r->layout); /* of the last row, or nothing */
-    assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
-    ck_assert_int_le(r->layout.columns.count, 400);
-    series_row(&k->ctx, &r->layout, &k->w, 0, r->value);
-}
-
-static double channel(const record_row *r, const char *name)
-{
-    for (int32_t i = 0; i < r->layout.columns.count; i++)
-        if (strcmp(r->layout.columns.data[i].name, name) == 0)
-            return r->value[i];
-    ck_abort_msg("no channel %s", name);
-}
-
-static vec3 channel3(const record_row *r, const char *name)
+static vec3 channel3(const scene_row *r, const char *name)
 {
     char full[64];
     double v[3];
     for (int i = 0; i < 3; i++) {
         snprintf(full, sizeof full, "%s_%c", name, "xyz"[i]);
-        v[i] = channel(r, full);
+        v[i] = scene_channel(r, full);
     }
     return vec3_make(v[0], v[1], v[2]);
 }
@@ -51,12 +26,12 @@ static double worst_balance(const char *const *overrides, int count, int steps)
 {
     scene k;
     scene_open_with(&k, towed, overrides, count);
-    record_row row = {0};
+    scene_row row = {0};
     double worst = 0, peak = 0, mass = k.w.bodies.mass[k.w.vessels.body[0]];
     vec3 before = k.w.bodies.velocity[k.w.vessels.body[0]];
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);
-        take_row(&k, &row);
+        scene_take(&k, &row);
         vec3 now = channel3(&row, "velocity"), ice = channel3(&row, "ice_force");
         vec3 left = vec3_add(vec3_add(channel3(&row, "tow_force"), ice), channel3(&row, "fluid_force"));
         left.z -= mass * k.m.media.gravity;
@@ -96,13 +71,13 @@ START_TEST(a_ship_holds_its_place_until_its_thrusters_fail)
 {
     scene k;
     scene_open(&k, held);
-    record_row row = {0};
+    scene_row row = {0};
     scene_steps(&k, 59 * 20);
-    take_row(&k, &row);
-    ck_assert(fabs(channel(&row, "offset_x")) < 0.5 && fabs(channel(&row, "offset_y")) < 1);
-    ck_assert(channel(&row, "thrusters_failed") == 1);
-    ck_assert(channel(&row, "thruster_2_thrust") == 0 && channel(&row, "thruster_1_thrust") > 0);
-    ck_assert(channel(&row, "thruster_power") > 0);
+    scene_take(&k, &row);
+    ck_assert(fabs(scene_channel(&row, "offset_x")) < 0.5 && fabs(scene_channel(&row, "offset_y")) < 1);
+    ck_assert(scene_channel(&row, "thrusters_failed") == 1);
+    ck_assert(scene_channel(&row, "thruster_2_thrust") == 0 && scene_channel(&row, "thruster_1_thrust") > 0);
+    ck_assert(scene_channel(&row, "thruster_power") > 0);
     /* What the observer takes for the load is what the thrusters work against. */
     vec3 thrust = channel3(&row, "thruster_force"), load = channel3(&row, "estimated_load");
     ck_assert(vec2_dot((vec2){thrust.x, thrust.y}, (vec2){load.x, load.y}) < 0);
@@ -135,13 +110,13 @@ START_TEST(a_moored_ship_begins_in_balance)
     scene_open(&k, moored);
     vec3 start = k.w.bodies.position[0];
     ck_assert(start.x > 0.1 && start.y > 0.05);
-    record_row row = {0};
+    scene_row row = {0};
     scene_steps(&k, 1);
-    take_row(&k, &row);
+    scene_take(&k, &row);
     vec3 pull = channel3(&row, "mooring_force"), drag = channel3(&row, "fluid_force");
     assert_absolute(pull.x + drag.x, 0, 2e-3 * fabs(drag.x) + 1);
     assert_absolute(pull.y + drag.y, 0, 2e-3 * fabs(drag.y) + 1);
-    assert_relative(channel(&row, "line_4_tension"), channel(&row, "line_tension_max"), 0.05);
+    assert_relative(scene_channel(&row, "line_4_tension"), scene_channel(&row, "line_tension_max"), 0.05);
     scene_steps(&k, 400);
     assert_absolute(k.w.bodies.position[0].x, start.x, 0.1);
     assert_absolute(k.w.bodies.position[0].y, start.y, 0.1);
