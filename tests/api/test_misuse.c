@@ -269,20 +269,21 @@ START_TEST(runs_and_benchmarks)
 }
 END_TEST
 
-static void make_run(void)
+/* With a finished run. */
+static fram_context *open_run(void)
 {
+    open_all();
     fram_run_definition d;
     fram_run_default(&d);
     d.folder = run;
     assert_ok(fram_run(scenario_of_test, &d, NULL, &e), e);
     assert_ok(fram_resume(context_of_test, &d, NULL, &e), e);
+    return context_of_test;
 }
 
-START_TEST(results)
+START_TEST(exports_and_reports)
 {
-    open_all();
-    make_run();
-    fram_context *c = context_of_test;
+    fram_context *c = open_run();
     fram_result result;
     REFUSED_NULL(fram_export_vtk(NULL, run, NULL, 1, &result, &e), fram_export_vtk(NULL, run, NULL, 1, NULL, NULL));
     REFUSED(fram_export_vtk(c, NULL, NULL, 1, &result, &e));
@@ -304,7 +305,13 @@ START_TEST(results)
     snprintf(own, sizeof own, "%s/series.csv", run);
     REFUSED(fram_report(c, run, own, false, &result, &e));
     ck_assert(fram_run_has_file(run, own) && !fram_run_has_file(NULL, own) && !fram_run_has_file(run, NULL));
+    close_all();
+}
+END_TEST
 
+START_TEST(plots_and_channels)
+{
+    fram_context *c = open_run();
     const char *channels[] = {"ice_force_x", NULL, "no such channel"};
     char *text;
     REFUSED(fram_plot(NULL, run, channels, 1, nan_value, nan_value, output, &e));
@@ -322,9 +329,15 @@ START_TEST(results)
     REFUSED(fram_channels(c, run, NULL, &e));
     assert_ok(fram_channels(c, run, &text, &e), e);
     fram_text_free(c, text);
+    close_all();
+}
+END_TEST
 
-    fram_why_definition asked;
+START_TEST(managed_ice)
+{
+    fram_context *c = open_run();
     fram_manage_definition ice;
+    char *text;
     (fram_manage_default)(NULL, sizeof(size_t));
     fram_manage_default(&ice);
     REFUSED(fram_manage(NULL, run, &ice, NULL, &text, &e));
@@ -335,6 +348,15 @@ START_TEST(results)
     REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
     ice.limit = 0, ice.vessel = "nobody";
     REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
+    close_all();
+}
+END_TEST
+
+START_TEST(explained_peaks)
+{
+    fram_context *c = open_run();
+    fram_why_definition asked;
+    char *text;
     (fram_why_default)(NULL, sizeof(size_t));
     fram_why_default(&asked);
     asked.rerun = false;
@@ -357,7 +379,13 @@ START_TEST(results)
     REFUSED(fram_why(c, run, &asked, &text, &e));
     asked.size = 0;
     REFUSED(fram_why(c, run, &asked, &text, &e));
+    close_all();
+}
+END_TEST
 
+START_TEST(pressure_on_panels)
+{
+    fram_context *c = open_run();
     fram_pressure_definition panels;
     (fram_pressure_default)(NULL, sizeof(size_t));
     fram_pressure_default(&panels);
@@ -381,7 +409,13 @@ START_TEST(results)
     panels.frame_count = 0;
     panels.stringer_count = INT_MAX;
     REFUSED(fram_pressure(c, run, &panels, &e));
+    close_all();
+}
+END_TEST
 
+START_TEST(comparisons)
+{
+    fram_context *c = open_run();
     fram_comparison comparison;
     REFUSED(fram_compare(NULL, run, run, NULL, &comparison, &e));
     REFUSED(fram_compare(c, NULL, run, NULL, &comparison, &e));
@@ -399,9 +433,7 @@ END_TEST
 
 START_TEST(videos_pages_and_capability)
 {
-    open_all();
-    make_run();
-    fram_context *c = context_of_test;
+    fram_context *c = open_run();
     fram_result result;
     fram_video_definition v = {0};
     (fram_video_default)(NULL, sizeof(size_t));
@@ -713,5 +745,6 @@ START_TEST(ice)
 }
 END_TEST
 
-TEST_MAIN("misuse", words_and_contexts, scenarios, worlds, runs_and_benchmarks, results, videos_pages_and_capability,
-          fields, hulls, ice)
+TEST_MAIN("misuse", words_and_contexts, scenarios, worlds, runs_and_benchmarks, exports_and_reports, plots_and_channels,
+          managed_ice, explained_peaks, pressure_on_panels, comparisons, videos_pages_and_capability, fields, hulls,
+          ice)
