@@ -4,8 +4,8 @@
 #ifndef STUDY_ACER_H
 #define STUDY_ACER_H
 
-#include "study/peaks.h"
 #include "study/profile.h"
+#include "study/series_set.h"
 
 enum { ACER_LEVELS = 40, ACER_BATCHES_LEAST = 20, ACER_REPLICATES = 499 };
 

@@ -3,8 +3,8 @@
 #ifndef STUDY_EXTREMES_SPREAD_H
 #define STUDY_EXTREMES_SPREAD_H
 
-#include "study/peaks.h"
 #include "study/profile.h"
+#include "study/series_set.h"
 
 /* Fits of Weibull's law to a series without one of its groups in turn. */
 enum { JACKKNIFE_GROUPS = 40, JACKKNIFE_LEAST = 10 };

@@ -1,7 +1,7 @@
 #include "study/sensitivity.h"
 
 #include "base/random.h"
-#include "study/peaks.h"
+#include "study/series_set.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef STUDY_SERIES_FILE_H
 #define STUDY_SERIES_FILE_H
 
-#include "study/peaks.h"
+#include "study/series_set.h"
 
 enum { SERIES_FILES_MOST = 4096 };
 #define SERIES_BYTES_MOST ((uint64_t)4 << 30)

@@ -3,8 +3,8 @@
 
 #include "base/random.h"
 #include "base/transcendental.h"
-#include "study/peaks.h"
 #include "study/profile.h"
+#include "study/series_set.h"
 #include "study/special.h"
 
 /* Plotting positions of a Gumbel law, perturbed; ascending. */

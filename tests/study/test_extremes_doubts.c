@@ -6,8 +6,8 @@
 #include "study/extremes.h"
 #include "study/extremes_notes.h"
 #include "study/extremes_spread.h"
-#include "study/peaks.h"
 #include "study/profile.h"
+#include "study/series_set.h"
 
 enum { VALUES = 20000 };
 

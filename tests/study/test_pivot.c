@@ -5,8 +5,8 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/extremes.h"
-#include "study/peaks.h"
 #include "study/pivot.h"
+#include "study/series_set.h"
 
 #include <string.h>
 

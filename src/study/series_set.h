@@ -1,6 +1,6 @@
-/* Maxima and peaks of time series: what laws of extremes are fitted to.  Knows numbers only. */
-#ifndef STUDY_PEAKS_H
-#define STUDY_PEAKS_H
+/* Sets of time series, their maxima and peaks: what laws of extremes are fitted to.  Knows numbers only. */
+#ifndef STUDY_SERIES_SET_H
+#define STUDY_SERIES_SET_H
 
 #include "io/csv_read.h"
 

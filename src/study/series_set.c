@@ -1,4 +1,4 @@
-#include "study/peaks.h"
+#include "study/series_set.h"
 
 #include "base/channel_statistics.h"
 #include "base/sort.h"
