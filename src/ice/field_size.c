@@ -61,7 +61,7 @@ const char *size_law_fault(const size_law *law)
     return law->kind == SIZE_HISTOGRAM ? size_bins_fault(law->edge, law->weight, law->bins, &bin) : NULL;
 }
 
-double normal_part(double x)
+double normal_distribution(double x)
 {
     double z = fabs(x), tail = 0;
     if (z <= 37) {
@@ -93,15 +93,15 @@ double normal_part(double x)
     return x > 0 ? 1 - tail : tail;
 }
 
-/* Inverse of normal_part, by halving. */
-static double normal_quantile(double u)
+/* Inverse of normal_distribution, by halving. */
+static double normal_distribution_inverse(double u)
 {
     double lo = -38, hi = 38;
     for (int i = 0; i < HALVINGS && lo < hi; i++) {
         double middle = 0.5 * (lo + hi);
         if (middle <= lo || middle >= hi)
             break;
-        if (normal_part(middle) < u)
+        if (normal_distribution(middle) < u)
             lo = middle;
         else
             hi = middle;
@@ -121,14 +121,14 @@ static double lognormal_part(const size_law *law, double d)
 {
     double mu, sigma;
     lognormal_parameters(law, &mu, &sigma);
-    return d > 0 ? normal_part((real_log(d) - mu) / sigma) : 0;
+    return d > 0 ? normal_distribution((real_log(d) - mu) / sigma) : 0;
 }
 
 static double lognormal_quantile(const size_law *law, double u)
 {
     double mu, sigma, from = lognormal_part(law, law->lo), to = law->hi > 0 ? lognormal_part(law, law->hi) : 1;
     lognormal_parameters(law, &mu, &sigma);
-    double d = real_exp(mu + sigma * normal_quantile(from + u * (to - from)));
+    double d = real_exp(mu + sigma * normal_distribution_inverse(from + u * (to - from)));
     d = d < law->lo ? law->lo : d;
     return law->hi > 0 && d > law->hi ? law->hi : d;
 }

@@ -59,6 +59,6 @@ typedef struct size_histogram {
 void size_law_histogram(const size_law *law, const double *sample, int32_t count, size_histogram *out);
 
 /* Normal distribution function, to about 1e-15 (Hart 1968, algorithm 5666, as given by West 2005). */
-double normal_part(double x);
+double normal_distribution(double x);
 
 #endif
