@@ -273,7 +273,9 @@
     X(under_pieces, BOOLEAN(true), "",                                                                                \
       "level and fixed ice breaks under pieces of ice too, where they press with more than breaks an eighth of a "    \
       "straight edge; false: under hulls alone")                                                                      \
-    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")                  \
+    X(under_ice_contacts, BOOLEAN(false), "",                                                                         \
+      "with cap_ice_ice: floes that may break do so under other floes too, whose contacts are measured as patches "   \
+      "then")                                                                                                         \
     X(brash, BOOLEAN(false), "",                                                                                      \
       "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")
 

@@ -137,7 +137,8 @@ static model settings_of(const scenario *s)
     out.drag[MATERIAL_HULL] = (drag_coefficients){dh->water_form, dh->water_skin, dh->air_form, dh->air_skin};
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_ICE, f->ice_ice_static, f->ice_ice_kinetic, s->ice.cap_ice_ice);
     /* Floes that break under other floes need the patch of every contact. */
-    out.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides = s->ice.cap_ice_ice && !s->ice.fracture.under_ice_contacts;
+    out.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides =
+        s->ice.cap_ice_ice && !(s->ice.fracture.under_ice_contacts && ice_may_break(&s->ice));
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_HULL, f->ice_hull_static, f->ice_hull_kinetic, true);
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_WALL, f->ice_wall_static, f->ice_wall_kinetic, s->ice.cap_ice_wall);
     set_pair(&out.policies, MATERIAL_HULL, MATERIAL_HULL, f->hull_hull_static, f->hull_hull_kinetic, false);

@@ -30,6 +30,14 @@ ice_range ice_range_of(const scenario_ice *i)
     return r;
 }
 
+bool ice_may_break(const scenario_ice *i)
+{
+    bool drawn = (i->source == ICE_VORONOI || i->source == ICE_PACKED) && i->populations.count > 0, breaks = !drawn;
+    for (int32_t k = 0; drawn && k < i->populations.count; k++)
+        breaks = breaks || i->populations.data[k].breakable;
+    return i->breakable && breaks;
+}
+
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)
 {
     return (ice_material){i->density,           i->elastic_modulus,   i->poisson_ratio,

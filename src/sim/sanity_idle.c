@@ -1,4 +1,5 @@
 /* Keys that were set and decide nothing, since another key leaves them without a meaning; see sim/sanity.h. */
+#include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
 
 #include <stdio.h>
@@ -43,6 +44,7 @@ static bool draws_nothing(const question *q)
     return is_no_field(q) || (q->s->ice.source == ICE_FILE && q->s->ice.populations.count == 0);
 }
 static bool is_unbreakable(const question *q) { return !q->s->ice.breakable; }
+static bool has_no_breakable(const question *q) { return !ice_may_break(&q->s->ice); }
 /* Rafting asks whether floes bend out of the way, a sheet how large its tiles are. */
 static bool never_bends(const question *q) { return is_unbreakable(q) && q->s->ice.rafting_edge_angle_deg == 0; }
 static bool is_rigid(const question *q) { return never_bends(q) && is_no_sheet(q); }
@@ -212,25 +214,9 @@ static const idle_rule rules[] = {
     {"ice.ridging_resistance", never_yields, "ice.cap_ice_ice is false"},
     {"ice.rafting_edge_angle_deg", never_yields, "ice.cap_ice_ice is false"},
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
-    {"ice.fracture.wedges", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.sharing", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.radius_along", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.load_over", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.edge_compliance", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.edge_elastic", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.edge_inertia", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.edge_gaps", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.edge_melts", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.splitting", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.splitting_factor", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.toughness", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.narrowness", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.thick_plate_radius", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.wide_contacts", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.joint_loads", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.under_pieces", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.wedge_room", is_unbreakable, UNBREAKABLE},
-    {"ice.fracture.brash", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.", has_no_breakable, "no population of the ice is breakable"},
+    {"ice.fracture.under_ice_contacts", never_yields, "ice.cap_ice_ice is false"},
     {"ice.fracture.splitting_factor", splits_not_by_length, "ice.fracture.splitting is not length"},
     {"ice.fracture.toughness", splits_not_by_load, "ice.fracture.splitting is not toughness"},
     {"ice.fracture.narrowness", splits_not, "ice.fracture.splitting is none"},

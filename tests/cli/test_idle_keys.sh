@@ -133,6 +133,9 @@ told packed.yaml "ice.populations[0].flexural_strength: without effect, since ic
     --set "ice.populations[0].flexural_strength=4e5"
 told packed.yaml "ice.populations[0].breakable: without effect, since ice.breakable is false" \
     --set "ice.populations[0].breakable=false"
+told packed.yaml "ice.fracture.wedges and 1 more: without effect, since no population of the ice is breakable" \
+    --set ice.fracture.wedges=5 --set ice.fracture.sharing=equal --set ice.breakable=true \
+    --set "ice.populations[0].breakable=false" --set "ice.populations[1].breakable=false"
 told packed.yaml "ice.keep_out_margin: without effect, since no field is laid round a vessel" \
     --set ice.keep_out_margin=3
 told packed.yaml "ice.friction.ice_hull_static: without effect, since there is no vessel" \
@@ -151,6 +154,15 @@ told floes.yaml "ice.floes[1].width: without effect, since shape is regular" --s
 sed 's/source: packed/source: voronoi/; s/, {size: constant}//' packed.yaml >cells.yaml
 told cells.yaml "ice.populations[0].elongation: without effect, since with ice.source voronoi" \
     --set "ice.populations[0].elongation=2"
+
+# Of floes that touch.
+sed 's/0.2,/0.4,/; s/^ice.*/ice: {source: floes, floes: [{velocity_x: 1, spin: 0.1}, {x: 10.05, fixed: true}]}/' \
+    packed.yaml >touch.yaml
+before=$(hash_of touch.yaml)
+idle touch.yaml ice.fracture.under_ice_contacts=true "ice.breakable is false"
+told touch.yaml "ice.fracture.under_ice_contacts: without effect, since ice.cap_ice_ice is false" \
+    --set ice.breakable=true --set ice.cap_ice_ice=false --set ice.fracture.under_ice_contacts=true
+silent touch.yaml --set ice.breakable=true --set ice.fracture.under_ice_contacts=true
 
 sed 's/form: icebreaker/form: box/; s/^domain/environment: {current_file: drift.csv}\n&/' field.yaml >box.yaml
 printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv
@@ -210,7 +222,6 @@ told fleet.yaml "vessels[1].propulsion.pattern.period: without effect, since pro
 grep 'propulsion.speed: without effect' err && fail "a period without a pattern gives the speed"
 
 # What has an effect, and what says no more than its default.
-silent field.yaml --set ice.fracture.under_ice_contacts=true
 silent field.yaml --set vessel.mooring.z=-3
 silent ship.yaml --set "vessel.mooring.lines[0].kind=spring" --set "vessel.mooring.lines[0].weight=1000" \
     --set "vessel.mooring.lines[0].stiffness=5e4"

@@ -1,6 +1,7 @@
 /* The ice of a world as its scenario describes it: single floes, sheets with openings, contacts of the materials. */
 #include "base/transcendental.h"
 #include "scene.h"
+#include "sim/ice_kinds.h"
 
 #define BASE "run: {duration: 1, time_step: 0.02}\n"
 #define NO_VESSEL "vessel: {present: false}\n"
@@ -87,16 +88,15 @@ END_TEST
 /* Each pair of materials has its own friction and its own rule of crushing. */
 START_TEST(pairs_of_materials_have_their_own_policies)
 {
-    for (int under = 0; under < 2; under++) {
+    static const char *const under[] = {"ice.fracture.under_ice_contacts=true", "ice.breakable=true"};
+    for (int n = 0; n < 3; n++) {
         scene k;
         scene_open_with(&k,
                         BASE NO_VESSEL DOMAIN
                         "ice:\n  source: none\n  cap_ice_ice: true\n  cap_ice_wall: false\n  friction:\n"
                         "    {ice_ice_static: 0.31, ice_ice_kinetic: 0.21, ice_hull_static: 0.12, "
                         "ice_hull_kinetic: 0.11, ice_wall_static: 0.43, ice_wall_kinetic: 0.41}\n",
-                        (const char *const[]){under ? "ice.fracture.under_ice_contacts=true"
-                                                    : "ice.fracture.under_ice_contacts=false"},
-                        1);
+                        under, n);
         static const struct {
             material other;
             double at_rest, sliding;
@@ -112,10 +112,18 @@ START_TEST(pairs_of_materials_have_their_own_policies)
             assert_bits(two->friction_kinetic, pairs[i].sliding);
             ck_assert_int_eq(one->patch, pairs[i].patch);
         }
-        /* Floes break under others by the patches of these contacts. */
-        ck_assert_int_eq(k.m.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides, !under);
+        /* Floes that may break do so under others by the patches of these contacts. */
+        ck_assert_int_eq(k.m.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides, n < 2);
         scene_close(&k);
     }
+    scenario_population kinds[2] = {{.breakable = false}, {.breakable = true}};
+    scenario_ice ice = {.source = ICE_PACKED, .breakable = true, .populations = {.data = kinds, .count = 1}};
+    ck_assert(!ice_may_break(&ice));
+    ice.populations.count = 2;
+    ck_assert(ice_may_break(&ice));
+    ice.populations.count = 1;
+    ice.source = ICE_FILE; /* has floes beside its populations */
+    ck_assert(ice_may_break(&ice));
 }
 END_TEST
 
