@@ -197,7 +197,8 @@
       "where two floes touch over less than this part of the smaller one's radius (length of gyration), in one "       \
       "direction or in both, they touch in two points or in one, without a moment there, not in four; 0: always four") \
     X(top_plane_area, BOOLEAN(false), "",                                                                              \
-      "comparison switch: contact area from the cut with the floe's top plane; edges of level ice do not give then")   \
+      "comparison switch: contact area from the cut with the floe's top plane; edges of level and fixed ice do not "   \
+      "give then, whatever ice.fracture.edge_* say")                                                                   \
     X(sleep_speed, REAL(0, 0, 10), "m/s",                                                                              \
       "floes that were slower than this for sleep_time, centre and rim together, are put to sleep until something "    \
       "wakes them: they cost nothing, as in the channel behind a ship; where level ice drifts, slower past "           \

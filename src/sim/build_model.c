@@ -33,6 +33,9 @@ static strength_field strength_of(const scenario *s)
                             .common = k->common};
 }
 
+/* Edges are rigid under the area of the hull's section: that of ice which gave is another one. */
+static bool edges_give(const scenario *s) { return s->ice.fracture.edge_compliance && !s->ice.top_plane_area; }
+
 fracture_settings build_fracture_settings(const scenario *s)
 {
     const scenario_environment *e = &s->environment;
@@ -58,7 +61,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),
                                .strength = strength_of(s),
-                               .edges_give = s->ice.fracture.edge_compliance,
+                               .edges_give = edges_give(s),
                                .edge_inertia = s->ice.fracture.edge_inertia,
                                .edge_gaps = s->ice.fracture.edge_gaps,
                                .edge_melts = s->ice.fracture.edge_melts,
@@ -79,13 +82,13 @@ double build_wedge_area(const scenario *s)
 
 static edge_compliance compliance_of(const scenario *s)
 {
-    return (edge_compliance){.gives = s->ice.fracture.edge_compliance,
+    return (edge_compliance){.gives = edges_give(s),
                              .inertia = s->ice.fracture.edge_inertia,
                              .water_density = s->environment.water_density,
                              .gravity = s->environment.gravity,
                              .wedges = (int32_t)s->ice.fracture.wedges,
                              .thick_plate_radius = s->ice.fracture.thick_plate_radius,
-                             .elastic = s->ice.fracture.edge_compliance && s->ice.fracture.edge_elastic};
+                             .elastic = edges_give(s) && s->ice.fracture.edge_elastic};
 }
 
 static model settings_of(const scenario *s)

@@ -15,9 +15,9 @@ typedef struct question {
     const scenario_floe *floe;
 } question;
 
-/* A key, or all keys of a section where it ends with a dot (without indices, vessels in a list as the one), what leaves
-   them idle, and the sentence about it, or none where the key has an effect all the same.  The first rule that fits
-   counts. */
+/* A key, or all keys of a section where it ends with a dot, or that begin so where it ends with an underscore (without
+   indices, vessels in a list as the one), what leaves them idle, and the sentence about it, or none where the key has
+   an effect all the same.  The first rule that fits counts. */
 typedef struct idle_rule {
     const char *key;
     bool (*idle)(const question *q);
@@ -45,6 +45,7 @@ static bool draws_nothing(const question *q)
 }
 static bool is_unbreakable(const question *q) { return !q->s->ice.breakable; }
 static bool has_no_breakable(const question *q) { return !ice_may_break(&q->s->ice); }
+static bool has_rigid_edges(const question *q) { return q->s->ice.top_plane_area; }
 /* Rafting asks whether floes bend out of the way, a sheet how large its tiles are. */
 static bool never_bends(const question *q) { return is_unbreakable(q) && q->s->ice.rafting_edge_angle_deg == 0; }
 static bool is_rigid(const question *q) { return never_bends(q) && is_no_sheet(q); }
@@ -216,6 +217,7 @@ static const idle_rule rules[] = {
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
     {"ice.fracture.", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.", has_no_breakable, "no population of the ice is breakable"},
+    {"ice.fracture.edge_", has_rigid_edges, "edges do not give with ice.top_plane_area"},
     {"ice.fracture.under_ice_contacts", never_yields, "ice.cap_ice_ice is false"},
     {"ice.fracture.splitting_factor", splits_not_by_length, "ice.fracture.splitting is not length"},
     {"ice.fracture.toughness", splits_not_by_load, "ice.fracture.splitting is not toughness"},
@@ -338,10 +340,15 @@ static const idle_rule rules[] = {
     {"environment.wind_direction_deg", has_no_wind, "there is no environment.wind_speed"},
 };
 
+static bool is_of_many(const char *rule)
+{
+    char last = rule[strlen(rule) - 1];
+    return last == '.' || last == '_';
+}
+
 static bool fits(const char *rule, const char *key)
 {
-    size_t n = strlen(rule);
-    return rule[n - 1] == '.' ? strncmp(rule, key, n) == 0 : strcmp(rule, key) == 0;
+    return is_of_many(rule) ? strncmp(rule, key, strlen(rule)) == 0 : strcmp(rule, key) == 0;
 }
 
 static const idle_rule *idle_rule_of(const char *pattern, const question *q)
@@ -440,7 +447,7 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
     const idle_rule *rule = idle_rule_of(pattern, &q);
     if (!rule)
         return FRAM_OK;
-    if (g->rule == rule && g->rule->key[strlen(g->rule->key) - 1] == '.' && vessel_at(s, g->first) == q.v) {
+    if (g->rule == rule && is_of_many(rule->key) && vessel_at(s, g->first) == q.v) {
         g->more++;
         return FRAM_OK;
     }

@@ -107,6 +107,21 @@ told level.yaml "ice.fracture.toughness: without effect, since ice.fracture.spli
 told level.yaml "ice.fracture.narrowness: without effect, since ice.fracture.splitting is none" \
     --set ice.fracture.splitting=none --set ice.fracture.narrowness=5
 
+# Edges that are loaded, of level ice.
+cat >edges.yaml <<'YAML'
+run: {duration: 2, time_step: 0.02}
+vessel: {mode: towed, x: -17, speed: 2, ramp: 0, hull: {length: 30, beam: 8, draught: 3, freeboard: 1}}
+ice: {source: level, thickness: 0.4, breakable: true, top_plane_area: true, level: {x_min: 0}}
+domain: {x_min: -50, x_max: 40, y_min: -30, y_max: 30, boundary: open}
+output: {frame_interval: 0}
+YAML
+before=$(hash_of edges.yaml)
+for key in compliance elastic inertia; do
+    idle edges.yaml ice.fracture.edge_$key=false "edges do not give with ice.top_plane_area"
+done
+told edges.yaml "ice.fracture.edge_gaps and 1 more: without effect, since edges do not give" \
+    --set ice.fracture.edge_gaps=false --set ice.fracture.edge_melts=false
+
 # Of populations and listed floes each by itself.
 cat >packed.yaml <<'YAML'
 run: {duration: 0.2, time_step: 0.02}

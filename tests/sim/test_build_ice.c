@@ -127,6 +127,21 @@ START_TEST(pairs_of_materials_have_their_own_policies)
 }
 END_TEST
 
+/* With the reference's area no edge gives, at the crushing limit, below it or as it breaks. */
+START_TEST(edges_are_rigid_under_a_section)
+{
+    for (int section = 0; section < 2; section++) {
+        static const char *const area[] = {"ice.top_plane_area=true"};
+        scene k;
+        scene_open_with(&k, BASE NO_VESSEL DOMAIN "ice: {source: none}\n", area, section);
+        ck_assert_int_eq(k.m.fracture.edges_give, !section);
+        ck_assert_int_eq(k.m.crushing.edges.gives, !section);
+        ck_assert_int_eq(k.m.crushing.edges.elastic, !section);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* Floes that all lie in one place are refused; a stack of as many, one above the other, is none. */
 START_TEST(a_stack_is_no_crowd)
 {
@@ -158,4 +173,5 @@ START_TEST(a_stack_is_no_crowd)
 END_TEST
 
 TEST_MAIN("build_ice", a_floe_lies_and_moves_as_given, a_sheet_has_its_openings_margin_and_held_sides,
-          open_water_is_turned_as_given, pairs_of_materials_have_their_own_policies, a_stack_is_no_crowd)
+          open_water_is_turned_as_given, pairs_of_materials_have_their_own_policies, edges_are_rigid_under_a_section,
+          a_stack_is_no_crowd)
