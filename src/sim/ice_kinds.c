@@ -10,6 +10,11 @@ static void take_kind(ice_range *r, ice_kind k)
         r->thickest = k;
 }
 
+static bool is_populated(const scenario_ice *i)
+{
+    return i->source == ICE_VORONOI || i->source == ICE_PACKED || i->source == ICE_FILE;
+}
+
 ice_range ice_range_of(const scenario_ice *i)
 {
     const ice_kind own = {i->thickness, i->flexural_strength, i->crushing_strength};
@@ -17,8 +22,7 @@ ice_range ice_range_of(const scenario_ice *i)
     for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
         take_kind(&r, (ice_kind){automatic_or(i->floes.data[k].thickness, own.thickness), own.flexural_strength,
                                  own.crushing_strength});
-    bool populated = i->source == ICE_VORONOI || i->source == ICE_PACKED || i->source == ICE_FILE;
-    for (int32_t k = 0; populated && k < i->populations.count; k++) {
+    for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
         take_kind(&r, (ice_kind){automatic_or(p->thickness, own.thickness),
                                  automatic_or(p->flexural_strength, own.flexural_strength),
@@ -30,13 +34,22 @@ ice_range ice_range_of(const scenario_ice *i)
     return r;
 }
 
+/* Populations in use whose floes may break, or may not. */
+static int32_t count_kinds(const scenario_ice *i, bool breakable)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++)
+        count += i->populations.data[k].breakable == breakable;
+    return count;
+}
+
 bool ice_may_break(const scenario_ice *i)
 {
-    bool drawn = (i->source == ICE_VORONOI || i->source == ICE_PACKED) && i->populations.count > 0, breaks = !drawn;
-    for (int32_t k = 0; drawn && k < i->populations.count; k++)
-        breaks = breaks || i->populations.data[k].breakable;
-    return i->breakable && breaks;
+    bool others = count_kinds(i, false) == 0 || i->source == ICE_FILE;
+    return i->breakable && (others || count_kinds(i, true) > 0);
 }
+
+bool ice_all_breaks(const scenario_ice *i) { return i->breakable && count_kinds(i, false) == 0; }
 
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)
 {

@@ -15,8 +15,9 @@ typedef struct ice_range {
     ice_kind thinnest, thickest;
 } ice_range;
 ice_range ice_range_of(const scenario_ice *i);
-/* Whether any of it may break. */
+/* Whether any of it, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);
+bool ice_all_breaks(const scenario_ice *i);
 /* With the rest of what all ice has in common. */
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k);
 

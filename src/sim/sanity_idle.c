@@ -45,7 +45,19 @@ static bool draws_nothing(const question *q)
 }
 static bool is_unbreakable(const question *q) { return !q->s->ice.breakable; }
 static bool has_no_breakable(const question *q) { return !ice_may_break(&q->s->ice); }
-static bool has_rigid_edges(const question *q) { return q->s->ice.top_plane_area; }
+static bool has_only_breakable(const question *q) { return ice_all_breaks(&q->s->ice); }
+static bool cuts_top_plane(const question *q) { return q->s->ice.top_plane_area; }
+static bool has_rigid_edges(const question *q) { return !q->s->ice.fracture.edge_compliance; }
+static bool bends_no_edge(const question *q) { return !q->s->ice.fracture.edge_elastic; }
+/* All ice moves freely: an endless field holds that of its band. */
+static bool holds_no_ice(const question *q)
+{
+    const scenario_ice *i = &q->s->ice;
+    bool held = i->source == ICE_LEVEL || q->s->domain.boundary == DOMAIN_FEEDING;
+    for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
+        held = held || i->floes.data[k].fixed;
+    return !held;
+}
 /* Rafting asks whether floes bend out of the way, a sheet how large its tiles are. */
 static bool never_bends(const question *q) { return is_unbreakable(q) && q->s->ice.rafting_edge_angle_deg == 0; }
 static bool is_rigid(const question *q) { return never_bends(q) && is_no_sheet(q); }
@@ -84,6 +96,7 @@ static bool has_templates(const question *q) { return q->population->shape == PO
 static bool is_voronoi(const question *q) { return !is_no_voronoi(q); }
 static bool is_rectangle(const question *q) { return q->floe->shape == FLOE_RECTANGLE; }
 static bool is_regular(const question *q) { return !is_rectangle(q); }
+static bool is_fixed(const question *q) { return q->floe->fixed; }
 
 static bool is_dry(const question *q) { return !q->s->environment.water; }
 /* The current is the drift of an endless field that has none of its own. */
@@ -151,6 +164,7 @@ static bool is_not_given(const question *q) { return q->v->hydrodynamics.source 
 
 static const char OWN_FORM[] = "hull.form is not file", MESH[] = "with hull.form file the mesh has its own";
 static const char UNBREAKABLE[] = "ice.breakable is false";
+static const char FREE_ICE[] = "there is neither level ice nor a fixed floe";
 static const char CELLS[] = "with ice.source voronoi the cells are the shapes";
 static const char NO_WALLS[] = "domain.boundary is not walls";
 static const char ALONE[] = "there is no other vessel", NO_WASH[] = "wash.active is false";
@@ -196,6 +210,8 @@ static const idle_rule rules[] = {
     {"ice.floes[].radius", is_rectangle, "shape is rectangle"},
     {"ice.floes[].length", is_regular, "shape is regular"},
     {"ice.floes[].width", is_regular, "shape is regular"},
+    {"ice.floes[].velocity_", is_fixed, "fixed is true"},
+    {"ice.floes[].spin", is_fixed, "fixed is true"},
     {"ice.keep_out_margin", clears_nothing, "no field is laid round a vessel"},
     {"ice.flexural_strength", never_bends, UNBREAKABLE},
     {"ice.elastic_modulus", is_rigid, UNBREAKABLE},
@@ -217,7 +233,14 @@ static const idle_rule rules[] = {
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
     {"ice.fracture.", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.", has_no_breakable, "no population of the ice is breakable"},
-    {"ice.fracture.edge_", has_rigid_edges, "edges do not give with ice.top_plane_area"},
+    {"ice.fracture.edge_", holds_no_ice, FREE_ICE},
+    {"ice.fracture.edge_", cuts_top_plane, "edges do not give with ice.top_plane_area"},
+    {"ice.fracture.edge_compliance", has_rigid_edges, NULL},
+    {"ice.fracture.edge_", has_rigid_edges, "ice.fracture.edge_compliance is false"},
+    {"ice.fracture.edge_melts", bends_no_edge, "ice.fracture.edge_elastic is false"},
+    {"ice.fracture.under_pieces", holds_no_ice, FREE_ICE},
+    {"ice.crush_trims", holds_no_ice, FREE_ICE},
+    {"ice.correct_unbreakable", has_only_breakable, "all ice may break (ice.breakable)"},
     {"ice.fracture.under_ice_contacts", never_yields, "ice.cap_ice_ice is false"},
     {"ice.fracture.splitting_factor", splits_not_by_length, "ice.fracture.splitting is not length"},
     {"ice.fracture.toughness", splits_not_by_load, "ice.fracture.splitting is not toughness"},

@@ -122,6 +122,32 @@ done
 told edges.yaml "ice.fracture.edge_gaps and 1 more: without effect, since edges do not give" \
     --set ice.fracture.edge_gaps=false --set ice.fracture.edge_melts=false
 
+before=$(hash_of edges.yaml --set ice.top_plane_area=false --set ice.fracture.edge_compliance=false)
+rigid=(--set ice.fracture.edge_compliance=false --set ice.top_plane_area=false)
+for key in elastic inertia; do
+    same "$(hash_of edges.yaml "${rigid[@]}" --set ice.fracture.edge_$key=false)" "$before" "state after edge_$key"
+done
+told edges.yaml "ice.fracture.edge_elastic and 3 more: without effect, since ice.fracture.edge_compliance is false" \
+    "${rigid[@]}" --set ice.fracture.edge_elastic=false --set ice.fracture.edge_gaps=false \
+    --set ice.fracture.edge_melts=false --set ice.fracture.edge_inertia=false
+told edges.yaml "ice.fracture.edge_melts: without effect, since ice.fracture.edge_elastic is false" \
+    --set ice.top_plane_area=false --set ice.fracture.edge_elastic=false --set ice.fracture.edge_melts=false
+told edges.yaml "ice.correct_unbreakable: without effect, since all ice may break" --set ice.correct_unbreakable=true
+silent edges.yaml --set ice.breakable=false --set ice.correct_unbreakable=true
+silent edges.yaml --set ice.top_plane_area=false --set ice.fracture.edge_elastic=false
+# The same of ice that floats.
+sed 's/^ice.*/ice: {concentration: 0.8, mean_floe_area: 200, thickness: 0.4, breakable: true}/' edges.yaml >afloat.yaml
+before=$(hash_of afloat.yaml)
+keys=(--set ice.crush_trims=false)
+for key in edge_compliance edge_elastic edge_gaps edge_melts edge_inertia under_pieces; do
+    keys+=(--set ice.fracture.$key=false)
+done
+same "$(hash_of afloat.yaml "${keys[@]}")" "$before" "state of ice that floats"
+for key in ice.crush_trims "ice.fracture.edge_compliance and 4 more" ice.fracture.under_pieces; do
+    told afloat.yaml "$key: without effect, since there is neither level ice nor a fixed floe" "${keys[@]}"
+done
+silent afloat.yaml --set domain.boundary=feeding --set domain.band=12 --set ice.fracture.edge_elastic=false
+
 # Of populations and listed floes each by itself.
 cat >packed.yaml <<'YAML'
 run: {duration: 0.2, time_step: 0.02}
@@ -177,7 +203,10 @@ before=$(hash_of touch.yaml)
 idle touch.yaml ice.fracture.under_ice_contacts=true "ice.breakable is false"
 told touch.yaml "ice.fracture.under_ice_contacts: without effect, since ice.cap_ice_ice is false" \
     --set ice.breakable=true --set ice.cap_ice_ice=false --set ice.fracture.under_ice_contacts=true
-silent touch.yaml --set ice.breakable=true --set ice.fracture.under_ice_contacts=true
+silent touch.yaml --set ice.breakable=true --set ice.fracture.under_ice_contacts=true \
+    --set ice.fracture.edge_elastic=false
+idle touch.yaml "ice.floes[1].velocity_y=2" "fixed is true"
+idle touch.yaml "ice.floes[1].spin=2" "fixed is true"
 
 sed 's/form: icebreaker/form: box/; s/^domain/environment: {current_file: drift.csv}\n&/' field.yaml >box.yaml
 printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv

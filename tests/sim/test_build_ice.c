@@ -118,12 +118,14 @@ START_TEST(pairs_of_materials_have_their_own_policies)
     }
     scenario_population kinds[2] = {{.breakable = false}, {.breakable = true}};
     scenario_ice ice = {.source = ICE_PACKED, .breakable = true, .populations = {.data = kinds, .count = 1}};
-    ck_assert(!ice_may_break(&ice));
+    ck_assert(!ice_may_break(&ice) && !ice_all_breaks(&ice));
     ice.populations.count = 2;
-    ck_assert(ice_may_break(&ice));
+    ck_assert(ice_may_break(&ice) && !ice_all_breaks(&ice));
     ice.populations.count = 1;
     ice.source = ICE_FILE; /* has floes beside its populations */
-    ck_assert(ice_may_break(&ice));
+    ck_assert(ice_may_break(&ice) && !ice_all_breaks(&ice));
+    ice.source = ICE_LEVEL; /* has none */
+    ck_assert(ice_may_break(&ice) && ice_all_breaks(&ice));
 }
 END_TEST
 
