@@ -30,7 +30,7 @@ static void field_table(report *r)
     field_row(r, "floes", a->areas.count, b->areas.count);
     field_row(r, "of these fixed", a->fixed, b->fixed);
     field_row(r, "ice area [m2]", a->area, b->area);
-    field_row(r, "ice area over domain area", a->area / domain, b->area / domain);
+    field_row(r, "ice area in the domain over domain area", a->inside / domain, b->inside / domain);
     field_row(r, "ice mass [t]", a->mass * 1e-3, b->mass * 1e-3);
     field_row(r, "mean thickness [m]", a->thickness, b->thickness);
     field_row(r, "mean floe area [m2]", a->mean, b->mean);
@@ -64,7 +64,8 @@ static void tell_cover(report *r)
     html_paragraph(
         &r->page,
         "%g %% was requested of the area free for ice: the domain%s. "
-        "The table counts all ice of the run, including what extends beyond the edge, over the whole domain%s.",
+        "The table counts all ice of the run, including what extends beyond the edge; only what lies in the domain is "
+        "divided by the area of the whole domain%s.",
         100 * s->ice.concentration, kept,
         d->boundary == DOMAIN_FEEDING
             ? "; it is a window on an unbounded field, whose content varies about that of the whole tile"

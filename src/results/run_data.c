@@ -5,7 +5,8 @@
 #include "io/json_walk.h"
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
-#include "results/replay.h"
+#include "results/manage_ice.h"
+#include "results/replay_moment.h"
 
 #include <math.h>
 #include <string.h>
@@ -179,13 +180,34 @@ static void note_free(context *ctx, run_note *n)
 
 /* ---- the field ---- */
 
-static bool note_field(context *ctx, const replay *r, field_state *f)
+/* Adds the area that a floe has in the domain: as large a part of its own as of its plan. */
+static fram_status add_inside(context *ctx, const replay_body *b, polygon plan, const scenario_domain *d,
+                              field_state *f, fram_error *error)
+{
+    const manage_floe floe = {.outline = plan, .box = polygon_bounds(plan), .area = b->area};
+    double whole = fabs(polygon_area(plan));
+    if (floe.box.lo.x >= d->x_min && floe.box.hi.x <= d->x_max && floe.box.lo.y >= d->y_min &&
+        floe.box.hi.y <= d->y_max) {
+        f->inside += b->area;
+        return FRAM_OK;
+    }
+    const manage_window window = {.centre = {0.5 * (d->x_min + d->x_max), 0.5 * (d->y_min + d->y_max)},
+                                  .along = {1, 0},
+                                  .length = d->x_max - d->x_min,
+                                  .width = d->y_max - d->y_min};
+    manage_cover cover;
+    fram_status status = manage_measure(ctx, &floe, 1, &window, 0, 1, &cover, NULL, error);
+    if (status == FRAM_OK && whole > 0)
+        f->inside += b->area * fmin(cover.ice * window.length * window.width / whole, 1);
+    return status;
+}
+
+static fram_status add_floes(context *ctx, const replay *r, const replay_moment *m, const scenario_domain *d,
+                             field_state *f, fram_error *error)
 {
     double volume = 0;
-    array_clear(&f->areas);
-    *f = (field_state){.time = r->frame.time, .areas = f->areas};
-    for (int32_t i = 0; i < r->frame.poses.count; i++) {
-        const replay_body *b = &r->bodies.data[r->frame.poses.data[i].body];
+    for (int32_t i = 0; i < m->poses.count; i++) {
+        const replay_body *b = &r->bodies.data[m->poses.data[i].body];
         if (b->material != MATERIAL_ICE)
             continue;
         f->area += b->area;
@@ -193,17 +215,32 @@ static bool note_field(context *ctx, const replay *r, field_state *f)
         volume += b->area * b->thickness;
         f->fixed += !b->moves;
         if (!array_push(ctx, &f->areas, b->area))
-            return false;
+            return error_memory(error);
+        fram_status status = add_inside(ctx, b, polygon_list_get(&m->outlines, i), d, f, error);
+        if (status != FRAM_OK)
+            return status;
     }
+    f->thickness = f->area > 0 ? volume / f->area : 0;
+    return FRAM_OK;
+}
+
+static fram_status note_field(context *ctx, replay *r, const scenario_domain *d, field_state *f, fram_error *error)
+{
+    replay_moment m = {0};
+    array_clear(&f->areas);
+    *f = (field_state){.time = r->frame.time, .areas = f->areas};
+    fram_status status = replay_moment_now(r, &m, error);
+    if (status == FRAM_OK)
+        status = add_floes(ctx, r, &m, d, f, error);
+    replay_moment_free(ctx, &m);
     int32_t n = f->areas.count;
-    if (n == 0)
-        return true;
+    if (status != FRAM_OK || n == 0)
+        return status;
     numbers_sort(f->areas.data, n);
     f->mean = f->area / n;
     f->median = 0.5 * (f->areas.data[(n - 1) / 2] + f->areas.data[n / 2]);
     f->greatest = f->areas.data[n - 1];
-    f->thickness = f->area > 0 ? volume / f->area : 0;
-    return true;
+    return FRAM_OK;
 }
 
 static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
@@ -219,11 +256,11 @@ static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
         status = replay_next(&r, &found, error);
         if (status != FRAM_OK || !found)
             break;
-        bool good = d->frames > 0 || note_field(ctx, &r, &d->before);
+        if (d->frames++ == 0)
+            status = note_field(ctx, &r, &d->s.domain, &d->before, error);
         /* The last frame is the one that no other follows. */
-        if (!good || (!r.has_next && !note_field(ctx, &r, &d->after)))
-            status = error_memory(error);
-        d->frames++;
+        if (status == FRAM_OK && !r.has_next)
+            status = note_field(ctx, &r, &d->s.domain, &d->after, error);
     }
     replay_close(&r);
     return status;

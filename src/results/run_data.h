@@ -40,6 +40,7 @@ typedef struct field_state {
     double time;        /* [s] */
     double_array areas; /* of the floes, ascending [m2] */
     double area, mass;  /* of all ice [m2], [kg] */
+    double inside;      /* what of its area lies in the domain [m2] */
     double thickness;   /* mean over the area [m] */
     double mean, median, greatest;
     int32_t fixed; /* of the floes */

@@ -30,7 +30,7 @@ domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: feeding, drift
 run: {{duration: 12, time_step: 0.02, seed: 1, transient: 1}}
 vessel: {{mode: towed, x: -28, speed: 3, ramp: 0.5, {VESSEL}}}
 ice:
-  {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level: {{x_min: 0}},
+  {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level: {{x_min: 0, x_max: 90}},
    strength: {{flexural_variation: 0.2, correlation_length: 7}}}}
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
@@ -160,6 +160,13 @@ def check(name, run, pictures):
         assert row in rows, (name, row)
     kinetic = float(last["kinetic_energy[J]"]) * 1e-3
     assert abs(number(rows["kinetic energy"][0]) - kinetic) <= 1e-3 * abs(kinetic) + 1e-6, (rows, kinetic)
+    # Where the sheet reaches out of the domain, and floes over its edge, the domain's part counts.
+    cover, later = (number(v) for v in rows["ice area in the domain over domain area"][:2])
+    whole = number(rows["ice area [m2]"][0]) / (128 * 80)
+    if name == "level":
+        assert abs(cover - 0.5) < 1e-3 and later < cover and abs(whole - 90 / 128) < 1e-3, (cover, later, whole)
+    else:
+        assert 0.7 < cover < 0.8 < whole, (cover, whole)
     before, after = (number(v) for v in rows["floes"][:2])
     assert before > 0 and after == float(last["floes[1]"]), (name, before, after, last["floes[1]"])
     for row in ("residual of the contact problem [m/s]", "largest overlap [m]", "computing time of a step [ms]"):
