@@ -91,7 +91,7 @@ static const struct {
     {"solver_iterations", "sweeps over all contacts that the velocities of the step took"},
     {"overlap_mean", "of the contacts that overlap, crushed ice included"},
     {"overlap_max", "of the contacts that overlap, crushed ice included"},
-    {"kinetic_energy", "of all bodies that move freely"},
+    {"kinetic_energy", "of all bodies that move freely, and of towed vessels"},
     {"step_wall_time", "wall-clock time that the step took"},
 };
 
