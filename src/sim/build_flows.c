@@ -133,6 +133,25 @@ static void warn_of_signs(context *ctx, const char *key, const char *medium, con
     }
 }
 
+/* On a ship that drives itself the table stands for the lift of the hull that slides (sim/build_propulsion.c). */
+static void warn_of_lift(context *ctx, const char *key, const scenario_vessel *v, const flow_table *t)
+{
+    bool aside = false, turns = false;
+    for (int32_t i = 0; i < t->count; i++) {
+        aside = aside || t->coefficient[i].y != 0;
+        turns = turns || t->coefficient[i].z != 0;
+    }
+    if (t->count > 0 && !(aside && turns) && v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull))
+        log_write(
+            ctx, LOG_WARNING,
+            "%s: on a ship with propulsion the table stands for the lift of a hull that slides, and it has no %s: "
+            "give cy and cn",
+            key,
+            aside   ? "cn"
+            : turns ? "cy"
+                    : "cy and cn");
+}
+
 /* ---- a table ---- */
 
 /* Ends that go for 0, 180 and 360 degrees are these: between the last angle and a full turn the other side would be
@@ -187,6 +206,8 @@ fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *ent
     vessel->flows.depth = 0.5 * draught;
     fram_status status = build_one(ctx, s, &v->current_coefficients, water, "current", vessel, draught, -0.5 * draught,
                                    &vessel->flows.water, error);
+    if (status == FRAM_OK)
+        warn_of_lift(ctx, water, v, &vessel->flows.water);
     if (status == FRAM_OK)
         status = build_one(ctx, s, &v->wind_coefficients, air, "wind", vessel, freeboard, 0.5 * freeboard,
                            &vessel->flows.air, error);

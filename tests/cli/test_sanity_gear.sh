@@ -79,6 +79,17 @@ flow wind_coefficients -0.9 0.9 0.8
 told flow.yaml "wind_coefficients: at 0 degrees cx and cy push the vessel against the motion of the wind|from astern"
 flow current_coefficients 0.02 -0.7 -0.03
 told flow.yaml "vessel.current_coefficients: at 90 degrees cx and cy push the vessel against|cy to port"
+# On a ship with propulsion it stands for the lift of a hull that slides.
+drives="vessel.propulsion.bollard_pull=5e5"
+flow current_coefficients 0.02 0 -0.03
+told flow.yaml "vessel.current_coefficients: on a ship with propulsion|it has no cy and cn" --set $drives
+expect 0 "$FRAM" check flow.yaml
+grep 'with propulsion' err && fail "told of a ship without propulsion"
+flow current_coefficients 0.02 0.7 -0.03
+told flow.yaml "vessel.current_coefficients: on a ship with propulsion|it has no cn" --set $drives
+sed -i 's/cy: 0.7}/cy: 0.7, cn: -0.05}/' flow.yaml
+expect 0 "$FRAM" check flow.yaml --set $drives
+grep 'for the lift' err && fail "told of a table with cy and cn"
 refused ship.yaml "hull.block_coefficient: expected 1, that of a box, or none" --set vessel.hull.form=box \
     --set vessel.hull.block_coefficient=0.6
 refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
