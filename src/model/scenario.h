@@ -72,6 +72,7 @@ typedef struct scenario {
     scenario_text file;    /* the file it was read from, or empty */
     scenario_text folder;  /* the working folder when it was read, with a slash at its end, or empty */
     ARRAY(scenario_place) places;
+    char vessel_path[24]; /* of its vessel in the list that it was taken out of; empty: it has its own place */
 } scenario;
 
 /* An AUTOMATIC value that was left to Fram. */

@@ -30,7 +30,10 @@ vessel_entry scenario_vessel_entry(const scenario *s, int32_t index)
         if (s->vessels.data[i].present && index-- == 0)
             return scenario_vessel_item(s, i);
     }
-    return (vessel_entry){&s->vessel, "vessel"};
+    vessel_entry alone = {&s->vessel, "vessel"};
+    if (s->vessel_path[0])
+        memcpy(alone.path, s->vessel_path, sizeof alone.path);
+    return alone;
 }
 
 int32_t scenario_find_vessel(const scenario *s, const char *name)
@@ -70,8 +73,10 @@ fram_status scenario_choose_vessel(const scenario *s, const char *place, const c
 scenario scenario_of_vessel(const scenario *s, int32_t index)
 {
     scenario alone = *s;
-    alone.vessel = *scenario_vessel_entry(s, index).keys;
+    const vessel_entry entry = scenario_vessel_entry(s, index);
+    alone.vessel = *entry.keys;
     memset(&alone.vessels, 0, sizeof alone.vessels);
+    memcpy(alone.vessel_path, entry.path, sizeof alone.vessel_path);
     return alone;
 }
 

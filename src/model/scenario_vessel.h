@@ -25,7 +25,8 @@ int32_t scenario_find_vessel(const scenario *s, const char *name);
    and with place, a file or folder, for one that is not there. */
 fram_status scenario_choose_vessel(const scenario *s, const char *place, const char *name, int32_t *index,
                                    fram_error *error);
-/* The scenario with one of its vessels alone, in the short form.  It refers to what s owns, and must not be freed. */
+/* The scenario with one of its vessels alone, in the short form; what is said of that names its place in s.  It refers
+   to what s owns, and must not be freed. */
 scenario scenario_of_vessel(const scenario *s, int32_t index);
 /* Whether channels and results are called by vessels' names: those of a list are, a single `vessel` is not. */
 bool scenario_names_vessels(const scenario *s);

@@ -238,11 +238,10 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
 {
     const scenario_vessel *v = &s->vessel;
     if (!v->present || v->mode != VESSEL_FREE || (v->thrusters.count == 0 && v->mooring.lines.count == 0)) {
-        error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, "vessel",
+        const vessel_entry entry = scenario_vessel_entry(s, 0);
+        return vessel_fault(
+            s, &entry, "", error,
             "expected a vessel of mode free with thrusters or mooring lines, found none to find the capability of");
-        scenario_locate(s, error);
-        return FRAM_ERROR_INPUT;
     }
     double speeds = o->speed_step > 0 ? o->speed_most / o->speed_step : 0;
     if (o->directions < 4 || o->directions > CAPABILITY_DIRECTIONS)
@@ -385,23 +384,6 @@ static fram_status choose_vessel(const scenario *s, const char *name, int32_t *r
     return FRAM_OK;
 }
 
-/* What is wrong with the vessel alone is wrong in the list that the file has. */
-static fram_status name_in_list(const scenario *s, int32_t row, fram_status status, fram_error *error)
-{
-    static const char alone[] = "vessel";
-    const size_t length = sizeof alone - 1;
-    if (status != FRAM_ERROR_INPUT || !error || !scenario_names_vessels(s) || strncmp(error->key, alone, length) != 0)
-        return status;
-    char member[sizeof error->key];
-    memcpy(member, error->key, sizeof member);
-    if (member[length] != '.' && member[length] != '\0')
-        return status;
-    snprintf(error->key, sizeof error->key, "%s", member + length + (member[length] == '.'));
-    vessel_entry entry = scenario_vessel_entry(s, row);
-    vessel_name_error(s, &entry, error);
-    return status;
-}
-
 /* Currents come across the hull here whatever the scenario's own one does. */
 static void warn_of_sides(context *ctx, const scenario *s, const capability_options *o)
 {
@@ -442,5 +424,5 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
     if (status != FRAM_OK)
         return status;
     const scenario alone = scenario_of_vessel(s, row);
-    return name_in_list(s, row, find_alone(ctx, &alone, o, c, error), error);
+    return find_alone(ctx, &alone, o, c, error);
 }

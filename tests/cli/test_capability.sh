@@ -102,4 +102,19 @@ echo "vessel: {name: tug, mode: free}" >named.yaml
 expect 2 "$FRAM" capability named.yaml -o bare --formula --vessel nobody
 says '--vessel: expected the name of a vessel, "tug"; found "nobody"' err
 
+# Of one of a list its place there is told, which counts vessels that are not present.
+cat >fleet.yaml <<'END'
+ice: {source: none}
+domain: {boundary: open}
+vessels:
+  - {name: gone, present: false}
+  - name: kept
+    mode: free
+    hull: {form: box, length: 60, beam: 12, draught: 4}
+    thrusters: [{x: 20, thrust: 4.0e4}, {x: -20, thrust: 4.0e4}]
+    current_coefficients: {table: [{angle_deg: 0, cx: -0.1}, {angle_deg: 180, cx: 0.1}]}
+END
+expect 0 "$FRAM" capability fleet.yaml -o fleet --formula --directions 4 --vessel kept
+says 'warning: vessels[1].current_coefficients: at 0 degrees' err
+
 finish "fram capability: as it should be"
