@@ -307,6 +307,12 @@ fram_status(fram_fatigue_find)(fram_context *c, const fram_fatigue_definition *d
     if (status != FRAM_OK)
         return status;
     *out = (fram_fatigue){.series = facts_of(&data)};
+    if (data.fewer > 0)
+        log_write(
+            &c->inner, LOG_WARNING,
+            "lines parted or were let go in %d of %d runs: cycles from there on are those of a mooring with fewer "
+            "lines",
+            (int)data.fewer, (int)data.count);
     status = count_cycles(c, &data, &cycles, error);
     if (status == FRAM_OK && cycles.list.count > 0) {
         out->list = memory_array(&c->inner, (size_t)cycles.list.count, sizeof *out->list);

@@ -265,16 +265,23 @@ static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, 
     return strncmp(name, own.text, strlen(own.text)) == 0;
 }
 
-/* Whether the channel is one of a vessel's line tensions or its offset, and lines of it parted that nobody let go. */
-static bool has_parted(const run_data *d, const char *name, bool *offset)
+/* Notes lines that parted, where the channel is one of a vessel's line tensions or its offset, and that were let go
+   after what is left out. */
+static void note_lines(const run_data *d, const series_source *source, series_data *out)
 {
-    for (int32_t v = 0; v < scenario_vessel_count(&d->s); v++) {
-        *offset = is_channel_of(d, v, "offset_", name);
-        bool tension = is_channel_of(d, v, "line_", name) && strstr(name, "tension");
-        if (*offset || tension)
-            return run_lines_broken(d, v) > 0;
+    double from = isnan(source->from) ? d->s.run.transient : source->from;
+    for (int32_t v = 0; source->channel && v < scenario_vessel_count(&d->s); v++) {
+        out->offset = is_channel_of(d, v, "offset_", source->channel);
+        bool tension = is_channel_of(d, v, "line_", source->channel) && strstr(source->channel, "tension");
+        if (!out->offset && !tension)
+            continue;
+        bool parted = run_lines_broken(d, v) > 0;
+        /* One that is let go as the run begins is in no row of it. */
+        bool let_go = run_event_from(d, v, EVENT_LINE_RELEASE, fmax(from, d->s.run.time_step)) < HUGE_VAL;
+        out->parted += parted;
+        out->fewer += parted || let_go;
+        return;
     }
-    return false;
 }
 
 static fram_status read_run(context *ctx, const char *folder, const series_source *source, double_array *time,
@@ -300,7 +307,8 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
         log_write(ctx, LOG_WARNING, "%s: the run failed at %.6g s of %.6g s; its series up to there counts", folder,
                   d.note.time, d.s.run.duration);
     *from = d.s.run.transient;
-    out->parted += status == FRAM_OK && source->channel && has_parted(&d, source->channel, &out->offset);
+    if (status == FRAM_OK)
+        note_lines(&d, source, out);
     run_data_free(ctx, &d);
     return status;
 }

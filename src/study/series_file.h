@@ -25,8 +25,9 @@ typedef struct series_data {
     int32_t count;
     /* Runs of a channel of line tension or offset in which lines parted, but for those that are let go. */
     int32_t parted;
-    bool offset; /* of such a run's channel */
-    double held; /* the least of the largest tensions of those; infinite: none, or minima are asked [N] */
+    int32_t fewer; /* those, and such in which lines were let go */
+    bool offset;   /* of such a run's channel */
+    double held;   /* the least of the largest tensions of those; infinite: none, or minima are asked [N] */
     char unit[UNIT_SIZE];
 } series_data;
 

@@ -86,10 +86,18 @@ assert gone[0]["utilisation"] >= 1 and gone[0]["tension_then"] >= 9e4 and 4 < go
 assert all(l["parted_at_s"] is None and 0 < l["utilisation"] < 1 for l in lines if not l["parted"])
 PY
 
+fewer="warning: lines parted or were let go in 1 of 1 runs: cycles from there on are those of a mooring with fewer lines"
+expect 0 "$FRAM" fatigue lost --channel line_tension_max
+says "$fewer" err
+
 # Steps that the series leaves out count: a limit that is passed between two rows, and when a line parted.
 # It is 0.07 m off at 4 s, 0.04 m at 8 s, and comes nearer: what was lost in the transient may have been regained there.
 expect 0 "$FRAM" run ship.yaml -o between --quiet --set output.csv_interval=8 --set vessel.station.offset_limit=0.05 \
     --set "vessel.mooring.lines[1].release_time=15"
+expect 0 "$FRAM" fatigue between --channel offset_x
+says "$fewer" err
+expect 0 "$FRAM" fatigue between --channel load
+grep "fewer lines" err && fail "a load is told to be of a mooring with fewer lines"
 verdict between
 says "The vessel may not have held its station. 1 of 5 lines parted or were released." verdict.txt
 says "may have been beyond its limit of 0.05 m from 4 s on, between two rows of the series" verdict.txt
