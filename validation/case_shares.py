@@ -65,7 +65,7 @@ def formula_parts(s):
 
 def means(s, series):
     """Resistance after the transient by mechanism [N], and the largest fault of their sum over the largest load [1]."""
-    rows = [k for k, t in enumerate(series["time"]) if t >= s.transient]
+    rows = [k for k, t in enumerate(series["time"]) if t - s.transient > 1e-9 * t]
     parts = {m: -statistics.fmean(series[f"mechanism_{m}_x"][k] for k in rows) for m in MECHANISMS}
     load = series["ice_force_x"]
     off = max(abs(sum(series[f"mechanism_{m}_x"][k] for m in MECHANISMS) - f) for k, f in enumerate(load))

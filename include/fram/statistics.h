@@ -15,9 +15,10 @@ typedef struct fram_series_source {
     const char *const *files; /* folders of runs, or CSV files with a row of heads, "name" or "name[unit]" */
     int file_count;           /* 1 to 4096 */
     const char *channel;      /* NULL: "load" of runs, the magnitude of the horizontal averaged ice force */
-    double from;              /* leave out what is before [s]; NaN: the transient of a run, nothing of a CSV file */
-    double step;              /* between rows of a file without a column `time` [s]; 0: there is one */
-    bool minima;              /* the least value is asked: all is told of the negative values */
+    double from; /* leave out what is not after it [s], of 0 what is before; NaN: the transient of a run, nothing of a
+                    CSV file */
+    double step; /* between rows of a file without a column `time` [s]; 0: there is one */
+    bool minima; /* the least value is asked: all is told of the negative values */
 } fram_series_source;
 
 /* What a series is. */

@@ -3,6 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Part of a time: far less than a step, and more than the last digits of a file. */
+#define TIME_SLACK 1e-9
+
+bool time_is_after(double time, double from) { return from == 0 ? time >= 0 : time - from > TIME_SLACK * fabs(time); }
+
 static int falling(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -97,7 +102,7 @@ channel_statistics channel_statistics_of(const double *time, const double *value
 {
     const double none = (double)NAN;
     int32_t first = 0, above;
-    while (first < count && time[first] < transient)
+    while (first < count && !time_is_after(time[first], transient))
         first++;
     if (first == count)
         return (channel_statistics){none, none, none, none, none, none, none, 0};

@@ -9,6 +9,11 @@
 /* Deviations of a normal distribution that hold 95 % of it between them and their opposite. */
 #define NORMAL_95 1.959963984540054
 
+/* Whether what is of `time` is after `from`, as the transient of a run.  A row of a series has the end of its step:
+   that of `from` itself is before it, with a slack for times that a file has rounded.  Nothing is before 0: from there
+   on all counts. */
+bool time_is_after(double time, double from);
+
 /* Statistics of one channel after the transient; NaN where it has no value there.  A peak is the outermost value
    between two crossings of the mean, and the significant one the mean of the highest third of the peaks.  Both are told
    of the side on which the channel goes farthest from zero, with their sign: a load against its axis peaks downwards.

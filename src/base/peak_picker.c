@@ -1,5 +1,7 @@
 #include "base/peak_picker.h"
 
+#include "base/channel_statistics.h"
+
 void peak_picker_init(peak_picker *p, double separation, double from)
 {
     *p = (peak_picker){.separation = separation, .from = from};
@@ -8,7 +10,7 @@ void peak_picker_init(peak_picker *p, double separation, double from)
 bool peak_picker_keeps(const peak_picker *p)
 {
     double value = p->candidate.value;
-    return p->open && p->candidate.time >= p->from && value > 0 &&
+    return p->open && time_is_after(p->candidate.time, p->from) && value > 0 &&
            (p->count < PEAKS_KEPT || value > p->kept[PEAKS_KEPT - 1].value);
 }
 

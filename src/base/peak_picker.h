@@ -16,7 +16,7 @@ typedef struct load_peak {
 
 typedef struct peak_picker {
     double separation; /* [unit of time] */
-    double from;       /* peaks before it are not kept; what stands too near to a larger one of them is none */
+    double from;       /* peaks up to it are not kept; what stands too near to a larger one of them is none */
     int32_t count;
     load_peak kept[PEAKS_KEPT]; /* by falling value */
     bool open;                  /* `candidate` may still be overtaken */

@@ -78,7 +78,8 @@ static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
 {
     rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
                            &w->channel, "NAME", "channel of a run or column of a CSV file (load, or NAME.load)"};
-    rows[1] = (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "ignore earlier values (a run: its transient)"};
+    rows[1] =
+        (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "ignore values up to then (a run: its transient)"};
     rows[2] = (option_row){"--step", NULL, OPTION_TEXT, &w->step, "T", "time step of a file without a time column"};
     rows[3] = (option_row){"--minima", NULL, OPTION_FLAG,
                            &w->minima, NULL, "minima instead of maxima: results are those of the negated series"};

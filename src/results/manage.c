@@ -21,7 +21,7 @@ double manage_alarm(const manage_moment *at, bool largest)
 
 static bool counts(const manage_run *m, const manage_moment *at, int place)
 {
-    return at->looked[place] >= 0 && at->time >= m->d.s.run.transient;
+    return at->looked[place] >= 0 && time_is_after(at->time, m->d.s.run.transient);
 }
 
 /* Means over the windows of a place; a place that no window came to has no numbers. */
@@ -101,7 +101,7 @@ static void magnitude(const manage_run *m, const char *x_name, const char *y_nam
     *mean = *most = (double)NAN;
     for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
         double size = sqrt(x[i] * x[i] + y[i] * y[i]);
-        if (t[i] < m->d.s.run.transient)
+        if (!time_is_after(t[i], m->d.s.run.transient))
             continue;
         sum += size;
         *most = n++ > 0 ? fmax(*most, size) : size;

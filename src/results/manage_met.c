@@ -1,6 +1,8 @@
 /* The ice that came to a vessel, for who makes a field of it. */
 #include "results/manage_parts.h"
 
+#include "base/channel_statistics.h"
+
 int manage_came_from(const manage_moment *at)
 {
     if (at->looked[MANAGE_BEHIND] >= 0)
@@ -23,7 +25,7 @@ fram_status manage_met_ice(context *ctx, const char *folder, const char *name, d
     for (int32_t i = 0; i < m.moments.count; i++) {
         const manage_moment *at = &m.moments.data[i];
         int place = manage_came_from(at);
-        if (place >= 0 && at->time >= m.d.s.run.transient)
+        if (place >= 0 && time_is_after(at->time, m.d.s.run.transient))
             managed_ice_add(sum, &m.met.data[i], at->cover[place].largest / unit);
     }
     manage_free(&m);

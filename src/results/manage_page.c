@@ -1,6 +1,7 @@
 /* The page of ice management: what a client asks first, then figures, tables, charts and the plan. */
 #include "results/manage_parts.h"
 
+#include "base/channel_statistics.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
@@ -265,7 +266,7 @@ static double telling_time(const manage_run *m, char title[64])
     snprintf(title, 64, "The field at the end");
     for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
         double load = x[i] * x[i] + y[i] * y[i];
-        if (t[i] < m->d.s.run.transient || !(load > most))
+        if (!time_is_after(t[i], m->d.s.run.transient) || !(load > most))
             continue;
         most = load;
         time = t[i];

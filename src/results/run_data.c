@@ -1,5 +1,6 @@
 #include "results/run_data.h"
 
+#include "base/channel_statistics.h"
 #include "base/sort.h"
 #include "io/file.h"
 #include "io/json_walk.h"
@@ -358,7 +359,7 @@ double run_event_from(const run_data *d, int32_t vessel, station_event kind, dou
     double first = HUGE_VAL;
     for (int32_t i = 0; i < d->note.events.count; i++) {
         const run_event *e = &d->note.events.data[i];
-        if (e->time >= from && is_event(d, e, vessel, kind))
+        if (time_is_after(e->time, from) && is_event(d, e, vessel, kind))
             first = fmin(first, e->time);
     }
     return first;
@@ -369,7 +370,7 @@ bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, st
     bool on = false;
     for (int32_t i = 0; i < d->note.events.count; i++) {
         const run_event *e = &d->note.events.data[i];
-        if (e->time <= at && is_event(d, e, vessel, on ? over : kind))
+        if (!time_is_after(e->time, at) && is_event(d, e, vessel, on ? over : kind))
             on = !on;
     }
     return on;
@@ -420,7 +421,7 @@ int32_t run_first_row(const run_data *d)
 {
     const double *time = run_channel(d, "time");
     int32_t first = 0;
-    while (time && first < d->series.rows && time[first] < d->s.run.transient)
+    while (time && first < d->series.rows && !time_is_after(time[first], d->s.run.transient))
         first++;
     return first;
 }

@@ -68,7 +68,7 @@ bool run_lacks_events(const run_data *d);
 const double *run_channel(const run_data *d, const char *name);
 /* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
-/* When the run's own events of every step tell that something began from a time on [s]; HUGE_VAL: they do not. */
+/* When the run's own events of every step tell that something began after a time [s]; HUGE_VAL: they do not. */
 double run_event_from(const run_data *d, int32_t vessel, station_event kind, double from);
 /* Whether something had begun at a time and was not yet over. */
 bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at);

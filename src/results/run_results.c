@@ -1,5 +1,6 @@
 #include "results/run_results.h"
 
+#include "base/channel_statistics.h"
 #include "io/chart.h"
 #include "io/csv_read.h"
 #include "io/path.h"
@@ -13,13 +14,13 @@
 
 enum { CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
 
-/* NAN without a row from there on. */
+/* NAN without a row after it. */
 static double mean_after(const double_array *time, const double_array *value, double transient)
 {
     double sum = 0;
     int32_t n = 0;
     for (int32_t i = 0; i < value->count; i++) {
-        if (time->data[i] < transient)
+        if (!time_is_after(time->data[i], transient))
             continue;
         sum += value->data[i];
         n++;

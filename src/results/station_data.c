@@ -90,7 +90,7 @@ channel_statistics station_statistics(const station_data *d, const double_array 
 int32_t station_first_row(const station_data *d, double transient)
 {
     int32_t first = 0;
-    while (first < d->rows && d->column[TIME].data[first] < transient)
+    while (first < d->rows && !time_is_after(d->column[TIME].data[first], transient))
         first++;
     return first;
 }

@@ -71,7 +71,7 @@ static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, cons
     double from = (double)NAN, to = (double)NAN;
     bool good = true;
     for (int32_t i = 0; i < d->series.rows && good; i++) {
-        if (time[i] < d->s.run.transient)
+        if (!time_is_after(time[i], d->s.run.transient))
             continue;
         from = value.count > 0 ? from : time[i];
         to = time[i];
@@ -89,15 +89,15 @@ static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, cons
 }
 
 /* The largest tension of a line as it parted [N], after the transient; NaN without.  Series have what came before and
-   after that step. */
+   after that step, which begins with the event. */
 static double tension_of_parting(const run_data *d, int32_t vessel)
 {
     const char *name = scenario_vessel_name(&d->s, vessel);
     double most = (double)NAN;
     for (int32_t i = 0; i < d->note.events.count; i++) {
         const run_event *e = &d->note.events.data[i];
-        if (e->time >= d->s.run.transient && strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 &&
-            strcmp(e->vessel, name ? name : "") == 0)
+        if (time_is_after(e->time + d->s.run.time_step, d->s.run.transient) &&
+            strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 && strcmp(e->vessel, name ? name : "") == 0)
             most = fmax(most, e->value);
     }
     return most;

@@ -1,5 +1,6 @@
 #include "study/series_file.h"
 
+#include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "base/sort.h"
 #include "io/csv_read.h"
@@ -378,11 +379,11 @@ static bool is_folder(const char *path)
     return stat(path, &state) == 0 && S_ISDIR(state.st_mode);
 }
 
-/* Leaves out what is before `from`, and turns the sign for minima. */
+/* Leaves out what is not after `from`, and turns the sign for minima. */
 static void trim(double_array *value, const double_array *time, double step, double from, bool minima)
 {
     int32_t first = 0;
-    while (first < value->count && (time->count > 0 ? time->data[first] : first * step) < from)
+    while (first < value->count && !time_is_after(time->count > 0 ? time->data[first] : first * step, from))
         first++;
     for (int32_t i = first; i < value->count; i++)
         value->data[i - first] = minima ? 0 - value->data[i] : value->data[i]; /* 0, not -0 */

@@ -13,9 +13,10 @@ START_TEST(statistics_of_a_channel)
     for (int i = 0; i < N; i++) {
         time[i] = 0.01 * i;
         double tooth = i % 100 < 50 ? 1 : 0;
-        value[i] = i < 500 ? 1e9 : tooth * (1 + i / 100 % 3); /* peaks of 1, 2 and 3 */
+        /* Peaks of 1, 2 and 3; the row at the end of the transient is the last of it. */
+        value[i] = i < 500 ? 1e9 : tooth * (1 + i / 100 % 3);
     }
-    channel_statistics s = channel_statistics_of(time, value, N, 5);
+    channel_statistics s = channel_statistics_of(time, value, N, 4.99);
     ck_assert_int_eq(s.peaks, 10); /* those of 1 do not exceed the mean */
     assert_relative(s.mean, 1, 1e-12);
     assert_relative(s.significant, 3, 1e-12);
@@ -23,6 +24,15 @@ START_TEST(statistics_of_a_channel)
     assert_absolute(s.least, 0, 0);
     assert_relative(s.deviation, sqrt(0.5 * 14 / 3 - 1), 1e-12);
     ck_assert(s.peak == s.greatest && s.significant_above == s.significant);
+}
+END_TEST
+
+/* A file has rounded its times; nothing is before 0. */
+START_TEST(rows_after_a_time)
+{
+    ck_assert(time_is_after(5.05, 5) && !time_is_after(5, 5) && !time_is_after(5 * (1 + 1e-12), 5));
+    ck_assert(time_is_after(0, 0) && !time_is_after(-1, 0) && !time_is_after(-5, -5) && time_is_after(-4, -5));
+    ck_assert(time_is_after(-1e9, -HUGE_VAL) && !time_is_after(1e9, HUGE_VAL));
 }
 END_TEST
 
@@ -124,5 +134,5 @@ START_TEST(correlations_are_summed_over_every_lag)
 }
 END_TEST
 
-TEST_MAIN("channel_statistics", correlations_are_summed_over_every_lag, statistics_of_a_channel,
+TEST_MAIN("channel_statistics", correlations_are_summed_over_every_lag, statistics_of_a_channel, rows_after_a_time,
           equal_values_scatter_by_nothing, nothing_is_measured, peaks_have_a_side, peaks_may_be_many)

@@ -177,8 +177,8 @@ csv.writer(open(path, "w"), lineterminator="\n").writerows(rows)
 PY
 done
 expect 0 "$FRAM" manage full --json -q
-# Values from 0.5 to 2 s: 16, so 15 half cycles in 1.6 s.
-number "j['run']['tension_range_equivalent']" "$(python3 -c 'print(1000 * (7.5 / 1.6) ** (1 / 3))')"
+# Values from 0.6 to 2 s: 15, so 14 half cycles in 1.5 s.
+number "j['run']['tension_range_equivalent']" "$(python3 -c 'print(1000 * (7 / 1.5) ** (1 / 3))')"
 number "j['run']['tension_line']" 2
 expect 0 "$FRAM" manage full --beside half
 says "fatigue of line 2" out

@@ -63,7 +63,7 @@ def compare(a, b):
 
 def column(folder, name, transient):
     with open(folder / "series.csv", newline="") as file:
-        return [float(row[name]) for row in csv.DictReader(file) if float(row["time[s]"]) >= transient]
+        return [float(row[name]) for row in csv.DictReader(file) if float(row["time[s]"]) > transient]
 
 
 def close(found, expected, part):

@@ -201,7 +201,7 @@ def check_channels(series, transient, rows, names, page):
         (head,) = [h for h in series[0] if h.startswith(channel + "[")]
         unit = lines if re.search("mooring,|line", name) else loads
         scale = factor[unit[1]] if head.endswith("[N]") else 1
-        values = [float(row[head]) * scale for row in series if float(row["time[s]"]) >= transient]
+        values = [float(row[head]) * scale for row in series if float(row["time[s]"]) > transient]
         mean = sum(values) / len(values)
         wanted = [mean, (sum((v - mean) ** 2 for v in values) / len(values)) ** 0.5, min(values), max(values)]
         size = max(map(abs, wanted))
@@ -225,7 +225,7 @@ def check_breaks(run, rows, page):
 
 def check_shares(series, transient, told, parts):
     """Shares in percent are those of the mean load, along it: not of the loads of stretches, each along its own."""
-    counted = [row for row in series if float(row["time[s]"]) >= transient]
+    counted = [row for row in series if float(row["time[s]"]) > transient]
     mean = [[sum(float(row[f"{part}_{axis}[N]"]) for row in counted) / len(counted) for axis in "xy"]
             for part in parts]
     load = [sum(axis) for axis in zip(*mean)]

@@ -43,7 +43,7 @@ START_TEST(the_transient_is_left_out)
     csv_table_column column = {.name = "time", .value = {time, 5, 5}};
     run_data d = {.series = {.columns = {&column, 1, 1}, .rows = 5}};
     static const double transient[] = {0, 0.5, 1, 3.5, 9};
-    static const int first[] = {0, 1, 1, 4, 5};
+    static const int first[] = {0, 1, 2, 4, 5};
     for (int i = 0; i < 5; i++) {
         d.s.run.transient = transient[i];
         ck_assert_int_eq(run_first_row(&d), first[i]);
@@ -63,14 +63,14 @@ static const char two_ships[] = "run: {transient: 1, time_step: 0.2}\noutput: {a
                                 "    station: {offset_limit: 9, heading_limit_deg: 3}\n"
                                 "    mooring: {lines: [{kind: spring, distance: 100, stiffness: 1}]}\n";
 
-/* A row before the transient, and three of one second each. */
+/* A row at the end of the transient, and three of one second each. */
 static const char two_series[] =
     "time[s],b.offset_x[m],b.offset_y[m],b.heading_deviation[deg],b.ice_force_averaged_x[N],b.ice_force_averaged_y[N],"
     "b.thruster_power[W],b.thrusters_saturated[1],b.line_tension_max[N],b.line_1_tension[N],b.thruster_1_thrust[N]\n"
-    "0,99,99,99,99,99,99,99,99,99,99\n"
-    "1,3,4,1,10,-1,6,0,100,100,20\n"
-    "2,6,8,-5,10,-2,6,1,800,800,-10\n"
-    "3,3,4,4,10,-3,6,0,0,0,40\n";
+    "1,99,99,99,99,99,99,99,99,99,99\n"
+    "2,3,4,1,10,-1,6,0,100,100,20\n"
+    "3,6,8,-5,10,-2,6,1,800,800,-10\n"
+    "4,3,4,4,10,-3,6,0,0,0,40\n";
 
 static void check_told(const char *text, const char *expected)
 {
