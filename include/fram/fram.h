@@ -169,6 +169,9 @@ typedef struct fram_ice_load {
 
 FRAM_API fram_status fram_world_create(const fram_scenario *scenario, fram_world **world, fram_error *error);
 FRAM_API void fram_world_destroy(fram_world *world);
+/* As fram_scenario_notes, by what was made of the scenario where its keys do not tell: the floes of a file, and where a
+   vessel on its mooring begins.  For a world before its first step; the caller frees the text with fram_text_free. */
+FRAM_API fram_status fram_world_notes(const fram_world *world, char **text, fram_error *error);
 /* One time step.  FRAM_ERROR_SIMULATION when the state is no longer finite. */
 FRAM_API fram_status fram_world_step(fram_world *world, fram_error *error);
 FRAM_API double fram_world_time(const fram_world *world); /* [s] */

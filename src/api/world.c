@@ -6,6 +6,7 @@
 #include "fram/live.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
+#include "sim/notes.h"
 
 #include <math.h>
 
@@ -215,6 +216,25 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
     status = step(w, error);
     world_leave(w);
     return status;
+}
+
+fram_status fram_world_notes(const fram_world *w, char **text, fram_error *error)
+{
+    text_buffer notes = {0};
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"text", text});
+    if (status == FRAM_OK)
+        status = world_begin_reading(w, error);
+    if (status != FRAM_OK)
+        return status;
+    context *ctx = &w->scenario->context->inner;
+    scenario_notes_made(ctx, &w->scenario->inner, &w->inner, &notes);
+    world_end_reading(w);
+    if (notes.failed) {
+        text_free(ctx, &notes);
+        return error_memory(error);
+    }
+    *text = notes.data;
+    return FRAM_OK;
 }
 
 double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }

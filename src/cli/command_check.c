@@ -5,6 +5,7 @@
 typedef struct built {
     int bodies, floes;
     double seconds; /* that the whole run is expected to compute [s] */
+    char *notes;
 } built;
 
 /* The first step, which finds all contacts, is no measure of the others; then a second of them is. */
@@ -36,6 +37,8 @@ static fram_status build_world(const fram_scenario *scenario, built *out, fram_e
         out->bodies += 1;
         out->floes += body.kind == FRAM_BODY_FLOE;
     }
+    if (status == FRAM_OK)
+        status = fram_world_notes(world, &out->notes, error);
     if (status == FRAM_OK)
         status = try_steps(world, scenario, &out->seconds, error);
     fram_world_destroy(world);
@@ -74,7 +77,7 @@ int command_check(const command_row *self, int argc, char **argv)
         code = EXIT_GOOD;
         fputs(fram_scenario_text(scenario), stdout);
         if (!common.quiet) {
-            fputs(fram_scenario_notes(scenario), stderr);
+            fputs(build ? made.notes : fram_scenario_notes(scenario), stderr);
             if (!build)
                 fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n",
                       stderr);
@@ -99,6 +102,7 @@ int command_check(const command_row *self, int argc, char **argv)
             json_end(&j);
         }
     }
+    fram_text_free(context, made.notes);
     fram_scenario_destroy(scenario);
     fram_context_destroy(context);
     return code;

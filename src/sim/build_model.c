@@ -69,13 +69,12 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .crush_trims = s->ice.crush_trims};
 }
 
-double build_wedge_area(const scenario *s)
+double build_wedge_area(const scenario *s, const ice_kind *k)
 {
-    const ice_kind k = ice_range_of(&s->ice).thinnest;
-    const ice_material m = ice_kind_material(&s->ice, &k);
+    const ice_material m = ice_kind_material(&s->ice, k);
     fracture_settings f = build_fracture_settings(s);
     double radius =
-        fracture_edge_stress(&f, &m, k.thickness, 1, k.thickness * k.thickness, EDGE_STRAIGHT).breaking_radius;
+        fracture_edge_stress(&f, &m, k->thickness, 1, k->thickness * k->thickness, EDGE_STRAIGHT).breaking_radius;
     double side = fracture_wedge_side(&f, radius);
     return 0.5 * side * side * real_sin(PI / (double)f.wedges);
 }

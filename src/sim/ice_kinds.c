@@ -15,10 +15,13 @@ static bool is_populated(const scenario_ice *i)
     return i->source == ICE_VORONOI || i->source == ICE_PACKED || i->source == ICE_FILE;
 }
 
+/* Of no ice. */
+static const ice_range no_range = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
+
 ice_range ice_range_of(const scenario_ice *i)
 {
     const ice_kind own = {i->thickness, i->flexural_strength, i->crushing_strength};
-    ice_range r = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
+    ice_range r = no_range;
     for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
         take_kind(&r, (ice_kind){automatic_or(i->floes.data[k].thickness, own.thickness), own.flexural_strength,
                                  own.crushing_strength});
@@ -28,7 +31,7 @@ ice_range ice_range_of(const scenario_ice *i)
                                  automatic_or(p->flexural_strength, own.flexural_strength),
                                  automatic_or(p->crushing_strength, own.crushing_strength)});
     }
-    /* Floes of a file have their own beside the populations that fill the water between them. */
+    /* Those of a file are beside the populations that fill the water between them. */
     if (i->source == ICE_FILE || !(r.thickest.thickness > 0))
         take_kind(&r, own);
     return r;
@@ -50,6 +53,19 @@ bool ice_may_break(const scenario_ice *i)
 }
 
 bool ice_all_breaks(const scenario_ice *i) { return i->breakable && count_kinds(i, false) == 0; }
+
+ice_range ice_range_made(const scenario_ice *i, const world *made)
+{
+    ice_range r = no_range;
+    if (!made || i->source != ICE_FILE)
+        return ice_range_of(i);
+    const floe_table *f = &made->floes;
+    for (int32_t k = 0; k < f->count; k++)
+        if (f->body[k] >= 0)
+            take_kind(&r,
+                      (ice_kind){f->thickness[k], f->material[k].flexural_strength, f->material[k].crushing_strength});
+    return r.thickest.thickness > 0 ? r : ice_range_of(i);
+}
 
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)
 {

@@ -1,10 +1,11 @@
 /* How thick and strong the ice of a scenario is, as far as its keys tell: floes and populations may have their own.
-   Knows nothing of what files tell of their floes, nor of scatter. */
+   What a file tells of its floes is known once they are made; nothing is known of scatter. */
 #ifndef SIM_ICE_KINDS_H
 #define SIM_ICE_KINDS_H
 
 #include "ice/material.h"
 #include "model/scenario.h"
+#include "model/world.h"
 
 typedef struct ice_kind {
     double thickness, flexural_strength, crushing_strength; /* [m], [Pa] */
@@ -18,6 +19,9 @@ ice_range ice_range_of(const scenario_ice *i);
 /* Whether any of it, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);
 bool ice_all_breaks(const scenario_ice *i);
+/* The same, but of the floes that were made where they are a file's.  made: the world of the scenario before its first
+   step; NULL: there is none, and all goes by keys. */
+ice_range ice_range_made(const scenario_ice *i, const world *made);
 /* With the rest of what all ice has in common. */
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k);
 

@@ -18,7 +18,9 @@
 /* Where notes go: to a text, facts and warnings, or to the log, warnings only. */
 typedef struct note_taker {
     context *ctx;
-    text_buffer *out; /* NULL: the log */
+    text_buffer *out;  /* NULL: the log */
+    const world *made; /* NULL: none */
+    ice_range ice;
 } note_taker;
 
 enum { NOTE_SIZE = 400 };
@@ -65,18 +67,19 @@ static void note_ice(const note_taker *n, const scenario *s)
     const scenario_ice *i = &s->ice;
     if (i->source == ICE_NONE)
         return;
-    ice_range kinds = ice_range_of(i);
     double area = (s->domain.x_max - s->domain.x_min) * (s->domain.y_max - s->domain.y_min);
-    note_kind(n, s, &kinds.thinnest);
-    if (kinds.thickest.thickness > kinds.thinnest.thickness)
-        note_kind(n, s, &kinds.thickest);
+    note_kind(n, s, &n->ice.thinnest);
+    if (n->ice.thickest.thickness > n->ice.thinnest.thickness)
+        note_kind(n, s, &n->ice.thickest);
+    if (i->source == ICE_FILE && !n->made)
+        note_fact(n, "ice: thicknesses that its file gives to floes go before that; fram check --build tells by them");
     /* Those of a population are as large as its law says. */
     if (i->source == ICE_VORONOI && i->populations.count == 0)
         note_fact(n, "ice: about %.0f cells of %.4g m2 in a domain of %.4g m2", area / i->mean_floe_area,
                   i->mean_floe_area, area);
     note_fact(n, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)", i->smallest_floe_area,
               i->smallest_piece_area, i->edge_threshold, s->run.scale);
-    double wedge = i->breakable ? build_wedge_area(s) : 0;
+    double wedge = i->breakable ? build_wedge_area(s, &n->ice.thinnest) : 0;
     if (i->breakable)
         note_fact(n, "thresholds: floes have %.2g of a wedge at least, %.3g m2 where ice breaks at rest",
                   i->smallest_floe_area / wedge, wedge);
@@ -124,7 +127,7 @@ static void note_fracture(const note_taker *n, const scenario *s)
         return;
     }
     /* The thinnest ice breaks after the least of crushing. */
-    const ice_kind kind = ice_range_of(i).thinnest;
+    const ice_kind kind = n->ice.thinnest;
     double h = kind.thickness, sigma = kind.crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = ice_kind_material(i, &kind);
     fracture_settings f = build_fracture_settings(s);
@@ -183,7 +186,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
     double speed = speed_in_ice(s, v), way = speed * s->run.time_step;
-    double thickness = ice_range_of(&s->ice).thinnest.thickness;
+    double thickness = n->ice.thinnest.thickness;
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * thickness)
         note_warning(n,
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
@@ -217,11 +220,19 @@ static void take_notes(const note_taker *n, const scenario *s)
         note_vessel(n, s, &entry);
         note_channel(n, s, &entry);
     }
-    sanity_tell(s, tell_warning, n);
+    sanity_tell(s, n->made, tell_warning, n);
     if (s->run.solver.baumgarte)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");
 }
 
-void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { take_notes(&(note_taker){ctx, out}, s); }
+void scenario_notes_made(context *ctx, const scenario *s, const world *made, text_buffer *out)
+{
+    take_notes(&(note_taker){ctx, out, made, ice_range_made(&s->ice, made)}, s);
+}
 
-void scenario_log_warnings(context *ctx, const scenario *s) { take_notes(&(note_taker){ctx, NULL}, s); }
+void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenario_notes_made(ctx, s, NULL, out); }
+
+void scenario_log_warnings(context *ctx, const scenario *s, const world *made)
+{
+    scenario_notes_made(ctx, s, made, NULL);
+}

@@ -142,8 +142,13 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
         status = recording_prepare(&r.record, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK) {
-        scenario_log_warnings(ctx, s);
+        /* How thick the floes of a file are is known when they are made. */
+        bool of_file = s->ice.source == ICE_FILE;
+        if (!of_file)
+            scenario_log_warnings(ctx, s, NULL);
         status = make_world(&r, &report, error);
+        if (of_file)
+            scenario_log_warnings(ctx, s, status == FRAM_OK ? &r.world : NULL);
     }
     if (status == FRAM_OK) {
         log_start(&r, &report);

@@ -178,7 +178,8 @@ static void tell_heave(const teller *t)
     const scenario_environment *e = &t->s->environment;
     if (i->source == ICE_NONE || !e->water)
         return;
-    double h = ice_range_of(i).thinnest.thickness, frequency = sqrt(e->water_density * e->gravity / (i->density * h));
+    double h = ice_range_made(i, t->made).thinnest.thickness,
+           frequency = sqrt(e->water_density * e->gravity / (i->density * h));
     if (frequency * t->s->run.time_step > 1)
         sanity_say(
             t->tell, t->to,
@@ -251,10 +252,11 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    "waterline, not above the keel",
                    e->path, e->keys->centre_of_gravity_z, h->freeboard);
     const scenario_ice *i = &t->s->ice;
-    double thickest = ice_range_of(i).thickest.thickness;
-    const char *key = thickest == i->thickness ? "ice.thickness"
-                      : i->source == ICE_FLOES ? "ice.floes[].thickness"
-                                               : "ice.populations[].thickness";
+    double thickest = ice_range_made(i, t->made).thickest.thickness;
+    const char *key = thickest == i->thickness           ? "ice.thickness"
+                      : t->made && i->source == ICE_FILE ? "ice.file"
+                      : i->source == ICE_FLOES           ? "ice.floes[].thickness"
+                                                         : "ice.populations[].thickness";
     if (i->source != ICE_NONE && thickest > h->draught)
         sanity_say(t->tell, t->to, "%s: %.4g m is more than the draught of the vessel, %.4g m", key, thickest,
                    h->draught);
@@ -409,13 +411,13 @@ static void tell_vessel_station(const teller *t, const vessel_entry *e)
                    e->path);
 }
 
-void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
+void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const void *to)
 {
-    teller t = {s, tell, to, NULL};
+    teller t = {s, tell, to, NULL, made};
     (void)scenario_walk(s, look_at_number, &t, NULL);
     tell_heave(&t);
     tell_ice_shape(&t);
-    sanity_tell_ice(s, tell, to);
+    sanity_tell_ice(s, made, tell, to);
     sanity_tell_idle(s, tell, to);
     tell_directions(&t);
     sanity_tell_times(s, tell, to);

@@ -4,6 +4,7 @@
 #define SIM_SANITY_H
 
 #include "model/scenario_vessel.h"
+#include "model/world.h"
 
 #include <math.h>
 
@@ -12,8 +13,8 @@ typedef void (*sanity_teller)(const void *to, const char *text);
 /* One sentence, as printf makes it; what goes beyond SANITY_SENTENCE bytes is cut off. */
 enum { SANITY_SENTENCE = 380 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* From the keys alone, nothing is built. */
-void sanity_tell(const scenario *s, sanity_teller tell, const void *to);
+/* From the keys, nothing is built; made: the world that was, before its first step, which knows more; NULL: none. */
+void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const void *to);
 /* What of a vessel's gear does not belong together or to its hull.  sanity_tell asks. */
 void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
@@ -21,7 +22,7 @@ void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller te
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
-void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to);
+void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to);
 /* Of the times of the run and of what it writes.  sanity_tell asks. */
 void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */

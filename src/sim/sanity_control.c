@@ -285,7 +285,7 @@ static void tell_station(const teller *t)
 
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, e};
+    const teller t = {s, tell, to, e, NULL};
     tell_positioning(&t);
     for (int32_t i = 0; i < e->keys->thrusters.count; i++)
         tell_thruster(&t, i);

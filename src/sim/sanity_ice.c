@@ -14,11 +14,20 @@
 /* Of the thickness: edges as long belong to the shape of a floe. */
 #define LONG_EDGE 1.0
 
+static ice_kind thinnest_of(const teller *t) { return ice_range_made(&t->s->ice, t->made).thinnest; }
+
+/* Without breaking no wedge is too small. */
+static double wedge_of(const teller *t)
+{
+    const ice_kind kind = thinnest_of(t);
+    return t->s->ice.breakable ? build_wedge_area(t->s, &kind) : HUGE_VAL;
+}
+
 static void tell_left_out(const teller *t, const char *key, double area)
 {
     const scenario_ice *i = &t->s->ice;
     bool mean_floe = i->source == ICE_VORONOI && i->populations.count == 0;
-    double wedge = i->breakable ? build_wedge_area(t->s) : HUGE_VAL;
+    double wedge = wedge_of(t);
     if (mean_floe && area > SANITY_LEFT_OUT * i->mean_floe_area)
         sanity_say(t->tell, t->to,
                    "ice.%s: %.4g m2 is %.2g of the mean floe, %.4g m2: ice that is asked for is left out; give a "
@@ -50,7 +59,7 @@ static void tell_law_cut(const teller *t)
 static void tell_wedges_kept(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
-    double wedge = i->breakable ? build_wedge_area(t->s) : HUGE_VAL, area = i->smallest_floe_area;
+    double wedge = wedge_of(t), area = i->smallest_floe_area;
     if (area > WEDGES_KEPT * wedge && area <= wedge)
         sanity_say(
             t->tell, t->to,
@@ -63,7 +72,7 @@ static void tell_wedges_kept(const teller *t)
 static void tell_thresholds(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
-    double speck = SPECK * i->thickness * i->thickness;
+    double thickness = thinnest_of(t).thickness, speck = SPECK * thickness * thickness;
     tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
     tell_law_cut(t);
@@ -72,12 +81,12 @@ static void tell_thresholds(const teller *t)
         sanity_say(t->tell, t->to,
                    "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "
                    "it breaks: take %.2g m2 or more",
-                   i->smallest_floe_area, i->thickness, speck);
-    if (i->edge_threshold > LONG_EDGE * i->thickness)
+                   i->smallest_floe_area, thickness, speck);
+    if (i->edge_threshold > LONG_EDGE * thickness)
         sanity_say(t->tell, t->to,
                    "ice.edge_threshold: edges under %.4g m are removed from floes of %.3g m thickness, and their shape "
                    "with them: give a length far under the thickness, or the run.scale (%g) by which it is found",
-                   i->edge_threshold, i->thickness, t->s->run.scale);
+                   i->edge_threshold, thickness, t->s->run.scale);
 }
 
 /* ---- the field ---- */
@@ -238,9 +247,9 @@ static void tell_floes(const teller *t)
     }
 }
 
-void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to)
+void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, NULL};
+    const teller t = {s, tell, to, NULL, made};
     if (s->ice.source == ICE_NONE)
         return;
     tell_thresholds(&t);

@@ -11,6 +11,7 @@ typedef struct teller {
     sanity_teller tell;
     const void *to;
     const vessel_entry *e; /* NULL where no vessel is looked at */
+    const world *made;     /* NULL: none, or not asked */
 } teller;
 
 enum { SANITY_PATTERN = 96 };

@@ -346,7 +346,7 @@ static void tell_flows(const teller *t)
 
 void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, e};
+    const teller t = {s, tell, to, e, NULL};
     tell_inertia(&t);
     tell_thrusters(&t);
     tell_vessel_propulsion(&t);

@@ -150,6 +150,12 @@ START_TEST(worlds)
     REFUSED_NULL(fram_world_create(NULL, &w, &e), fram_world_create(NULL, &w, NULL));
     REFUSED(fram_world_create(scenario_of_test, NULL, &e));
     assert_ok(fram_world_create(scenario_of_test, &w, &e), e);
+    char *told;
+    REFUSED_NULL(fram_world_notes(NULL, &told, &e), fram_world_notes(NULL, &told, NULL));
+    REFUSED(fram_world_notes(w, NULL, &e));
+    assert_ok(fram_world_notes(w, &told, &e), e);
+    ck_assert_str_eq(told, fram_scenario_notes(scenario_of_test));
+    fram_text_free(context_of_test, told);
     REFUSED(fram_world_step(NULL, &e));
     assert_ok(fram_world_step(w, NULL), e);
     ck_assert(isnan(fram_world_time(NULL)) && fram_world_steps(NULL) == 0 && fram_world_hash(NULL) == 0 &&

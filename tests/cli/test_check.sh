@@ -191,4 +191,22 @@ says "ice: 5 m thick, 4.488 m of it" err
 says "ice.populations[].thickness: 5 m is more than the draught" err
 expect 0 "$FRAM" check thin.yaml --set ice.thickness=9
 grep 'more than the draught' err && fail "told of a thickness that no floe has"
+# Floes of a file have the thicknesses that it gives, which are known where they are made.
+python3 - <<'PY'
+import json
+square = lambda x, h: {"type": "Feature", "properties": {"thickness": h}, "geometry": {
+    "type": "Polygon", "coordinates": [[[x, 20], [x + 10, 20], [x + 10, 30], [x, 30], [x, 20]]]}}
+json.dump({"type": "FeatureCollection", "features": [square(0, 0.05), square(20, 5)]}, open("floes.geojson", "w"))
+PY
+sed 's/^ice:.*/ice: {source: file, file: floes.geojson}/; s/duration: 10/duration: 0.04/' thin.yaml >filed.yaml
+expect 0 "$FRAM" check filed.yaml
+says "ice: thicknesses that its file gives to floes go before that" err
+expect 0 "$FRAM" check filed.yaml --build
+says "ice: 0.05 m thick, 0.04488 m of it" err
+says "ice: 5 m thick, 4.488 m of it" err
+says "move 0.4 of its thickness past each other in a step" err
+says "ice.file: 5 m is more than the draught" err
+grep -e '1 m thick' -e 'go before' err && fail "told of ice that there is not"
+expect 0 "$FRAM" run filed.yaml -o filed
+says "move 0.4 of its thickness past each other in a step" err
 finish "what cannot be is refused, what will be is told"
