@@ -137,6 +137,11 @@ fram_status vessel_fault(const scenario *s, const vessel_entry *entry, const cha
     return status;
 }
 
+bool vessel_begins_at_equilibrium(const scenario_vessel *v)
+{
+    return v->mode == VESSEL_FREE && v->mooring.equilibrium && v->mooring.lines.count > 0;
+}
+
 int32_t scenario_released_lines(const scenario_vessel *v, double time)
 {
     int32_t count = 0;

@@ -48,6 +48,10 @@ typedef struct vessel_file {
 } vessel_file;
 vessel_file vessel_file_name(const scenario *s, int32_t index, const char *stem, const char *ending);
 
+/* Whether it begins where its mooring holds it, and not where the scenario puts it: that is found as its world is made.
+ */
+bool vessel_begins_at_equilibrium(const scenario_vessel *v);
+
 /* Mooring lines that the scenario lets go by this time. */
 int32_t scenario_released_lines(const scenario_vessel *v, double time);
 

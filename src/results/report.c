@@ -123,9 +123,8 @@ static void vessel_facts(report *r, const vessel_entry *entry)
         html_fact(&r->page, "motion", "along a path of %d points", (int)v->path.count);
     else if (v->mode == VESSEL_FREE)
         html_fact(&r->page, "motion", "free in six degrees of freedom, heading %g deg%s%s", v->heading_deg,
-                  v->mooring.equilibrium && v->mooring.lines.count > 0
-                      ? ", from which it begins at the equilibrium of its mooring"
-                      : " at the start",
+                  vessel_begins_at_equilibrium(v) ? ", from which it begins at the equilibrium of its mooring"
+                                                  : " at the start",
                   v->speed > 0 ? ", under way" : ", at rest");
     else
         html_fact(&r->page, "motion", "%g m/s towards %g deg, heading %g deg", v->speed,

@@ -12,6 +12,7 @@
 typedef struct effective_list {
     context *ctx;
     const scenario *s;
+    const world *made;
     sanity_teller tell;
     const void *to;
 } effective_list;
@@ -47,18 +48,19 @@ static const char *meets_from(double towards, double heading)
     return sides[eighth_of(towards + 180 - heading)];
 }
 
-static double heading_at_start(const scenario_vessel *v)
+/* A single vessel that is where its keys say, or where it was found to begin. */
+static bool meets_are_known(const effective_list *t)
 {
-    return v->path.count > 0 ? v->path.data[0].heading_deg : v->heading_deg;
+    return scenario_vessel_count(t->s) == 1 &&
+           (t->made || !vessel_begins_at_equilibrium(scenario_vessel_entry(t->s, 0).keys));
 }
 
 /* "0.4 m/s towards 180 deg ←", with where a single vessel is met. */
 static void motion_words(const effective_list *t, double speed, double towards, char out[PART_SIZE])
 {
     int n = snprintf(out, PART_SIZE, "%.4g m/s towards %.4g deg %s", speed, towards, arrow_of(towards));
-    if (speed > 0 && scenario_vessel_count(t->s) == 1)
-        snprintf(out + n, PART_SIZE - (size_t)n, ", from %s",
-                 meets_from(towards, heading_at_start(scenario_vessel_entry(t->s, 0).keys)));
+    if (speed > 0 && meets_are_known(t))
+        snprintf(out + n, PART_SIZE - (size_t)n, ", from %s", meets_from(towards, sanity_heading(t->s, 0, t->made)));
     else if (!(speed > 0))
         snprintf(out, PART_SIZE, "0");
 }
@@ -242,9 +244,17 @@ static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2
         snprintf(out, room, ", held by nothing");
 }
 
-static void tell_vessel(const effective_list *t, const vessel_entry *e)
+/* What goes with the heading of a free vessel. */
+static const char *equilibrium_words(const effective_list *t, const scenario_vessel *v)
 {
-    const scenario_vessel *v = e->keys;
+    if (!vessel_begins_at_equilibrium(v))
+        return "";
+    return t->made ? " at the equilibrium of its mooring" : ", from which it begins at the equilibrium of its mooring";
+}
+
+static void tell_vessel(const effective_list *t, int32_t vessel)
+{
+    const scenario_vessel *v = scenario_vessel_entry(t->s, vessel).keys;
     char kept[SANITY_SENTENCE / 2], name[64];
     snprintf(name, sizeof name, "vessel%s%.*s", v->name[0] ? " " : "", (int)VESSEL_NAME_MOST, v->name);
     if (v->path.count > 0) {
@@ -252,8 +262,9 @@ static void tell_vessel(const effective_list *t, const vessel_entry *e)
                    v->path.data[v->path.count - 1].time);
     } else if (v->mode == VESSEL_FREE) {
         keeping_words(v, kept);
-        sanity_say(t->tell, t->to, "%s: free, bow towards %.4g deg %s, %.4g m/s at the start%s", name, v->heading_deg,
-                   arrow_of(v->heading_deg), v->speed, kept);
+        double heading = sanity_heading(t->s, vessel, t->made);
+        sanity_say(t->tell, t->to, "%s: free, bow towards %.4g deg %s%s, %.4g m/s at the start%s", name, heading,
+                   arrow_of(heading), equilibrium_words(t, v), v->speed, kept);
     } else {
         double course = automatic_or(v->course_deg, v->heading_deg);
         sanity_say(t->tell, t->to,
@@ -263,13 +274,11 @@ static void tell_vessel(const effective_list *t, const vessel_entry *e)
     }
 }
 
-void effective_tell(context *ctx, const scenario *s, sanity_teller tell, const void *to)
+void effective_tell(context *ctx, const scenario *s, const world *made, sanity_teller tell, const void *to)
 {
-    const effective_list t = {ctx, s, tell, to};
-    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
-        vessel_entry e = scenario_vessel_entry(s, i);
-        tell_vessel(&t, &e);
-    }
+    const effective_list t = {ctx, s, made, tell, to};
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++)
+        tell_vessel(&t, i);
     list_populations(&t);
     list_flows(&t);
 }

@@ -5,7 +5,9 @@
 
 #include "sim/sanity.h"
 
-/* A file that cannot be read is told as that: a report may be made where the inputs of its run are gone. */
-void effective_tell(context *ctx, const scenario *s, sanity_teller tell, const void *to);
+/* A file that cannot be read is told as that: a report may be made where the inputs of its run are gone.  made: the
+   world that was made of it, before its first step; NULL: none, and where a vessel begins that is moored is not told.
+ */
+void effective_tell(context *ctx, const scenario *s, const world *made, sanity_teller tell, const void *to);
 
 #endif

@@ -212,7 +212,7 @@ static void take_notes(const note_taker *n, const scenario *s)
               size.floes, size.floes > 0.5 && size.floes < 1.5 ? "" : "s", s->run.memory_limit);
     note_fact(n, "disk: about %.2g MB for what the run leaves", size.disk * 1e-6);
     if (n->out)
-        effective_tell(n->ctx, s, tell_fact, n);
+        effective_tell(n->ctx, s, n->made, tell_fact, n);
     note_ice(n, s);
     note_fracture(n, s);
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {

@@ -429,7 +429,7 @@ void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const
         tell_domain(&t, &e);
         tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
-        sanity_tell_vessel(s, &e, tell, to);
+        sanity_tell_vessel(s, i, made, tell, to);
         sanity_tell_control(s, &e, tell, to);
     }
 }

@@ -16,7 +16,7 @@ void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __a
 /* From the keys, nothing is built; made: the world that was, before its first step, which knows more; NULL: none. */
 void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const void *to);
 /* What of a vessel's gear does not belong together or to its hull.  sanity_tell asks. */
-void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
+void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sanity_teller tell, const void *to);
 /* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
@@ -27,6 +27,9 @@ void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, c
 void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
+
+/* With which heading a vessel begins [deg]: that of `made`, else that of its keys. */
+double sanity_heading(const scenario *s, int32_t vessel, const world *made);
 
 /* Whether a current of that speed across a hull [m/s] matters to its station, and acts on its faces with the drag of
    one that goes ahead. */

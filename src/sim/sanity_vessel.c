@@ -315,13 +315,21 @@ bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double a
            n->hull_drag.water_form < SIDE_LEAST && across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
 }
 
+double sanity_heading(const scenario *s, int32_t vessel, const world *made)
+{
+    const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
+    if (made && vessel_begins_at_equilibrium(v))
+        return degrees(quat_roll_pitch_yaw(made->bodies.orientation[made->vessels.body[vessel]]).z);
+    return v->path.count > 0 ? v->path.data[0].heading_deg : v->heading_deg;
+}
+
 /* A vessel kept on station in a beam current with the drag of a hull that goes ahead. */
-static void tell_current_across(const teller *t)
+static void tell_current_across(const teller *t, double heading_deg)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_environment *n = &t->s->environment;
     bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active);
-    double across = n->current_speed * fabs(real_sin((n->current_direction_deg - v->heading_deg) * (PI / 180)));
+    double across = n->current_speed * fabs(real_sin((n->current_direction_deg - heading_deg) * (PI / 180)));
     if (!kept || n->current_file[0] != '\0' || !sanity_drags_as_ahead(t->s, v, across))
         return;
     sanity_say(
@@ -335,7 +343,6 @@ static void tell_flows(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_hull *h = &v->hull;
-    tell_current_across(t);
     if (!sanity_own_hull(v))
         return;
     tell_area(t, "current_coefficients.frontal_area", v->current_coefficients.frontal_area, h->beam * h->draught);
@@ -344,9 +351,10 @@ static void tell_flows(const teller *t)
     tell_area(t, "wind_coefficients.lateral_area", v->wind_coefficients.lateral_area, h->length * h->freeboard);
 }
 
-void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
+void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, e, NULL};
+    const vessel_entry entry = scenario_vessel_entry(s, vessel), *e = &entry;
+    const teller t = {s, tell, to, e, made};
     tell_inertia(&t);
     tell_thrusters(&t);
     tell_vessel_propulsion(&t);
@@ -355,5 +363,6 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
     tell_fairleads(&t);
     tell_motion(&t);
     tell_dry(&t);
+    tell_current_across(&t, sanity_heading(s, vessel, made));
     tell_flows(&t);
 }

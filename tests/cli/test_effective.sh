@@ -11,6 +11,7 @@ vessel:
   mooring:
     depth: 120
     turret: true
+    equilibrium: false
     lines:
       - {count: 4, spacing_deg: 90, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8}
       - {kind: spring, direction_deg: 0, distance: 300, pretension: 1.0e5, stiffness: 1.0e6}
@@ -77,6 +78,25 @@ printf 'ice: {source: none}\ndomain: {boundary: open}\nenvironment: {wind_speed:
 expect 0 "$FRAM" check open.yaml
 grep -q 'drift of the ice' err && fail "open water drifts as ice"
 told "wind: 9 m/s"
+
+# Where a moored vessel begins is found as its world is made; until then no side is met.
+cat >tanker.yaml <<'YAML'
+run: {duration: 0.1, time_step: 0.05}
+vessel:
+  mode: free
+  hull: {form: ship, length: 180, beam: 30, draught: 10, freeboard: 5}
+  mooring: {depth: 80, lines: [{count: 8, spacing_deg: 45, distance: 600, pretension: 5.0e5}]}
+ice: {source: none}
+domain: {boundary: open}
+environment: {current_speed: 0.4, current_direction_deg: 150}
+YAML
+expect 0 "$FRAM" check tanker.yaml
+told "bow towards 0 deg →, from which it begins at the equilibrium of its mooring, 0 m/s at the start, 8 mooring lines"
+holds "current: 0.4 m/s towards 150 deg ↖\$" err
+expect 0 "$FRAM" check tanker.yaml --build
+told "bow towards 59.36 deg ↗ at the equilibrium of its mooring, 0 m/s at the start, 8 mooring lines"
+told "current: 0.4 m/s towards 150 deg ↖, from the starboard beam"
+told "a current of 0.4 m/s comes across the hull"
 
 # On a carriage.
 cat >tow.yaml <<'YAML'
