@@ -6,6 +6,7 @@
 #include "results/station_results.h"
 #include "results/track_results.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -133,15 +134,50 @@ static void vessel_facts(report *r, const vessel_entry *entry)
         kept_facts(r, v);
 }
 
-/* Ice that differs in kind: populations, each with its share and what it has of its own. */
+static const char *breaking_words(bool breaks) { return breaks ? "breaks" : "does not break"; }
+
+/* Ice that differs in kind: populations, each with what it has of its own. */
 static void population_facts(report *r, const scenario_ice *i)
 {
     for (int32_t k = 0; k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
-        html_fact(&r->page, k == 0 ? "populations" : "", "%d: %g m thick, flexural strength %g kPa", (int)k + 1,
+        html_fact(&r->page, k == 0 ? "populations" : "",
+                  "%d: %g m thick; crushing %g kPa, flexural strength %g kPa; %s", (int)k + 1,
                   automatic_or(p->thickness, i->thickness),
-                  automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3);
+                  automatic_or(p->crushing_strength, i->crushing_strength) * 1e-3,
+                  automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
+                  breaking_words(i->breakable && p->breakable));
     }
+}
+
+static void take_thickness(double thickness, double range[2])
+{
+    range[0] = fmin(range[0], thickness);
+    range[1] = fmax(range[1], thickness);
+}
+
+/* "0.25 to 0.3 m thick": of floes from a file that of the record, of all others what the scenario gives them. */
+static const char *thickness_words(const report *r, const scenario_ice *i, char out[64])
+{
+    double range[2] = {HUGE_VAL, -HUGE_VAL};
+    bool drawn = i->source == ICE_VORONOI || i->source == ICE_PACKED;
+    for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
+        take_thickness(automatic_or(i->floes.data[k].thickness, i->thickness), range);
+    for (int32_t k = 0; drawn && k < i->populations.count; k++)
+        take_thickness(automatic_or(i->populations.data[k].thickness, i->thickness), range);
+    if (i->source == ICE_FILE && r->d.before.areas.count > 0) {
+        take_thickness(r->d.before.thinnest, range);
+        take_thickness(r->d.before.thickest, range);
+    } else if (i->source == ICE_FILE) {
+        return "as thick as their file says"; /* without a record */
+    }
+    if (!(range[1] > 0))
+        take_thickness(i->thickness, range);
+    int n = snprintf(out, 64, "%.4g", range[0]);
+    if (range[1] > range[0] * (1 + 1e-6))
+        n += snprintf(out + n, 64 - (size_t)n, " to %.4g", range[1]);
+    snprintf(out + n, 64 - (size_t)n, " m thick");
+    return out;
 }
 
 /* Strengths that vary from place to place. */
@@ -161,9 +197,13 @@ static void ice_facts(report *r)
     static const char *const sources[] = {
         "managed ice (Voronoi cells)", "listed floes", "none", "observed floes", "level ice", "packed floes"};
     const scenario_ice *i = &r->d.s.ice;
-    html_fact(&r->page, "ice", "%s, %g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s",
-              sources[i->source], i->thickness, i->density, i->crushing_strength * 1e-3, i->flexural_strength * 1e-3,
-              i->breakable ? "breaks" : "does not break");
+    char thick[64], strength[128] = "";
+    bool populated = (i->source == ICE_VORONOI || i->source == ICE_PACKED) && i->populations.count > 0;
+    if (!populated) /* each has its own */
+        snprintf(strength, sizeof strength, "; crushing %g kPa, flexural strength %g kPa; %s",
+                 i->crushing_strength * 1e-3, i->flexural_strength * 1e-3, breaking_words(i->breakable));
+    html_fact(&r->page, "ice", "%s, %s, %g kg/m3%s", sources[i->source], thickness_words(r, i, thick), i->density,
+              strength);
     strength_fact(r, &i->strength);
     if (i->source == ICE_FILE)
         html_fact(&r->page, "field", "from %s", file_told(r, i->file));

@@ -214,6 +214,8 @@ static fram_status add_floes(context *ctx, const replay *r, const replay_moment 
         f->area += b->area;
         f->mass += b->area * b->thickness * b->density;
         volume += b->area * b->thickness;
+        f->thinnest = fmin(f->thinnest, b->thickness);
+        f->thickest = fmax(f->thickest, b->thickness);
         f->fixed += !b->moves;
         if (!array_push(ctx, &f->areas, b->area))
             return error_memory(error);
@@ -229,7 +231,7 @@ static fram_status note_field(context *ctx, replay *r, const scenario_domain *d,
 {
     replay_moment m = {0};
     array_clear(&f->areas);
-    *f = (field_state){.time = r->frame.time, .areas = f->areas};
+    *f = (field_state){.time = r->frame.time, .areas = f->areas, .thinnest = HUGE_VAL, .thickest = -HUGE_VAL};
     fram_status status = replay_moment_now(r, &m, error);
     if (status == FRAM_OK)
         status = add_floes(ctx, r, &m, d, f, error);

@@ -42,6 +42,7 @@ typedef struct field_state {
     double area, mass;  /* of all ice [m2], [kg] */
     double inside;      /* what of its area lies in the domain [m2] */
     double thickness;   /* mean over the area [m] */
+    double thinnest, thickest;
     double mean, median, greatest;
     int32_t fixed; /* of the floes */
 } field_state;

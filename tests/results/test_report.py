@@ -313,6 +313,41 @@ def check_loose(folder):
     assert page.count("<td>bending</td>") == bent and page.count("<td>came loose</td>") == 1
 
 
+FLOES = """
+run: {duration: 0.02, time_step: 0.02}
+vessel: {mode: towed, x: -30, speed: 1, %s}
+ice: {density: 900, %%s}
+domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40, boundary: open}
+output: {frame_interval: 0.02}
+""" % VESSEL
+
+
+def check_ice(folder):
+    """The ice that is told is that which there was, not what ice.thickness and the strengths beside it say."""
+    (folder / "thick.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [
+        [[10, 0], [20, 0], [20, 10], [10, 10], [10, 0]]]}).join(
+            ('{"type": "Feature", "properties": {"thickness": 1.5}, "geometry": ', "}")))
+    strengths = "; crushing 2000 kPa, flexural strength 500 kPa; does not break"
+    for ice, told, populations in (
+            ("source: file, file: thick.geojson, thickness: 0.8", f"observed floes, 1.5 m thick, 900 kg/m3{strengths}",
+             None),
+            ("source: floes, floes: [{x: 20, length: 9, width: 9, thickness: 0.3}, {x: 40, length: 9, width: 9, "
+             "thickness: 0.25}]", f"listed floes, 0.25 to 0.3 m thick, 900 kg/m3{strengths}", None),
+            ("source: voronoi, concentration: 0.5, breakable: true, populations: [{size: constant, diameter: 20, "
+             "thickness: 0.2, crushing_strength: 1.0e+6, breakable: false}]",
+             "managed ice (Voronoi cells), 0.2 m thick, 900 kg/m3",
+             "1: 0.2 m thick; crushing 1000 kPa, flexural strength 500 kPa; does not break"),
+            ("source: voronoi, concentration: 0.5", f"managed ice (Voronoi cells), 1 m thick, 900 kg/m3{strengths}", None)):
+        file, run = folder / "ice.yaml", folder / "ice"
+        file.write_text(FLOES % ice)
+        subprocess.run([FRAM, "run", file, "-o", run, "-q", "--force"], check=True)
+        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        tables = Tables()
+        tables.feed((run / "report.html").read_text())
+        assert tables.rows["ice"] == [told], (tables.rows["ice"], told)
+        assert tables.rows.get("populations") == (populations and [populations]), tables.rows["populations"]
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -326,6 +361,7 @@ def main():
         check_times(pathlib.Path(folder))
         check_water(pathlib.Path(folder), pictures)
         check_loose(pathlib.Path(folder))
+        check_ice(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))
 
 
