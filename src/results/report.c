@@ -208,7 +208,8 @@ static void ice_facts(report *r)
     if (i->source == ICE_FILE)
         html_fact(&r->page, "field", "from %s", file_told(r, i->file));
     if (i->source == ICE_VORONOI && i->populations.count == 0)
-        html_fact(&r->page, "field", "%g %% of the area free for ice requested, floes of %g m2 on average",
+        html_fact(&r->page, "field",
+                  "%g %% of the area free for ice requested: floes are cut from cells of %g m2 on average",
                   100 * i->concentration, i->mean_floe_area);
     else if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
         html_fact(&r->page, "field", "%g %% of the area free for ice requested", 100 * i->concentration);

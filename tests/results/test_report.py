@@ -346,6 +346,7 @@ def check_ice(folder):
         tables.feed((run / "report.html").read_text())
         assert tables.rows["ice"] == [told], (tables.rows["ice"], told)
         assert tables.rows.get("populations") == (populations and [populations]), tables.rows["populations"]
+    assert "floes are cut from cells of 400 m2 on average" in tables.rows["field"][0], tables.rows["field"]
 
 
 def main():
