@@ -61,6 +61,18 @@ static void station_figure(report *r, int32_t vessel)
     vessel_figure(r, "largest offset", most, "m");
 }
 
+/* A program may have stepped the world before it was recorded. */
+static void simulated_figure(report *r)
+{
+    char text[64];
+    double from = run_recorded_from(&r->d);
+    snprintf(text, sizeof text, "%.10g to %.10g", from, r->d.note.time);
+    if (from > 0)
+        html_figure(&r->page, "recorded", text, "s");
+    else
+        figure(r, "simulated", r->d.note.time, "s");
+}
+
 static fram_status key_figures(report *r, fram_error *error)
 {
     const double *time = run_channel(&r->d, "time");
@@ -69,7 +81,7 @@ static fram_status key_figures(report *r, fram_error *error)
     html_figures_begin(&r->page);
     for (int32_t v = 0; v < vessels && status == FRAM_OK; v++)
         status = vessel_figures(r, v, time, error);
-    figure(r, "simulated", r->d.note.time, "s");
+    simulated_figure(r);
     if (r->d.frames > 0)
         figure(r, "floes at the start", r->d.before.areas.count, "");
     figure(r, "floes that broke", run_fractures(&r->d, FRACTURE_BENDING) + run_fractures(&r->d, FRACTURE_SPLIT), "");
@@ -300,12 +312,17 @@ static fram_status appendix(report *r, fram_error *error)
 
 static fram_status compose_report(report *r, fram_error *error)
 {
-    char subtitle[1400];
+    char subtitle[1400], extent[96];
+    double from = run_recorded_from(&r->d);
     const char *folder = r->d.folder, *slash = strrchr(folder, '/');
     if (folder[0] == '/' && slash[1] && !r->with_paths)
         folder = slash + 1;
-    snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s",
-             run_is_open(&r->d) ? "not finished" : r->d.note.status, folder, r->d.note.time, r->d.note.version);
+    if (from > 0)
+        snprintf(extent, sizeof extent, "recorded from %g to %g s of %g", from, r->d.note.time, r->d.s.run.duration);
+    else
+        snprintf(extent, sizeof extent, "%g s simulated", r->d.note.time);
+    snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %s; Fram %s",
+             run_is_open(&r->d) ? "not finished" : r->d.note.status, folder, extent, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
     fram_status status = report_verdict(r, error);
     if (status == FRAM_OK)

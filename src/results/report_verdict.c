@@ -115,12 +115,12 @@ typedef struct limit_use {
     bool unsure;       /* it may have been, in steps without a row */
 } limit_use;
 
-/* What the run's own events tell of the steps that the series leaves out.  What was lost before the transient ended is
-   regained within 0.9 of the limit only: it may have been within the limit since. */
+/* What the run's own events tell of the steps that the series leaves out, or that came before it.  What was lost before
+   the transient ended is regained within 0.9 of the limit only: it may have been within the limit since. */
 static limit_use limit_between(const report *r, station_event lost, station_event regained)
 {
     double from = r->d.s.run.transient;
-    if (!run_leaves_out_steps(&r->d))
+    if (!run_leaves_out_steps(&r->d) && !(run_recorded_from(&r->d) > 0))
         return (limit_use){.first = HUGE_VAL};
     return (limit_use){.first = run_event_from(&r->d, r->vessel, lost, from),
                        .unsure = run_lacks_events(&r->d) || run_event_goes_on(&r->d, r->vessel, lost, regained, from)};
@@ -146,6 +146,12 @@ static limit_use limit_of(const report *r, const char *x_name, const char *y_nam
     return u;
 }
 
+/* Where a time has no row. */
+static const char *no_row_words(const report *r, double time)
+{
+    return time < run_recorded_from(&r->d) ? "before the recording began" : "between two rows of the series";
+}
+
 static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
 {
     char most[32], name[48];
@@ -160,14 +166,15 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
     v->lost |= isfinite(u.first);
     v->unsure |= u.unsure;
     if (u.unsure)
-        find(v, VERDICT_CAUTION, "Make output.csv_interval shorter to see.",
-             "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, between two rows of the series, which "
-             "reaches %s %s.",
-             name, what, limit, unit, v->r->d.s.run.transient, most, unit);
+        find(v, VERDICT_CAUTION,
+             run_leaves_out_steps(&v->r->d) ? "Make output.csv_interval shorter to see." : "Record it from its start.",
+             "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, %s; the rows reach %s %s.", name, what,
+             limit, unit, v->r->d.s.run.transient, no_row_words(v->r, v->r->d.s.run.transient), most, unit);
     else if (isfinite(u.first) && !(u.most > limit))
-        find(v, VERDICT_BAD, "Make output.csv_interval shorter to see by how much.",
-             "%sthe %s passed its limit of %.4g %s at %.6g s, between two rows of the series, which reaches %s %s.",
-             name, what, limit, unit, u.first, most, unit);
+        find(v, VERDICT_BAD,
+             u.first < run_recorded_from(&v->r->d) ? "" : "Make output.csv_interval shorter to see by how much.",
+             "%sthe %s passed its limit of %.4g %s at %.6g s, %s; the rows reach %s %s.", name, what, limit, unit,
+             u.first, no_row_words(v->r, u.first), most, unit);
     else if (u.most > limit)
         find(v, VERDICT_BAD,
              "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
@@ -455,10 +462,12 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
         snprintf(lines, sizeof lines, " The line did not part.");
     bool several = scenario_vessel_count(&r->d.s) > 1;
     const char *who = !several ? "The vessel" : v->lost || v->unsure ? "A vessel" : "Every vessel with a limit";
-    const char *did = v->lost     ? " did not hold its station."
-                      : v->unsure ? " may not have held its station."
-                      : finished  ? " held its station."
-                                  : " held its station as far as the run went.";
+    char held[96], since[40] = "";
+    double from = run_recorded_from(&r->d);
+    if (from > 0)
+        snprintf(since, sizeof since, " from %.6g s on", from);
+    snprintf(held, sizeof held, " held its station%s%s.", since, finished ? "" : " as far as the run went");
+    const char *did = v->lost ? " did not hold its station." : v->unsure ? " may not have held its station." : held;
     const char *end = finished ? "The run finished." : "The run has not finished.";
     snprintf(out, TEXT_SIZE, "%s%s%s%s", v->kept ? who : end, v->kept ? did : "", lines, v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;

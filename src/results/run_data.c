@@ -428,6 +428,15 @@ int32_t run_first_row(const run_data *d)
     return first;
 }
 
+double run_recorded_from(const run_data *d)
+{
+    const double *time = run_channel(d, "time");
+    double step = d->s.run.time_step, first = time && d->series.rows > 0 ? time[0] : 0;
+    if (d->frames > 0)
+        first = fmin(first, d->before.time);
+    return first > fmax(step, d->s.output.csv_interval) + 0.5 * step ? first : 0;
+}
+
 bool run_leaves_out_steps(const run_data *d) { return floor(d->s.output.csv_interval / d->s.run.time_step + 0.5) > 1; }
 
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error)

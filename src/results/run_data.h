@@ -79,6 +79,8 @@ int32_t run_lines_broken(const run_data *d, int32_t vessel);
 int32_t run_fractures(const run_data *d, int kind);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
+/* From when on a run was recorded that a program had stepped before [s]; 0: from its start, or nothing tells. */
+double run_recorded_from(const run_data *d);
 /* Whether rows of the series are more than a step apart. */
 bool run_leaves_out_steps(const run_data *d);
 /* That the series has no rows. */

@@ -313,6 +313,28 @@ def check_loose(folder):
     assert page.count("<td>bending</td>") == bent and page.count("<td>came loose</td>") == 1
 
 
+def check_late(folder):
+    """A recording that began on the way, as one of a program does: from when on, and what was lost before it."""
+    run = folder / "feeding"
+    scenario, series, note = run / "scenario.yaml", run / "series.csv", run / "run.json"
+    scenario.write_text(re.sub("offset_limit: auto.*", "offset_limit: 50", scenario.read_text()))
+    head, *rows = series.read_text().splitlines()
+    series.write_text("\n".join([head, *(row for row in rows if float(row.split(",")[0]) >= 5)]) + "\n")
+    (run / "record.fram").unlink()
+    scenario.write_text(re.sub("frame_interval: .*", "frame_interval: 0", scenario.read_text()))
+    for lost, told in ((None, "The vessel held its station from 5 s on."),
+                       (1.5, "The vessel held its station from 5 s on."),
+                       (3, "The offset passed its limit of 50 m at 3 s, before the recording began; the rows reach")):
+        events = [] if lost is None else [{"time_s": lost, "kind": "position_lost", "value": 60, "text": "lost"},
+                                          {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"}]
+        note.write_text(json.dumps({**json.loads(note.read_text()), "events": events}))
+        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        page = (run / "report.html").read_text()
+        assert told in page, (lost, page[page.index("verdict"):][:900])
+        assert "recorded from 5 to 14 s of 14; Fram" in page and "5 to 14" in page
+    assert "did not hold its station" in page and "as far as the run went" not in page
+
+
 FLOES = """
 run: {duration: 0.02, time_step: 0.02}
 vessel: {mode: towed, x: -30, speed: 1, %s}
@@ -363,6 +385,7 @@ def main():
         check_water(pathlib.Path(folder), pictures)
         check_loose(pathlib.Path(folder))
         check_ice(pathlib.Path(folder))
+        check_late(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))
 
 
