@@ -1,10 +1,11 @@
 /* fram run and fram resume: a simulation with results on disk. */
 #include "cli/cli.h"
 
+#include <math.h>
 #include <string.h>
 
-/* Later than any scenario ends. */
-#define TO_THE_END 1e12
+/* Without --until. */
+#define TO_THE_END HUGE_VAL
 
 static void print_run(const common_options *common, const char *folder, const fram_run_result *r)
 {
@@ -77,9 +78,12 @@ static int prepare_live(const common_options *common, bool live, char page[BESID
 }
 
 /* Where to stop: by default the end of the scenario.  -1: good, otherwise an exit code. */
-static int check_until(const common_options *common, double until)
+static int take_until(const common_options *common, double *until)
 {
-    return until > 0 ? -1 : answer_usage(common, "--until", "must be a time after 0 s");
+    if (!(*until > 0))
+        return answer_usage(common, "--until", "must be a time after 0 s");
+    *until = *until < TO_THE_END ? *until : 0;
+    return -1;
 }
 
 int command_run(const command_row *self, int argc, char **argv)
@@ -103,7 +107,7 @@ int command_run(const command_row *self, int argc, char **argv)
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code < 0)
-        code = check_until(&common, definition.until);
+        code = take_until(&common, &definition.until);
     if (code >= 0)
         return code;
     if (!definition.folder)
@@ -155,7 +159,7 @@ int command_resume(const command_row *self, int argc, char **argv)
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
     if (code < 0)
-        code = check_until(&common, definition.until);
+        code = take_until(&common, &definition.until);
     if (code < 0)
         code = prepare_live(&common, live, page, &definition);
     if (code >= 0)
