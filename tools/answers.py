@@ -20,7 +20,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "out"
-TUTORIALS, README, STATION = "docs/tutorials.md", "README.md", "docs/station.md"
+TUTORIALS, README, STATION, RESULTS = "docs/tutorials.md", "README.md", "docs/station.md", "docs/results.md"
 NUMBER = r"\d[\d,]*(?:\.\d+)?"
 # Floes below this are pieces that broke off, not the sheet [m2].
 SHEET = 15
@@ -113,6 +113,17 @@ def towed():
                       f"tow force {kilo(run.mean('tow_force_x'))} kN")
     yield TUTORIALS, (f"averaged over half a second is {kilo(run.astern())} kN, and {kilo(run.largest_load())} kN with "
                       "what pushes sideways")
+
+
+def peak():
+    """That which the picture on the page shows: fram why out/tow --peak 1 -o docs/pictures/peak.png"""
+    done = subprocess.run([ROOT / "build" / "release" / "fram", "why", Run("tow").folder, "--peak", "1", "--no-rerun",
+                           "--json", "--quiet"], check=True, capture_output=True, text=True)
+    told = json.loads(done.stdout)
+    first = told["floes"][0]
+    yield RESULTS, (f"at {told['time']:.2f} s: floe {first['floe']} carries "
+                    f"{100 * sum(first['parts'].values()) / told['load']:.0f} % of {told['load'] / 1e3:.1f} kN, and "
+                    f"leans on {len(first['chain']) - 1} more floes")
 
 
 def ships():
@@ -217,7 +228,7 @@ def station():
     yield STATION, f"its mean of {mega(loads[0])} MN and peak of {mega(loads[-1])} MN lie inside"
 
 
-SHORT = (demo, towed, ships, own_ice, moored, positioned, level, ensemble)
+SHORT = (demo, towed, peak, ships, own_ice, moored, positioned, level, ensemble)
 LONG = (drillship, station)
 
 
