@@ -119,6 +119,22 @@ static fram_status read_inputs(context *ctx, json_walk *w, run_note *n, fram_err
     return status == FRAM_OK && n->inputs.failed ? error_memory(error) : status;
 }
 
+static fram_status read_told(context *ctx, json_walk *w, run_note *n, fram_error *error)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        char name[VESSEL_NAME_MOST + 48];
+        status = json_walk_element(w, first, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = json_walk_text(w, name, sizeof name, error);
+        if (status == FRAM_OK)
+            text_format(ctx, &n->told, "%s%s", first ? "" : ", ", name);
+    }
+    return status == FRAM_OK && n->told.failed ? error_memory(error) : status;
+}
+
 static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
 {
     if (strcmp(key, "tracks") == 0)
@@ -127,6 +143,8 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
         return read_events(ctx, w, n, error);
     if (strcmp(key, "inputs") == 0)
         return read_inputs(ctx, w, n, error);
+    if (strcmp(key, "told") == 0)
+        return read_told(ctx, w, n, error);
     const note_member members[] = {
         {"fram_version", n->version, sizeof n->version, NULL},
         {"compiler", n->compiler, sizeof n->compiler, NULL},
@@ -177,6 +195,7 @@ static void note_free(context *ctx, run_note *n)
     array_free(ctx, &n->events);
     array_free(ctx, &n->tracks);
     text_free(ctx, &n->inputs);
+    text_free(ctx, &n->told);
 }
 
 /* ---- the field ---- */

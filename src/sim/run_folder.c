@@ -11,6 +11,7 @@
 #include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
 #include "sim/run_inputs.h"
+#include "sim/run_told.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -400,6 +401,9 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
     add_events(ctx, &b, s, &w->events);
     add_tracks(ctx, &b, s, &w->propulsion);
+    text_add(ctx, &b, "  \"told\": [");
+    run_told_add(ctx, s, w, &b);
+    text_add(ctx, &b, "],\n");
     text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
                 summary->recording, summary->recording_end);
     add_step_times(ctx, &b, summary->step_times);

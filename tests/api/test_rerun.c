@@ -51,13 +51,27 @@ static void record(const char *const *overrides, int count, int told)
     d.force = true;
     assert_ok(fram_world_record(w, &d, &e), e);
     for (int i = 0; i < 150; i++) {
-        if (i == told)
+        if (i == told) {
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), told_speed, &e), e);
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "wind_x"), 0, &e), e);
+        }
         assert_ok(fram_world_step(w, &e), e);
     }
     assert_ok(fram_world_record_end(w, &result, &e), e);
     fram_world_destroy(w);
     fram_scenario_destroy(s);
+}
+
+/* Whether a file of the run has a text. */
+static bool run_file_has(const char *name, const char *text)
+{
+    char path[300], buffer[1 << 18];
+    snprintf(path, sizeof path, "%s/%s", run, name);
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    buffer[fread(buffer, 1, sizeof buffer - 1, file)] = '\0';
+    fclose(file);
+    return strstr(buffer, text);
 }
 
 static fram_status pressure(double from, double to)
@@ -120,6 +134,21 @@ START_TEST(steered_a_little)
     assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
     ck_assert_int_eq(sscanf(e.message, "at t = 1.52 s it was %lf in the run and is %lf", &was, &is), 2);
     ck_assert_double_ne(was, is);
+    close_all();
+}
+END_TEST
+
+/* What was told in place of the scenario stands in run.json and in the report. */
+START_TEST(what_was_told_is_named)
+{
+    fram_result report;
+    open_all();
+    for (int told = -1; told < 3; told += 3) {
+        record(no_checkpoints, 1, told);
+        assert_ok(fram_report(ctx, run, NULL, false, &report, &e), e);
+        ck_assert(run_file_has("run.json", told < 0 ? "\"told\": []," : "\"told\": [\"wind_x\", \"tow_velocity\"],"));
+        ck_assert(run_file_has("report.html", "wind_x, tow_velocity; the rows above are") == (told >= 0));
+    }
     close_all();
 }
 END_TEST
@@ -263,5 +292,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("rerun", steered, steered_a_little, from_a_checkpoint, rows_far_apart, no_row_behind, last_step,
-          beyond_the_end, before_a_window_has_passed, memory_runs_out)
+TEST_MAIN("rerun", what_was_told_is_named, steered, steered_a_little, from_a_checkpoint, rows_far_apart, no_row_behind,
+          last_step, beyond_the_end, before_a_window_has_passed, memory_runs_out)
