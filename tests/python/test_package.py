@@ -710,6 +710,17 @@ ice: {source: none}
     def test_actions_are_parts_of_what_thrusters_can_do(self):
         """-1 and 1 are the ends of each order, 0 lies between them; what is told back is the world's."""
         text = FREE.replace("rudder_deg: 25}", "rudder_deg: 25, thrust_astern: 4.0e4}")
+        # An azimuth that must not push astern turns from edge to edge round by the bow.
+        for middle, angles in ((175, (-165, -5, 155)), (185, (-155, 5, 165)), (180, (-160, 0, 160)),
+                               (160, (-180, -20, 140)), (200, (-140, 20, 180)), (100, (-179.999, 0, 179.999))):
+            keys = {"ice.source": "none", "vessel.thrusters[0].forbidden_deg": middle,
+                    "vessel.thrusters[0].forbidden_width_deg": 40}
+            azimuth = fram.StationKeeping(fram.Scenario.from_text(text, overrides=keys), "thruster_1_order_angle")
+            azimuth.reset()
+            for action, angle in zip((-1.0, 0.0, 1.0), angles):
+                azimuth.step([action])
+                off = azimuth.world["thruster_1_order_angle"] - angle
+                self.assertAlmostEqual((off + 180) % 360, 180, delta=1e-9, msg=f"{middle}, {action}")
         environment = fram.StationKeeping(fram.Scenario.from_text(text), interval=0.19)
         self.assertEqual(environment.interval, 0.2)
         ends = {"thruster_1_order": (0, 1e5), "thruster_1_order_angle": (-179.999, 179.999),

@@ -62,10 +62,39 @@ def _names(given: Union[str, Sequence[str], None], default: Sequence[str]) -> tu
     return tuple(default) if given is None else (given,) if isinstance(given, str) else tuple(given)
 
 
+ASTERN = 179.999
+"""The greatest angle [deg] to either side: at 180 the sides would be one."""
+
+
+def _half_turn(angle: float) -> float:
+    """The angle from -180 to 180 [deg]."""
+    return (angle + 180) % 360 - 180
+
+
+def _around_bow(told: Callable[[float], float]) -> tuple[float, float]:
+    """The least and the greatest angle [deg] of an azimuth, outside of a sector that reaches astern, if it has one.
+
+    told: what an angle becomes.  That is the nearer edge within the sector, and so the other one from its middle on: as
+    far as one of steps that double comes.
+    """
+    for side in (-ASTERN, ASTERN):
+        edge = told(side)
+        way = _half_turn(side - edge)
+        if abs(way) < 1e-6:  # it may stand there
+            continue
+        while told(edge + way) == edge:
+            way *= 2
+        other = told(edge + way)
+        low, high = (edge, other) if way < 0 else (other, edge)
+        return (low if low <= 0 else low - 360), (high if high >= 0 else high + 360)
+    return -ASTERN, ASTERN
+
+
 class StationKeeping:
     """Keeping a vessel on station in ice by orders to its thrusters.
 
-    actions: names of orders to thrusters (default: all), each scaled so that -1 to 1 is what it can do.
+    actions: names of orders to thrusters (default: all), each scaled so that -1 to 1 is what it can do; of an azimuth
+    whose forbidden sector covers astern, from edge to edge round by the bow.
     observations: names of channels.  interval: simulated time of one `step` [s], rounded to whole time steps.
     horizon: simulated time after which an episode is truncated [s].  offset_limit: an episode ends when the offset
     exceeds it [m].  reward: of the world after each step.
@@ -110,15 +139,17 @@ class StationKeeping:
 
     def _range(self, name: str) -> tuple[float, float]:
         """What an order can be at least and at most: the library limits it, and tells what it became."""
-        world = self._first.copy()
-        world["positioning"] = 0
-        largest = 1e15 if world.inputs[name].unit == "N" else 179.999
-        found = []
-        for value in (-largest, largest):
-            world[name] = value
-            found.append(world[name])
-        world.close()
-        return found[0], found[1]
+        with self._first.copy() as world:
+            world["positioning"] = 0
+
+            def told(value: float) -> float:
+                world[name] = value
+                return world[name]
+
+            is_force = world.inputs[name].unit == "N"
+            most = 1e15 if is_force else ASTERN
+            low = told(-most)
+            return (low, told(most)) if is_force or abs(low) < 90 else _around_bow(told)  # no rudder turns so far
 
     def _observe(self) -> np.ndarray:
         return np.array([self.world[name] for name in self.observations], np.float64)
