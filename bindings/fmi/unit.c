@@ -1,8 +1,8 @@
 /* realpath is of X/Open, not of POSIX alone */
 #define _XOPEN_SOURCE 700
-/* Log, life and calling order of an instance.  Inputs are told to the world at the next step, and only when they
-   changed, so that an importer that sets all of them in every step does not take orders from the vessel's own
-   controller. */
+/* Log, life and calling order of an instance.  Inputs are told to the world at the next step, and only when they, or
+   others that count together with them, changed, so that an importer that sets all of them in every step does not take
+   orders from the vessel's own controller. */
 #include "unit.h"
 
 #include <math.h>
@@ -263,7 +263,40 @@ static unit_status tell_input(unit *u, variable *v)
     if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
         return unit_fail_by(u, &e);
     v->told = v->value; /* as the importer sees it: a limited order is not told again */
+    v->is_due = false;
     return UNIT_OK;
+}
+
+static bool has_changed(const variable *v) { return v->kind == VARIABLE_INPUT && v->value != v->told; }
+
+/* Whether two inputs are of one tow velocity, or of one set point: to tell one of them ends the vessel's path. */
+static bool end_one_path(const unit *u, const variable *a, const variable *b)
+{
+    fram_channel one, other;
+    bool known = fram_world_input(u->world, a->index, &one, NULL) == FRAM_OK &&
+                 fram_world_input(u->world, b->index, &other, NULL) == FRAM_OK;
+    if (!known || !((is_called(u, a, "tow_velocity_") && is_called(u, b, "tow_velocity_")) ||
+                    (is_called(u, a, "set_point_") && is_called(u, b, "set_point_"))))
+        return false;
+    const char *point = strrchr(one.name, '.');
+    size_t vessel = point ? (size_t)(point + 1 - one.name) : 0; /* of its name with the point */
+    return strncmp(one.name, other.name, vessel) == 0 && !strchr(other.name + vessel, '.');
+}
+
+/* Inputs that changed, and those whose path ends with that: where it has led meanwhile is not what the importer says.
+ */
+static void find_due(unit *u)
+{
+    for (int i = 0; i < u->count; i++)
+        u->variables[i].is_due = has_changed(&u->variables[i]);
+    for (int i = 0; i < u->count; i++) {
+        for (int k = 0; k < u->count && has_changed(&u->variables[i]); k++) {
+            variable *other = &u->variables[k];
+            if (other->kind == VARIABLE_INPUT && end_one_path(u, &u->variables[i], other) &&
+                other->value != fram_world_input_value(u->world, other->index))
+                other->is_due = true;
+        }
+    }
 }
 
 /* A tow velocity is judged with both axes as they are: those that become smaller go first, or one that grows would be
@@ -273,22 +306,23 @@ static unit_status tell_slower(unit *u)
     unit_status status = UNIT_OK;
     for (int i = 0; i < u->count && status == UNIT_OK; i++) {
         variable *v = &u->variables[i];
-        if (v->kind == VARIABLE_INPUT && v->value != v->told && is_called(u, v, "tow_velocity_") &&
+        if (v->is_due && is_called(u, v, "tow_velocity_") &&
             fabs(v->value) < fabs(fram_world_input_value(u->world, v->index)))
             status = tell_input(u, v);
     }
     return status;
 }
 
-/* Inputs that changed, in their order: positioning comes before the orders that it would refuse.  When the vessel's own
+/* Inputs that are due, in their order: positioning comes before the orders that it would refuse.  When the vessel's own
    controller hands over, its thrusters have its last orders, and the importer's, changed or not, take their place. */
 static unit_status tell_inputs(unit *u)
 {
     const variable *handed_over = NULL;
+    find_due(u);
     unit_status status = tell_slower(u);
     for (int i = 0; i < u->count && status == UNIT_OK; i++) {
         variable *v = &u->variables[i];
-        if (v->kind != VARIABLE_INPUT || (v->value == v->told && !is_order_of(u, v, handed_over)))
+        if (!v->is_due && (v->kind != VARIABLE_INPUT || !is_order_of(u, v, handed_over)))
             continue;
         status = tell_input(u, v);
         if (v->value == 0 && is_called(u, v, "positioning"))

@@ -38,6 +38,7 @@ typedef struct variable {
     double value;
     double told;       /* input: what the world holds */
     bool is_looked_at; /* may be read while the importer looks on */
+    bool is_due;       /* input: to be told before the next step */
 } variable;
 
 enum { UNIT_TOKEN_ROOM = 40 }; /* {8-4-4-4-12 hexadecimal digits} */

@@ -38,9 +38,13 @@ SI = {"s": {"s": 1}, "m": {"m": 1}, "kg": {"kg": 1}, "m/s": {"m": 1, "s": -1}, "
       "N s": {"kg": 1, "m": 1, "s": -1}, "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3}}
 TOWED = """
 run: {duration: 20, time_step: 0.05, speed_limit: 5}
-vessel: {mode: prescribed, speed: 4, heading_deg: 90,
-         hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 1}}
+vessels:
+  - {name: barge, mode: prescribed, hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 1},
+     path: [{time: 0}, {time: 0.1, y: 0.4}, {time: 90.1, x: 360, y: 0.4}]}
+  - {name: tug, mode: free, y: -40, hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 1},
+     positioning: {waypoints: [{time: 0.1, x: 5, y: -35}]}}
 ice: {source: none}
+domain: {boundary: open}
 """
 OUTPUTS = ("offset_x", "velocity_x", "yaw", "ice_force_x", "contacts", "kinetic_energy", "splits", "bendings")
 
@@ -147,15 +151,25 @@ class Units:
         self.fram("fmu", self.folder / "towed.yaml", "-o", self.folder / "towed.fmu", "-q", "--fmi", self.version)
         unit = Unit(self.folder / "towed.fmu", self.folder / "towed")
         one, dt = unit.instance().initialise(), unit.step_size
+        # Inputs hold as they are read also where they equal what they were before the paths led elsewhere; what is not
+        # told of another vessel stays.
+        self.assertEqual(one.get("barge.tow_velocity_x", "barge.tow_velocity_y"), [0, 4])
+        one.step(0, 3 * dt)
+        self.assertEqual([round(v, 9) for v in one.get("barge.velocity_x", "barge.velocity_y")], [4, 0])
+        self.assertEqual([round(v, 2) for v in one.get("tug.offset_x", "tug.offset_y")], [-5, -5])
+        one.set("tug.set_point_x", 2)
+        one.step(3 * dt, dt)
+        self.assertEqual([round(v, 9) for v in one.get("barge.velocity_x", "barge.velocity_y")], [4, 0])
+        self.assertEqual([round(v, 2) for v in one.get("tug.offset_x", "tug.offset_y")], [-2, 0])
         # Under a limit of 5 m/s 4 m/s may go from any axis to any other, whichever is told first.
-        for i, told in enumerate(((4, 0), (0, 4), (-4, 0), (0, -4))):
+        for i, told in enumerate(((0, 4.5), (4, 0), (0, 4), (-4, 0), (0, -4)), start=4):
             for name, value in zip(("tow_velocity_x", "tow_velocity_y"), told):
-                one.set(name, value)
+                one.set("barge." + name, value)
             one.step(i * dt, dt)
-            self.assertEqual([round(v, 9) for v in one.get("velocity_x", "velocity_y")], list(told))
+            self.assertEqual([round(v, 9) for v in one.get("barge.velocity_x", "barge.velocity_y")], list(told))
         # What steps miss of whole time steps adds up in the importer's time: here to more than the hundredth of one
         # by which that may be another than the unit's.
-        now, long = 4 * dt + 0.0099 * dt, 200 * dt * (1 + 9e-7)
+        now, long = 9 * dt + 0.0099 * dt, 200 * dt * (1 + 9e-7)
         one.step(now, long)
         one.step(now + long, dt)
         one.step(now + long + 1.01 * dt, dt, status=ERROR)
