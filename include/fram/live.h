@@ -224,8 +224,8 @@ FRAM_API fram_status fram_world_set_input(fram_world *world, int index, double v
    times that ascend from now on.  A towed or driven vessel moves along it linearly, and turns the shorter way to the
    first place, by whole turns too after that; the set point of a free one jumps to each place at its time.  count 0: no
    path any more, and a towed or driven vessel goes on as fast as it went along it, or stands where it stood; times and
-   places may be NULL.  FRAM_ERROR_INPUT, key "times", where the way to a place would take a towed or driven vessel to
-   run.speed_limit. */
+   places may be NULL.  FRAM_ERROR_INPUT, key "times", where the way to a place would take a towed or driven vessel, or
+   the turn to it the vessel's rim, to run.speed_limit. */
 FRAM_API fram_status fram_world_set_path(fram_world *world, int vessel, const double *times, const double *places,
                                          int count, fram_error *error);
 

@@ -194,6 +194,11 @@ bool world_came_since_contacts(const world *w, int32_t slot)
            w->scratch.contact_generations.data[slot] != w->bodies.generation[slot];
 }
 
+double world_reach(const world *w, int32_t body)
+{
+    return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
+}
+
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
 {
     world_table to[WORLD_TABLE_COUNT], from[WORLD_TABLE_COUNT];

@@ -179,6 +179,9 @@ fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_er
 enum { WORLD_DIFFERENCE_SIZE = 200 };
 bool world_difference(const world *a, const world *b, char text[WORLD_DIFFERENCE_SIZE]);
 
+/* How far a body reaches from its centre of mass [m]; 0 without a shape. */
+double world_reach(const world *w, int32_t body);
+
 /* Steps of the load window; 0 without vessels. */
 int64_t load_window_length(const world *w);
 /* Row of the load window for a vessel at the end of a step. */

@@ -76,6 +76,27 @@ static fram_status add_vessel(context *ctx, const scenario *s, const scenario_ve
     return status;
 }
 
+/* The rim of a hull that turns along its path keeps under the speed at which a run ends, as its places do. */
+static fram_status check_turns(const scenario *s, const vessel_entry *entry, const world *w, int32_t row,
+                               fram_error *error)
+{
+    const scenario_path_point_list *path = &entry->keys->path;
+    double reach = world_reach(w, w->vessels.body[row]);
+    for (int32_t i = 1; i < path->count; i++) {
+        const scenario_path_point *a = &path->data[i - 1], *b = &path->data[i];
+        double turn = fabs(radians(b->heading_deg - a->heading_deg)) / (b->time - a->time);
+        if (turn * reach < s->run.speed_limit)
+            continue;
+        char key[48];
+        snprintf(key, sizeof key, "path[%d].heading_deg", (int)i);
+        return vessel_fault(s, entry, key, error,
+                            "expected a turn at less than run.speed_limit, at which a run ends, %g m/s, found %g m/s "
+                            "at %g m from the centre of mass",
+                            s->run.speed_limit, turn * reach, reach);
+    }
+    return FRAM_OK;
+}
+
 /* A hull inside a wall would be thrown out of it by the first step. */
 static fram_status check_clear_of_walls(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
                                         int32_t row, fram_error *error)
@@ -147,6 +168,8 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
     fram_status status = vessel_check(s, entry, m, row, error);
     if (status == FRAM_OK)
         status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
+    if (status == FRAM_OK)
+        status = check_turns(s, entry, w, row, error);
     if (status == FRAM_OK)
         status = build_station(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)

@@ -389,18 +389,25 @@ static fram_status check_path(const world *w, const double *times, const vec3 *p
     return FRAM_OK;
 }
 
-/* What is moved along them goes from place to place under the speed at which a world is taken to have gone wrong. */
-static fram_status check_legs(const model *m, const world *w, vec3 from, const double *times, const vec3 *places,
-                              int32_t count, fram_error *error)
+/* What is moved along them goes from place to place, and its rim around, under the speed at which a world is taken to
+   have gone wrong. */
+static fram_status check_legs(const model *m, const world *w, int32_t vessel, vec3 from, const double *times,
+                              const vec3 *places, int32_t count, fram_error *error)
 {
-    double before = w->clock.time[0];
+    double before = w->clock.time[0], reach = world_reach(w, w->vessels.body[vessel]);
     for (int32_t i = 0; i < count; i++) {
         vec3 way = vec3_sub(places[i], from);
-        double speed = sqrt(way.x * way.x + way.y * way.y) / (times[i] - before);
+        double time = times[i] - before, speed = sqrt(way.x * way.x + way.y * way.y) / time;
+        double turn = fabs(way.z) / time;
         if (!(speed < m->speed_limit))
             return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "times",
                              "expected less than run.speed_limit, %g m/s, on the way to number %d, found %g m/s",
                              m->speed_limit, (int)i, speed);
+        if (!(turn * reach < m->speed_limit))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "times",
+                             "expected less than run.speed_limit, %g m/s, on the way to number %d, found a turn of %g "
+                             "rad/s, which is %g m/s at %g m from the centre of mass; headings are in radians",
+                             m->speed_limit, (int)i, turn, turn * reach, reach);
         from = places[i];
         before = times[i];
     }
@@ -423,13 +430,13 @@ fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel,
     waypoint_table *t = &w->waypoints;
     bool free = w->vessels.mode[vessel] == VESSEL_FREE;
     vec3 from = free && vessel < w->stations.count ? target_of(w, vessel) : place_now(w, vessel);
-    if (!free)
-        status = check_legs(m, w, from, times, places, count, error);
-    if (status != FRAM_OK)
-        return status;
     /* Where it heads now is known but for whole turns: it takes the shorter way to the first place. */
     if (!free && count > 0)
         from.z = places[0].z + plane_angle(from.z - places[0].z);
+    if (!free)
+        status = check_legs(m, w, vessel, from, times, places, count, error);
+    if (status != FRAM_OK)
+        return status;
     if (count > 0 && !table_reserve(ctx, t, &waypoint_table_info, t->count + count + 1))
         return error_memory(error);
     if (count == 0 && !free && goes_along_path(w, vessel))

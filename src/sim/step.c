@@ -340,7 +340,7 @@ static bool goes_as_towed(const world *w, int32_t body)
 static const char *remedy_of(const world *w, int32_t body)
 {
     if (!body_is_dynamic(&w->bodies, body) || goes_as_towed(w, body))
-        return "it moves as the scenario says: correct that, or raise run.speed_limit";
+        return "it moves as the scenario, or a program, told it: correct that, or raise run.speed_limit";
     if (is_touched(w, body))
         return "contacts act on it; a smaller run.time_step may help";
     return "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre of "
@@ -380,11 +380,6 @@ typedef struct state_check {
     double speed_limit;
 } state_check;
 
-static double reach_of(const world *w, int32_t body)
-{
-    return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
-}
-
 /* The first body that moves and has gone astray.  Comparisons are written so that a value that is no number fails them.
  */
 static int32_t find_astray(const void *arg, int32_t first, int32_t end)
@@ -394,7 +389,7 @@ static int32_t find_astray(const void *arg, int32_t first, int32_t end)
     double limit = check->speed_limit * check->speed_limit;
     for (int32_t i = body_next_moving(b, first, end); i < end; i = body_next_moving(b, i + 1, end)) {
         vec3 r = b->position[i], v = b->velocity[i], o = b->angular_velocity[i];
-        double reach = reach_of(check->w, i);
+        double reach = world_reach(check->w, i);
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;
         bool finite = isfinite(r.x) && isfinite(r.y) && isfinite(r.z);
         if (!slow || !finite)
@@ -417,7 +412,7 @@ static fram_status check_state(context *ctx, const model *m, world *w, fram_erro
     if (body == w->bodies.count)
         return FRAM_OK;
     count_step(m, w);
-    return tell_state(m, w, body, reach_of(w, body), error);
+    return tell_state(m, w, body, world_reach(w, body), error);
 }
 
 /* The rooms below tell a polygon or a table that cannot be as bad input; in a step nobody has given it: the simulation
