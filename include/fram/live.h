@@ -207,9 +207,10 @@ FRAM_API int fram_world_fractures(const fram_world *world, fram_fracture *fractu
 /* Inputs stay as they were told until told again; they are part of the state.  Which there are follows from the
    scenario: wind_x, wind_y, current_x, current_y [m/s]; ice_drift_x, ice_drift_y [m/s] with an endless field or level
    ice that drifts; for the vessel outside_force_x to outside_moment_z [N, N m], tow_velocity_x, tow_velocity_y [m/s]
-   while it is towed or driven, set_point_x, set_point_y [m], set_point_heading [deg] and positioning (1 or 0) of a free
-   one; thruster_1_order [N], thruster_1_order_angle [deg] ... while positioning is 0; line_1_release (1) ...  Those of
-   a list of vessels begin with the name and a point: NAME.set_point_x. */
+   while it is towed or driven, set_point_x, set_point_y [m], set_point_heading [deg] of a free one (not of one with
+   propulsion and no thrusters, which goes by its track) and positioning (1 or 0) where it has thrusters;
+   thruster_1_order [N], thruster_1_order_angle [deg] ... while positioning is 0; line_1_release (1) ...  Those of a
+   list of vessels begin with the name and a point: NAME.set_point_x. */
 FRAM_API int fram_world_inputs(const fram_world *world);
 FRAM_API fram_status fram_world_input(const fram_world *world, int index, fram_channel *input, fram_error *error,
                                       size_t size);
@@ -225,7 +226,8 @@ FRAM_API fram_status fram_world_set_input(fram_world *world, int index, double v
    first place, by whole turns too after that; the set point of a free one jumps to each place at its time.  count 0: no
    path any more, and a towed or driven vessel goes on as fast as it went along it, or stands where it stood; times and
    places may be NULL.  FRAM_ERROR_INPUT, key "times", where the way to a place would take a towed or driven vessel, or
-   the turn to it the vessel's rim, to run.speed_limit. */
+   the turn to it the vessel's rim, to run.speed_limit.  FRAM_ERROR_USAGE, key "vessel", for a path of one with
+   propulsion and no thrusters, which goes by its track. */
 FRAM_API fram_status fram_world_set_path(fram_world *world, int vessel, const double *times, const double *places,
                                          int count, fram_error *error);
 

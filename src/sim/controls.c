@@ -52,9 +52,18 @@ static int32_t thrusters_of(const world *w, int32_t vessel)
     return count;
 }
 
+/* Of a ship that drives itself and has no thrusters nothing follows a set point: its autopilot goes by its track. */
+static bool goes_by_track(const world *w, int32_t v)
+{
+    bool drives = false;
+    for (int32_t i = 0; i < w->propulsion.count && !drives; i++)
+        drives = w->propulsion.vessel[i] == v;
+    return drives && thrusters_of(w, v) == 0;
+}
+
 static void list_station(lister *l, const world *w, int32_t v)
 {
-    if (!station_is_kept(&w->stations, &w->vessels, v))
+    if (!station_is_kept(&w->stations, &w->vessels, v) || goes_by_track(w, v))
         return;
     add_vector(l, CONTROL_SET_POINT, v, 2, "set_point", "m", "where the ship's origin shall be, global frame");
     add(l, CONTROL_SET_POINT, v, v, 2, "set_point_heading", 0, "deg", "heading that is wanted");
@@ -424,6 +433,11 @@ static void put_waypoint(waypoint_table *t, int32_t row, int32_t vessel, double 
 fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel, const double *times,
                          const vec3 *places, int32_t count, fram_error *error)
 {
+    if (count > 0 && goes_by_track(w, vessel))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
+                         "expected one that is towed or driven or has a set point; number %d drives itself without "
+                         "thrusters: its autopilot goes by propulsion.waypoints or propulsion.pattern",
+                         (int)vessel);
     fram_status status = check_path(w, times, places, count, error);
     if (status != FRAM_OK)
         return status;

@@ -173,6 +173,32 @@ START_TEST(speeds_that_end_a_world)
 }
 END_TEST
 
+/* A ship that drives itself goes by its track: without thrusters nothing of it follows a set point. */
+START_TEST(no_set_point_for_a_ship_on_its_track)
+{
+    static const char *const thrusters[] = {"", "  thrusters: [{x: 18}]\n"};
+    static const char driving[] = "run: {duration: 1, time_step: 0.05}\n"
+                                  "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                                  "  propulsion: {bollard_pull: 4.0e5, waypoints: [{x: 99}]}\n%sice: {source: none}\n";
+    char text_of_ship[400];
+    const double time = 1, place[] = {99, 9, 0};
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    for (int with = 0; with < 2; with++) {
+        snprintf(text_of_ship, sizeof text_of_ship, driving, thrusters[with]);
+        assert_ok(fram_scenario_parse(ctx, text_of_ship, NULL, NULL, 0, &s, &e), e);
+        assert_ok(fram_world_create(s, &w, &e), e);
+        ck_assert_int_eq(fram_world_find_input(w, "set_point_x") >= 0, with);
+        fram_status status = fram_world_set_path(w, 0, &time, place, 1, &e);
+        ck_assert_int_eq(status, with ? FRAM_OK : FRAM_ERROR_USAGE);
+        assert_ok(fram_world_set_path(w, 0, NULL, NULL, 0, &e), e);
+        fram_world_destroy(w);
+        fram_scenario_destroy(s);
+    }
+    ck_assert(strcmp(e.key, "vessel") == 0 && strstr(e.message, "propulsion.waypoints"));
+    fram_context_destroy(ctx);
+}
+END_TEST
+
 START_TEST(arrays)
 {
     open_all();
@@ -311,5 +337,6 @@ START_TEST(the_working_folder_changes)
 }
 END_TEST
 
-TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, speeds_that_end_a_world, arrays, recordings,
-          memory_runs_out, older_definitions_are_taken, the_working_folder_changes)
+TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, speeds_that_end_a_world,
+          no_set_point_for_a_ship_on_its_track, arrays, recordings, memory_runs_out, older_definitions_are_taken,
+          the_working_folder_changes)

@@ -483,7 +483,8 @@ class World:
         """A path from where the vessel is now: places (x, y, heading [m, m, rad]) of the ship's origin at times [s].
 
         A towed or driven vessel moves along it, the set point of a free one jumps to each place at its time; without
-        places there is no path any more, and a towed or driven vessel goes on as fast as it went along it.
+        places there is no path any more, and a towed or driven vessel goes on as fast as it went along it.  A ship with
+        `propulsion` and no thrusters goes by its track, and is told none.
         """
         t = np.ascontiguousarray(times, float).reshape(-1)
         p = np.ascontiguousarray(places, float)
