@@ -312,6 +312,25 @@ class Worlds(unittest.TestCase):
         alone.step(steps + 1)
         self.assertEqual(world.hash, alone.hash)
 
+    def test_a_recording_that_is_not_handed_out_ends(self):
+        def fail(*_told):
+            raise RuntimeError("mine")
+
+        with tempfile.TemporaryDirectory() as folder:
+            page, world = pathlib.Path(folder) / "page.html", towed().world()
+            page.write_text("<!--BESIDE--><!--RECORD-->")
+            with self.assertRaises(fram.UsageError) as caught:
+                world.record(pathlib.Path(folder) / "unseen", live=fail)
+            self.assertEqual((caught.exception.key, world.recorded), ("live", False))
+            with self.assertRaisesRegex(RuntimeError, "mine"):
+                world.record(pathlib.Path(folder) / "run", live_page=page, live=fail)
+            self.assertFalse(world.recorded)
+            with world.record(pathlib.Path(folder) / "run", force=True) as recording:
+                with self.assertRaisesRegex(fram.UsageError, "recorded"):
+                    world.record(pathlib.Path(folder) / "other")
+                self.assertTrue(world.recorded)
+                recording.checkpoint()
+
     def test_closing_tells_what_a_recording_could_not_write(self):
         before = resource.getrlimit(resource.RLIMIT_FSIZE)
         self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, before)

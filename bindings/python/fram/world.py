@@ -654,8 +654,11 @@ class World:
 
         force: also into a folder that is not empty.  with_paths: the record tells where input files lie, not their
         names alone.  ``live_page`` (the viewer's page, which `make viewer` builds) lets a browser on this machine look
-        on until the recording ends: ``live(address)`` is told where.
+        on until the recording ends: ``live(address)`` is told where.  What it raises ends the recording.
         """
+        if live is not None and live_page is None:
+            raise UsageError("usage", "expected live_page, the page that a browser is to look at, together with it",
+                             key="live")
         definition = ffi.new("fram_record_definition *")
         lib.fram_record_default(definition, ffi.sizeof("fram_record_definition"))
         path = absolute_of(folder)
@@ -665,10 +668,16 @@ class World:
         told: list[str] = []
         callback = ffi.callback("void(void *, const char *)", lambda _, text: told.append(ffi.string(text).decode()))
         definition.live_page, definition.live = page, callback if live is not None else ffi.NULL
-        self._call(lib.fram_world_record, definition)
-        self._recordings += 1
-        if told and live is not None:
-            live(told[0])
+        was_recorded = self.recorded
+        try:
+            self._call(lib.fram_world_record, definition)
+            self._recordings += 1
+            if told and live is not None:
+                live(told[0])
+        except BaseException:  # nobody would have the recording: it ends, if it began
+            if self._pointer is not None and self.recorded and not was_recorded:
+                self._call(lib.fram_world_record_end, ffi.NULL, size=0)
+            raise
         return Recording(self, os.fsdecode(path))
 
     def __repr__(self) -> str:
