@@ -260,7 +260,7 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 /* Beam over draught, as of hulls by particulars. */
 #define SHALLOWEST 25.0
 
-static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
+void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
 {
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
@@ -346,7 +346,6 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
                             int32_t row, fram_error *error)
 {
     const vessel_model *hull = &m->vessels.data[row];
-    warn_of_mesh(ctx, s, e, hull);
     fram_status status = warn_of_floes(ctx, s, e, w, row, error);
     warn_of_stability(ctx, s, e, hull);
     warn_of_mass(ctx, s, e, hull);

@@ -12,6 +12,9 @@
 /* FRAM_ERROR_INPUT with the key for a mass that sinks or is next to nothing, a centre of gravity far outside the hull,
    and radii of gyration that no mass in it has.  row: of the vessel in model and world. */
 fram_status vessel_check(const scenario *s, const vessel_entry *entry, const model *m, int32_t row, fram_error *error);
+/* Warnings to the log of a hull from a file in another unit, turned or moved: such a hull is refused for what follows
+   from that, so they come before anything else. */
+void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull);
 /* Warnings to the log: capsizing, a list or a trim at the start, a jump to the waterline, negative damping, springs and
    buoyancy too stiff for the step, a hull that reaches a wall.  w holds the vessel and its lines. */
 fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,

@@ -44,4 +44,14 @@ told drive.yaml "vessel.propulsion.bollard_pull: 1e+06 N is 405 of the vessel's 
 told drive.yaml "vessel.propulsion.open_water_speed: 8 m/s is 1.61 times the root of gravity and length|2.53 m" \
     --set vessel.propulsion.open_water_speed=8
 told towed.yaml "vessel.speed: 6 m/s is 1.2 times the root" --set vessel.speed=6
+
+# A hull's file in millimetres reaches into the walls, and no mass fits it: its unit is told before that is refused.
+"$FRAM" hull --length 40 --beam 10 --draught 4 --box -o metres.obj >hull
+awk '$1 == "v" { print "v", 1000 * $2, 1000 * $3, 1000 * $4; next } 1' metres.obj >mm.obj
+printf '%s\n' 'vessel: {hull: {form: file, file: mm.obj}}' >mm.yaml
+for options in domain.boundary=walls vessel.mass=1.6e6; do
+    expect 2 "$FRAM" check mm.yaml --set $options
+    says "vessel.hull.file: the waterline is 4e+04 m long, outside of 4 to 500: a file in millimetres wants" err
+done
+expect 0 "$FRAM" check mm.yaml --set vessel.hull.file_scale=0.001 --set domain.boundary=open
 finish "ships in the scale of a model, and models with numbers of ships, are told with key and remedy"
