@@ -25,9 +25,11 @@ const char *size_bins_fault(const double *edge, const double *weight, int32_t bi
     if (bins < 1 || !(edge[0] > 0))
         return "a histogram needs bins of positive diameters";
     for (; *bin < bins; ++*bin) {
-        if (!(edge[*bin + 1] > edge[*bin] && edge[*bin + 1] < HUGE_VAL))
+        if (!isfinite(edge[*bin + 1]) || !isfinite(weight[*bin]))
+            return "the edges and weights of a histogram must be finite numbers";
+        if (!(edge[*bin + 1] > edge[*bin]))
             return "the edges of a histogram must ascend";
-        if (!(weight[*bin] >= 0 && weight[*bin] < HUGE_VAL))
+        if (!(weight[*bin] >= 0))
             return "the weights of a histogram must not be negative";
         sum += weight[*bin];
     }

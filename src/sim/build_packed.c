@@ -5,6 +5,7 @@
 #include "io/template_file.h"
 #include "sim/sanity_parts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,6 +14,10 @@ enum { STREAM_THICKNESS = 0x1d1000, STREAM_FLEXURAL, STREAM_CRUSHING };
 
 /* Columns of a histogram file. */
 enum { HISTOGRAM_LO = 0, HISTOGRAM_HI, HISTOGRAM_FLOES, HISTOGRAM_COLUMNS };
+
+/* Part of an edge by which the next bin may begin beside it: programs write k * 0.6 for one and (k - 1) * 0.6 + 0.6 for
+   the other. */
+static const double SAME_EDGE = 1e-9;
 
 /* What the laws of the populations point to. */
 typedef struct population_files {
@@ -70,9 +75,10 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
     const double *lo = column[HISTOGRAM_LO].data, *hi = column[HISTOGRAM_HI].data;
     int32_t bins = column[HISTOGRAM_LO].count, bin;
     for (int32_t i = 0; i < bins && status == FRAM_OK; i++) {
-        if (i > 0 && lo[i] != hi[i - 1])
-            status = error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), "diameter_min",
-                               "each bin must begin where the one before ends, at %g m, found %g m", hi[i - 1], lo[i]);
+        if (i > 0 && !(fabs(lo[i] - hi[i - 1]) <= SAME_EDGE * fabs(hi[i - 1])))
+            status =
+                error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), "diameter_min",
+                          "each bin must begin where the one before ends, at %.12g m, found %.12g m", hi[i - 1], lo[i]);
         else if ((i == 0 && !array_push(ctx, &f->edge[number], lo[0])) || !array_push(ctx, &f->edge[number], hi[i]) ||
                  !array_push(ctx, &f->weight[number], column[HISTOGRAM_FLOES].data[i]))
             status = error_memory(error);
