@@ -14,6 +14,9 @@
 /* What may stand about a number, and alone in a line that counts for none. */
 #define BLANKS " \t"
 
+/* Characters of a cell that an error shows. */
+enum { CELL_TOLD = 40 };
+
 /* Whether a cell of the header is the name in other letters, "CX" for "cx". */
 static bool has_other_letters(const char *header, const char *name)
 {
@@ -25,6 +28,26 @@ static bool has_other_letters(const char *header, const char *name)
         c += strcspn(c, ",");
     }
     return false;
+}
+
+/* Behind a cell that is not asked for, whatever it holds: at the comma or the end of the line.  In quotation marks it
+   may have commas; NULL where these marks do not end with the cell, so that nobody knows which column is which. */
+static const char *pass_cell(const char *c)
+{
+    const char *text = c;
+    while (*text == ' ' || *text == '\t')
+        text++;
+    if (*text != '"') {
+        while (*c && *c != ',')
+            c++;
+        return c;
+    }
+    do {
+        text = strchr(text + 1, '"');
+        text = text ? text + 1 : NULL;
+    } while (text && *text == '"');
+    text = text ? text + strspn(text, BLANKS) : NULL;
+    return text && (*text == ',' || *text == '\0') ? text : NULL;
 }
 
 /* What a header that lacks a name may have instead. */
@@ -70,7 +93,7 @@ static fram_status find_columns(const char *path, const char *header, const char
         int32_t column = 0;
         for (const char *c = header;; c++, column++) {
             c += strspn(c, BLANKS);
-            size_t length = strcspn(c, ",["), whole = strcspn(c, ",");
+            size_t length = strcspn(c, ",[");
             while (length > 0 && c[length - 1] == ' ')
                 length--;
             if (length == strcspn(names[k], "[") && strncmp(c, names[k], length) == 0) {
@@ -80,7 +103,8 @@ static fram_status find_columns(const char *path, const char *header, const char
                 if (check_unit(path, header, c, names[k], error) != FRAM_OK)
                     return FRAM_ERROR_INPUT;
             }
-            c += whole;
+            const char *next = pass_cell(c);
+            c = next ? next : c + strcspn(c, ",");
             if (!*c)
                 break;
         }
@@ -91,25 +115,6 @@ static fram_status find_columns(const char *path, const char *header, const char
                                                                  : header_hint(header));
     }
     return FRAM_OK;
-}
-
-/* Whether the cell is a number as series are written, "-12.5e-3"; *end: behind it.  Most cells of a row are only passed
-   over, and need not be converted. */
-static bool is_plain_number(const char *c, const char **end)
-{
-    c += *c == '-';
-    const char *first = c;
-    while (*c >= '0' && *c <= '9')
-        c++;
-    bool good = c > first;
-    if (good && *c == '.')
-        for (c++; *c >= '0' && *c <= '9';)
-            c++;
-    if (good && *c == 'e' && (c[1] == '+' || c[1] == '-') && c[2] >= '0' && c[2] <= '9')
-        for (c += 3; *c >= '0' && *c <= '9';)
-            c++;
-    *end = c;
-    return good && (*c == ',' || *c == '\0');
 }
 
 /* Which of the columns that are asked for comes next, from `column` on; INT32_MAX: none. */
@@ -138,18 +143,30 @@ typedef struct column_reader {
     double_array *columns;
 } column_reader;
 
+/* `asked` is a column that is asked for. */
+static fram_status refuse_cell(const column_reader *r, const char *path, int line, int32_t asked, const char *cell,
+                               fram_error *error)
+{
+    int32_t k = 0;
+    while (r->at[k] != asked)
+        k++;
+    int length = (int)strcspn(cell, ",");
+    return error_set(error, FRAM_ERROR_INPUT, path, line, r->names[k], "column %d: expected a number, found \"%.*s\"",
+                     (int)asked + 1, length < CELL_TOLD ? length : CELL_TOLD, cell);
+}
+
 static fram_status read_row(const column_reader *r, const char *path, int line, const char *row, fram_error *error)
 {
     const int32_t *at = r->at;
     int32_t count = r->count, column = 0, asked = next_asked(at, count, 0);
     for (const char *c = row; *c; column++) {
-        const char *passed = c;
-        if (column != asked && c[0] == '0' && c[1] == ',') {
-            c += 2;
-            continue;
-        }
-        if (column != asked && is_plain_number(c, &passed)) {
-            c = *passed ? passed + 1 : passed;
+        if (column != asked) {
+            c = pass_cell(c);
+            if (!c)
+                return error_set(error, FRAM_ERROR_INPUT, path, line, NULL,
+                                 "column %d: expected a quotation mark at the end of the cell, as at its beginning",
+                                 (int)column + 1);
+            c += *c == ',';
             continue;
         }
         char *end;
@@ -157,13 +174,10 @@ static fram_status read_row(const column_reader *r, const char *path, int line, 
         bool number = end > c;
         end += strspn(end, BLANKS);
         if (!number || (*end != ',' && *end != '\0'))
-            return error_set(error, FRAM_ERROR_INPUT, path, line, NULL, "column %d: expected a number",
-                             (int)column + 1);
-        if (column == asked) {
-            if (!push_value(r->ctx, at, count, column, value, r->columns))
-                return error_memory(error);
-            asked = next_asked(at, count, column + 1);
-        }
+            return refuse_cell(r, path, line, asked, c, error);
+        if (!push_value(r->ctx, at, count, column, value, r->columns))
+            return error_memory(error);
+        asked = next_asked(at, count, column + 1);
         c = *end ? end + 1 : end;
     }
     for (int32_t k = 0; k < count; k++) {

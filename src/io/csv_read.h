@@ -1,4 +1,4 @@
-/* Reading columns of a CSV file that io/csv.h wrote (or any file of numbers with one header row). */
+/* Reading columns of a CSV file that io/csv.h wrote (or any file with one header row). */
 #ifndef IO_CSV_READ_H
 #define IO_CSV_READ_H
 
@@ -11,8 +11,9 @@ typedef ARRAY(double) double_array;
 enum { CSV_LINE_MOST = 1 << 20 };
 
 /* The columns of the given names appended to columns[0..count).  A name may have a unit ("tension[N]"): the file may
-   leave it out, but not name another one.  FRAM_ERROR_INPUT for a missing column, two of one name, another unit, or a
-   value that is no number, with its line. */
+   leave it out, but not name another one.  Other columns are passed over, whatever is in them.  FRAM_ERROR_INPUT for a
+   missing column, two of one name, another unit, a value that is no number, and a row of more cells than the header,
+   with its line. */
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 

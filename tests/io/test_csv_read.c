@@ -87,6 +87,28 @@ START_TEST(blanks_do_not_matter)
 }
 END_TEST
 
+/* Dates, words with commas and gaps of columns that nobody asks for, in the header too. */
+START_TEST(other_columns_may_hold_anything)
+{
+    static const char text[] = "date,\"note, by hand\",time[s],gust,force[N],end\n"
+                               "2026-01-01 00:00,\"calm, 1\"\" of ice\" ,0.25,,1,\n"
+                               "2026-01-01 00:15,5\" of ice,0.5,nan,-2500,x\n";
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(columns[0].count, 2);
+    ck_assert_int_eq(columns[1].count, 2);
+    assert_bits(columns[0].data[0], 0.25);
+    assert_bits(columns[0].data[1], 0.5);
+    assert_bits(columns[1].data[1], -2500);
+    free_columns(columns);
+    ASSERT_REFUSED("time[s],note,force[N]\n1,\"a,2\n", 2, "column 2: expected a quotation mark at the end");
+    ASSERT_REFUSED("time[s],note,force[N]\n1,\"a\"b,2\n", 2, "column 2: expected a quotation mark at the end");
+    ASSERT_REFUSED("time[s],note,force[N]\n1,,\n", 2, "has 2 values");
+    ASSERT_REFUSED("time[s],note,force[N]\n1,a,b,2\n", 2, "column 3: expected a number, found \"b\"");
+}
+END_TEST
+
 START_TEST(what_is_wrong_is_refused_at_its_line)
 {
     ASSERT_REFUSED("", 1, "no header");
@@ -181,4 +203,5 @@ START_TEST(rows_go_over_the_parts_of_a_buffer)
 END_TEST
 
 TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter, blanks_do_not_matter,
-          what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read, rows_go_over_the_parts_of_a_buffer)
+          other_columns_may_hold_anything, what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read,
+          rows_go_over_the_parts_of_a_buffer)

@@ -158,7 +158,7 @@ START_TEST(wrong_files)
         {"current_file: series.csv", "time,x,y\n", "at least one row", 2, ""},
         {"current_file: series.csv", "time,x,y\n0,1,0\n0,2,0\n", "row before", 3, ""},
         {"wind_file: series.csv", "time,x,y\n0,nan,0\n", "finite", 2, "x[m/s]"},
-        {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2, ""},
+        {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2, "x[m/s]"},
         {"current_file: series.csv", "time,x,y\n0,1,0\n5,0,-201\n", "at most 200 m/s, found -201", 3, "y[m/s]"},
         {"current_file: series.csv", "time,x,y\n\n0,1,0\n \t\n5,0,-201\n", "at most 200 m/s, found -201", 5, "y[m/s]"},
         {"current_file: series.csv", "time,x,y\n0,1,0\n\n\n0,2,0\n", "row before", 5, ""},
