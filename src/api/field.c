@@ -92,6 +92,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
     const import_options options = {.name = path,
                                     .degrees = d->degrees,
                                     .scale = d->scale,
+                                    .lengths = d->lengths,
                                     .centre = d->centre,
                                     .offset = {d->offset[0], d->offset[1]},
                                     .crop = d->crop,

@@ -87,7 +87,7 @@ static const char *misplaced_option(const field_words *w)
     const fram_field_definition *f = &w->field;
     if (!w->scenario)
         return w->overrides.count > 0 ? "--set" : NULL;
-    if (f->scale != 1)
+    if (f->lengths)
         return "--scale";
     if (f->degrees)
         return "--degrees";
@@ -183,7 +183,12 @@ int command_field(const command_row *self, int argc, char **argv)
     common_options common;
     field_words w = {.path = NULL};
     fram_field_default(&w.field);
+    const double usual = w.field.scale;
+    w.field.scale = (double)NAN;
     int code = read_field_words(self, &w, &common, argc, argv);
+    w.field.lengths = !isnan(w.field.scale);
+    if (!w.field.lengths)
+        w.field.scale = usual;
     if (code < 0)
         code = check_field_words(&common, &w);
     if (code >= 0)

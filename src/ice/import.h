@@ -43,8 +43,10 @@ typedef struct import_options {
     box2 domain;     /* [m] */
     double simplify; /* largest distance by which an outline may change [m]; 0: not at all */
     import_bad bad;
-    bool as_it_is;        /* nobody chooses degrees, scale or bad: refusals do not name what could be chosen */
-    double smallest_area; /* floes and cut pieces under it are left out [m2] */
+    bool lengths;            /* the rings are such even if they look like degrees */
+    const char *say_lengths; /* how somebody says that, for the refusal of others; NULL: by the scale, 1 too */
+    bool as_it_is;           /* nobody chooses degrees, scale or bad: refusals do not name what could be chosen */
+    double smallest_area;    /* floes and cut pieces under it are left out [m2] */
     const polygon_list
         *keep_out;          /* convex, counter-clockwise zones; floes that reach into them are left out; or NULL */
     double keep_out_margin; /* and those nearer to a zone than this [m] */

@@ -3,11 +3,13 @@
 #include "base/transcendental.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Lengths are too long by (r / 2R)^2, 0.6 % so far from the centre [m]. */
 #define REACH_MOST 1e6
 /* Sea ice begins at the south coast of the Bohai Sea, and a floe of 50 km covers a quarter of a square degree of
-   latitude: no tank or planar field is so far from its origin with floes so small [deg]. */
+   latitude: no planar field of full size is so far from its origin with floes so small, but one in the metres of a tank
+   [deg]. */
 #define LATITUDE_LEAST 37
 #define FLOE_MOST 0.5
 #define HALF_TURN 180.0 /* [deg] */
@@ -111,19 +113,24 @@ static fram_status project(const import_rings *r, const import_options *o, impor
     return FRAM_OK;
 }
 
+static fram_status refuse_degrees(const import_rings *r, const import_options *o, fram_error *error)
+{
+    char what[320];
+    snprintf(what, sizeof what, "the coordinates look like degrees of longitude and latitude, and %s%s%s",
+             o->as_it_is ? "only lengths are taken here: project them before, as \"fram field --degrees -o\" does"
+                         : "lengths are expected: have them projected as degrees, or give the scale that makes metres "
+                           "of them",
+             o->say_lengths ? "; " : ", 1 too", o->say_lengths ? o->say_lengths : "");
+    return fault(r, o, 0, error, what);
+}
+
 fram_status import_frame_make(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
 {
     *out = (import_frame){.degrees = o->degrees, .scale = o->scale, .shift = o->offset};
     if (o->degrees)
         return project(r, o, out, error);
-    if (o->scale == 1 && look_like_degrees(r))
-        return fault(
-            r, o, 0, error,
-            o->as_it_is
-                ? "the coordinates look like degrees of longitude and latitude, and only lengths are "
-                  "taken here"
-                : "the coordinates look like degrees of longitude and latitude, and lengths are expected: have them "
-                  "projected as degrees, or give the scale that makes metres of them");
+    if (!o->lengths && o->scale == 1 && look_like_degrees(r))
+        return refuse_degrees(r, o, error);
     if (o->centre && r->rings.vertex.count > 0) {
         box2 box = polygon_bounds(all_vertices(r));
         out->shift = vec2_sub(o->offset, vec2_scale(vec2_add(box.lo, box.hi), 0.5 * o->scale));

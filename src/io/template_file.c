@@ -14,7 +14,11 @@ fram_status template_file_read(context *ctx, overlay *o, const char *path, polyg
 {
     import_rings rings = {0};
     import_field field = {0};
-    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_DROP, .as_it_is = true};
+    const import_options options = {.name = path,
+                                    .scale = 1,
+                                    .bad = IMPORT_DROP,
+                                    .as_it_is = true,
+                                    .say_lengths = "lengths go nearer to the origin, for only the shape counts"};
     fram_status status = outline_file_read(ctx, path, &rings, error);
     for (int32_t i = 0; status == FRAM_OK && i < rings.place.count; i++)
         rings.place.data[i].open = false;

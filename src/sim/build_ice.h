@@ -14,6 +14,10 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
 ice_material build_ice_material(const scenario *s);
 double build_ice_elevation(const scenario *s, double thickness);
 
+/* Small floes far from the origin are degrees in full size, metres in a tank; and how a user says that it is one. */
+#define BUILD_SAY_TANK "metres of a tank go with its run.scale, under 10"
+static inline bool build_is_of_tank(const scenario *s) { return s->run.scale < 10; }
+
 /* Plan outlines, global [m], of what is drawn or kept clear: the convex hull of all of a solid body seen from above,
    and of its part below still water. */
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,

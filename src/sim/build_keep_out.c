@@ -89,7 +89,12 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.open_water_file", "the path of the zones is too long");
     import_rings rings = {0};
     import_field field = {0};
-    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_REFUSE, .as_it_is = true};
+    const import_options options = {.name = path,
+                                    .scale = 1,
+                                    .bad = IMPORT_REFUSE,
+                                    .as_it_is = true,
+                                    .lengths = build_is_of_tank(s),
+                                    .say_lengths = BUILD_SAY_TANK};
     fram_status status = outline_file_read(ctx, path, &rings, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);

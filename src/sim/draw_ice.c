@@ -3,6 +3,7 @@
 #include "ice/field_cells.h"
 #include "ice/import.h"
 #include "io/outline_file.h"
+#include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_packed.h"
 #include "sim/sanity_parts.h"
@@ -137,6 +138,8 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
     const import_options options = {.name = path,
                                     .degrees = s->ice.file_coordinates == FILE_DEGREES,
                                     .scale = s->ice.file_scale,
+                                    .lengths = build_is_of_tank(s),
+                                    .say_lengths = BUILD_SAY_TANK,
                                     .centre = s->ice.file_centre,
                                     .offset = {s->ice.file_x, s->ice.file_y},
                                     .crop = true,

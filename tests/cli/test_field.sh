@@ -185,8 +185,10 @@ says "was reached" err
 printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' 'ice: {source: none}' >water.yaml
 expect 2 "$FRAM" field water.yaml
 says "no field of floes" err
-expect 2 "$FRAM" field packed.yaml --scale 2
-says "a scenario has keys for it" err
+for scale in 1 2; do
+    expect 2 "$FRAM" field packed.yaml --scale $scale
+    says "a scenario has keys for it" err
+done
 expect 2 "$FRAM" field once.geojson --set run.seed=1
 says "is for scenarios" err
 expect 2 "$FRAM" field packed.yaml --window 1,2,3
@@ -327,6 +329,30 @@ says "look like degrees" err
 sed 's/119.51/121.7/g; s/37.11/37.46/g; s/37\([.0-9]*\)\]/80\1]/g' bohai.geojson >arctic.geojson
 expect 2 "$FRAM" field arctic.geojson
 says "look like degrees" err
+# Floes of half a metre at 60 m of a tank: metres where that is said, of zones and floes of a scenario by its scale.
+cat >tank.geojson <<'END'
+{"type": "MultiPolygon", "coordinates": [[[[0, 60], [0.5, 60], [0.5, 60.5], [0, 60.5], [0, 60]]],
+  [[[1, 60], [1.5, 60], [1.5, 61], [1, 60]]]]}
+END
+expect 2 "$FRAM" field tank.geojson
+says "or give the scale that makes metres of them, 1 too" err
+expect 0 "$FRAM" field tank.geojson --scale 1 --json
+same "$(value 'j["floes"], j["area_m2"]')" "2 0.5" "floes in a tank"
+cat >tank.yaml <<'END'
+run: {duration: 1, scale: 1}
+vessel: {present: false}
+ice: {source: file, file: tank.geojson}
+domain: {x_min: -5, x_max: 5, y_min: 0, y_max: 78}
+END
+expect 0 "$FRAM" field tank.yaml --json
+same "$(value 'j["floes"]')" 2 "floes in a tank's scenario"
+expect 0 "$FRAM" field tank.yaml --set ice.source=voronoi --set ice.concentration=0.5 --set ice.file= \
+    --set ice.open_water_file=tank.geojson --set ice.mean_floe_area=20 -q
+for ice in file=tank.geojson "open_water_file=tank.geojson --set ice.source=voronoi --set ice.file="; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" field tank.yaml --set run.scale=30 --set ice.$ice
+    says "metres of a tank go with its run.scale, under 10" err
+done
 # Zones and templates have no option for degrees and bad rings: none is named.
 printf '%s\n' 'run: {duration: 1}' 'ice: {open_water_file: hole.wkt}' >zones.yaml
 echo 'POLYGON ((90 40, 99 40, 99 49, 90 40), (92 41, 94 41, 94 42, 92 41))' >hole.wkt
