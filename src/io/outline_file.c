@@ -193,7 +193,11 @@ fram_status outline_file_parse(context *ctx, const char *name, const char *data,
                       .out = out,
                       .error = error};
     fram_status status;
-    if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'))
+    if (size > 0 && memchr(data, '\0', size))
+        status =
+            outline_refuse(&w, "expected GeoJSON, WKT or lines of x and y, found a binary file: export GeoJSON, as "
+                               "\"ogr2ogr\" does of a Shapefile or a GeoPackage");
+    else if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'))
         status = outline_read_wkt(&w);
     else if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == '>')
         status = outline_read_points(&w);

@@ -252,6 +252,12 @@ says "empty.geojson:1:1" err
 printf '\xff\xfe{' >other.geojson
 expect 2 "$FRAM" field other.geojson
 says "other.geojson:1:1: expected" err
+for head in '\0\0\x27\x0a' 'SQLite format 3\0' '7\0'; do
+    # shellcheck disable=SC2059
+    printf "$head" >binary.shp
+    expect 2 "$FRAM" field binary.shp
+    says "found a binary file: export GeoJSON" err
+done
 for words in "--scale 0" "--scale nan" "--scale -1" "--scale 1e300" "--crop 1,2,3" "--crop 3,0,1,1" "--crop 0,0,1,nan" \
     "--simplify -1" "--smallest -1" "--bad mend" "--smallest 1e9" "--x 1e400" "--wrong"; do
     # shellcheck disable=SC2086  # an option and its value
