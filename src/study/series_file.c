@@ -21,7 +21,9 @@
 
 /* ---- a CSV file, in which some cells are texts ---- */
 
-/* Name and unit of "name[unit]" or "name [unit]". */
+#define BLANKS " \t"
+
+/* Name and unit of "name[unit]" or "name [unit]", blanks about them or not. */
 static void split_head(char *head, char unit[UNIT_SIZE])
 {
     char *open = strchr(head, '['), *close = open ? strchr(open, ']') : NULL;
@@ -30,8 +32,11 @@ static void split_head(char *head, char unit[UNIT_SIZE])
         snprintf(unit, UNIT_SIZE, "%.*s", (int)(close - open - 1), open + 1);
         *open = '\0';
     }
-    for (size_t n = strlen(head); n > 0 && head[n - 1] == ' '; n--)
-        head[n - 1] = '\0';
+    size_t before = strspn(head, BLANKS), length = strlen(head);
+    while (length > before && strchr(BLANKS, head[length - 1]))
+        length--;
+    memmove(head, head + before, length - before);
+    head[length - before] = '\0';
 }
 
 enum { NO_HEAD = -1, TWO_HEADS = -2 };
@@ -44,7 +49,8 @@ static int find_head(const char *path, const char *line, const char *name, bool 
     csv_cell head;
     int least = WORD_ROOM, at = 0, found = NO_HEAD;
     unit[0] = '\0';
-    for (const char *c = line + utf8_mark(line, strlen(line)); c; at++) {
+    const char *header = line + utf8_mark(line, strlen(line));
+    for (const char *c = header; c; at++) {
         c = csv_cell_next(c, &head);
         split_head(head.text, own);
         if (strcmp(head.text, name) == 0 && found >= 0) {
@@ -61,13 +67,14 @@ static int find_head(const char *path, const char *line, const char *name, bool 
             memcpy(near, head.text, sizeof near);
         }
     }
-    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n");
+    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = *near && !other_marks && *header != '#';
     if (must && found < 0)
         error_set(error, FRAM_ERROR_INPUT, path, 1, name, "the file has no column of this name%s%s%s",
-                  other_marks ? "; columns are divided by commas"
-                  : *near     ? "; did you mean "
-                              : "",
-                  other_marks ? "" : near, *near && !other_marks ? "?" : "");
+                  other_marks      ? "; columns are divided by commas"
+                  : *header == '#' ? "; comments stand behind the header"
+                  : *near          ? "; did you mean "
+                                   : "",
+                  guess ? near : "", guess ? "?" : "");
     return found;
 }
 

@@ -124,7 +124,7 @@ class Statistics(unittest.TestCase):
 
     def test_times_of_a_file_begin_where_they_begin(self):
         # All rows of a file are read where nothing else was asked, those before zero too; a row at --from is before it.
-        file = self.write("time,x\n" + "".join(f"{i / 10},{i * 7919 % 100}\n" for i in range(-200, 100)))
+        file = self.write(" time[s],\t x [kN]\n" + "".join(f"{i / 10},{i * 7919 % 100}\n" for i in range(-200, 100)))
         for words, values in (((), 300), (("--from", "-5"), 149), (("--from", "0"), 100)):
             self.assertEqual(self.fram("fatigue", file, "--channel", "x", *words)["series"]["values"], values)
 
@@ -256,6 +256,8 @@ class Statistics(unittest.TestCase):
         file = self.write("time[s],tension[N]\n0,1\n1,2\n2,x\n")
         self.refused(("extremes", file, "--channel", "tension"), "series.csv:4:", "expected a number", "x")
         self.refused(("extremes", file, "--channel", "tensoin"), "tensoin", "did you mean tension?")
+        first = self.write("# T of a tank\ntime[s],T[N]\n0,1\n1,2\n", "first.csv")
+        self.refused(("extremes", first, "--channel", "T"), "first.csv:1: T:", "comments stand behind the header")
         self.refused(("extremes", file), "channel")
         self.refused(("extremes", str(file) + "-not-there"), "series.csv-not-there")
         self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
