@@ -110,16 +110,14 @@ static bool is_level(const mesh *m, int32_t face, double tolerance)
     return fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= tolerance;
 }
 
-static bool is_lid(const hull_reading *r, int32_t face)
-{
-    return r->file->format == MESH_GDF && is_level(&r->file->surface, face, r->tolerance);
-}
+/* Of a hull whose keel is its z = 0 they are the flat of its bottom. */
+static bool may_have_lids(const mesh *m, double tolerance) { return mesh_bounds(m).lo.z < -tolerance; }
 
 int32_t hull_count_lids(const mesh *m)
 {
     double tolerance = LEVEL_TOLERANCE * hull_longest_side(m);
-    int32_t count = 0;
-    for (int32_t f = 0; f < m->face.count; f++)
+    int32_t count = 0, faces = may_have_lids(m, tolerance) ? m->face.count : 0;
+    for (int32_t f = 0; f < faces; f++)
         count += is_level(m, f, tolerance);
     return count;
 }
@@ -131,8 +129,9 @@ static fram_status drop_triangles(hull_reading *r)
 {
     mesh *m = &r->file->surface;
     int32_t kept = 0;
+    bool lids = r->file->format == MESH_GDF && may_have_lids(m, r->tolerance);
     for (int32_t f = 0; f < m->face.count; f++) {
-        bool lid = is_lid(r, f), flat = !lid && !mesh_has_area(m, f);
+        bool lid = lids && is_level(m, f, r->tolerance), flat = !lid && !mesh_has_area(m, f);
         if (flat && !r->options->repair) {
             vec3 p = m->vertex.data[m->face.data[f].v[0]];
             char key[64];

@@ -23,10 +23,15 @@ START_TEST(topsides)
 {
     context ctx;
     context_init(&ctx);
-    /* The mirrored box of 2 x 2 x 1, and its lid in the water plane, which is left out. */
-    const char *const texts[] = {GDF_BOX, GDF_HEAD("1", "1", "4") GDF_QUARTER "0 0 0  1 0 0  1 1 0  0 1 0\n"};
+    /* The mirrored box of 2 x 2 x 1; its lid in the water plane, which is left out; and a flat bottom in z = 0, which
+       is none. */
+    enum { BOX, LID, KEEL, TEXTS };
+    const char *const texts[TEXTS] = {GDF_BOX, GDF_HEAD("1", "1", "4") GDF_QUARTER "0 0 0  1 0 0  1 1 0  0 1 0\n",
+                                      GDF_HEAD("1", "1", "3") "0 0 0  0 1 0  1 1 0  1 0 0\n"
+                                                              "1 0 0  1 1 0  1 1 1  1 0 1\n"
+                                                              "1 1 0  0 1 0  0 1 1  1 1 1\n"};
     const double freeboards[] = {(double)NAN, 0.5, 2};
-    for (size_t t = 0; t < 2; t++)
+    for (size_t t = 0; t < TEXTS; t++)
         for (size_t i = 0; i < 3; i++) {
             hull_file_options options = hull_file_defaults();
             options.freeboard = freeboards[i];
@@ -37,9 +42,9 @@ START_TEST(topsides)
             assert_ok(finish(&ctx, "box.gdf", texts[t], &options, &m, &report, &error), error);
             check_sound(&ctx, &m, 4 * (1 + height));
             assert_relative(report.freeboard, height, 1e-15);
-            ck_assert_int_eq(report.lids, t == 0 ? 0 : 8);
+            ck_assert_int_eq(report.lids, t == LID ? 8 : 0);
             ck_assert(report.mirror_x && report.mirror_y);
-            assert_absolute(mesh_bounds(&m).hi.z, height, 1e-15);
+            assert_absolute(mesh_bounds(&m).hi.z, height + (t == KEEL), 1e-15);
             mesh_free(&ctx, &m);
         }
 }
