@@ -37,16 +37,24 @@ double hull_longest_side(const mesh *m)
 
 /* ---- errors ---- */
 
+enum { KEY_ROOM = 64 };
+
+/* "facet 12": what a face of the surface as it is now is in the file; returns its line.  "" and 0: it is nothing. */
+static int32_t name_face(const hull_reading *r, int32_t face, char key[KEY_ROOM])
+{
+    key[0] = '\0';
+    if (face < 0 || face >= r->source.count || r->source.data[face] >= r->file->element.count)
+        return 0;
+    int32_t in_file = r->source.data[face];
+    snprintf(key, KEY_ROOM, "%s %d", mesh_format_element(r->file->format), r->file->element.data[in_file]);
+    return r->file->line.data[in_file];
+}
+
 /* An error at a face of the surface as it is now, named as in the file. */
 static fram_status refuse_face(const hull_reading *r, int32_t face, const char *text, const char *advice)
 {
-    char key[64] = "";
-    int32_t line = 0;
-    if (face >= 0 && face < r->source.count && r->source.data[face] < r->file->element.count) {
-        int32_t in_file = r->source.data[face];
-        line = r->file->line.data[in_file];
-        snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[in_file]);
-    }
+    char key[KEY_ROOM];
+    int32_t line = name_face(r, face, key);
     return error_set(&r->out->error, FRAM_ERROR_INPUT, r->name, line, key[0] ? key : "mesh", "%s; %s", text, advice);
 }
 
@@ -81,10 +89,40 @@ static const char *advice_for(const hull_reading *r, mesh_defect defect)
                  "file";
 }
 
+/* The corner of a face that is not in the edge; -1 where the face does not have that edge. */
+static int32_t corner_off(const mesh *m, int32_t face, const int32_t edge[2])
+{
+    const int32_t *v = m->face.data[face].v;
+    for (int k = 0; k < 3; k++) {
+        int32_t a = v[k], b = v[(k + 1) % 3];
+        if ((a == edge[0] && b == edge[1]) || (a == edge[1] && b == edge[0]))
+            return v[(k + 2) % 3];
+    }
+    return -1;
+}
+
+/* Two faces at the edge that have the same corners. */
+static bool find_twins(const mesh *m, const int32_t edge[2], int32_t twin[2])
+{
+    for (twin[0] = 0; twin[0] < m->face.count; twin[0]++) {
+        int32_t off = corner_off(m, twin[0], edge);
+        for (twin[1] = twin[0] + 1; off >= 0 && twin[1] < m->face.count; twin[1]++)
+            if (corner_off(m, twin[1], edge) == off)
+                return true;
+    }
+    return false;
+}
+
 static fram_status refuse_report(hull_reading *r, const mesh_report *report)
 {
     r->out->defect = report->defect;
-    char text[256];
+    int32_t twin[2];
+    char text[256], other[KEY_ROOM];
+    if (report->defect == MESH_NOT_MANIFOLD && find_twins(&r->file->surface, report->edge, twin)) {
+        name_face(r, twin[1], other);
+        snprintf(text, sizeof text, "it has the corners of %s", other[0] ? other : "another triangle");
+        return refuse_face(r, twin[0], text, "leave one of the two out in the program that made the file");
+    }
     if (report->open_edges > 1)
         snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
     else

@@ -67,6 +67,7 @@ static const bad_mesh bad[] = {
     {"inside_out.obj", OBJ_POINTS "f 2 3 1\nf 4 2 1\nf 3 4 1\nf 4 3 2\n", 5, "face 1", "turned the wrong way"},
     {"flat.obj", OBJ_POINTS "v 0.5 0.5 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n", 10, "face 5", "has no area"},
     {"inner_wall.obj", OBJ_CUBE OBJ_LAST "f 1 3 7 5\n", 15, "face 7", "has one triangle"},
+    {"twice.obj", OBJ_CUBE OBJ_LAST OBJ_LAST, 14, "face 6", "it has the corners of face 7; leave one of the two out"},
     {"two_cubes_on_an_edge.obj",
      OBJ_CUBE OBJ_LAST "v 2 1 0\nv 2 2 0\nv 1 2 0\nv 2 1 1\nv 2 2 1\nv 1 2 1\n"
                        "f 11 10 9 3\nf 7 12 13 14\nf 3 9 12 7\nf 9 10 13 12\nf 10 11 14 13\nf 11 3 7 14\n",
