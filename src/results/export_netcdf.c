@@ -5,6 +5,7 @@
 #include "base/transcendental.h"
 #include "fram/version.h"
 #include "io/csv_read.h"
+#include "io/file.h"
 #include "io/netcdf_file.h"
 #include "results/replay.h"
 
@@ -191,12 +192,20 @@ static fram_status put_floes(context *ctx, netcdf_file *f, const char *folder, e
     return status;
 }
 
+/* Before anything is written into a folder that may be none. */
+static fram_status check_run(const char *folder, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = path_join(folder, "series.csv", path, error);
+    return status == FRAM_OK ? file_check(path, error) : status;
+}
+
 fram_status export_netcdf(context *ctx, const char *folder, const char *output, export_report *report,
                           fram_error *error)
 {
     netcdf_file f;
     *report = (export_report){0};
-    if (path_given_or(output, folder, "run.nc", report->path, error) != FRAM_OK)
+    if (path_given_or(output, folder, "run.nc", report->path, error) != FRAM_OK || check_run(folder, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
     fram_status status = netcdf_begin(ctx, report->path, &f, error);
     if (status != FRAM_OK)

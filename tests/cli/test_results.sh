@@ -235,6 +235,8 @@ if "$FRAM" --version | grep -q netcdf; then
     130) [ -z "$(compgen -G 'stopped.nc*')" ] || fail "an interrupted export left $(compgen -G 'stopped.nc*')" ;;
     *) fail "an interrupted export has exit code $code: $(cat err)" ;;
     esac
+    expect 2 "$FRAM" export no_run --netcdf
+    says "no_run/series.csv: cannot read" err
     expect 2 "$FRAM" export run --netcdf -o no/such/run.nc
     says "cannot open for writing" err
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
