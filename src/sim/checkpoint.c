@@ -185,6 +185,17 @@ static bool copy_bytes(context *ctx, const table_file_bytes *from, byte_array *t
     return true;
 }
 
+/* The first file of a list that has other contents than the one in its place of the list that was found. */
+static bool find_changed(const table_file_bytes *found, const char *expected, run_input *out)
+{
+    run_input before;
+    const char *at = found->size > 0 ? found->data : "", *end = at + found->size;
+    for (const char *stop = expected + strlen(expected); run_inputs_next(&expected, stop, out);)
+        if (!run_inputs_next(&at, end, &before) || strcmp(before.digest, out->digest) != 0)
+            return true;
+    return false;
+}
+
 /* A run goes on with what its checkpoint's list says of the files' contents, wherever they lie now; so does a state
    alone (`alone`), whose expected text is a digest, and the state in a run's checkpoint. */
 static fram_status check_inputs(context *ctx, const char *path, const table_file_bytes *found, const char *expected,
@@ -212,8 +223,11 @@ static fram_status check_inputs(context *ctx, const char *path, const table_file
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                          "expected a checkpoint of a run, found a state that a program saved from a world: load it "
                          "into one");
+    run_input file;
+    bool named = find_changed(found, expected, &file);
     return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                     "a file that the run was started with was changed since; restore it or start a new run");
+                     "a file that the run was started with was changed since%s%.*s; restore it or start a new run",
+                     named ? ": " : "", named ? file.path_length : 0, named ? file.path : "");
 }
 
 /* That the file is of this version, scenario and inputs; `other` is true when it is sound, but of others. */

@@ -58,7 +58,7 @@ same "$(grep state_hash moved/run.json)" "$(grep state_hash run/run.json)" "the 
 says "elsewhere/hull.stl" moved/run.json
 expect 0 "$FRAM" hull --length 40 --beam 10 --draught 5 -o elsewhere/hull.stl --force
 expect 2 "$FRAM" resume other -q
-says "changed since" err
+says "a file that the run was started with was changed since: $scratch/elsewhere/hull.stl; restore it" err
 expect 0 "$FRAM" hull --length 40 --beam 10 --draught 4 -o hull.stl
 
 # Sizes: a scenario of more than a mebibyte, a line of a table without end, a table of more than 16 GiB (with holes).
