@@ -2,6 +2,7 @@
 #include "results/report_parts.h"
 
 #include "base/channel_statistics.h"
+#include "results/limit_use.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/peaks.h"
@@ -109,49 +110,6 @@ static void judge_tracks(verdict *v)
 
 /* ---- keeping station ---- */
 
-typedef struct limit_use {
-    double most, part; /* largest value; part of the time beyond */
-    double first;      /* [s] when it was first passed; HUGE_VAL: not that it is known */
-    bool unsure;       /* it may have been, in steps without a row */
-} limit_use;
-
-/* What the run's own events tell of the steps that the series leaves out, or that came before it.  What was lost before
-   the transient ended is regained within 0.9 of the limit only: it may have been within the limit since. */
-static limit_use limit_between(const report *r, station_event lost, station_event regained)
-{
-    double from = r->d.s.run.transient;
-    if (!run_leaves_out_steps(&r->d) && !(run_recorded_from(&r->d) > 0))
-        return (limit_use){.first = HUGE_VAL};
-    return (limit_use){.first = run_event_from(&r->d, r->vessel, lost, from),
-                       .unsure = run_lacks_events(&r->d) || run_event_goes_on(&r->d, r->vessel, lost, regained, from)};
-}
-
-/* Of the size of one channel, or of a vector of two, after the transient. */
-static limit_use limit_of(const report *r, const char *x_name, const char *y_name, double limit)
-{
-    const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, x_name);
-    const double *y = y_name ? run_vessel_channel(&r->d, r->vessel, y_name) : NULL;
-    limit_use u = y_name ? limit_between(r, EVENT_POSITION_LOST, EVENT_POSITION_REGAINED)
-                         : limit_between(r, EVENT_HEADING_LOST, EVENT_HEADING_REGAINED);
-    int32_t first = run_first_row(&r->d), rows = r->d.series.rows, beyond = 0;
-    for (int32_t i = first; time && x && i < rows; i++) {
-        double size = y ? sqrt(x[i] * x[i] + y[i] * y[i]) : fabs(x[i]);
-        u.most = fmax(u.most, size);
-        beyond += size > limit;
-        if (size > limit)
-            u.first = fmin(u.first, time[i]);
-    }
-    u.part = rows > first ? (double)beyond / (rows - first) : 0;
-    u.unsure = u.unsure && !isfinite(u.first);
-    return u;
-}
-
-/* Where a time has no row. */
-static const char *no_row_words(const report *r, double time)
-{
-    return time < run_recorded_from(&r->d) ? "before the recording began" : "between two rows of the series";
-}
-
 static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
 {
     char most[32], name[48];
@@ -169,12 +127,13 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
         find(v, VERDICT_CAUTION,
              run_leaves_out_steps(&v->r->d) ? "Make output.csv_interval shorter to see." : "Record it from its start.",
              "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, %s; the rows reach %s %s.", name, what,
-             limit, unit, v->r->d.s.run.transient, no_row_words(v->r, v->r->d.s.run.transient), most, unit);
+             limit, unit, v->r->d.s.run.transient, limit_use_between_rows(&v->r->d, v->r->d.s.run.transient), most,
+             unit);
     else if (isfinite(u.first) && !(u.most > limit))
         find(v, VERDICT_BAD,
              u.first < run_recorded_from(&v->r->d) ? "" : "Make output.csv_interval shorter to see by how much.",
              "%sthe %s passed its limit of %.4g %s at %.6g s, %s; the rows reach %s %s.", name, what, limit, unit,
-             u.first, no_row_words(v->r, u.first), most, unit);
+             u.first, limit_use_between_rows(&v->r->d, u.first), most, unit);
     else if (u.most > limit)
         find(v, VERDICT_BAD,
              "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
@@ -268,8 +227,10 @@ static void judge_station(verdict *v)
         find(v, VERDICT_CAUTION, "", "%swhether it kept its station was not measured.", whose(r, name));
         return;
     }
-    limit_use offset = limit_of(r, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
-    limit_use heading = limit_of(r, "heading_deviation", NULL, automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
+    limit_use offset =
+        limit_use_of(&r->d, r->vessel, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
+    limit_use heading = limit_use_of(&r->d, r->vessel, "heading_deviation", NULL,
+                                     automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
     judge_limit(v, "offset", "m", offset, keys->station.offset_limit, "station.offset_limit");
     if (!is_automatic(keys->station.heading_limit_deg))
         judge_limit(v, "heading deviation", "deg", heading, keys->station.heading_limit_deg,

@@ -359,7 +359,8 @@ def check_ice(folder):
              "thickness: 0.2, crushing_strength: 1.0e+6, breakable: false}]",
              "managed ice (Voronoi cells), 0.2 m thick, 900 kg/m3",
              "1: 0.2 m thick; crushing 1000 kPa, flexural strength 500 kPa; does not break"),
-            ("source: voronoi, concentration: 0.5", f"managed ice (Voronoi cells), 1 m thick, 900 kg/m3{strengths}", None)):
+            ("source: voronoi, concentration: 0.5", f"managed ice (Voronoi cells), 1 m thick, 900 kg/m3{strengths}",
+             None)):
         file, run = folder / "ice.yaml", folder / "ice"
         file.write_text(FLOES % ice)
         subprocess.run([FRAM, "run", file, "-o", run, "-q", "--force"], check=True)
