@@ -23,8 +23,8 @@ import traceback
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tools")]
 import ladder  # noqa: E402  (beside this script)
-import machine  # noqa: E402  (tools)
 import status  # noqa: E402
+from machine import processor  # noqa: E402  (tools)
 
 RUNGS = {
     1: "Identities and conservation",
@@ -160,7 +160,7 @@ def main():
     chosen = [n for n, module in modules.items() if not (options.only and n not in options.only
                                                         or options.quick and module.LONG)]
     made = revision()  # once: the program and the cases are those of now, whatever is committed meanwhile
-    head = f"{program()}, revision {made}, {datetime.date.today()}, {machine.processor()}, {options.jobs} runs at a time"
+    head = f"{program()}, revision {made}, {datetime.date.today()}, {processor()}, {options.jobs} runs at a time"
     code = status.of_checkout()
     failed, skipped, begun, reused_before = 0, 0, time.monotonic(), len(ladder.REUSED)
     for name in chosen:
