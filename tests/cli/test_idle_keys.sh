@@ -140,7 +140,7 @@ sed 's/^ice.*/ice: {concentration: 0.8, mean_floe_area: 200, thickness: 0.4, bre
 before=$(hash_of afloat.yaml)
 keys=(--set ice.crush_trims=false)
 for key in edge_compliance edge_elastic edge_gaps edge_melts edge_inertia under_pieces; do
-    keys+=(--set ice.fracture.$key=false)
+    keys+=(--set "ice.fracture.$key=false")
 done
 same "$(hash_of afloat.yaml "${keys[@]}")" "$before" "state of ice that floats"
 for key in ice.crush_trims "ice.fracture.edge_compliance and 4 more" ice.fracture.under_pieces; do

@@ -85,7 +85,8 @@ class Units:
         self.assertEqual(kinds["ice_force_x"], "output")
         self.assertNotIn("step_wall_time", kinds)
         self.assertEqual(unit.unit_of("ice_force_x"), "N")
-        self.assertEqual(unit.variables["kinetic_energy"].get("description"), "of all bodies that move freely, and of towed vessels")
+        self.assertEqual(unit.variables["kinetic_energy"].get("description"),
+                         "of all bodies that move freely, and of towed vessels")
         self.assertEqual(unit.variables["lines_parted"].get("description"), "lines that have parted or were let go")
         units = {u.get("name") for u in unit.description.iter("Unit")}
         for variable in unit.variables:
