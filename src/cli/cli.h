@@ -159,8 +159,10 @@ double wall_clock(void);
 void print_duration(double seconds);
 /* The s of a plural: 1 run, 2 runs. */
 const char *plural(int64_t count);
-/* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
-   the process.  From now on a pipe that closes is an error of the write, and does not end it. */
+/* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, a Ctrl-C or
+   SIGTERM half a second later ends the process.  From now on a pipe that closes is an error of the write, and does not
+   end it.
+ */
 const volatile int *session_stop_flag(void);
 /* Progress line on standard error: redrawn on a terminal; elsewhere a line every ten percent and every five seconds. */
 typedef struct progress_view {

@@ -3,6 +3,8 @@
 
 #include <math.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stdint.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -101,16 +103,21 @@ int session_open_for(const char *file, const common_options *common, work_view *
     return file ? session_open_making(common, view, context) : session_open_reading(common, view, context);
 }
 
-/* The only mutable global of Fram: a signal handler can reach nothing else. */
-static volatile sig_atomic_t stop_asked;
+/* One wish to stop often comes as two signals: a closed terminal's from the shell and the kernel, that of timeout to
+   the program and to its group.  What comes sooner after the first is the same wish [ms]. */
+#define SAME_WISH 500
+
+/* The only mutable globals of Fram: a signal handler can reach nothing else. */
+static _Atomic int64_t first_signal; /* when it came [ms]; 0: none did */
 static volatile int stop_flag;
 
 static void on_signal(int number)
 {
-    if (stop_asked)
+    int64_t now = (int64_t)(1e3 * wall_clock()) + 1, first = 0;
+    if (atomic_compare_exchange_strong(&first_signal, &first, now))
+        stop_flag = 1;
+    else if (number != SIGHUP && now - first >= SAME_WISH)
         _exit(128 + number);
-    stop_asked = 1;
-    stop_flag = 1;
 }
 
 const volatile int *session_stop_flag(void)

@@ -237,7 +237,13 @@ for words in "resume hung" "run scene.yaml -o hung --force"; do
     same "$(value 'j["error"]["file"]')" hung "folder of a run that goes on"
     says "another run is writing" err
 done
+# The shell's hangup and the kernel's, and a SIGTERM that comes with the first, are one wish: as the run goes on again,
+# it has both at once.
+kill -STOP $pid
 kill -HUP $pid
+kill -TERM $pid
+kill -CONT $pid
+kill -HUP $pid 2>/dev/null || true
 code=0
 wait $pid || code=$?
 same "$code" 130 "exit code after a hangup"

@@ -11,6 +11,8 @@ NAME = "kills"
 SAYS = "runs that are interrupted or killed at random moments, and resumed to the same end"
 SIGNALS = {"INT": 2, "TERM": 15, "HUP": 1, "KILL": 9}
 MOST_KILLS = 4
+# As a terminal that closes: a hangup comes beside the signal, sooner than it counts as a second one [s].
+PAIRED, PAIR_WITHIN = 0.3, 0.02
 
 
 def straight(rig):
@@ -35,8 +37,10 @@ def case(rig, draw, folder):
         name = draw.choice(sorted(SIGNALS))
         after = draw.uniform(0.002, max(0.02, 1.3 * wall_of(rig)))
         sent = ((after, SIGNALS[name]),) if kill < MOST_KILLS else ()
+        if sent and draw.random() < PAIRED:
+            sent += ((after + draw.uniform(0, PAIR_WITHIN), SIGNALS["HUP"]),)
         outcome = rig.fram.call(*words, "--threads", str(draw.choice((1, 2))), signals=sent)
-        died_of_it = sent and outcome.code in (-SIGNALS[name], 128 + SIGNALS[name])
+        died_of_it = outcome.code in [-number for _, number in sent]
         fault = None if died_of_it else outcome.fault()
         if not fault and not died_of_it and outcome.code in (1, 2):
             fault = "fails" + (" after a kill" if kill else "")
