@@ -1,6 +1,7 @@
 #include "io/folder.h"
 
 #include "io/file.h"
+#include "io/path.h"
 
 #include <errno.h>
 #include <string.h>
@@ -39,6 +40,22 @@ void folder_remove_files(const char *path, bool (*is_such)(const char *name))
             (void)unlinkat(dirfd(folder), name, 0);
     }
     closedir(folder);
+}
+
+bool folder_file_begins(const char *folder, const char *name, const char *text)
+{
+    enum { BEGINNING_ROOM = 64 };
+    char path[PATH_ROOM], found[BEGINNING_ROOM];
+    size_t length = strlen(text);
+    uint64_t size;
+    int descriptor;
+    if (path_join(folder, name, path, NULL) != FRAM_OK ||
+        file_open_regular(path, UINT64_MAX, &descriptor, &size, NULL) != FRAM_OK)
+        return false;
+    bool same = length <= sizeof found && file_read_at(descriptor, path, 0, found, length, NULL) == FRAM_OK &&
+                memcmp(found, text, length) == 0;
+    close(descriptor);
+    return same;
 }
 
 fram_status folder_is_empty(const char *path, bool *empty, fram_error *error)

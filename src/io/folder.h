@@ -17,6 +17,9 @@ bool name_is_numbered(const char *name, const char *begin, size_t digits, const 
 /* Removes the files in a folder whose names are such; one that cannot be listed or removed stays. */
 void folder_remove_files(const char *path, bool (*is_such)(const char *name));
 
+/* Whether a regular file of this name in the folder begins with a text of up to 64 bytes. */
+bool folder_file_begins(const char *folder, const char *name, const char *text);
+
 /* A folder that is not there is empty too. */
 fram_status folder_is_empty(const char *path, bool *empty, fram_error *error);
 

@@ -271,7 +271,9 @@ fram_status recording_init(context *ctx, const scenario *s, const char *folder, 
 fram_status recording_prepare(recording *r, fram_error *error)
 {
     fram_status status = run_folder_check(r->folder, r->force, error);
-    return status == FRAM_OK ? identify(r, error) : status;
+    if (status == FRAM_OK)
+        status = identify(r, error);
+    return status == FRAM_OK ? run_folder_refuse_inputs(r->folder, r->inputs.data, error) : status;
 }
 
 fram_status recording_prepare_again(recording *r, fram_error *error)

@@ -106,18 +106,6 @@ static bool is_numbered_plan(const char *name)
     return size > 9 && strncmp(name, "plan-", 5) == 0 && strcmp(name + size - 4, ".png") == 0;
 }
 
-/* Files that grow with a run.  A link, as to a larger disk, stays: what it leads to is emptied when the run begins. */
-static void remove_streams(const char *folder)
-{
-    static const char *const names[] = {"series.csv", "fractures.csv", "record.fram"};
-    char path[PATH_ROOM];
-    struct stat about;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (path_join(folder, names[i], path, NULL) == FRAM_OK && lstat(path, &about) == 0 && S_ISREG(about.st_mode))
-            (void)unlink(path);
-    }
-}
-
 /* Files of an export for ParaView, of a page's frames and of a video's pictures, each in a folder of its own. */
 static bool is_vtk_frame(const char *name)
 {
@@ -135,25 +123,6 @@ static bool is_vtk_list(const char *name)
 static bool is_page_frame(const char *name) { return name_is_numbered(name, "", 4, ".js"); }
 static bool is_video_frame(const char *name) { return name_is_numbered(name, "frame-", 6, ".png"); }
 
-/* The folders themselves go when nothing else is in them. */
-static void remove_folders(const char *folder)
-{
-    static const struct {
-        const char *name;
-        bool (*is_such)(const char *name);
-    } folders[] = {{"vtk/data", is_vtk_frame},
-                   {"vtk", is_vtk_list},
-                   {"playback-frames", is_page_frame},
-                   {"video", is_video_frame}};
-    char path[PATH_ROOM];
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        if (path_join(folder, folders[i].name, path, NULL) != FRAM_OK)
-            continue;
-        folder_remove_files(path, folders[i].is_such);
-        (void)rmdir(path);
-    }
-}
-
 /* The ice at one time: "field-12.5.geojson". */
 static bool is_field(const char *name)
 {
@@ -164,54 +133,105 @@ static bool is_field(const char *name)
            strspn(name + sizeof begin - 1, "0123456789.e+-") >= size - around;
 }
 
-/* Whether a file is one that the scenario names. */
-static bool is_run_input(const char *inputs, const char *path)
+/* Files that grow with a run. */
+static bool is_stream(const char *name)
 {
-    struct stat one, other;
-    run_input file;
-    bool found = false;
-    for (const char *end = inputs + strlen(inputs); !found && run_inputs_next(&inputs, end, &file);) {
-        char input[PATH_ROOM];
-        snprintf(input, sizeof input, "%.*s", file.path_length, file.path);
-        found = stat(input, &one) == 0 && stat(path, &other) == 0 && one.st_dev == other.st_dev &&
-                one.st_ino == other.st_ino;
-    }
+    return strcmp(name, "series.csv") == 0 || strcmp(name, "fractures.csv") == 0 || strcmp(name, "record.fram") == 0;
+}
+
+/* What run.json and the record of any version begin with. */
+#define SUMMARY_BEGINS "{\n  \"fram_version\": "
+#define RECORD_BEGINS "FRAMREC\n"
+
+/* How it ended. */
+static bool is_summary(const char *name) { return strcmp(name, "run.json") == 0; }
+
+/* All others that a run, or what is made of it, leaves in its folder. */
+static bool is_result(const char *name)
+{
+    static const char *const names[] = {"failed.fram",   "plan.png",     "loads.png",       "station.png",
+                                        "station.png",   "station.json", "peaks.fram",      "peaks.fram.new",
+                                        "playback.html", "report.html",  "run.nc",          "run.mp4",
+                                        "manage.html",   "manage.csv",   "manage-sizes.csv"};
+    bool found = is_of_vessel(name) || is_field(name);
+    for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
+        found = strcmp(name, names[i]) == 0;
     return found;
 }
 
-/* A run may begin from the field at which an earlier one is left, which is needed to resume it. */
-static void remove_fields(const char *folder, const char *inputs)
+/* What is made of a run, in its folder or one inside. */
+typedef struct result_part {
+    const char *folder;
+    bool (*is_such)(const char *name);
+    bool goes;       /* the folder, when nothing else is in it */
+    bool links_stay; /* as to a larger disk: what they lead to is emptied when the run begins */
+} result_part;
+
+static void remove_part(const char *folder, const result_part *part, const char *inputs)
 {
     DIR *dir = opendir(folder);
+    struct stat about;
     int failure;
     for (const char *name = dir ? folder_next(dir, &failure) : NULL; name; name = folder_next(dir, &failure)) {
         char path[PATH_ROOM];
-        if (is_field(name) && path_join(folder, name, path, NULL) == FRAM_OK && !is_run_input(inputs, path))
+        if (part->is_such(name) && path_join(folder, name, path, NULL) == FRAM_OK && lstat(path, &about) == 0 &&
+            (S_ISREG(about.st_mode) || !part->links_stay) && !run_inputs_has(inputs, path))
             (void)unlink(path);
     }
     if (dir)
         closedir(dir);
+    if (part->goes)
+        (void)rmdir(folder);
 }
 
 /* Results of the run before: next to the files of a new one that stops before it has written its own, or never writes
-   such, they would be taken for its own.  First of all how that run ended. */
+   such, they would be taken for its own.  First of all how that run ended; last its record, by which the folder of a
+   run is known. */
 static void remove_results(const char *folder, const char *inputs)
 {
-    static const char *const names[] = {"run.json",      "failed.fram",  "plan.png",        "loads.png",
-                                        "station.png",   "station.json", "peaks.fram",      "peaks.fram.new",
-                                        "playback.html", "report.html",  "run.nc",          "run.mp4",
-                                        "manage.html",   "manage.csv",   "manage-sizes.csv"};
+    static const result_part parts[] = {{".", is_summary, false, false},
+                                        {".", is_result, false, false},
+                                        {"vtk/data", is_vtk_frame, true, false},
+                                        {"vtk", is_vtk_list, true, false},
+                                        {"playback-frames", is_page_frame, true, false},
+                                        {"video", is_video_frame, true, false},
+                                        {"pictures", is_numbered_plan, false, false},
+                                        {".", is_stream, false, true}};
     char path[PATH_ROOM];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (path_join(folder, names[i], path, NULL) == FRAM_OK)
-            (void)unlink(path);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (path_join(folder, parts[i].folder, path, NULL) == FRAM_OK)
+            remove_part(path, &parts[i], inputs);
     }
-    remove_streams(folder);
-    folder_remove_files(folder, is_of_vessel);
-    remove_folders(folder);
-    remove_fields(folder, inputs);
-    if (path_join(folder, "pictures", path, NULL) == FRAM_OK)
-        folder_remove_files(path, is_numbered_plan);
+}
+
+/* Whether there was a run in the folder: other files in it, whatever their names, are nobody's results. */
+static bool has_run(const char *folder)
+{
+    bool found = folder_file_begins(folder, "run.json", SUMMARY_BEGINS) ||
+                 folder_file_begins(folder, "record.fram", RECORD_BEGINS);
+    DIR *dir = opendir(folder);
+    int failure;
+    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name; name = folder_next(dir, &failure))
+        found = found || checkpoint_is_name(name);
+    if (dir)
+        closedir(dir);
+    return found;
+}
+
+/* What a run writes over, however it ends. */
+static bool is_written(const char *name)
+{
+    static const char *const names[] = {"scenario.yaml", "plan.png",    "loads.png", "station.png",
+                                        "station.json",  "failed.fram", "peaks.fram"};
+    bool found = is_stream(name) || is_summary(name) || is_of_vessel(name) || checkpoint_is_name(name);
+    for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
+        found = strcmp(name, names[i]) == 0;
+    return found;
+}
+
+fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fram_error *error)
+{
+    return run_inputs_refuse(inputs, folder, is_written, error);
 }
 
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
@@ -268,8 +288,10 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, con
         status = run_folder_check(folder, force, error);
     if (status != FRAM_OK)
         return status;
-    checkpoint_remove_all(ctx, folder);
-    remove_results(folder, inputs ? inputs : "");
+    if (has_run(folder)) {
+        checkpoint_remove_all(ctx, folder);
+        remove_results(folder, inputs ? inputs : "");
+    }
     return FRAM_OK;
 }
 

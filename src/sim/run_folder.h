@@ -21,9 +21,11 @@ fram_status run_folder_check(const char *folder, bool force, fram_error *error);
 fram_status run_folder_lock(const char *folder, int *lock, fram_error *error);
 /* lock -1: nothing. */
 void run_folder_unlock(int lock);
-/* Make the folder and those above it and lock it, after the same check.  With `force`, checkpoints and all that was
-   made from an earlier run are removed, so that they are never mixed with the new one's; not a field that is one of the
-   new run's inputs (run_inputs_list; NULL: none). */
+/* FRAM_ERROR_USAGE for a folder in which a run would write over one of its inputs (run_inputs_list). */
+fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fram_error *error);
+/* Make the folder and those above it and lock it, after the same check.  Where it holds an earlier run, checkpoints and
+   all that was made from that are removed, so that they are never mixed with the new one's; not what is one of the new
+   run's inputs (run_inputs_list; NULL: none). */
 fram_status run_folder_prepare(context *ctx, const char *folder, bool force, const char *inputs, int *lock,
                                fram_error *error);
 

@@ -1,10 +1,13 @@
 #include "sim/run_inputs.h"
 
 #include "io/file.h"
+#include "io/folder.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "model/scenario_schema.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 enum { INPUT_LIMIT = 1 << 30, DIGEST_LENGTH = SHA256_TEXT_SIZE - 1, GAP_LENGTH = 2 };
 
@@ -89,6 +92,37 @@ bool run_inputs_next(const char **at, const char *end, run_input *out)
     out->path_length = (int)(stop - path);
     *at = stop + 1;
     return true;
+}
+
+bool run_inputs_has(const char *inputs, const char *path)
+{
+    struct stat one, other;
+    run_input file;
+    bool found = false;
+    for (const char *end = inputs + strlen(inputs); !found && run_inputs_next(&inputs, end, &file);) {
+        char input[PATH_ROOM];
+        snprintf(input, sizeof input, "%.*s", file.path_length, file.path);
+        found = stat(input, &one) == 0 && stat(path, &other) == 0 && one.st_dev == other.st_dev &&
+                one.st_ino == other.st_ino;
+    }
+    return found;
+}
+
+fram_status run_inputs_refuse(const char *inputs, const char *folder, bool (*is_written)(const char *name),
+                              fram_error *error)
+{
+    char path[PATH_ROOM];
+    DIR *dir = opendir(folder);
+    bool found = false;
+    int failure;
+    for (const char *name; dir && !found && (name = folder_next(dir, &failure)) != NULL;)
+        found = is_written(name) && path_join(folder, name, path, NULL) == FRAM_OK && run_inputs_has(inputs, path);
+    if (dir)
+        closedir(dir);
+    if (!found)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, path, 0, "output",
+                     "expected a file of its own, found one that the scenario names; write into another folder");
 }
 
 fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],

@@ -18,6 +18,11 @@ typedef struct run_input {
 } run_input;
 /* The next line of a list, from *at on, which moves behind it; false at the end, and at what is no such line. */
 bool run_inputs_next(const char **at, const char *end, run_input *out);
+/* Whether a file is one of such a list, however its name is spelt. */
+bool run_inputs_has(const char *inputs, const char *path);
+/* FRAM_ERROR_USAGE, key "output", for a folder in which a file of the list has a name that is to be written. */
+fram_status run_inputs_refuse(const char *inputs, const char *folder, bool (*is_written)(const char *name),
+                              fram_error *error);
 /* What such a list says of the files' contents, wherever they lie: SHA-256 of its digests, one after the other.  A text
    that is one digest already is taken as it is; FRAM_ERROR_INPUT, with no place, for any other. */
 fram_status run_inputs_digest(context *ctx, const char *text, size_t size, char out[SHA256_TEXT_SIZE],

@@ -7,13 +7,13 @@
 #include "base/number_text.h"
 #include "fram/version.h"
 #include "io/file.h"
+#include "io/folder.h"
 #include "io/path.h"
 #include "sim/run_inputs.h"
 #include "study/study_file.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- index.csv ---- */
 
@@ -187,24 +187,9 @@ fram_status study_record_write(const study_folder *f, fram_error *error)
     return status;
 }
 
-static bool begins_with(const char *folder, const char *name, const char *text)
-{
-    enum { BEGINNING_ROOM = 64 };
-    char path[PATH_ROOM], found[BEGINNING_ROOM];
-    size_t length = strlen(text);
-    uint64_t size;
-    int descriptor;
-    if (path_join(folder, name, path, NULL) != FRAM_OK ||
-        file_open_regular(path, UINT64_MAX, &descriptor, &size, NULL) != FRAM_OK)
-        return false;
-    bool same = length <= sizeof found && file_read_at(descriptor, path, 0, found, length, NULL) == FRAM_OK &&
-                memcmp(found, text, length) == 0;
-    close(descriptor);
-    return same;
-}
-
 bool study_record_is_there(const char *folder)
 {
-    return begins_with(folder, "study.yaml", "") &&
-           (begins_with(folder, "effective.yaml", RECORD_BEGINS) || begins_with(folder, "index.csv", INDEX_HEADS));
+    return folder_file_begins(folder, "study.yaml", "") &&
+           (folder_file_begins(folder, "effective.yaml", RECORD_BEGINS) ||
+            folder_file_begins(folder, "index.csv", INDEX_HEADS));
 }

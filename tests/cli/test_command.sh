@@ -158,6 +158,23 @@ for file in failed.fram station.json; do
     [ ! -e "straight/$file" ] || fail "--force leaves $file of the run before"
 done
 
+# What never was a run's stays in a folder without one, and what the scenario names anywhere; it is not written over.
+mkdir mine
+for file in loads-2019.png station-A.png station.json report.html run.nc run.json; do echo mine >mine/$file; done
+expect 0 "$FRAM" run scene.yaml -o mine --force -q --until 0.02
+for file in loads-2019.png station-A.png station.json report.html run.nc; do
+    same "$(cat mine/$file)" mine "a user's $file"
+done
+printf 'time[s],x[m/s],y[m/s]\n0,0,0\n' >mine/manage.csv
+for _ in 1 2; do
+    expect 0 "$FRAM" run scene.yaml -o mine --force -q --until 0.02 --set environment.current_file=mine/manage.csv
+done
+[ -s mine/manage.csv ] || fail "--force removes a file that the scenario names"
+[ ! -e mine/loads-2019.png ] || fail "--force leaves loads-2019.png of the run before"
+cp mine/manage.csv mine/loads.png
+expect 2 "$FRAM" run scene.yaml -o mine --force --set environment.current_file=mine/loads.png --json
+same "$(value 'j["error"]["file"]')" mine/loads.png "a file that the scenario names and the run writes"
+
 cp straight/scenario.yaml kept.yaml
 expect 2 "$FRAM" run straight/scenario.yaml -o straight --force --set run.seed=3
 says "write over the scenario" err
