@@ -160,7 +160,8 @@ FRAM_API void fram_pressure_default(fram_pressure_definition *definition, size_t
    is computed again, every step, from its nearest
    checkpoint before `from`, so that it takes as long as the run did; its folder is not changed.  FRAM_ERROR_INPUT for
    a folder without a run, a vessel or times that it does not have, a panel longer than the hull or so small that it is
-   cut into more than half a million pieces, lines that do not ascend. */
+   cut into more than half a million pieces, lines that do not ascend; FRAM_ERROR_USAGE where a file that the run's
+   scenario names would be written over. */
 FRAM_API fram_status fram_pressure(fram_context *context, const char *run, const fram_pressure_definition *definition,
                                    fram_error *error);
 

@@ -61,31 +61,6 @@ static bool read_lines(const char *text, line_list *list)
     return true;
 }
 
-static const char *const written[] = {"panels.csv", "area.csv",      "zones.csv",
-                                      "hull.vtp",   "pressure.fram", "pressure.png"};
-enum { WRITTEN = sizeof written / sizeof *written };
-_Static_assert((int)WRITTEN <= (int)FILES_ROOM, "all files can be refused");
-
-/* What the run is computed again from is read once more.  -1 to go on, also where there is no scenario to read: that is
-   for fram_pressure to tell. */
-static int refuse_files_read(const common_options *common, fram_context *context, const char *run, const char *folder)
-{
-    char from[FRAM_PATH_ROOM], path[WRITTEN][FRAM_PATH_ROOM];
-    command_files files = {.inputs = {NULL}};
-    fram_scenario *scenario = NULL;
-    fram_error error = {0};
-    snprintf(from, sizeof from, "%s/scenario.yaml", run);
-    for (int i = 0; i < WRITTEN; i++) {
-        snprintf(path[i], sizeof path[i], "%s/%s", folder, written[i]);
-        files.outputs[i] = (output_file){"--output", path[i], NULL};
-    }
-    if (fram_scenario_load(context, from, NULL, 0, &scenario, &error) != FRAM_OK)
-        return -1;
-    int code = refuse_scenario_files(common, &files, scenario);
-    fram_scenario_destroy(scenario);
-    return code;
-}
-
 static int compute(const common_options *common, const char *run, const fram_pressure_definition *d)
 {
     work_view work;
@@ -94,9 +69,7 @@ static int compute(const common_options *common, const char *run, const fram_pre
     int code = session_open_reading(common, &work, &context);
     if (code >= 0)
         return code;
-    code = refuse_files_read(common, context, run, d->output);
-    if (code < 0)
-        code = fram_pressure(context, run, d, &error) == FRAM_OK ? EXIT_GOOD : answer_error(common, &error);
+    code = fram_pressure(context, run, d, &error) == FRAM_OK ? EXIT_GOOD : answer_error(common, &error);
     if (code == EXIT_GOOD && !common->quiet)
         fprintf(stderr, "%s: panels.csv, area.csv, zones.csv, hull.vtp, pressure.fram, pressure.png\n", d->output);
     if (code == EXIT_GOOD && common->json) {

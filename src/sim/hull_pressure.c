@@ -8,6 +8,7 @@
 #include "sim/rerun.h"
 #include "sim/rerun_check.h"
 #include "sim/run_folder.h"
+#include "sim/run_inputs.h"
 #include "sim/step.h"
 
 /* The pose in which the contacts of a step were found: the vessel has moved on when the step ends. */
@@ -174,6 +175,17 @@ static fram_status check_times(const pressure_map *p, fram_error *error)
                      p->o->from, p->end);
 }
 
+/* What the run is computed again from is read once more. */
+static fram_status keep_inputs(pressure_map *p, fram_error *error)
+{
+    text_buffer inputs = {0};
+    fram_status status = run_inputs_list(p->ctx, &p->s, NULL, &inputs, error);
+    if (status == FRAM_OK)
+        status = run_inputs_refuse(inputs.data, p->o->output, pressure_is_file, error);
+    text_free(p->ctx, &inputs);
+    return status;
+}
+
 fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error)
 {
     char path[PATH_ROOM];
@@ -190,6 +202,8 @@ fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_er
         status = check_times(&p, error);
     if (status == FRAM_OK)
         status = run_folder_check(o->output, o->force, error);
+    if (status == FRAM_OK)
+        status = keep_inputs(&p, error);
     if (status == FRAM_OK)
         status = build_and_compute(&p, error);
     if (status == FRAM_OK)

@@ -19,7 +19,8 @@ typedef struct pressure_options {
    faces it.  Pressure is the normal force on a panel over its area [Pa], in a step; cumulative is the integral over
    time [Pa s].  The forces of all panels, friction included, add up to the ice load on the vessel in its own axes.
    FRAM_ERROR_INPUT: no run, no such vessel, panels that hull_panels_make refuses, no step between the times, inputs
-   that were changed since. FRAM_INTERRUPTED when the context's stop flag is set; nothing is written then. */
+   that were changed since. FRAM_ERROR_USAGE: a file of the run's scenario would be written over.  FRAM_INTERRUPTED when
+   the context's stop flag is set; nothing is written then. */
 fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error);
 
 #endif

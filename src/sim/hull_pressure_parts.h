@@ -55,6 +55,8 @@ typedef struct pressure_map {
     double time;                            /* looked at [s] */
 } pressure_map;
 
+/* Whether pressure_write_files writes a file of this name. */
+bool pressure_is_file(const char *name);
 /* The panels of the hull, and room for their loads. */
 fram_status pressure_begin(pressure_map *p, const mesh *hull, fram_error *error);
 void pressure_free(pressure_map *p);

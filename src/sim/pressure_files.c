@@ -11,6 +11,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 /* Local pressure on thick massive ice by ISO 19906 (2010), A.8.2.5: 7.40 A^-0.70 MPa up to 10 m2, 1.48 MPa above
@@ -216,6 +217,16 @@ static fram_status write_for_page(pressure_map *p, fram_error *error)
     if (status != FRAM_OK)
         (void)unlink(fresh);
     return status;
+}
+
+bool pressure_is_file(const char *name)
+{
+    static const char *const names[] = {"panels.csv", "area.csv",      "zones.csv",
+                                        "hull.vtp",   "pressure.fram", "pressure.png"};
+    bool found = false;
+    for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
+        found = strcmp(name, names[i]) == 0;
+    return found;
 }
 
 fram_status pressure_write_files(pressure_map *p, fram_error *error)

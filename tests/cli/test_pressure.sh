@@ -229,7 +229,7 @@ mkdir blown
 printf 'time,x,y\n0,1,0\n' | tee blown/zones.csv >wind.csv
 expect 0 "$FRAM" run plate.yaml -o windy --until 0.1 --quiet --set environment.wind_file=blown/zones.csv
 expect 2 "$FRAM" pressure windy -o blown --force
-says "--output: names what the command reads" err
+says "blown/zones.csv: --output: expected a file of its own" err
 cmp -s wind.csv blown/zones.csv || fail "fram pressure writes over a file of the scenario"
 expect 2 "$FRAM" pressure nowhere -o none
 [ ! -e none ] || fail "a refusal leaves a folder"
