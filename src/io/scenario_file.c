@@ -428,7 +428,9 @@ fram_status scenario_parse(context *ctx, const char *name, const char *text, siz
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a path of at most %d bytes, found %zu",
                          SCENARIO_TEXT_SIZE - 1, strlen(name));
     yaml_tree tree;
-    fram_status status = yaml_tree_parse(ctx, name, text, size, SCENARIO_DEPTH_LIMIT, &tree, error);
+    fram_status status = yaml_brackets_check(name, text, size, SCENARIO_BRACKET_LIMIT, error);
+    if (status == FRAM_OK)
+        status = yaml_tree_parse(ctx, name, text, size, SCENARIO_DEPTH_LIMIT, &tree, error);
     if (status != FRAM_OK)
         return status;
     scenario_reader r = {ctx, name, &tree, s, scenario_default_scale(), error};
@@ -440,12 +442,10 @@ fram_status scenario_parse(context *ctx, const char *name, const char *text, siz
         status = read_all(&r, overrides);
     }
     yaml_tree_free(ctx, &tree);
-    if (status != FRAM_OK)
-        return status;
-    status = scenario_check(s, error);
-    if (status != FRAM_OK)
+    fram_status checked = status == FRAM_OK ? scenario_check(s, error) : status;
+    if (status == FRAM_OK && checked != FRAM_OK)
         scenario_free(ctx, s);
-    return status;
+    return checked;
 }
 
 /* Every file that is named must be there: better told here, with the key, than by whoever reads it. */

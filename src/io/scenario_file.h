@@ -1,7 +1,8 @@
 /* Scenario files: block-style YAML to a checked scenario, and a scenario back to text.  All that the keys are is in
    model/scenario_keys.h.
 
-   Refused before any key is looked at: files over SCENARIO_FILE_LIMIT bytes, nesting deeper than SCENARIO_DEPTH_LIMIT,
+   Refused before any key is looked at: files over SCENARIO_FILE_LIMIT bytes, more than SCENARIO_BRACKET_LIMIT bytes
+   between brackets, nesting deeper than SCENARIO_DEPTH_LIMIT,
    text that is not UTF-8, anchors, aliases, tags, merge keys, duplicate keys, more than one document.  Every error is
    one fram_error with file, line, column, key, and a message "expected ..., found ...". */
 #ifndef IO_SCENARIO_FILE_H
@@ -11,7 +12,9 @@
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 
-enum { SCENARIO_FILE_LIMIT = 1 << 20, SCENARIO_DEPTH_LIMIT = 16 };
+/* The effective scenario, which a run writes and others read again, has 25 MB with all lists of 32 vessels full. Fram
+   writes no brackets, for which a file needs much memory (io/yaml_tree.h). */
+enum { SCENARIO_FILE_LIMIT = 1 << 25, SCENARIO_BRACKET_LIMIT = 1 << 20, SCENARIO_DEPTH_LIMIT = 16 };
 
 /* Values given over those of the file, each "key=value" ("run.seed=7", "ice.floes[0].x=3"), the last one of a key wins.
    In errors their file is SCENARIO_OVERRIDE. */

@@ -151,3 +151,22 @@ bool yaml_indent_blame(const char *data, size_t size, yaml_blame *out)
     snprintf(out->message, sizeof out->message, "the bracket that opens here is not closed");
     return true;
 }
+
+bool yaml_indent_brackets(const char *data, size_t size, size_t most, yaml_blame *out)
+{
+    indentation r = {.at = data, .end = data + size};
+    const char *begin = data; /* behind the last line at whose end no bracket was open */
+    yaml_line line;
+    for (int32_t open = 0; next_yaml_line(&r, &line); open = r.brackets) {
+        if ((open > 0 || r.bracket_line == line.number) && (size_t)(r.at - begin) > most) {
+            out->line = r.bracket_line;
+            out->column = r.bracket_column;
+            snprintf(out->message, sizeof out->message,
+                     "expected at most %zu bytes in brackets, found more: write each key on a line of its own", most);
+            return true;
+        }
+        if (r.brackets == 0)
+            begin = r.at;
+    }
+    return false;
+}

@@ -381,6 +381,17 @@ fram_status yaml_tree_parse(context *ctx, const char *name, const char *data, si
     return status;
 }
 
+fram_status yaml_brackets_check(const char *name, const char *data, size_t size, size_t most, fram_error *error)
+{
+    yaml_blame blame;
+    if (size <= most || !yaml_indent_brackets(data, size, most, &blame))
+        return FRAM_OK;
+    error_set(error, FRAM_ERROR_INPUT, name, blame.line, NULL, "%s", blame.message);
+    if (error)
+        error->column = blame.column;
+    return FRAM_ERROR_INPUT;
+}
+
 void yaml_tree_free(context *ctx, yaml_tree *tree)
 {
     array_free(ctx, &tree->nodes);

@@ -28,6 +28,9 @@ typedef struct yaml_tree {
 /* name stands for the file in errors. */
 fram_status yaml_tree_parse(context *ctx, const char *name, const char *data, size_t size, int32_t depth_limit,
                             yaml_tree *tree, fram_error *error);
+/* Refuses a text with more than `most` bytes between brackets: the parser holds all that stands there, 340 times its
+   size, before the first of it is known. */
+fram_status yaml_brackets_check(const char *name, const char *data, size_t size, size_t most, fram_error *error);
 void yaml_tree_free(context *ctx, yaml_tree *tree);
 /* NUL-terminated text at an offset of a node. */
 static inline const char *yaml_text(const yaml_tree *tree, int32_t offset) { return tree->text.data + offset; }

@@ -61,9 +61,12 @@ expect 2 "$FRAM" resume other -q
 says "a file that the run was started with was changed since: $scratch/elsewhere/hull.stl; restore it" err
 expect 0 "$FRAM" hull --length 40 --beam 10 --draught 4 -o hull.stl
 
-# Sizes: a scenario of more than a mebibyte, a line of a table without end, a table of more than 16 GiB (with holes).
-{ cat scene.yaml && head -c 1100000 /dev/zero | tr '\0' '#'; } >large.yaml
-refuse "at most 1048576 bytes" check large.yaml
+# Sizes: a scenario of more than 32 MiB, more than one in its brackets, a line of a table without end, a table of more
+# than 16 GiB (with holes).
+{ cat scene.yaml && head -c 33600000 /dev/zero | tr '\0' '#'; } >large.yaml
+refuse "at most 33554432 bytes" check large.yaml
+head -c 2000000 /dev/zero | tr '\0' '[' >large.yaml
+refuse "large.yaml:1:1: expected at most 1048576 bytes in brackets" check large.yaml
 { cat wind.csv && head -c 1100000 /dev/zero | tr '\0' '1'; } >long.csv
 refuse "at most 1048576 characters in a line" run scene.yaml -o no --set environment.wind_file=long.csv
 if truncate -s 17G holes.csv 2>/dev/null; then

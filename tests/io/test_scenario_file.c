@@ -270,7 +270,46 @@ START_TEST(absolute_paths_hold_anywhere)
 }
 END_TEST
 
-/* A list that is full of the longest values still prints to a file that may be read. */
+/* The longest values everywhere, all lists full but that of vessels. */
+static void fill(const scenario_section *section, void *data, int32_t vessels)
+{
+    for (int32_t k = 0; k < section->key_count; k++) {
+        const scenario_key *key = &section->keys[k];
+        void *member = key_member(key, data);
+        int32_t most = strcmp(key->name, "vessels") == 0 ? vessels : (int32_t)key->hi;
+        if (key->kind == KEY_SECTION)
+            fill(key->section, member, vessels);
+        for (int32_t i = 0; key->kind == KEY_LIST && i < most; i++) {
+            void *element = list_append(&ctx, key, member, 30);
+            ck_assert_ptr_nonnull(element);
+            fill(key->section, element, vessels);
+        }
+        if (key->kind == KEY_REAL)
+            *(double *)member = -1.0000000000000002e-100;
+        if (key->kind == KEY_PATH || key->kind == KEY_TEXT)
+            memset(member, '"', SCENARIO_TEXT_SIZE - 1);
+    }
+}
+
+START_TEST(no_scenario_prints_longer_than_can_be_read)
+{
+    context_init(&ctx);
+    int64_t size[2];
+    for (int32_t i = 0; i < 2; i++) {
+        scenario s;
+        text_buffer text = {0};
+        scenario_defaults(&s, 30);
+        fill(&scenario_schema, &s, i + 1);
+        assert_ok(scenario_print(&ctx, &s, NULL, &text, &error), error);
+        size[i] = text.count;
+        text_free(&ctx, &text);
+        scenario_free(&ctx, &s);
+    }
+    ck_assert_int_le(size[1] + 30 * (size[1] - size[0]), SCENARIO_FILE_LIMIT);
+}
+END_TEST
+
+/* Lists that are full of long values are read again as they were. */
 START_TEST(the_largest_scenario_can_be_read_again)
 {
     context_init(&ctx);
@@ -285,11 +324,20 @@ START_TEST(the_largest_scenario_can_be_read_again)
         floe.velocity_x = floe.velocity_y = floe.velocity_z = floe.spin = -1.0000000000000002e-05;
         ck_assert(array_push(&ctx, &s.ice.floes, floe));
     }
+    const scenario_key *vessels = &scenario_schema.keys[section_find(&scenario_schema, "vessels")];
+    for (int i = 0; i < 5; i++) {
+        scenario_vessel *vessel = list_append(&ctx, vessels, &s.vessels, 30);
+        ck_assert_ptr_nonnull(vessel);
+        snprintf(vessel->name, sizeof vessel->name, "v%d", i);
+        for (int k = 0; k < 1000; k++)
+            ck_assert(array_push(&ctx, &vessel->path, ((scenario_path_point){k, 1.0000000000000002e-05, 0, 0})));
+    }
     text_buffer text = {0};
     assert_ok(scenario_print(&ctx, &s, NULL, &text, &error), error);
-    ck_assert_int_le(text.count, SCENARIO_FILE_LIMIT);
+    ck_assert_int_gt(text.count, 1 << 20);
     assert_ok(scenario_parse(&ctx, "again", text.data, (size_t)text.count, NULL, &again, &error), error);
     ck_assert_int_eq(again.ice.floes.count, 1000);
+    ck_assert_int_eq(again.vessels.data[4].path.count, 1000);
     assert_bits(again.ice.floes.data[999].spin, s.ice.floes.data[999].spin);
     text_free(&ctx, &text);
     scenario_free(&ctx, &again);
@@ -383,14 +431,20 @@ START_TEST(size_and_depth_are_limited)
 {
     context_init(&ctx);
     scenario s;
-    size_t size = SCENARIO_FILE_LIMIT + 1;
+    assert_fails(scenario_parse(&ctx, "a", "{}", SCENARIO_FILE_LIMIT + (size_t)1, NULL, &s, &error), error,
+                 FRAM_ERROR_INPUT, "at most 33554432 bytes");
+    size_t size = SCENARIO_BRACKET_LIMIT + 2;
     char *text = malloc(size + 1);
     memset(text, '\n', size);
-    memcpy(text, "{}", 2);
+    memcpy(text, "\n{", 2);
     text[size] = '\0';
+    text[size - 1] = '}';
     assert_fails(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error, FRAM_ERROR_INPUT,
-                 "at most 1048576 bytes");
-    assert_ok(scenario_parse(&ctx, "a", text, size - 1, NULL, &s, &error), error);
+                 "at most 1048576 bytes in brackets");
+    ck_assert_int_eq(error.line, 2);
+    text[2] = '}';
+    text[size - 1] = '\n';
+    assert_ok(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error);
     scenario_free(&ctx, &s);
     /* As deep as the file is long: refused before any stack or memory is used up. */
     for (int way = 0; way < 3; way++) {
@@ -479,5 +533,6 @@ END_TEST
 TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_refused, an_empty_mapping_is_all_defaults,
           other_ways_to_write_the_same, printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
           the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere,
-          the_largest_scenario_can_be_read_again, overrides_win, bad_overrides_are_refused, size_and_depth_are_limited,
-          files_that_cannot_be_read, memory_runs_out, the_committed_reference_is_up_to_date)
+          no_scenario_prints_longer_than_can_be_read, the_largest_scenario_can_be_read_again, overrides_win,
+          bad_overrides_are_refused, size_and_depth_are_limited, files_that_cannot_be_read, memory_runs_out,
+          the_committed_reference_is_up_to_date)
