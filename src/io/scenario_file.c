@@ -71,10 +71,8 @@ typedef struct found_text {
 
 static found_text shown(const char *text)
 {
-    found_text f;
-    if (*text == '\0')
-        snprintf(f.text, sizeof f.text, "nothing");
-    else
+    found_text f = {"nothing"};
+    if (*text)
         snprintf(f.text, sizeof f.text, "\"%.40s\"%s", text, strlen(text) > 40 ? " ..." : "");
     return f;
 }
@@ -174,7 +172,7 @@ static bool is_empty(const yaml_tree *tree, int32_t index)
     return false;
 }
 
-/* A scalar of the file.  Quotes say that text is meant. */
+/* A scalar of the file.  Quotes say that text is meant; JSON has no other way to write auto. */
 static fram_status read_scalar(const scenario_reader *r, const scenario_key *key, void *member, int32_t index,
                                const value_place *place)
 {
@@ -182,7 +180,8 @@ static fram_status read_scalar(const scenario_reader *r, const scenario_key *key
     const char *text = yaml_text(r->tree, node->value);
     if (is_empty(r->tree, index))
         return refuse(r, place, "expected a value, found nothing: leave the key out to take its default");
-    if (node->quoted && (key->kind == KEY_REAL || key->kind == KEY_INTEGER || key->kind == KEY_BOOLEAN))
+    bool automatic = key->automatic && strcmp(text, "auto") == 0;
+    if (node->quoted && !automatic && (key->kind == KEY_REAL || key->kind == KEY_INTEGER || key->kind == KEY_BOOLEAN))
         return refuse(r, place, "expected %s without quotes, found the text %s",
                       key->kind == KEY_BOOLEAN ? "true or false" : "a number", shown(text).text);
     return set_value(r, key, member, text, place);

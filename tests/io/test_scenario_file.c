@@ -223,6 +223,18 @@ START_TEST(random_scenarios_survive_printing)
 }
 END_TEST
 
+/* JSON writes auto as text; other text is no number, and auto none for keys without it. */
+START_TEST(auto_in_quotes)
+{
+    scenario s;
+    assert_ok(parse_text("{\"vessel\": {\"mass\": \"auto\"}, \"domain\": {\"band\": 'auto'}}", NULL, &s), error);
+    ck_assert(is_automatic(s.vessel.mass) && is_automatic(s.domain.band));
+    scenario_free(&ctx, &s);
+    assert_fails(parse_text("vessel: {mass: \"4e6\"}", NULL, &s), error, FRAM_ERROR_INPUT, "without quotes");
+    assert_fails(parse_text("run: {duration: \"auto\"}", NULL, &s), error, FRAM_ERROR_INPUT, "without quotes");
+}
+END_TEST
+
 START_TEST(the_hash_sees_every_value_and_no_comment)
 {
     scenario s;
@@ -534,5 +546,5 @@ TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_refused, an_empty_map
           other_ways_to_write_the_same, printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
           the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere,
           no_scenario_prints_longer_than_can_be_read, the_largest_scenario_can_be_read_again, overrides_win,
-          bad_overrides_are_refused, size_and_depth_are_limited, files_that_cannot_be_read, memory_runs_out,
-          the_committed_reference_is_up_to_date)
+          auto_in_quotes, bad_overrides_are_refused, size_and_depth_are_limited, files_that_cannot_be_read,
+          memory_runs_out, the_committed_reference_is_up_to_date)
