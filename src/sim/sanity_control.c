@@ -268,9 +268,10 @@ static void tell_station(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     double x = automatic_or(v->station.watch_x, 0), y = automatic_or(v->station.watch_y, 0);
-    if (sanity_own_hull(v) && (fabs(x) > v->hull.length || fabs(y) > v->hull.length))
-        sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m", t->e->path,
-                   fabs(x) > v->hull.length ? "x" : "y", x, y, v->hull.length);
+    bool ahead = fabs(x) > v->hull.length, aside = fabs(y) > v->hull.beam;
+    if (sanity_own_hull(v) && (ahead || aside))
+        sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m by %.4g m",
+                   t->e->path, ahead ? "x" : "y", x, y, v->hull.length, v->hull.beam);
     bool lines = v->mooring.lines.count > 0;
     if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, sanity_at_scale(t->s, 0.5)))
         sanity_say(t->tell, t->to,

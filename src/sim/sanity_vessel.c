@@ -157,6 +157,18 @@ static void tell_line(const teller *t, int32_t i)
                    t->e->path, (int)i, l->release_time, r->duration);
 }
 
+/* How far to the side the lines of an item come aboard, anywhere on the circle of a turret that turns [m]. */
+static double fairlead_aside(const scenario_vessel *v, const scenario_mooring_line *l)
+{
+    const scenario_mooring *m = &v->mooring;
+    double most = m->turret ? fabs(m->y) + l->fairlead_distance : 0;
+    for (int64_t k = 0; k < l->count && !m->turret; k++) {
+        double angle = radians(l->direction_deg + (double)k * l->spacing_deg - v->heading_deg);
+        most = fmax(most, fabs(m->y + l->fairlead_distance * real_sin(angle)));
+    }
+    return most;
+}
+
 /* Where the lines come aboard, told once for all of them. */
 static void tell_fairleads(const teller *t)
 {
@@ -164,12 +176,19 @@ static void tell_fairleads(const teller *t)
     const scenario_mooring *m = &v->mooring;
     if (m->lines.count == 0 || !sanity_own_hull(v))
         return;
-    double farthest = 0;
-    for (int32_t i = 0; i < m->lines.count; i++)
+    double farthest = 0, aside = 0;
+    for (int32_t i = 0; i < m->lines.count; i++) {
         farthest = fmax(farthest, fabs(m->x) + m->lines.data[i].fairlead_distance);
+        aside = fmax(aside, fairlead_aside(v, &m->lines.data[i]));
+    }
     if (farthest > OVERHANG * v->hull.length)
         sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
                    t->e->path, farthest, v->hull.length);
+    if (aside > OVERHANG * v->hull.beam / 2)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring: fairleads %.4g m to the side are outside of a hull of %.4g m beam: see mooring.y and "
+                   "fairlead_distance",
+                   t->e->path, aside, v->hull.beam);
     if (m->z > MOST_HEIGHT * v->hull.freeboard)
         sanity_say(t->tell, t->to,
                    "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "

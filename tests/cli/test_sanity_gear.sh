@@ -135,6 +135,15 @@ told again.yaml "vessel.propulsion.waypoints[1]: it is 0 m from the point before
 told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400
+told ship.yaml "fairleads 200 m to the side are outside of a hull of 19 m beam" --set vessel.mooring.y=200
+told ship.yaml "fairleads 30 m to the side" --set "vessel.mooring.lines[0].fairlead_distance=30"
+ends=(--set "vessel.mooring.lines[0].fairlead_distance=30" --set "vessel.mooring.lines[0].count=2"
+    --set "vessel.mooring.lines[0].spacing_deg=180")
+expect 0 "$FRAM" check ship.yaml "${ends[@]}"
+grep 'to the side' err && fail "fairleads at bow and stern are told"
+told ship.yaml "fairleads 30 m to the side" "${ends[@]}" --set vessel.heading_deg=90
+told ship.yaml "fairleads 30 m to the side" "${ends[@]}" --set vessel.mooring.turret=true
+told ship.yaml "station.watch_y: (0, 30) m is outside of a hull of 76 m by 19 m" --set vessel.station.watch_y=30
 told ship.yaml "mooring.z: fairleads 50 m under the design waterline|keel at 6.5 m" --set vessel.mooring.z=-50
 # Of several lines once, since nothing in the sentence is of one of them.
 line='- {distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8, fairlead_distance: 200'
