@@ -265,6 +265,24 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    h->draught, e->keys->mooring.depth);
 }
 
+/* What a vessel turns about in a field of floes, global: amidships, or its turret.  Beyond the edge of a drifting sheet
+   there is open water, not a band: there the ship is looked at as it lies. */
+static vec2 turns_about(const scenario *scene, const scenario_vessel *v, double *reach)
+{
+    bool turret = v->mode == VESSEL_FREE && v->mooring.turret && v->mooring.lines.count > 0;
+    turret = turret && scene->ice.source != ICE_LEVEL;
+    double c = real_cos(radians(v->heading_deg)), s = real_sin(radians(v->heading_deg));
+    double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
+    double along = 0.5 * v->hull.length + fabs(x), across = 0.5 * v->hull.beam + fabs(y);
+    *reach = sqrt(along * along + across * across);
+    return vec2_make(v->x + c * x - s * y, v->y + s * x + c * y);
+}
+
+static double edge_from(const scenario_domain *d, vec2 at)
+{
+    return fmin(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
+}
+
 /* Nearest edge of a fed domain within the reach of the vessel, turned any way: the band moves floes through the hull.
  */
 static void tell_domain(const teller *t, const vessel_entry *e)
@@ -273,16 +291,15 @@ static void tell_domain(const teller *t, const vessel_entry *e)
     const scenario_vessel *v = e->keys;
     if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
-    double reach = 0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
-    double band = d->boundary == DOMAIN_FEEDING ? automatic_or(d->band, 0) : 0;
-    double edge = fmin(fmin(v->x - d->x_min, d->x_max - v->x), fmin(v->y - d->y_min, d->y_max - v->y));
-    if (d->boundary == DOMAIN_FEEDING && edge - band < reach)
+    double reach, band = sanity_least_band(t->s), edge = edge_from(d, vec2_make(v->x, v->y));
+    double room = edge_from(d, turns_about(t->s, v, &reach)) - band;
+    if (d->boundary == DOMAIN_FEEDING && room < reach)
         sanity_say(
             t->tell, t->to,
             "domain: its edge%s is %.4g m from %s, which reaches %.4g m as it turns; enlarge the domain by %.3g m or "
             "more on that side",
-            band > 0 ? " with the band" : "", edge - band, e->path, reach, reach - edge + band);
-    if (edge < -reach)
+            band > 0 ? " with the band" : "", room, e->path, reach, reach - room);
+    if (edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam))
         sanity_say(t->tell, t->to,
                    "%s.x: (%.5g, %.5g) m lies outside of the domain, %.4g m from its edge: there is no "
                    "ice",

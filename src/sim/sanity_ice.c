@@ -1,9 +1,38 @@
+#include "ice/feeding.h"
 #include "ice/floe.h"
 #include "sim/build_model.h"
 #include "sim/build_packed.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
+
+/* ---- the band of an endless field ---- */
+
+/* Part of a population's floes that are larger than what is taken for the largest: one of them is drawn in any field.
+ */
+#define SURELY_LARGER 0.1
+
+/* The least that the largest floe of a drawn field reaches from its centre, where that is known [m]: the floe of the
+   mean cell, or what is almost the largest of the populations. */
+static double floe_reach(const scenario_ice *i)
+{
+    bool cells = i->source == ICE_VORONOI && i->populations.count == 0;
+    double most = cells ? 2 * sqrt(i->concentration * i->mean_floe_area / PI) : 0;
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const size_law law = population_size_law(&i->populations.data[k]);
+        if (law.kind != SIZE_HISTOGRAM && !size_law_fault(&law))
+            most = fmax(most, size_law_quantile(&law, 1 - SURELY_LARGER));
+    }
+    return 0.5 * most;
+}
+
+double sanity_least_band(const scenario *s)
+{
+    bool drawn = s->ice.source == ICE_VORONOI || s->ice.source == ICE_PACKED;
+    if (s->domain.boundary != DOMAIN_FEEDING || s->ice.source == ICE_LEVEL)
+        return 0;
+    return automatic_or(s->domain.band, drawn ? feeding_band(floe_reach(&s->ice)) : 0);
+}
 
 /* ---- sizes under which ice is left out ---- */
 

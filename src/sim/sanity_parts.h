@@ -34,6 +34,10 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
            automatic_or(h->block_coefficient, SANITY_BLOCK);
 }
 
+/* The least that the band of an endless field is wide [m], 0 without one: where it is not given it goes by the largest
+   floe, of which something is known before it is drawn (sanity_ice.c). */
+double sanity_least_band(const scenario *s);
+
 /* Thickness of floes and sheets of full size [m]. */
 #define USUAL_THICKNESS_LEAST 0.02
 #define USUAL_THICKNESS_MOST 6

@@ -216,49 +216,76 @@ void wall_warnings(context *ctx, const scenario *s, const vessel_entry *entry, c
 
 /* ---- while it runs ---- */
 
-static bool is_told(const event_table *e, int32_t vessel)
+static bool is_told(const event_table *e, station_event kind, int32_t vessel)
 {
     for (int32_t i = 0; i < e->count; i++)
-        if (e->kind[i] == EVENT_WALL && e->vessel[i] == vessel)
+        if (e->kind[i] == (int32_t)kind && e->vessel[i] == vessel)
             return true;
     return false;
 }
 
-/* Sum of the normal forces of walls on a hull in this step [N]. */
-static double force_of_walls(const model *m, const world *w, int32_t body)
+static bool is_wall(const body_table *bodies, int32_t body) { return bodies->material[body] == MATERIAL_WALL; }
+
+/* In an endless field those of its band are driven. */
+static bool is_driven_ice(const body_table *bodies, int32_t body)
+{
+    return bodies->material[body] == MATERIAL_ICE && bodies->motion[body] == MOTION_PRESCRIBED;
+}
+
+/* Sum of the normal forces of some bodies on a hull in this step [N]. */
+static double force_of(const model *m, const world *w, int32_t body, bool (*counts)(const body_table *, int32_t))
 {
     double impulse = 0;
     for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
         const contact *c = &w->scratch.contacts.data[i];
         int32_t other = c->a == body ? c->b : c->a;
-        if ((c->a == body || c->b == body) && w->bodies.material[other] == MATERIAL_WALL)
+        if ((c->a == body || c->b == body) && counts(&w->bodies, other))
             impulse += c->impulse[0];
     }
     return impulse / m->time_step;
 }
 
-/* A hull whose motion is given stands in a wall without a force that could tell: where it is tells. */
-static bool is_driven_into_wall(const model *m, const world *w, int32_t vessel)
+/* Between the hull and the edge of the domain [m]. */
+static double room_of(const model *m, const world *w, int32_t vessel)
 {
     int32_t body = w->vessels.body[vessel];
-    if (w->vessels.mode[vessel] == VESSEL_FREE)
+    vec3 at = w->bodies.position[body];
+    box2 reach = plan_reach(&m->vessels.data[vessel], quat_roll_pitch_yaw(w->bodies.orientation[body]).z);
+    return fmin(fmin(at.x + reach.lo.x - m->domain.lo.x, m->domain.hi.x - (at.x + reach.hi.x)),
+                fmin(at.y + reach.lo.y - m->domain.lo.y, m->domain.hi.y - (at.y + reach.hi.y)));
+}
+
+/* A hull whose motion is given stands in a wall without a force that could tell: where it is tells. */
+static bool meets_wall(const model *m, const world *w, int32_t vessel, double *force)
+{
+    if (w->vessels.mode[vessel] != VESSEL_FREE)
+        return room_of(m, w, vessel) < 0;
+    *force = force_of(m, w, w->vessels.body[vessel], is_wall);
+    return *force > 0;
+}
+
+/* Floes of the band reach out of it, by less than it is wide. */
+static bool meets_band(const model *m, const world *w, int32_t vessel, double *force)
+{
+    double band = w->feeding.band[0], room = room_of(m, w, vessel);
+    if (room > 2 * band)
         return false;
-    vec2 centre = {w->bodies.position[body].x, w->bodies.position[body].y};
-    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
-    return !is_clear(m->domain, centre, plan_reach(&m->vessels.data[vessel], heading));
+    *force = force_of(m, w, w->vessels.body[vessel], is_driven_ice);
+    return *force > 0 || room < band;
 }
 
 bool wall_watch(context *ctx, const model *m, world *w)
 {
-    for (int32_t v = 0; v < w->vessels.count && m->boundary == DOMAIN_WALLS; v++) {
-        if (is_told(&w->events, v))
+    bool walls = m->boundary == DOMAIN_WALLS;
+    station_event kind = walls ? EVENT_WALL : EVENT_BAND;
+    for (int32_t v = 0; v < w->vessels.count && (walls || w->feeding.count > 0); v++) {
+        if (is_told(&w->events, kind, v))
             continue;
-        bool is_free = w->vessels.mode[v] == VESSEL_FREE;
-        double force = is_free ? force_of_walls(m, w, w->vessels.body[v]) : 0;
+        double force = 0;
         int32_t told = w->events.count;
-        if (!(force > 0) && !is_driven_into_wall(m, w, v))
+        if (!(walls ? meets_wall(m, w, v, &force) : meets_band(m, w, v, &force)))
             continue;
-        if (!event_add(ctx, &w->events, EVENT_WALL, w->clock.time[0], v, -1, force))
+        if (!event_add(ctx, &w->events, kind, w->clock.time[0], v, -1, force))
             return false;
         events_tell(ctx, m, w, told);
     }
@@ -285,11 +312,13 @@ void wall_remind(context *ctx, const scenario *s, const model *m, const world *w
 {
     outside_remind(ctx, s, m, w);
     for (int32_t i = 0; i < w->events.count; i++) {
-        if (w->events.kind[i] != EVENT_WALL)
+        bool band = w->events.kind[i] == EVENT_BAND;
+        if (w->events.kind[i] != EVENT_WALL && !band)
             continue;
         const char *name = m->vessels.data[w->events.vessel[i]].name;
-        log_write(ctx, LOG_WARNING,
-                  "%s%s reached a wall of the domain at t = %.4g s: loads and motion after that are not those of ice",
-                  name[0] ? "vessel " : "the vessel", name, w->events.time[i]);
+        log_write(ctx, LOG_WARNING, "%s%s reached %s at t = %.4g s: loads and motion after that are not those of %s",
+                  name[0] ? "vessel " : "the vessel", name,
+                  band ? "the band of the field, whose floes nothing pushes aside," : "a wall of the domain",
+                  w->events.time[i], band ? "ice that gives way; make the domain larger" : "ice");
     }
 }

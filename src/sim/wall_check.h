@@ -1,5 +1,6 @@
-/* Whether vessels are going to meet a wall of the domain: told before a run, and noted as an event when it happens; and
-   whether they have left a domain without walls.  One module with vessel_check and step, which ask. */
+/* Whether vessels are going to meet a wall of the domain: told before a run, and noted as an event when it happens, as
+   is the band of an endless field; and whether they have left a domain without walls.  One module with vessel_check and
+   step, which ask. */
 #ifndef SIM_WALL_CHECK_H
 #define SIM_WALL_CHECK_H
 
@@ -12,9 +13,9 @@ void wall_warnings(context *ctx, const scenario *s, const vessel_entry *entry, c
                    int32_t row);
 
 /* Which vessels have met a wall for the first time: free ones by the solved contacts, those of given motion by where
-   they are.  Events, told to the log.  false: no memory. */
+   they are; or the band of a field that is fed, by both.  Events, told to the log.  false: no memory. */
 bool wall_watch(context *ctx, const model *m, world *w);
-/* At the end of a run, to the log: which vessels met a wall, and when, or lie where the domain has no ice. */
+/* At the end of a run, to the log: which vessels met a wall or band, and when, or lie where the domain has no ice. */
 void wall_remind(context *ctx, const scenario *s, const model *m, const world *w);
 
 /* The fastest that a vessel goes by itself, on its path or on its carriage [m/s]: an upper bound for one under its own

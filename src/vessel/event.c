@@ -40,6 +40,7 @@ const char *event_name(station_event kind)
         "wall",
         "off_track",
         "on_track",
+        "band",
     };
     return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
 }
@@ -104,6 +105,13 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
             snprintf(out, size, "the hull runs into a wall of the domain, with %.4g kN", value * 1e-3);
         else
             snprintf(out, size, "the hull is driven into a wall of the domain by the motion that is given to it");
+        return;
+    case EVENT_BAND:
+        if (value > 0)
+            snprintf(out, size, "the hull meets floes of the band, which nothing pushes aside, with %.4g kN",
+                     value * 1e-3);
+        else
+            snprintf(out, size, "the hull comes into the band, whose floes nothing pushes aside");
         return;
     case EVENT_COUNT:
         break;

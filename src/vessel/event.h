@@ -19,6 +19,7 @@ typedef enum station_event {
     EVENT_WALL,      /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
     EVENT_OFF_TRACK, /* a ship that drives itself came off its track; value: track error [m] */
     EVENT_ON_TRACK,  /* it is back; value: largest track error until then [m] */
+    EVENT_BAND,      /* the hull met the band of an endless field, for the first time; value: force [N], 0 without */
     EVENT_COUNT
 } station_event;
 

@@ -69,7 +69,12 @@ told ship.yaml "length: 890 m over a straight way of 907.96 m|over its breaking 
 told ship.yaml "vessel.mooring.depth: the hull of draught 6.5 m lies on the bottom" --set vessel.mooring.depth=6
 told ship.yaml "its edge with the band is 30 m from vessel, which reaches 39.17 m|9.17 m" --set domain.x_max=50 \
     --set domain.band=20
-told ship.yaml "its edge is 35 m from vessel" --set domain.y_min=-35
+# A band that is not given is 1.5 radii of the mean floe wide at least; a ship on a turret turns about that.
+told ship.yaml "its edge with the band is 24.99 m from vessel" --set domain.y_min=-35
+told ship.yaml "its edge with the band is 59.99 m from vessel, which reaches 68.66 m" --set domain.x_max=100 \
+    --set vessel.mooring.turret=true --set vessel.mooring.x=30
+expect 0 "$FRAM" check ship.yaml --set domain.x_max=100 --set vessel.mooring.x=30
+grep 'domain: its edge' err && fail "a ship that turns about amidships is told of the edge"
 told ship.yaml "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
     --set environment.wind_direction_deg=0
 told ship.yaml "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180" \

@@ -371,6 +371,7 @@ START_TEST(drift_turns_and_reverses)
         most = floes > most ? floes : most;
     }
     check_books(&k, start);
+    ck_assert_int_eq(k.w.events.count, 0);
     ck_assert_msg(reached > 1e4, "the vessel met %g N", reached);
     ck_assert_int_le(most, k.w.pattern.count + k.w.pattern.count / 8);
     /* To and fro neither pumps ice in nor loses it. */
@@ -409,6 +410,35 @@ START_TEST(driven_ice_presses)
     ck_assert_msg(driven > 1.5 * loose && loose > 0, "driven %g kN, loose %g kN", driven * 1e-3, loose * 1e-3);
     /* Without the help of the water the sheet still drives it. */
     ck_assert_msg(still > 0.3 * driven, "without a current %g kN", still * 1e-3);
+}
+END_TEST
+
+/* Nothing moves floes of the band: that a hull meets them is told once, driven or by its own way, and that it comes
+   into the band where there are none. */
+START_TEST(a_hull_that_meets_the_band_is_told)
+{
+    static const char *const ways[][4] = {
+        {"vessel.mode=prescribed", "vessel.x=20", "vessel.speed=3", "ice.concentration=0.85"},
+        {"vessel.mode=free", "vessel.x=28.9", "vessel.speed=0", "ice.concentration=0.85"},
+        {"vessel.x=17.95", "vessel.speed=3", "ice.concentration=0.01", "domain.band=20"}};
+    for (int i = 0; i < 3; i++) {
+        scene k;
+        scene_open_with(&k, around, ways[i], 4);
+        double band = k.w.feeding.band[0], at = k.w.bodies.position[k.w.vessels.body[0]].x;
+        for (int step = 0; step < 120 && k.w.events.count == 0; step++) {
+            at = k.w.bodies.position[k.w.vessels.body[0]].x;
+            scene_steps(&k, 1);
+        }
+        scene_steps(&k, 10);
+        ck_assert_int_eq(k.w.events.count, 1);
+        ck_assert_int_eq(k.w.events.kind[0], EVENT_BAND);
+        /* From 12 m behind its bow to the edge. */
+        double room = 50 - 12 - at;
+        ck_assert_msg(room < 2 * band && room > band - 0.2, "told %g m from the edge with a band of %g m", room, band);
+        ck_assert_msg(i < 2 ? k.w.events.value[0] > 0 : k.w.events.value[0] == 0, "case %d: %g N, %g m", i,
+                      k.w.events.value[0], room);
+        scene_close(&k);
+    }
 }
 END_TEST
 
@@ -502,4 +532,5 @@ END_TEST
 
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, the_tile_is_longer_by_floes_of_the_populations,
           hours_of_drift_keep_the_field, floes_that_linger_leave_no_holes, copies_of_floes_are_state,
-          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)
+          drift_turns_and_reverses, driven_ice_presses, a_hull_that_meets_the_band_is_told, cut_at_the_vessel,
+          open_water_is_clear, refusals_name_their_key)

@@ -267,6 +267,7 @@ START_TEST(events_in_words)
         {EVENT_ON_TRACK, 15, "on_track", "back on its track: it was off by 15 m at most"},
     };
     context ctx;
+        {EVENT_BAND, 7e5, "band", "the hull meets floes of the band, which nothing pushes aside, with 700 kN"},
     event_table events = {0};
     char text[160];
     context_init(&ctx);
