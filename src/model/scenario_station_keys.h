@@ -66,10 +66,10 @@
     X(y, REAL(0, -1e7, 1e7), "m", "of the ship's origin")                \
     X(heading_deg, REAL(0, -36000, 36000), "deg", "direction of the bow; whole turns count")
 
-#define SCENARIO_WAYPOINT_KEYS(X)                                 \
-    X(time, REAL(0, 0, 1e9), "s", "from then on, until the next") \
-    X(x, REAL(0, -1e7, 1e7), "m", "of the ship's origin")         \
-    X(y, REAL(0, -1e7, 1e7), "m", "of the ship's origin")         \
+#define SCENARIO_WAYPOINT_KEYS(X)                                                              \
+    X(time, REAL(0, 0, 1e9), "s", "from then on, until the next")                              \
+    X(x, REAL(0, -1e7, 1e7), "m", "of the ship's origin; not looked at with control: heading") \
+    X(y, REAL(0, -1e7, 1e7), "m", "of the ship's origin; not looked at with control: heading") \
     X(heading_deg, REAL(0, -360, 360), "deg", "direction of the bow; not looked at with heading: vaning")
 
 #define SCENARIO_POSITIONING_KEYS(X)                                                                                  \

@@ -130,8 +130,8 @@ static void tell_unsteered(const teller *t)
     if (t->e->keys->mode == VESSEL_FREE && t->e->keys->positioning.waypoints.count > 0)
         sanity_say(t->tell, t->to,
                    "%s.positioning.waypoints: the vessel is not steered there, since positioning.active is false, but "
-                   "its offset counts from them",
-                   t->e->path);
+                   "its %s counts from them",
+                   t->e->path, t->e->keys->positioning.control == CONTROL_HEADING ? "heading's deviation" : "offset");
 }
 
 static void tell_positioning(const teller *t)

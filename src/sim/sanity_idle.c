@@ -140,6 +140,13 @@ static bool is_no_azimuth(const question *q) { return !is_azimuth(q); }
 static bool is_no_main(const question *q) { return q->thruster->kind != THRUSTER_MAIN; }
 static bool is_not_positioned(const question *q) { return !q->v->positioning.active; }
 static bool is_positioned(const question *q) { return !is_not_positioned(q); }
+/* The place is left to lines, and offsets count from where those hold it. */
+static bool holds_heading_alone(const question *q)
+{
+    return is_free(q) && q->v->positioning.control == CONTROL_HEADING;
+}
+static bool is_any(const question *q) { return q->v != NULL; }
+static bool has_points(const question *q) { return is_free(q) && q->v->positioning.waypoints.count > 0; }
 static bool is_passive(const question *q) { return q->v->positioning.observer != OBSERVER_KALMAN; }
 static bool is_kalman(const question *q) { return !is_passive(q); }
 static bool feeds_nothing(const question *q) { return q->v->positioning.feed_forward == FEED_NONE; }
@@ -169,6 +176,7 @@ static const char CELLS[] = "with ice.source voronoi the cells are the shapes";
 static const char NO_WALLS[] = "domain.boundary is not walls";
 static const char ALONE[] = "there is no other vessel", NO_WASH[] = "wash.active is false";
 static const char DRY[] = "environment.water is false", PRESCRIBED[] = "mode is prescribed";
+static const char HEADING[] = "with positioning.control heading lines hold the place";
 static const char BOX[] = "hull.form is box", CONE[] = "hull.form is cone";
 static const char TUNNEL[] = "kind is tunnel", NO_AZIMUTH[] = "kind is not azimuth";
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";
@@ -315,7 +323,12 @@ static const idle_rule rules[] = {
     {"vessel.thrusters[].diameter", has_no_wash, NO_WASH},
     {"vessel.thrusters[].direction_deg", is_tunnel, TUNNEL},
     {"vessel.station.", is_moved, "mode is not free"},
-    {"vessel.positioning.waypoints", is_free, NULL}, /* its offset counts from them, whoever steers */
+    {"vessel.positioning.waypoints", is_free, NULL},  /* its offset counts from them, whoever steers */
+    {"vessel.positioning.control", has_points, NULL}, /* by which it is the heading's deviation alone */
+    {"vessel.positioning.waypoints[].time", is_any, NULL},
+    {"vessel.positioning.waypoints[].heading_deg", is_any, NULL},
+    {"vessel.positioning.waypoints[].", holds_heading_alone, HEADING}, /* x and y */
+    {"vessel.positioning.waypoints[].", is_any, NULL},                 /* else told with their list */
     {"vessel.positioning.", is_not_positioned, "positioning.active is false"},
     {"vessel.positioning.bias_rate", is_passive, "positioning.observer is not kalman"},
     {"vessel.positioning.force_noise", is_passive, "positioning.observer is not kalman"},
@@ -438,6 +451,7 @@ static bool find_item(const char *key, question *q)
     const scenario_thruster_list *thrusters = &q->v->thrusters;
     const scenario_population_list *populations = &q->s->ice.populations;
     const scenario_floe_list *floes = &q->s->ice.floes;
+    bool point = strncmp(key, "positioning.waypoints[", 22) == 0;
     const char *item = strchr(key, '[');
     int i = -1;
     if (!item || strchr(item + 1, '['))
@@ -450,7 +464,7 @@ static bool find_item(const char *key, question *q)
         q->population = &populations->data[i];
     else if (sscanf(key, "ice.floes[%d]", &i) == 1 && i >= 0 && i < floes->count)
         q->floe = &floes->data[i];
-    return q->line || q->thruster || q->population || q->floe;
+    return point || q->line || q->thruster || q->population || q->floe;
 }
 
 static fram_status look_at_key(void *user, const scenario_key *key, const void *member, const char *path,

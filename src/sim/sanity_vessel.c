@@ -279,7 +279,8 @@ static void tell_motion(const teller *t)
     tell_path_outside(t);
     const scenario_domain *d = &t->s->domain;
     const scenario_positioning *p = &v->positioning;
-    for (int32_t i = 0; p->active && i < p->waypoints.count && d->boundary != DOMAIN_WALLS; i++) {
+    bool goes = p->active && p->control != CONTROL_HEADING && d->boundary != DOMAIN_WALLS;
+    for (int32_t i = 0; goes && i < p->waypoints.count; i++) {
         const scenario_waypoint *w = &p->waypoints.data[i];
         if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
             continue;

@@ -191,7 +191,9 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
     for (int32_t i = 0; v->positioning.active && i < stations.count; i++) {
         const scenario_waypoint *p = &v->positioning.waypoints.data[i];
         box2 reach = plan_reach(hull, radians(p->heading_deg));
-        if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, (vec2){p->x, p->y}, reach))
+        /* Where lines hold the place it turns there. */
+        vec2 place = v->positioning.control == CONTROL_HEADING ? vec2_make(v->x, v->y) : vec2_make(p->x, p->y);
+        if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, place, reach))
             return;
     }
     /* A ship that steers for a point turns before it stands there: the point itself lies in the basin. */

@@ -31,6 +31,7 @@ static pid_gains of_heading_alone(pid_gains g)
     return (pid_gains){yaw_of(g.proportional), yaw_of(g.derivative), yaw_of(g.integral)};
 }
 
+/* Thrusters that assist a mooring: it has the place, whatever x and y the way points have. */
 static bool is_of_heading_alone(const pid_gains *g) { return !(g->proportional.x > 0 || g->proportional.y > 0); }
 
 bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel)
@@ -119,7 +120,7 @@ static bool turns_as_told(const station_table *s, int32_t row)
 vec2 station_watched_place(const station_table *s, int32_t row, const vessel_table *vessels, vec3 target)
 {
     vec3 home = s->home[row], off = vec3_add(s->watched[row], vessels->centre[row]);
-    vec3 moved = vec3_sub(target, home);
+    vec3 moved = is_of_heading_alone(&s->gains[row]) ? vec3_make(0, 0, 0) : vec3_sub(target, home);
     if (turns_as_told(s, row) && target.z != home.z)
         moved = vec3_add(moved, vec3_sub(plane_to_global(target.z, off), plane_to_global(home.z, off)));
     return vec2_make(s->watched_home[row].x + moved.x, s->watched_home[row].y + moved.y);

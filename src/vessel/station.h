@@ -103,7 +103,8 @@ typedef struct station_moment {
 } station_moment;
 
 /* Where the watched point shall be for a target of the ship's origin: where it was at the start, moved with the target,
-   and turned with it where the vessel's own controller holds place and heading. */
+   and turned with it where the vessel's own controller holds place and heading; not moved where lines hold the place.
+ */
 vec2 station_watched_place(const station_table *s, int32_t row, const vessel_table *vessels, vec3 target);
 /* How far the watched point is from there at a time, along X and Y [m], and the heading from the one that is wanted
    [rad]. */

@@ -244,6 +244,13 @@ item "thrusters[1].cost" "positioning.active is false"
 item "thrusters[1].diameter" "wash.active is false"
 told ship.yaml "vessel.thrusters[1].setting: without effect, since positioning.active is true" \
     --set "vessel.thrusters[1].setting=0.5" --set vessel.positioning.active=true
+points="waypoints: [{time: 20, x: 5, y: 2, heading_deg: 30}, {time: 40, x: 9}]"
+sed "s/^  thrusters/  positioning: {active: true, control: heading, $points}\n&/" ship.yaml >points.yaml
+told points.yaml "vessel.positioning.waypoints[0].x and 2 more: without effect, since with positioning.control heading"
+told points.yaml "waypoints: the vessel is not steered there|its heading's deviation counts from them" \
+    --set vessel.positioning.active=false
+grep 'positioning.control: without effect' err && fail "what offsets count from goes by the control"
+silent points.yaml --set vessel.positioning.control=all
 told fleet.yaml "vessels[1].propulsion.pattern.distance: without effect, since the way ahead has none" \
     --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.pattern.kind=ahead \
     --set vessels.two.propulsion.pattern.distance=90 --set vessels.two.positioning.frequency=0.1 \

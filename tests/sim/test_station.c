@@ -267,6 +267,24 @@ START_TEST(heading_alone)
 }
 END_TEST
 
-TEST_MAIN("station", heading_alone, transit_at_a_given_thrust, sensors_and_controller_keep_their_own_time,
-          feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
-          a_moored_ship_begins_in_balance)
+/* Way points of a ship that is turned only: it has not moved, and is not off by what their x and y say. */
+START_TEST(offsets_of_a_moored_ship_are_those_of_its_mooring)
+{
+    static const char *const there[] = {"vessel.positioning.control=heading", "vessel.x=50", "vessel.y=20"};
+    scene k;
+    scene_open_with(&k, assisted, there, 3);
+    ck_assert(table_resize(&k.ctx, &k.w.waypoints, &waypoint_table_info, 1));
+    k.w.waypoints.time[0] = 20;
+    k.w.waypoints.place[0] = vec3_make(0, 0, radians(30));
+    vec3 off = station_deviation(&k.w.stations, 0, 20, &k.w.vessels, &k.w.bodies, &k.w.waypoints);
+    assert_absolute(off.x, 0, 1e-9);
+    assert_absolute(off.y, 0, 1e-9);
+    assert_absolute(degrees(off.z), -30, 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("station", heading_alone, 
+          offsets_of_a_moored_ship_are_those_of_its_mooring, transit_at_a_given_thrust,
+          sensors_and_controller_keep_their_own_time, feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance,
+          a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance)
