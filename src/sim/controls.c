@@ -257,6 +257,8 @@ static void set_positioning(world *w, int32_t v, bool on)
     bool was = s->positioning[v] != 0;
     if (was != on)
         move_home(w, v, target_of(w, v));
+    if (was && !on) /* lines are known to a controller that works: the load stays as it was last believed */
+        s->estimate[v].bias = station_load(s, v);
     s->positioning[v] = on;
     if (was == on)
         return;

@@ -17,7 +17,7 @@ typedef struct vessel_channels {
     vec3 joint_force, joint_moment;
     wrench fluid, mooring, thrust;
     vec3 response;
-    vec3 offset, estimate, bias, demand;
+    vec3 offset, estimate, load, demand;
     double thruster_power, line_tension_max;
     int32_t lines_parted, thrusters_failed, saturated;
     vec3 wash;
@@ -36,7 +36,7 @@ static void add_station(const world *w, int32_t v, vessel_channels *c)
         c->offset.z = degrees(c->offset.z);
         c->estimate = s->estimate[v].place;
         c->estimate.z = degrees(plane_angle(c->estimate.z));
-        c->bias = s->estimate[v].bias;
+        c->load = station_load(s, v);
         c->demand = s->demand[v];
         c->saturated = s->saturated[v];
     }
@@ -195,7 +195,7 @@ static count_channels counts_of(const world *w)
     V("estimated_x", "m", c.estimate.x)                               \
     V("estimated_y", "m", c.estimate.y)                               \
     V("estimated_heading", "deg", c.estimate.z)                       \
-    PLANE(V, "estimated_load", c.bias)                                \
+    PLANE(V, "estimated_load", c.load)                                \
     PLANE(V, "demanded_force", c.demand)                              \
     V("net_thrust", "N", c.net_thrust)                                \
     V("steering_angle", "deg", c.steering_deg)                        \

@@ -12,8 +12,6 @@ fram_status station_forces(context *ctx, const model *m, world *w, fram_error *e
     double time = w->clock.time[0], dt = m->time_step;
     fram_status status = FRAM_OK;
     size_t size = (size_t)stations->count * sizeof(wrench);
-    memset(stations->mooring_load, 0, size);
-    memset(stations->thruster_load, 0, size);
     for (int32_t i = 0; i < stations->count && status == FRAM_OK; i++) {
         if (!station_is_kept(stations, &w->vessels, i))
             continue;
@@ -22,6 +20,9 @@ fram_status station_forces(context *ctx, const model *m, world *w, fram_error *e
         status = station_step(ctx, stations, i, &now, &w->vessels, &w->bodies, &w->waypoints, &w->thrusters, &w->events,
                               error);
     }
+    /* Controllers go by the loads of the step before. */
+    memset(stations->mooring_load, 0, size);
+    memset(stations->thruster_load, 0, size);
     wrench *loads = w->scratch.loads.data;
     if (status == FRAM_OK)
         status = thruster_step(ctx, &w->thrusters, &w->vessels, &w->bodies, time, dt, loads, stations->thruster_load,

@@ -174,7 +174,15 @@ static void observe(station_table *s, int32_t row, vec3 thrust, bool fresh, doub
         kalman_correct(&s->kalman[row], e, &s->covariance[row], s->measured[row]);
 }
 
-/* The load that is fed forward, global. */
+vec3 station_load(const station_table *s, int32_t row)
+{
+    const wrench *lines = &s->mooring_load[row];
+    if (!s->positioning[row])
+        return s->estimate[row].bias;
+    return vec3_sub(s->estimate[row].bias, vec3_make(lines->force.x, lines->force.y, lines->moment.z));
+}
+
+/* The load that is fed forward, global: of the bias what the lines leave to the thrusters. */
 static vec3 fed_load(const station_table *s, int32_t row)
 {
     switch ((feed_source)s->feed[row]) {
@@ -194,7 +202,7 @@ static void control(station_table *s, int32_t row, const station_moment *now, ve
     double dt = now->dt * (double)s->control_every[row];
     vec3 target = reference_target(path, row, s->home[row], now->time);
     if (s->heading_rule[row] == HEADING_VANING) {
-        vec3 load = s->feed[row] == FEED_MEASURED ? s->load[row] : s->estimate[row].bias;
+        vec3 load = s->feed[row] == FEED_MEASURED ? s->load[row] : station_load(s, row);
         s->vane_heading[row] = vaning_step(&s->vaning[row], s->vane_heading[row], load, dt);
         target.z = s->vane_heading[row];
     }

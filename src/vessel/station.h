@@ -110,6 +110,9 @@ vec2 station_watched_place(const station_table *s, int32_t row, const vessel_tab
    [rad]. */
 vec3 station_deviation(const station_table *s, int32_t row, double time, const vessel_table *vessels,
                        const body_table *bodies, const waypoint_table *path);
+/* What its observer takes for the load of ice, wind and current [N, N, N m], global: the bias less what the lines pull,
+   which a moored ship knows by their tensions.  The bias itself while no controller works. */
+vec3 station_load(const station_table *s, int32_t row);
 /* Measure, observe, control and give orders to the thrusters, where due; book offset and loss of position. */
 fram_status station_step(context *ctx, station_table *stations, int32_t row, const station_moment *now,
                          const vessel_table *vessels, const body_table *bodies, const waypoint_table *path,

@@ -267,6 +267,31 @@ START_TEST(heading_alone)
 }
 END_TEST
 
+/* Pushed to port, with thrusters that turn it alone: the lines hold all of the push, and against that the bow goes. */
+START_TEST(a_moored_ship_turns_against_the_load)
+{
+    static const char *const vanes[] = {"vessel.positioning.control=heading", "vessel.positioning.heading=vaning",
+                                        "vessel.positioning.vaning_rate_deg=1", "vessel.positioning.vaning_time=20",
+                                        "vessel.positioning.vaning_load=1e4"};
+    scene k;
+    fram_error error = {0};
+    vec3 sum = {0, 0, 0};
+    scene_open_with(&k, assisted, vanes, 5);
+    for (int i = 0; i < 2000; i++) {
+        const wrench push = {{0, 60e3, 0}, {0, 0, 0}};
+        assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
+        scene_steps(&k, 1);
+        /* The mean of two times of its swinging about its place, of 71 s. */
+        if (i >= 2000 - 1420)
+            sum = vec3_add(sum, station_load(&k.w.stations, 0));
+    }
+    assert_absolute(degrees(k.w.stations.vane_heading[0]), -90, 5);
+    assert_absolute(sum.x / 1420, 0, 6e3);
+    assert_absolute(sum.y / 1420, 60e3, 6e3);
+    scene_close(&k);
+}
+END_TEST
+
 /* Way points of a ship that is turned only: it has not moved, and is not off by what their x and y say. */
 START_TEST(offsets_of_a_moored_ship_are_those_of_its_mooring)
 {
@@ -284,7 +309,7 @@ START_TEST(offsets_of_a_moored_ship_are_those_of_its_mooring)
 }
 END_TEST
 
-TEST_MAIN("station", heading_alone, 
+TEST_MAIN("station", heading_alone, a_moored_ship_turns_against_the_load,
           offsets_of_a_moored_ship_are_those_of_its_mooring, transit_at_a_given_thrust,
           sensors_and_controller_keep_their_own_time, feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance,
           a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance)
