@@ -4,8 +4,6 @@
 
 /* Pivots under this share of the diagonal mean that a direction is not served at all. */
 #define SINGULAR 1e-10
-/* Where the demand is out of reach, a newton missed costs as much as a thrust of this many newtons, squared. */
-#define MISS_COST 1e8
 /* A limit is released when the cost falls by more than rounding. */
 #define RELEASE 1e-12
 
@@ -56,10 +54,9 @@ static bool is_regular(sym3 a)
     return yy > SINGULAR * a.yy && zz - yz * yz / yy > SINGULAR * a.zz;
 }
 
-/* The thrusts of the free columns that serve `want` best: u = W^-1 B' y with (B W^-1 B' + softness) y = want.  By
-   Cholesky's elimination: where few columns are free the matrix is nearly singular, and an inverse by cofactors would
-   lose the small pivots in rounding. */
-static vec3 multiplier_of(sym3 reach, double softness, vec3 want)
+/* By Cholesky's elimination: where few columns are free the matrix is nearly singular, and an inverse by cofactors
+   would lose the small pivots in rounding. */
+vec3 allocation_multiplier(sym3 reach, double softness, vec3 want)
 {
     double xx = reach.xx + softness, yx = reach.xy / xx, zx = reach.xz / xx;
     double yy = reach.yy - yx * reach.xy + softness, rest = reach.yz - yx * reach.xz, zy = rest / yy;
@@ -103,7 +100,7 @@ static bool descend(const allocation_problem *p, limit_state *state, double soft
     for (int32_t i = 0; i < p->count; i++)
         if (state[i] != FREE)
             want = vec3_mad(want, effect_of(p, i), -u[i]);
-    *y = multiplier_of(reach_of(p, state), softness, want);
+    *y = allocation_multiplier(reach_of(p, state), softness, want);
     for (int32_t i = 0; i < p->count; i++) {
         if (state[i] != FREE)
             continue;
@@ -162,7 +159,7 @@ vec3 allocation_solve(const allocation_column *columns, int32_t count, double le
         /* Each change of the active set lowers the cost, so that none comes back; the bound is against rounding. */
         vec3 y = {0};
         for (int pass = 0; pass < 8 * ALLOCATION_MOST; pass++) {
-            bool settled = descend(&p, state, dearest > 0 ? 1 / (MISS_COST * dearest) : 1, u, &y);
+            bool settled = descend(&p, state, dearest > 0 ? 1 / (ALLOCATION_MISS_COST * dearest) : 1, u, &y);
             if (settled && !release(&p, state, u, y))
                 break;
         }
@@ -170,6 +167,6 @@ vec3 allocation_solve(const allocation_column *columns, int32_t count, double le
     vec3 miss = missed(&p, u);
     double demand = vec3_length(p.tau);
     if (!*reached && count > 0)
-        *reached = vec3_length(miss) <= 1e-6 * demand;
+        *reached = vec3_length(miss) <= ALLOCATION_REACHED * demand;
     return vec3_make(miss.x, miss.y, miss.z * lever);
 }

@@ -9,6 +9,10 @@
 #include <stdint.h>
 
 enum { ALLOCATION_MOST = 64 };
+/* Where the demand is out of reach, a newton missed costs as much as a thrust of this many newtons, squared. */
+#define ALLOCATION_MISS_COST 1e8
+/* A demand is reached when no more than this part of it is missed. */
+#define ALLOCATION_REACHED 1e-6
 
 /* One thrust of fixed direction. */
 typedef struct allocation_column {
@@ -23,5 +27,8 @@ typedef struct allocation_column {
    where reached. */
 vec3 allocation_solve(const allocation_column *columns, int32_t count, double lever, vec3 tau, double *u,
                       bool *reached);
+
+/* The y whose thrusts W^-1 B' y serve `want` best, (reach + softness) y = want; reach: B W^-1 B' of what is free. */
+vec3 allocation_multiplier(sym3 reach, double softness, vec3 want);
 
 #endif

@@ -1,9 +1,11 @@
 #include "vessel/thruster.h"
 
+#include "vessel/allocation_set.h"
 #include "vessel/plane_motion.h"
 
 #include <float.h>
 #include <stdio.h>
+#include <string.h>
 
 #define TABLE_SELF thruster_table
 TABLE_DEFINE(thruster, THRUSTER_FIELDS)
@@ -85,13 +87,39 @@ double thruster_power(const thruster_table *t, int32_t row)
 
 /* ---- allocation ---- */
 
-/* How a thruster takes part in one pass of the allocation. */
+/* Solutions looked at for one demand before the first choices that lead to an answer count. */
+#define SOLUTIONS_MOST 64
+/* Of two ways to divide the thrust the second has to be cheaper by this part. */
+#define CHEAPER 1e-9
+/* A thrust lies where it may, to this part of the largest. */
+#define ALLOWED 1e-9
+
+/* A thruster that takes part, and its first column where thrusts are bounded by single limits. */
 typedef struct thruster_part {
     int32_t row;
-    int column; /* its first */
-    bool free;  /* two thrusts, along and across; otherwise one along `angle` */
-    double angle, lo, hi;
+    int column;
 } thruster_part;
+
+/* What a thruster can give need not be convex: a ruddered propeller gives a sector ahead and a line astern, an azimuth
+   all but its forbidden sector.  Either is two convex sets in one that holds both. */
+typedef enum thruster_mode {
+    MODE_BOTH = 0,
+    MODE_FIRST, /* ahead; the half circle on from the sector's counter-clockwise edge */
+    MODE_SECOND /* astern; the half circle back from its other edge */
+} thruster_mode;
+
+typedef struct thruster_search {
+    const thruster_table *t;
+    const thruster_part *parts;
+    int count, left; /* of the parts; solutions still looked at */
+    double lever;
+    vec3 tau;
+    thruster_mode mode[ALLOCATION_MOST / 2], best_mode[ALLOCATION_MOST / 2];
+    vec2 best[ALLOCATION_MOST / 2]; /* thrusts along and across the middles of their sets */
+    double cost;                    /* of the best */
+    vec3 miss;
+    bool found, reached;
+} thruster_search;
 
 static bool turns(const thruster_table *t, int32_t row)
 {
@@ -107,29 +135,34 @@ static vec3 effect_along(const thruster_table *t, int32_t row, double angle)
 static int gather_parts(const thruster_table *t, int32_t vessel, thruster_part *parts)
 {
     int count = 0;
-    for (int32_t i = 0; i < t->count && 2 * count + 2 <= ALLOCATION_MOST; i++) {
-        if (t->vessel[i] != vessel || t->failed[i])
-            continue;
-        double angle = t->kind[i] == THRUSTER_TUNNEL ? 0.5 * PI : 0;
-        parts[count++] = (thruster_part){i, 0, turns(t, i), angle, -t->astern[i], t->ahead[i]};
-    }
+    for (int32_t i = 0; i < t->count && 2 * count + 2 <= ALLOCATION_MOST; i++)
+        if (t->vessel[i] == vessel && !t->failed[i])
+            parts[count++] = (thruster_part){i, 0};
     return count;
+}
+
+static double middle_of(const thruster_table *t, int32_t row, thruster_mode mode)
+{
+    if (t->kind[row] == THRUSTER_TUNNEL)
+        return 0.5 * PI;
+    if (t->kind[row] == THRUSTER_MAIN || mode == MODE_BOTH)
+        return 0;
+    double off = t->forbidden_half[row] + 0.5 * PI;
+    return t->forbidden_centre[row] + (mode == MODE_FIRST ? off : -off);
 }
 
 static int columns_of(const thruster_table *t, thruster_part *parts, int count, allocation_column *columns)
 {
     int n = 0;
     for (int k = 0; k < count; k++) {
-        thruster_part *p = &parts[k];
-        p->column = n;
-        double cost = t->cost[p->row], most = t->ahead[p->row];
-        if (p->free) {
-            double back = t->kind[p->row] == THRUSTER_MAIN ? t->astern[p->row] : most;
-            columns[n++] = (allocation_column){effect_along(t, p->row, 0), cost, -back, most};
-            columns[n++] = (allocation_column){effect_along(t, p->row, 0.5 * PI), cost, -most, most};
-        } else {
-            columns[n++] = (allocation_column){effect_along(t, p->row, p->angle), cost, p->lo, p->hi};
-        }
+        int32_t row = parts[k].row;
+        parts[k].column = n;
+        double cost = t->cost[row], most = t->ahead[row];
+        double back = t->kind[row] == THRUSTER_AZIMUTH ? most : t->astern[row];
+        double angle = middle_of(t, row, MODE_BOTH);
+        columns[n++] = (allocation_column){effect_along(t, row, angle), cost, -back, most};
+        if (turns(t, row))
+            columns[n++] = (allocation_column){effect_along(t, row, 0.5 * PI), cost, -most, most};
     }
     return n;
 }
@@ -146,37 +179,135 @@ double thruster_allowed_angle(const thruster_table *t, int32_t row, double angle
     return t->forbidden_centre[row] + (off < 0 ? -half : half);
 }
 
-/* A turning thruster whose pair of thrusts is not allowed is held to one direction; false: it is fine as it is. */
-static bool hold_direction(const thruster_table *t, thruster_part *p, const double *u)
+/* Whether all thrusts that turn lie in their circles and where they may, if only their columns are limited. */
+static bool all_fit(const thruster_table *t, const thruster_part *parts, int count, const double *u)
 {
-    double x = u[p->column], y = u[p->column + 1], thrust = sqrt(x * x + y * y), most = t->ahead[p->row];
-    if (!(thrust > 1e-9 * most))
-        return false;
-    double angle = real_atan2(y, x);
-    bool astern = t->kind[p->row] == THRUSTER_MAIN && x < 0;
-    double allowed = astern ? 0 : thruster_allowed_angle(t, p->row, angle);
-    bool fits = !astern && allowed == angle && thrust <= most * (1 + 1e-12);
-    if (fits)
-        return false;
-    p->free = false;
-    p->angle = allowed;
-    p->lo = astern ? -t->astern[p->row] : 0;
-    p->hi = astern ? 0 : most;
+    for (int k = 0; k < count; k++) {
+        int32_t row = parts[k].row;
+        if (!turns(t, row))
+            continue;
+        double x = u[parts[k].column], y = u[parts[k].column + 1];
+        double thrust = sqrt(x * x + y * y), most = t->ahead[row], angle = real_atan2(y, x);
+        bool astern = t->kind[row] == THRUSTER_MAIN && x < 0;
+        bool fits = !astern && thruster_allowed_angle(t, row, angle) == angle && thrust <= most * (1 + 1e-12);
+        if (thrust > ALLOWED * most && !fits)
+            return false;
+    }
     return true;
 }
 
-static void give_order(thruster_table *t, const thruster_part *p, const double *u)
+static allocation_set set_of(const thruster_table *t, int32_t row, thruster_mode mode)
 {
-    int32_t row = p->row;
-    if (!p->free) {
-        t->order[row] = u[p->column];
-        t->order_angle[row] = p->angle;
+    double middle = middle_of(t, row, mode), most = t->ahead[row];
+    allocation_set s = {.along = effect_along(t, row, middle),
+                        .weight = t->cost[row],
+                        .most = most,
+                        .back = t->kind[row] == THRUSTER_AZIMUTH ? 0 : t->astern[row],
+                        .cosine = 1};
+    if (!turns(t, row))
+        return s;
+    if (t->kind[row] == THRUSTER_MAIN && mode == MODE_SECOND) {
+        s.most = 0;
+        return s;
+    }
+    s.across = effect_along(t, row, middle + 0.5 * PI);
+    if (t->kind[row] == THRUSTER_MAIN) {
+        s.cosine = real_cos(t->rudder[row]);
+        s.sine = real_sin(t->rudder[row]);
+        s.back = mode == MODE_BOTH ? s.back : 0;
+    } else {
+        s.cosine = mode == MODE_BOTH ? -1 : 0;
+        s.sine = mode == MODE_BOTH ? 0 : 1;
+    }
+    return s;
+}
+
+/* How far a thrust lies from what the thruster can give, and the set that is nearer: of a rudder. */
+static double off_rudder(const thruster_table *t, int32_t row, vec2 f, thruster_mode *nearer)
+{
+    double c = real_cos(t->rudder[row]), s = real_sin(t->rudder[row]), y = fabs(f.y), thrust = vec2_length(f);
+    double ahead = f.x * c + y * s > 0 ? fmax(y * c - f.x * s, 0) : thrust, astern = f.x < 0 ? y : thrust;
+    *nearer = astern < ahead ? MODE_SECOND : MODE_FIRST;
+    return fmin(ahead, astern);
+}
+
+/* The same of a forbidden sector. */
+static double off_sector(const thruster_table *t, int32_t row, vec2 f, thruster_mode *nearer)
+{
+    double off = plane_angle(real_atan2(f.y, f.x) - t->forbidden_centre[row]);
+    *nearer = off < 0 ? MODE_SECOND : MODE_FIRST;
+    return vec2_length(f) * real_sin(fmax(t->forbidden_half[row] - fabs(off), 0));
+}
+
+/* The part whose thrust lies farthest from what it can give; -1: none. */
+static int worst_part(const thruster_search *s, const vec2 *thrust, thruster_mode *nearer)
+{
+    int worst = -1;
+    double most = 0;
+    for (int k = 0; k < s->count; k++) {
+        int32_t row = s->parts[k].row;
+        if (s->mode[k] != MODE_BOTH || !turns(s->t, row))
+            continue;
+        thruster_mode side;
+        bool main = s->t->kind[row] == THRUSTER_MAIN;
+        double off = main ? off_rudder(s->t, row, thrust[k], &side) : off_sector(s->t, row, thrust[k], &side);
+        if (off > fmax(most, ALLOWED * s->t->ahead[row])) {
+            most = off;
+            worst = k;
+            *nearer = side;
+        }
+    }
+    return worst;
+}
+
+/* The best thrusts for the modes of the search, and of those that follow where one is not settled: what the sets that
+   hold both miss or cost is the least that either of them can. */
+static void look_further(thruster_search *s)
+{
+    allocation_set sets[ALLOCATION_MOST / 2];
+    vec2 thrust[ALLOCATION_MOST / 2];
+    vec3 miss;
+    bool reached;
+    for (int k = 0; k < s->count; k++)
+        sets[k] = set_of(s->t, s->parts[k].row, s->mode[k]);
+    double cost = allocation_solve_sets(sets, s->count, s->lever, s->tau, thrust, &miss, &reached);
+    s->left--;
+    bool better = reached == s->reached ? cost < s->cost * (1 - CHEAPER) : reached;
+    if (s->found && !better)
+        return;
+    thruster_mode nearer = MODE_FIRST;
+    int worst = worst_part(s, thrust, &nearer);
+    if (worst < 0) {
+        memcpy(s->best, thrust, sizeof thrust);
+        memcpy(s->best_mode, s->mode, sizeof s->mode);
+        s->cost = cost;
+        s->miss = miss;
+        s->reached = reached;
+        s->found = true;
         return;
     }
-    double x = u[p->column], y = u[p->column + 1];
-    t->order[row] = sqrt(x * x + y * y);
-    if (t->order[row] > 1e-3 * t->ahead[row]) /* an idle thruster need not turn */
-        t->order_angle[row] = real_atan2(y, x);
+    for (int k = 0; k < 2 && (s->left > 0 || !s->found); k++) {
+        s->mode[worst] = k == 0 ? nearer : nearer == MODE_FIRST ? MODE_SECOND : MODE_FIRST;
+        look_further(s);
+    }
+    s->mode[worst] = MODE_BOTH;
+}
+
+/* f: along and across the middle of the set of that mode. */
+static void give_order(thruster_table *t, int32_t row, thruster_mode mode, vec2 f)
+{
+    bool astern = t->kind[row] == THRUSTER_MAIN && f.x < 0 && vec2_length(f) > ALLOWED * t->ahead[row];
+    if (!turns(t, row) || astern) {
+        t->order[row] = f.x;
+        t->order_angle[row] = middle_of(t, row, MODE_BOTH);
+        return;
+    }
+    t->order[row] = vec2_length(f);
+    /* An idle thruster need not turn, if it is not at the edge of a sector. */
+    if (t->order[row] > (mode == MODE_BOTH ? 1e-3 : ALLOWED) * t->ahead[row]) {
+        double middle = middle_of(t, row, mode), angle = real_atan2(f.y, f.x);
+        t->order_angle[row] = thruster_allowed_angle(t, row, middle != 0 ? plane_angle(middle + angle) : angle);
+    }
 }
 
 vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau, bool *reached)
@@ -185,19 +316,20 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
     allocation_column columns[ALLOCATION_MOST] = {0};
     double u[ALLOCATION_MOST] = {0};
     int count = gather_parts(t, vessel, parts);
-    vec3 miss = tau;
-    *reached = false;
-    for (bool settled = false; !settled;) {
-        int n = columns_of(t, parts, count, columns);
-        miss = allocation_solve(columns, n, lever, tau, u, reached);
-        settled = true;
-        for (int k = 0; k < count; k++)
-            if (parts[k].free && hold_direction(t, &parts[k], u))
-                settled = false;
+    vec3 miss = allocation_solve(columns, columns_of(t, parts, count, columns), lever, tau, u, reached);
+    if (all_fit(t, parts, count, u)) {
+        for (int k = 0; k < count; k++) {
+            vec2 f = {u[parts[k].column], turns(t, parts[k].row) ? u[parts[k].column + 1] : 0};
+            give_order(t, parts[k].row, MODE_BOTH, f);
+        }
+        return miss;
     }
+    thruster_search s = {.t = t, .parts = parts, .count = count, .left = SOLUTIONS_MOST, .lever = lever, .tau = tau};
+    look_further(&s);
     for (int k = 0; k < count; k++)
-        give_order(t, &parts[k], u);
-    return miss;
+        give_order(t, parts[k].row, s.best_mode[k], s.best[k]);
+    *reached = s.reached;
+    return s.miss;
 }
 
 /* ---- motion ---- */

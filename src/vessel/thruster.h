@@ -61,8 +61,10 @@ double thruster_allowed_angle(const thruster_table *thrusters, int32_t row, doub
 double thruster_power(const thruster_table *thrusters, int32_t row);
 
 /* Orders to the thrusters of a vessel for a force (surge, sway [N], yaw moment [N m] about the centre of mass, vessel
-   frame).  Turning thrusters are two thrusts at right angles, brought back into circle and allowed sectors; what one
-   cannot do, the others take over.  Returns what is missed; *reached as allocation_solve. */
+   frame): the cheapest that reach it with each thruster where it can push, otherwise those that miss least.  Of ways
+   through different halves of what a ruddered propeller or an azimuth with a forbidden sector can give the better one
+   counts, without memory, so that orders may jump with the demand there; beyond some 60 such ways the nearest ones.
+   Returns what is missed; *reached as allocation_solve. */
 vec3 thruster_allocate(thruster_table *thrusters, int32_t vessel, double lever, vec3 tau, bool *reached);
 
 /* One step: failures that are due (an event each), shafts and angles follow their orders, thrusts are added to

@@ -65,6 +65,40 @@ START_TEST(limits_by_hand)
 }
 END_TEST
 
+/* By hand, without a moment.  A weak bow azimuth gives half of the sway at most.  Of two ruddered propellers one pulls
+   astern and the other one steers: with the tunnel at its limit F, their arms a and 5 m, t the tangent of the rudder's
+   angle and r surge over sway, x (a t + 10) = 32 F + 5 surge and sway = F + t x. */
+START_TEST(limits_of_thrusters_that_turn)
+{
+    static const char ship[] =
+        "vessel:\n  mode: free\n  hull: {form: box, length: 80, beam: 16, draught: 5}\n  thrusters:\n%s"
+        "ice: {source: none}\ndomain: {boundary: open}\nenvironment: {hull_drag: {water_form: 1, water_skin: 0}}\n";
+    static const char azimuths[] =
+        "    - {kind: azimuth, x: 35, thrust: 5.0e4}\n    - {kind: azimuth, x: -35, thrust: 3.0e5}\n";
+    static const char rudders[] =
+        "    - {kind: main, x: -38, y: 5, thrust: 4.0e5, thrust_astern: 2.5e5, rudder_deg: 35}\n"
+        "    - {kind: main, x: -38, y: -5, thrust: 4.0e5, thrust_astern: 2.5e5, rudder_deg: 35}\n"
+        "    - {kind: tunnel, x: 32, thrust: 2.5e5}\n";
+    char text[1000];
+    scene k;
+    capability c;
+    capability_options o = plain;
+    o.directions = 12;
+    snprintf(text, sizeof text, ship, azimuths);
+    find_in(&k, text, NULL, 0, &o, &c);
+    assert_relative(c.intact[1].speed, speed_for(2 * 5e4, 400) / 0.5, 2e-3);
+    close_found(&k, &c);
+    snprintf(text, sizeof text, ship, rudders);
+    find_in(&k, text, NULL, 0, &o, &c);
+    double t = real_sin(radians(35)) / real_cos(radians(35)), share = t / (38 * t + 10), r = 80.0 / 400 / 3;
+    double sway = (2.5e5 + share * 32 * 2.5e5) / (1 - share * 5 * r);
+    assert_relative(c.intact[2].speed, speed_for(sway, 400) / real_sin(radians(60)), 2e-3);
+    assert_relative(c.intact[10].speed, c.intact[2].speed, 1e-3);
+    assert_relative(c.intact[3].speed, speed_for(2.5e5 + share * 32 * 2.5e5, 400), 2e-3);
+    close_found(&k, &c);
+}
+END_TEST
+
 /* Halfway between two directions and two speeds, around the bow, and beyond the ends of the table; the allowance is on
    mean loads alone. */
 START_TEST(loads_between_directions_and_speeds)
@@ -604,8 +638,8 @@ START_TEST(a_stop_flag_is_seen)
 }
 END_TEST
 
-TEST_MAIN("capability", limits_by_hand, loads_between_directions_and_speeds, loads_of_wind_and_damping,
-          no_loads_without_water, out_of_order_from_the_start, what_is_left_after_a_line, ships_that_turn,
-          balances_are_those_of_a_run, use_as_it_is_written, broken_ice_by_formula, measured_ice,
+TEST_MAIN("capability", limits_by_hand, limits_of_thrusters_that_turn, loads_between_directions_and_speeds,
+          loads_of_wind_and_damping, no_loads_without_water, out_of_order_from_the_start, what_is_left_after_a_line,
+          ships_that_turn, balances_are_those_of_a_run, use_as_it_is_written, broken_ice_by_formula, measured_ice,
           speeds_that_are_measured, ice_that_was_met, refusals, refusals_name_the_place_in_the_list,
           a_stop_flag_is_seen)

@@ -187,5 +187,212 @@ START_TEST(nothing_is_gained_by_leaving_a_limit)
 }
 END_TEST
 
+/* ---- vessels whose thrusters turn ---- */
+
+#define LEVER 40.0
+
+typedef enum layout { RUDDERS, NO_BOW, AZIMUTHS, SECTORS, LAYOUTS } layout;
+
+static void add(bare_vessel *b, thruster_kind kind, double x, double y, double ahead, double sector)
+{
+    thruster_definition d = quick(kind);
+    d.place = vec3_make(x, y, 0);
+    d.ahead = ahead;
+    d.astern = kind == THRUSTER_MAIN ? 0.625 * ahead : ahead;
+    d.rudder = radians(35);
+    d.forbidden_centre = radians(sector);
+    d.forbidden_half = sector != 0 ? radians(15) : 0;
+    assert_ok(thruster_add(&b->ctx, &d, &b->vessels, &b->thrusters, &b->error), b->error);
+}
+
+/* Alike to both sides. */
+static thruster_table *open_layout(bare_vessel *b, layout which)
+{
+    bare_vessel_open(b);
+    thruster_kind aft = which == RUDDERS || which == NO_BOW ? THRUSTER_MAIN : THRUSTER_AZIMUTH;
+    for (int side = -1; side <= 1 && which != AZIMUTHS; side += 2)
+        add(b, aft, -38, 5 * side, 4e5, which == SECTORS ? -90 * side : 0);
+    if (which == AZIMUTHS)
+        add(b, aft, -35, 0, 3e5, 0);
+    if (which != NO_BOW)
+        add(b, which == AZIMUTHS ? THRUSTER_AZIMUTH : THRUSTER_TUNNEL, which == AZIMUTHS ? 35 : 32, 0,
+            which == AZIMUTHS ? 5e4 : 2.5e5, 0);
+    return &b->thrusters;
+}
+
+/* Orders that the thrusters can follow, at random, many of them at a limit. */
+static void order_at_random(thruster_table *t, random_stream *r)
+{
+    for (int32_t i = 0; i < t->count; i++) {
+        double share = random_uniform(r, 0, 1.3), angle = random_uniform(r, -PI, PI);
+        t->order[i] = t->ahead[i] * fmin(share, 1);
+        t->order_angle[i] = t->kind[i] == THRUSTER_TUNNEL ? 0.5 * PI : thruster_allowed_angle(t, i, angle);
+        if (t->kind[i] != THRUSTER_AZIMUTH && angle > 0) {
+            t->order[i] *= -t->astern[i] / t->ahead[i];
+            t->order_angle[i] = t->kind[i] == THRUSTER_TUNNEL ? 0.5 * PI : 0;
+        }
+    }
+}
+
+/* What the orders make, all of them such as the thrusters can follow; cost: the sum of their squares. */
+static vec3 effect_of_orders(thruster_table *t, double *cost)
+{
+    *cost = 0;
+    for (int32_t i = 0; i < t->count; i++) {
+        ck_assert(t->order[i] <= t->ahead[i] * (1 + 1e-12) && t->order[i] >= -t->astern[i] * (1 + 1e-12));
+        bool back = t->kind[i] == THRUSTER_MAIN && t->order[i] < 0;
+        ck_assert(!back || t->order_angle[i] == 0);
+        if (t->kind[i] != THRUSTER_TUNNEL)
+            assert_absolute(plane_angle(thruster_allowed_angle(t, i, t->order_angle[i]) - t->order_angle[i]), 0, 1e-12);
+        *cost += t->cost[i] * t->order[i] * t->order[i];
+        t->thrust[i] = t->order[i];
+        t->angle[i] = t->order_angle[i];
+    }
+    return thruster_effect(t, 0);
+}
+
+static double length_of(vec3 v) { return vec3_length(vec3_make(v.x, v.y, v.z / LEVER)); }
+
+/* A thruster below this part of its thrust need not turn: its push counts, its direction does not. */
+static double idle_rest(const thruster_table *t)
+{
+    double rest = 1e-6;
+    for (int32_t i = 0; i < t->count; i++)
+        rest += fabs(t->order[i]) <= 1e-3 * t->ahead[i] ? 2.5 * fabs(t->order[i]) : 0;
+    return rest;
+}
+
+/* The most side force of a ruddered propeller that gives x along the ship. */
+static double most_aside(double x)
+{
+    const double tangent_of_35 = 0.70020753820970978;
+    return x < 0 ? 0 : fmin(x * tangent_of_35, sqrt(fmax(1.6e11 - x * x, 0)));
+}
+
+/* The least cost of a demand on two ruddered propellers and a tunnel, over a grid of the first one's surge: all else
+   follows from the balance, the side force of the two in equal parts as far as both can.  Infinity: out of reach. */
+static double least_cost_by_grid(vec3 tau)
+{
+    double least = HUGE_VAL;
+    for (double x1 = -2.5e5; x1 <= 4e5; x1 += 50) {
+        double x2 = tau.x - x1, sides = (32 * tau.y + 5 * x1 - 5 * x2 - tau.z) / 70, bow = tau.y - sides;
+        double most1 = most_aside(x1), most2 = most_aside(x2);
+        double y1 = fmin(fmax(0.5 * sides, -most1), most1), y2 = fmin(fmax(sides - y1, -most2), most2);
+        y1 = sides - y2;
+        if (x2 >= -2.5e5 && x2 <= 4e5 && fabs(bow) <= 2.5e5 && fabs(y1) <= most1)
+            least = fmin(least, x1 * x1 + y1 * y1 + x2 * x2 + y2 * y2 + bow * bow);
+    }
+    return least;
+}
+
+/* A small thrust astern does not take the rudders away: one propeller pulls astern, the other one steers. */
+START_TEST(ruddered_propellers_steer_while_they_hold_astern)
+{
+    const vec3 demands[] = {
+        {-14.4e3, -66.8e3, 1127e3}, {-7.4e3, 100e3, -976e3}, {0, 60e3, 0},     {3e4, 2e5, 1e6},
+        {-1e5, 2e4, 8e5},           {-2e5, -8e4, 0},         {-4.5e5, 0, 1e5}, {-15e3, -291e3, 10190e3}};
+    bare_vessel b;
+    thruster_table *t = open_layout(&b, RUDDERS);
+    for (int k = 0; k < 8; k++) {
+        bool reached;
+        double cost, least = least_cost_by_grid(demands[k]);
+        thruster_allocate(t, 0, LEVER, demands[k], &reached);
+        ck_assert_msg(reached == (least < HUGE_VAL), "demand %d", k);
+        vec3 made = effect_of_orders(t, &cost);
+        if (!reached)
+            continue;
+        assert_absolute(length_of(vec3_sub(made, demands[k])), 0, idle_rest(t));
+        ck_assert_msg(cost < (1 + 1e-9) * least && cost > (1 - 2e-3) * least, "demand %d: %g, by the grid %g", k, cost,
+                      least);
+    }
+    bare_vessel_close(&b);
+}
+END_TEST
+
+/* By hand: on arms alike and without a moment each end gives half of the sway, so that the weak bow gives all its
+   thrust across and the stern the surge. */
+START_TEST(an_azimuth_at_its_limit_turns_to_what_is_needed)
+{
+    bare_vessel b;
+    thruster_table *t = open_layout(&b, AZIMUTHS);
+    for (int k = 0; k < 2; k++) {
+        bool reached;
+        double cost;
+        vec3 tau = {1.5e5, k ? 1.0002e5 : 0.9998e5, 0};
+        thruster_allocate(t, 0, LEVER, tau, &reached);
+        ck_assert(reached == (k == 0));
+        ck_assert(length_of(vec3_sub(effect_of_orders(t, &cost), tau)) < (k ? 20 : 1e-3));
+        assert_absolute(t->order[1], 5e4, 1);
+        assert_absolute(t->order_angle[1], 0.5 * PI, radians(2));
+    }
+    bare_vessel_close(&b);
+}
+END_TEST
+
+/* What some orders make is reached at no more than their cost, and the mirrored demand by the mirrored orders; of twice
+   that no more is missed than by any of forty orders. */
+START_TEST(no_other_orders_are_better)
+{
+    random_stream r = random_begin(12, 0, 0);
+    for (layout which = RUDDERS; which < LAYOUTS; which++) {
+        bare_vessel b, mirror;
+        thruster_table *t = open_layout(&b, which), *m = open_layout(&mirror, which);
+        for (int trial = 0; trial < 40; trial++) {
+            bool reached;
+            double asked, cost, mirrored;
+            order_at_random(t, &r);
+            vec3 tau = vec3_scale(effect_of_orders(t, &asked), 1 - 1e-4);
+            thruster_allocate(t, 0, LEVER, tau, &reached);
+            vec3 made = effect_of_orders(t, &cost);
+            ck_assert_msg(reached, "layout %d, trial %d: not reached", which, trial);
+            ck_assert(length_of(vec3_sub(made, tau)) <= idle_rest(t) + 1e-7 * length_of(tau));
+            ck_assert_msg(cost <= asked, "layout %d, trial %d: dearer", which, trial);
+            thruster_allocate(m, 0, LEVER, vec3_make(tau.x, -tau.y, -tau.z), &reached);
+            made = effect_of_orders(m, &mirrored);
+            ck_assert(length_of(vec3_sub(made, vec3_make(tau.x, -tau.y, -tau.z))) <=
+                      idle_rest(m) + 1e-7 * length_of(tau));
+            assert_relative(mirrored, cost, 1e-6);
+            vec3 missed = thruster_allocate(t, 0, LEVER, vec3_scale(tau, 2), &reached);
+            double least = length_of(missed) * (1 - 1e-6) - 1e-6 * length_of(tau);
+            for (int other = 0; other < 40; other++) {
+                order_at_random(t, &r);
+                made = effect_of_orders(t, &cost);
+                ck_assert_msg(length_of(vec3_sub(vec3_scale(tau, 2), made)) >= least, "layout %d, trial %d: nearer",
+                              which, trial);
+            }
+        }
+        bare_vessel_close(&b);
+        bare_vessel_close(&mirror);
+    }
+}
+END_TEST
+
+/* Around a circle, within reach and beyond it, the thrusts of azimuths go with the demand, as its root where one is
+   turned at its limit. */
+START_TEST(small_changes_of_the_demand_are_small_ones_of_the_thrust)
+{
+    bare_vessel b;
+    thruster_table *t = open_layout(&b, AZIMUTHS);
+    for (int size = 1; size <= 4; size++) {
+        vec2 before[2] = {{0, 0}, {0, 0}};
+        for (int k = 0; k <= 720; k++) {
+            bool reached;
+            double angle = radians(0.5 * k), most = 0.7e5 * size;
+            thruster_allocate(t, 0, LEVER, vec3_make(most * real_cos(angle), most * real_sin(angle), 2e5), &reached);
+            for (int i = 0; i < 2; i++) {
+                vec2 f = {t->order[i] * real_cos(t->order_angle[i]), t->order[i] * real_sin(t->order_angle[i])};
+                double change = vec2_length(vec2_sub(f, before[i])), of_demand = radians(0.5) * most;
+                ck_assert_msg(k == 0 || change < of_demand + sqrt(2 * t->ahead[1] * of_demand),
+                              "thruster %d, %g deg: %g N", i, 0.5 * k, change);
+                before[i] = f;
+            }
+        }
+    }
+    bare_vessel_close(&b);
+}
+END_TEST
+
 TEST_MAIN("thruster", azimuths_turn_at_their_rate, shafts_have_a_rate_and_a_time, astern, the_nearer_edge_of_a_sector,
-          nothing_is_gained_by_leaving_a_limit)
+          nothing_is_gained_by_leaving_a_limit, ruddered_propellers_steer_while_they_hold_astern,
+          an_azimuth_at_its_limit_turns_to_what_is_needed, no_other_orders_are_better,
+          small_changes_of_the_demand_are_small_ones_of_the_thrust)
