@@ -96,12 +96,12 @@ class Worst(StudyTest):
         self.assertEqual(names("out"), names("once"))
 
     def test_a_record_of_another_run_is_no_record(self):
-        study = self.write("set: {run.duration: 1}\nseeds: 1\n")
+        study = self.write("set: {run.duration: 2}\nseeds: 1\n")
         self.fram(study, "-o", self.at / "out")
         (row,) = (self.at / "out" / "runs").glob("*/1.row")
         text = row.read_text()
         row.write_text(re.sub("load_mean .*", "load_mean 7", text))
-        study = self.write("set: {run.duration: 1}\nseeds: 1\nkeep: {record_of_worst: 1}\n")
+        study = self.write("set: {run.duration: 2}\nseeds: 1\nkeep: {record_of_worst: 1}\n")
         error = self.fram(study, "-o", self.at / "out", code=2)["error"]
         self.assertIn("other figures than its row", error["message"])
         self.assertEqual(error["key"], "record_of_worst")
