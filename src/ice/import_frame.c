@@ -117,7 +117,7 @@ static fram_status refuse_degrees(const import_rings *r, const import_options *o
 {
     char what[320];
     snprintf(what, sizeof what, "the coordinates look like degrees of longitude and latitude, and %s%s%s",
-             o->as_it_is ? "only lengths are taken here: project them before, as \"fram field --degrees -o\" does"
+             o->as_it_is ? "only lengths are taken here: project them before, as \"fram field\" does"
                          : "lengths are expected: have them projected as degrees, or give the scale that makes metres "
                            "of them",
              o->say_lengths ? "; " : ", 1 too", o->say_lengths ? o->say_lengths : "");
