@@ -5,6 +5,7 @@
 #include "study/student.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A level that is looked at, with the other parameters free. */
 typedef struct profile_look {
@@ -12,8 +13,17 @@ typedef struct profile_look {
     double level;
 } profile_look;
 
-/* Free parameters: the scale as log(scale/fitted), then the shape. */
+/* Free parameters: the scale as log(scale/fitted), then the shape; of levels far out of LAW_GEV the location in fitted
+   scales from the fitted one, then the shape. */
 static int free_count(law_kind kind) { return kind == LAW_GUMBEL || kind == LAW_WEIBULL ? 1 : 2; }
+
+/* Expected exceedances a block, under which a level is far out: about a scale and more over the location.  There a
+   little of the scale moves the location by much, and the way to the least cost along it is too narrow to follow. */
+#define EXPONENT_FAR 0.35
+static bool is_far(const profile_question *q)
+{
+    return q->law->kind == LAW_GEV && q->exponent / q->exposure < EXPONENT_FAR;
+}
 
 static bool is_peaks(law_kind kind) { return kind == LAW_PARETO || kind == LAW_WEIBULL; }
 
@@ -48,6 +58,16 @@ static double profile_weibull_cost(const profile_look *at, double shape)
     return extreme_law_cost(&law, q->sorted, q->count);
 }
 
+/* The same of a level far out: by location and shape. */
+static double far_cost(const profile_look *at, double location, double shape)
+{
+    const profile_question *q = at->q;
+    const extreme_law unit = {LAW_GEV, 0, 1, shape};
+    const extreme_law law = {LAW_GEV, location,
+                             (at->level - location) / extreme_law_level(&unit, q->exponent / q->exposure), shape};
+    return extreme_law_cost(&law, q->sorted, q->count);
+}
+
 static double profile_cost(const void *of, const double *x)
 {
     const profile_look *at = of;
@@ -56,9 +76,12 @@ static double profile_cost(const void *of, const double *x)
         return (double)INFINITY;
     if (law->kind == LAW_WEIBULL)
         return profile_weibull_cost(at, law->shape * real_exp(x[0]));
-    double scale = law->scale * real_exp(x[0]), shape = free_count(law->kind) > 1 ? x[1] : 0;
+    double shape = free_count(law->kind) > 1 ? x[1] : 0;
     if (!(fabs(shape) < PROFILE_SHAPE_MOST))
         return (double)INFINITY;
+    if (is_far(at->q))
+        return far_cost(at, law->location + law->scale * x[0], shape);
+    double scale = law->scale * real_exp(x[0]);
     return law->kind == LAW_PARETO ? profile_pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
 }
 
@@ -74,16 +97,28 @@ static double level_of(const profile_question *q)
 static double cost_at(const profile_question *q, double level, double *x)
 {
     const profile_look at = {q, level};
-    const double step[2] = {0.05, 0.05};
-    /* A law that ends below one of the values, moved to a level far from its own: one without an end always can be. */
-    if (q->law->kind == LAW_GEV && !isfinite(profile_cost(&at, x)))
-        x[1] = 0;
+    const double step[2] = {0.05, 0.05}, shapes[] = {q->law->shape, x[1], 0, 0.2};
+    double best = profile_cost(&at, x);
+    /* A law that ends below one of the values, moved to a level far from its own, is none, or a bad one: where another
+       shape costs less there with the fitted location (near the law: the scale), it is gone on from. */
+    for (size_t i = 0; free_count(q->law->kind) > 1 && i < sizeof shapes / sizeof *shapes; i++) {
+        const double start[2] = {0, shapes[i]};
+        double cost = profile_cost(&at, start);
+        if (!(cost < best))
+            continue;
+        best = cost;
+        memcpy(x, start, sizeof start);
+    }
     return minimise(profile_cost, &at, free_count(q->law->kind), x, step, 1e-8, 1);
 }
 
 /* Looks for an end, and how near in the root of the deviance. */
 enum { LOOKS_MOST = 80 };
 #define ROOT_NEAR 1e-5
+/* Ends of the bracket that count as one, as a part of the last step outwards, and the part of z that the root has at an
+   inner end which is the answer then. */
+#define ENDS_NEAR 1e-9
+#define ROOT_SHORT 0.99
 
 /* From the fitted level outwards to where the root of the deviance, which is nearly straight in the level, is z. */
 static double end_of(const profile_question *q, double level, double first, double least, double z)
@@ -116,8 +151,13 @@ static double end_of(const profile_question *q, double level, double first, doub
             /* Every third look halves, so that no end is crept to. */
             next = inside + (isfinite(part) && i % 3 != 2 ? part : 0.5) * (outside - inside);
         }
-        if (!isnan(root_outside) && fabs(outside - inside) < 1e-9 * fabs(first))
+        if (isnan(root_outside) || !(fabs(outside - inside) < ENDS_NEAR * fabs(first)))
+            continue;
+        if (!(root_inside < ROOT_SHORT * z))
             return next;
+        /* The least cost was not found at the outer end, where the root is said to leap: it lies further out. */
+        root_outside = (double)NAN;
+        next = inside + first;
     }
     return isnan(root_outside) ? first * (double)INFINITY : next;
 }

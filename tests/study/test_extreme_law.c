@@ -67,6 +67,50 @@ START_TEST(profile_intervals_are_scipys)
 }
 END_TEST
 
+/* Rises from one level to the next, and lies where the root of the deviance is the bound: half of 5 % lie beyond it. */
+static void check_upper_ends(const profile_question *ask, const char *of)
+{
+    static const double probability[] = {0.5, 0.9, 0.99, 0.999};
+    double last = -HUGE_VAL;
+    for (int i = 0; i < 4; i++) {
+        profile_question q = *ask;
+        q.exponent = -real_log(probability[i]);
+        level_interval got = profile_interval(&q);
+        ck_assert_msg(got.high > last && got.high > got.level, "%s, shape %g: %g (%g, %g) behind %g", of, q.law->shape,
+                      got.level, got.low, got.high, last);
+        ck_assert_msg(isinf(got.high) || fabs(profile_beyond(&q, profile_least(&q), got.high, true) - 0.025) < 1e-5,
+                      "%s, shape %g: %g (%g, %g)", of, q.law->shape, got.level, got.low, got.high);
+        last = got.high;
+    }
+}
+
+/* Far out, where the law of the last look is none, or lies in another valley. */
+START_TEST(upper_ends_rise_with_their_levels)
+{
+    enum { FEW = 20 };
+    static const double maxima[FEW] = {385.061744, 413.438498, 445.659326, 453.62115,  453.873307,
+                                       456.0548,   468.034759, 468.724192, 469.181396, 475.243346,
+                                       488.214095, 524.222094, 535.02674,  539.276393, 555.282234,
+                                       609.243633, 615.259418, 639.88569,  756.34073,  875.875646};
+    extreme_law law;
+    ck_assert(extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, maxima, FEW, 0, &law));
+    profile_question q = {&law, maxima, FEW, 180, -real_log(0.99), 0.95, 0, NULL};
+    /* By a grid over location and shape. */
+    assert_relative(profile_interval(&q).high, 105900, 5e-3);
+    check_upper_ends(&q, "maxima");
+    for (int heavy = 0; heavy < 2; heavy++) {
+        double value[FEW];
+        for (int i = 0; i < FEW; i++) {
+            double p = (i + 0.5) / FEW;
+            const extreme_law of = heavy ? (extreme_law){LAW_GEV, 10, 2, 1.2} : (extreme_law){LAW_PARETO, 10, 2, -0.6};
+            value[i] = extreme_law_level(&of, -real_log(heavy ? p : 1 - p));
+        }
+        ck_assert(extreme_law_fit(heavy ? LAW_GEV : LAW_PARETO, FIT_LIKELIHOOD, value, FEW, 10, &law));
+        check_upper_ends(&(profile_question){&law, value, FEW, 3, 1, 0.95, 0, NULL}, heavy ? "heavy" : "short");
+    }
+}
+END_TEST
+
 /* Greatest sea levels of 65 years at Port Pirie [m] (Coles 2001, table 1.1), ascending. */
 static const double sea_level[] = {3.57, 3.62, 3.63, 3.65, 3.66, 3.66, 3.71, 3.71, 3.72, 3.73, 3.74, 3.75, 3.75,
                                    3.78, 3.79, 3.80, 3.83, 3.85, 3.85, 3.85, 3.85, 3.86, 3.86, 3.88, 3.88, 3.88,
@@ -178,6 +222,6 @@ START_TEST(maxima_most_of_which_are_equal_are_of_no_law)
 }
 END_TEST
 
-TEST_MAIN("extreme_law", maxima_most_of_which_are_equal_are_of_no_law, gamma_is_scipys, likelihood_fits_are_scipys,
-          profile_intervals_are_scipys, the_textbook_s_sea_levels, moments_give_the_law_back, levels_invert_exponents,
-          what_cannot_be_fitted_is_refused)
+TEST_MAIN("extreme_law", upper_ends_rise_with_their_levels, maxima_most_of_which_are_equal_are_of_no_law,
+          gamma_is_scipys, likelihood_fits_are_scipys, profile_intervals_are_scipys, the_textbook_s_sea_levels,
+          moments_give_the_law_back, levels_invert_exponents, what_cannot_be_fitted_is_refused)
