@@ -111,6 +111,9 @@ static void cut_from(extreme_result *out, int levels, double least, const char *
    (Smith 1985). */
 #define SHAPE_REGULAR (-0.5)
 
+/* A fit that is at the bound of shapes comes this near to it. */
+#define SHAPE_NEAR 1e-3
+
 static void doubt_interval(extreme_result *out, const level_interval *i)
 {
     if (!isfinite(i->low) || !isfinite(i->high))
@@ -130,7 +133,11 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
     if (rates && (out->tail.c < 0.55 || out->tail.c > 4.9))
         say(out, "The power of the tail, %.2g, is at the bound of what was tried: its form is not determined.",
             out->tail.c);
-    if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && out->law.shape > 0.5)
+    if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && ask->fit == FIT_LIKELIHOOD &&
+        out->law.shape > FIT_SHAPE_MOST - SHAPE_NEAR)
+        say(out, "The shape, %.2g, is at the bound of what was tried: the tail is heavier, and levels are too low.",
+            out->law.shape);
+    else if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && out->law.shape > 0.5)
         say(out, "The tail is so heavy (shape %.2g) that its variance is infinite.", out->law.shape);
     if (!rates && ask->fit == FIT_LIKELIHOOD && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) &&
         out->law.shape < SHAPE_REGULAR)

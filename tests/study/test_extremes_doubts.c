@@ -424,6 +424,31 @@ START_TEST(no_end_of_an_interval_lies_under_the_law_s_location)
 }
 END_TEST
 
+/* Fits end at a shape of 1.5: that of a heavier tail stays there. */
+START_TEST(a_shape_at_the_bound_of_fits_is_told)
+{
+    enum { MAXIMA = 40 };
+    static extreme_result r;
+    double value[MAXIMA];
+    extreme_request ask;
+    context ctx;
+    context_init(&ctx);
+    extreme_request_default(&ask);
+    ask.duration = MAXIMA;
+    for (int heavy = 0; heavy < 2; heavy++) {
+        const extreme_law law = {LAW_GEV, 10, 2, heavy ? 2 : 1.1};
+        for (int i = 0; i < MAXIMA; i++)
+            value[i] = extreme_law_level(&law, -real_log((i + 0.5) / MAXIMA));
+        ck_assert(extremes_of_maxima(&ctx, value, MAXIMA, 1, EXTREME_GEV, &ask, &r, NULL) == FRAM_OK);
+        ck_assert_msg((strstr(r.note, "The shape, 1.5, is at the bound") != NULL) == heavy, "shape %g: %s", r.law.shape,
+                      r.note);
+        ck_assert_msg((strstr(r.note, "its variance is infinite") != NULL) != heavy, "shape %g: %s", r.law.shape,
+                      r.note);
+        ck_assert(r.level[1].high > 3 * r.level[1].level);
+    }
+}
+END_TEST
+
 /* Of lines that parted at 300 kN and more. */
 START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
 {
@@ -447,9 +472,10 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", time_scales_do_not_grow_with_the_data, levels_that_parted_lines_did_not_hold_are_not_told,
-          many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
-          rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
-          no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
-          a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
-          the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
+TEST_MAIN("extremes_doubts", a_shape_at_the_bound_of_fits_is_told, time_scales_do_not_grow_with_the_data,
+          levels_that_parted_lines_did_not_hold_are_not_told, many_maxima_that_are_equal_carry_no_answer,
+          rates_of_short_parts_are_those_of_a_long_one, rates_that_do_not_fall_have_no_tail,
+          levels_under_the_law_s_own_are_not_told, no_end_of_an_interval_lies_under_the_law_s_location,
+          intervals_of_peaks_go_as_far_as_the_tail_of_the_values, a_largest_peak_that_the_law_does_not_have_is_told,
+          a_tail_that_changes_is_told, draws_without_a_fit_are_told, the_limit_of_a_weibull_tail,
+          maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
