@@ -1,4 +1,5 @@
 /* study.html: what a study says, for people: conditions with intervals, charts, seeds, the worst runs. */
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "model/mechanism.h"
 #include "study/key_names.h"
@@ -326,26 +327,46 @@ static void add_shares(study_page *p)
 
 /* ---- the worst runs ---- */
 
-/* The link to the playback where it is there, or else the command that makes it: from the record, or run anew. */
-static void add_playback(study_page *p, const worst_run *run)
+static void add_view(study_page *p, const char *folder)
 {
-    const char *id = p->f->id[run->condition];
-    long long seed = (long long)p->f->s->seeds.first + run->index;
+    text_format(p->f->ctx, &p->page.text,
+                "<td class=\"command\"><code>fram view %s</code> makes it from the record</td>", folder);
+}
+
+/* The link to the playback where it is there, or else the command that makes it: from a record, or run anew. */
+static fram_status add_playback(study_page *p, const worst_run *run, fram_error *error)
+{
     text_buffer *text = &p->page.text;
-    if (study_worst_has_playback(p->f, run))
-        text_format(p->f->ctx, text, "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>", id, seed);
-    else if (study_worst_has_record(p->f, run))
-        text_format(p->f->ctx, text,
-                    "<td class=\"command\"><code>fram view worst/%s-%lld</code> makes it from the record</td>", id,
-                    seed);
+    char folder[WORST_PLACES][WORST_FOLDER], frames[NUMBER_TEXT_SIZE];
+    double interval = 0;
+    bool own = false;
+    for (int i = 0; i < (int)WORST_PLACES; i++) {
+        study_worst_folder(p->f, run, (worst_place)i, folder[i]);
+        if (study_worst_has(p->f, run, (worst_place)i, "playback.html")) {
+            text_format(p->f->ctx, text, "<td><a href=\"%s/playback.html\">playback</a></td>", folder[i]);
+            return FRAM_OK;
+        }
+    }
+    if (study_worst_has(p->f, run, WORST_AGAIN, "record.fram")) {
+        add_view(p, folder[WORST_AGAIN]);
+        return FRAM_OK;
+    }
+    fram_status status = study_worst_frames_of(p->f, run, &interval, &own, error);
+    if (status != FRAM_OK)
+        return status;
+    real_to_text(interval, frames);
+    if (own && study_worst_has(p->f, run, WORST_FIRST, "record.fram"))
+        add_view(p, folder[WORST_FIRST]);
     else
         text_format(p->f->ctx, text,
                     "<td class=\"command\"><code>fram run conditions/%s.yaml <i>--set</i> run.seed=%lld <i>--set</i> "
-                    "output.frame_interval=1 <i>-o</i> worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
-                    id, seed, id, seed, id, seed);
+                    "output.frame_interval=%s <i>-o</i> %s &amp;&amp; fram view %s</code></td>",
+                    p->f->id[run->condition], (long long)p->f->s->seeds.first + run->index, frames, folder[WORST_AGAIN],
+                    folder[WORST_AGAIN]);
+    return FRAM_OK;
 }
 
-static void add_worst(study_page *p)
+static fram_status add_worst(study_page *p, fram_error *error)
 {
     const study *s = p->f->s;
     worst_run worst[STUDY_WORST_MOST];
@@ -357,7 +378,7 @@ static void add_worst(study_page *p)
     snprintf(name, sizeof name, "%s [%s]", by.name, by.unit);
     const char *heads[] = {"condition", "seed", name, load ? "Mean load [kN]" : "Largest load [kN]", "playback"};
     if (count == 0)
-        return;
+        return FRAM_OK;
     html_section(&p->page, "Worst runs");
     if (s->worst.count < count)
         html_paragraph(
@@ -368,7 +389,8 @@ static void add_worst(study_page *p)
             WORST);
     wide_begin(p);
     html_table_begin(&p->page, heads, sizeof heads / sizeof *heads);
-    for (int32_t i = 0; i < count; i++) {
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
         const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
         html_row_begin(&p->page);
         snprintf(text, sizeof text, "%d", (int)worst[i].condition + 1);
@@ -377,10 +399,11 @@ static void add_worst(study_page *p)
         html_cell(&p->page, text);
         html_number(&p->page, page_three_digits(worst[i].value * by.factor));
         html_number(&p->page, page_three_digits(row->figure[load ? ROW_load_mean : ROW_load_largest] * 1e-3));
-        add_playback(p, &worst[i]);
+        status = add_playback(p, &worst[i], error);
         html_row_end(&p->page);
     }
     wide_end(p);
+    return status;
 }
 
 /* ---- all ---- */
@@ -409,10 +432,10 @@ static fram_status make_page(study_page *p, fram_error *error)
         page_add_heats(p, has);
     if (status == FRAM_OK)
         status = page_add_extremes(p, error);
-    if (status == FRAM_OK) {
-        add_worst(p);
+    if (status == FRAM_OK)
+        status = add_worst(p, error);
+    if (status == FRAM_OK)
         html_end(&p->page);
-    }
     return status;
 }
 

@@ -73,21 +73,21 @@ static char *study_worst_path(const study_folder *f, const worst_run *run, const
     return path_of(f, name, ending);
 }
 
-static bool is_there(context *ctx, char *path)
+void study_worst_folder(const study_folder *f, const worst_run *run, worst_place place, char out[WORST_FOLDER])
 {
-    bool there = path && access(path, F_OK) == 0;
-    memory_free(ctx, path);
+    long long seed = (long long)f->s->seeds.first + run->index;
+    snprintf(out, WORST_FOLDER, place == WORST_AGAIN ? "worst/%s-%lld" : "runs/%s/%lld", f->id[run->condition], seed);
+}
+
+bool study_worst_has(const study_folder *f, const worst_run *run, worst_place place, const char *file)
+{
+    char folder[WORST_FOLDER];
+    text_buffer path = {0};
+    study_worst_folder(f, run, place, folder);
+    text_format(f->ctx, &path, "%s/%s/%s", f->path, folder, file);
+    bool there = !path.failed && access(path.data, F_OK) == 0;
+    text_free(f->ctx, &path);
     return there;
-}
-
-bool study_worst_has_record(const study_folder *f, const worst_run *run)
-{
-    return is_there(f->ctx, study_worst_path(f, run, "/record.fram"));
-}
-
-bool study_worst_has_playback(const study_folder *f, const worst_run *run)
-{
-    return is_there(f->ctx, study_worst_path(f, run, "/playback.html"));
 }
 
 /* ---- work ---- */
@@ -141,7 +141,7 @@ static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error 
     if (status == FRAM_OK && access(path, F_OK) == 0 &&
         file_read(f->ctx, path, ROW_FILE_LIMIT, &again, &other, NULL) == FRAM_OK && size == other &&
         memcmp(first, again, size) == 0)
-        e->stage = study_worst_has_playback(f, &e->run) ? WORST_DONE : WORST_VIEW;
+        e->stage = study_worst_has(f, &e->run, WORST_AGAIN, "playback.html") ? WORST_DONE : WORST_VIEW;
     /* Of another time: a task of Slurm would take the run as made. */
     if (status == FRAM_OK && e->stage == WORST_RUN)
         (void)unlink(path);
@@ -211,14 +211,16 @@ double study_worst_frames(const scenario *s)
     return s->output.frame_interval > 0 ? s->output.frame_interval : FRAMES_USUAL;
 }
 
-static fram_status frames_of(const worst_work *w, const worst_entry *e, double *out, fram_error *error)
+fram_status study_worst_frames_of(const study_folder *f, const worst_run *run, double *out, bool *own,
+                                  fram_error *error)
 {
     scenario one = {0};
-    fram_status status = study_scenario(w->f->ctx, w->f->s, e->run.condition, w->f->s->seeds.first, &one, error);
+    fram_status status = study_scenario(f->ctx, f->s, run->condition, f->s->seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
     *out = study_worst_frames(&one);
-    scenario_free(w->f->ctx, &one);
+    *own = one.output.frame_interval > 0;
+    scenario_free(f->ctx, &one);
     return FRAM_OK;
 }
 
@@ -298,9 +300,11 @@ static fram_status start_on_core(worst_work *w, int32_t at, fram_error *error)
     context *ctx = w->f->ctx;
     char seed[48], frames[NUMBER_TEXT_SIZE + 32] = "output.frame_interval=";
     double interval = 0;
+    bool own;
     char *scenario_file = study_scenario_path(w->f, e->run.condition);
     char *folder = study_worst_path(w->f, &e->run, ""), *log = study_worst_path(w->f, &e->run, ".log");
-    fram_status status = scenario_file && folder && log ? frames_of(w, e, &interval, error) : error_memory(error);
+    fram_status status = scenario_file && folder && log ? study_worst_frames_of(w->f, &e->run, &interval, &own, error)
+                                                        : error_memory(error);
     real_to_text(interval, frames + strlen(frames));
     snprintf(seed, sizeof seed, "run.seed=%lld", (long long)w->f->s->seeds.first + e->run.index);
     const char *const run[] = {
@@ -375,9 +379,10 @@ static fram_status record_by_slurm(worst_work *w, fram_error *error)
         return status;
     for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
         double frames = 0;
+        bool own;
         if (w->entry[i].stage != WORST_RUN)
             continue;
-        status = frames_of(w, &w->entry[i], &frames, error);
+        status = study_worst_frames_of(w->f, &w->entry[i].run, &frames, &own, error);
         if (status == FRAM_OK && !slurm_add(&queue, w->f->id[w->entry[i].run.condition],
                                             w->f->s->seeds.first + w->entry[i].run.index, i, frames))
             status = error_memory(error);

@@ -24,12 +24,19 @@ typedef struct worst_run {
    several conditions counts for the first of them.  Returns their number, at most `most`, the room in out. */
 int32_t study_worst_find(const study_folder *f, const condition_rows *conditions, run_figure figure, int32_t most,
                          worst_run *out);
-/* Whether a run's record, its playback are there, whoever made them. */
-bool study_worst_has_record(const study_folder *f, const worst_run *run);
-bool study_worst_has_playback(const study_folder *f, const worst_run *run);
+/* Folders in that of the study in which a run may have its record: made again, and where it was made first, which has
+   one with `keep: all`. */
+typedef enum worst_place { WORST_AGAIN = 0, WORST_FIRST, WORST_PLACES } worst_place;
+enum { WORST_FOLDER = CONDITION_ID + 32 };
+void study_worst_folder(const study_folder *f, const worst_run *run, worst_place place, char out[WORST_FOLDER]);
+/* Whether a file, "record.fram" or "playback.html", is there, whoever made it. */
+bool study_worst_has(const study_folder *f, const worst_run *run, worst_place place, const char *file);
 
 /* Between frames of a record of the scenario [s]: its own interval, or 1 s. */
 double study_worst_frames(const scenario *s);
+/* The same of a run of a condition; *own: it is the scenario's, so that the run's first record has frames. */
+fram_status study_worst_frames_of(const study_folder *f, const worst_run *run, double *out, bool *own,
+                                  fram_error *error);
 
 /* Makes what the study asks for (keep: record_of_worst) and is not there.  *changed: the page of the study has become
    untrue. */

@@ -116,7 +116,7 @@ class Worst(StudyTest):
         alone = self.at / "bin" / "fram"
         alone.parent.mkdir()
         shutil.copy(FRAM, alone)
-        study = self.write("seeds: 1\nkeep: {record_of_worst: 2}\n" + VARY)
+        study = self.write("set: {output.frame_interval: 0.5}\nseeds: 1\nkeep: {record_of_worst: 2}\n" + VARY)
         call = lambda *words: subprocess.run([alone, "study", *map(str, words)], capture_output=True, text=True)
         self.assertIn("without playbacks: the viewer's page is not beside", call("check", study).stdout)
         self.assertEqual(json.loads(call("check", study, "--json").stdout)["playbacks"], 0)
@@ -131,6 +131,16 @@ class Worst(StudyTest):
         for link in re.findall('href="([^"#:]*)"', page):
             self.assertTrue((self.at / "out" / link).exists(), link)
         self.assertEqual(page.count("&amp;&amp; fram view worst/"), 2)
+        self.assertEqual(page.count(" output.frame_interval=0.5 <i>-o</i> worst/"), 2)
+        # A record that is kept beside the run is the one to be viewed.
+        for interval, known in ((0.5, True), (0, False)):
+            study = self.write("set: {run.duration: 1, run.transient: 0, output.frame_interval: %g}\nseeds: 1\n"
+                               "keep: all\n" % interval)
+            self.fram(study, "-o", self.at / f"kept{interval}")
+            (run,) = (self.at / f"kept{interval}" / "runs").glob("*/1")
+            page = (self.at / f"kept{interval}" / "study.html").read_text()
+            self.assertEqual(f"<code>fram view runs/{run.parent.name}/1</code> makes it" in page, known)
+            self.assertEqual(" output.frame_interval=1 <i>-o</i>" in page, not known)
 
     def test_what_it_takes_is_told_and_mistakes_are_refused(self):
         study = self.write("seeds: 3\nkeep: {each: series, record_of_worst: 2}\n")
