@@ -25,6 +25,7 @@ typedef struct study_seeds {
     double largest_within; /* the same for the largest load of a run; 0: not asked */
     double extreme_within; /* the same for the most probable largest load of `extremes`; 0: not asked */
     double confidence;     /* of the intervals of means, 0.95 */
+    int extreme_line;      /* of extreme_within in the study file */
 } study_seeds;
 
 /* What stays of a run that ended well. */

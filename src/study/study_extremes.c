@@ -132,10 +132,10 @@ static fram_status check_hours(context *ctx, study *s, fram_error *error)
 fram_status study_extremes_check(context *ctx, study *s, fram_error *error)
 {
     if (s->seeds.extreme_within > 0 && !s->extremes.asked)
-        return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
+        return error_set(error, FRAM_ERROR_INPUT, s->file, s->seeds.extreme_line, "extreme_within",
                          "takes `extremes`, which tells of what: as extremes: {duration: 3h}");
     if (s->seeds.extreme_within > 0 && s->seeds.most < LAW_VALUES_LEAST)
-        return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
+        return error_set(error, FRAM_ERROR_INPUT, s->file, s->seeds.extreme_line, "extreme_within",
                          "expected most from %d on, since fewer runs carry no law, found %d", (int)LAW_VALUES_LEAST,
                          (int)s->seeds.most);
     return check_hours(ctx, s, error);

@@ -73,8 +73,10 @@ static fram_status read_seeds_member(const study_source *r, const yaml_node *k, 
         return study_number(r, k, 1e-6, 10, &s->mean_within);
     if (strcmp(name, "largest_within") == 0)
         return study_number(r, k, 1e-6, 10, &s->largest_within);
-    if (strcmp(name, "extreme_within") == 0)
+    if (strcmp(name, "extreme_within") == 0) {
+        s->extreme_line = k->line;
         return study_number(r, k, 1e-6, 10, &s->extreme_within);
+    }
     if (strcmp(name, "confidence") == 0)
         return study_number(r, k, 0.01, 0.9999, &s->confidence);
     if (strcmp(name, "first") == 0)

@@ -755,9 +755,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")
-        self.refused("seeds: {least: 4, most: 40, extreme_within: 0.1}\n", "extreme_within: takes `extremes`")
+        self.refused("seeds:\n  least: 4\n  most: 40\n  extreme_within: 0.1\n",
+                     "study.yaml:5: extreme_within: takes `extremes`")
         self.refused("seeds: {least: 4, most: 9, extreme_within: 0.1}\nextremes: {duration: 3h}\n",
-                     "expected most from 10 on")
+                     "study.yaml:2: extreme_within: expected most from 10 on")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "run.seed", "`seeds`")
         self.refused("vary: {grid: {vessel.speed: []}}\n", "vessel.speed")
         self.refused("vary: {list: [{vessel.speed: 1}, {ice.thickness: 1}]}\n", "vessel.speed")
