@@ -130,7 +130,11 @@ fram_status study_range(const study_source *r, const yaml_node *node, key_range 
         return study_refuse(r, node, "expected the ends of a range, as [0.5, 1.5]");
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
     fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
-    return status == FRAM_OK ? study_number(r, hi, out->lo, 1e300, &out->hi) : status;
+    if (status == FRAM_OK)
+        status = study_number(r, hi, -1e300, 1e300, &out->hi);
+    if (status == FRAM_OK && out->hi < out->lo)
+        status = study_refuse(r, node, "expected the smaller end first, as [%.10g, %.10g]", out->hi, out->lo);
+    return status;
 }
 
 fram_status study_add_part(const study_source *r, key_range range, double part)
@@ -182,6 +186,44 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
         int32_t block = r->out->conditions;
         for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
             block /= k->count;
+/* The value of a key of a condition; NULL: it has none. */
+static const yaml_node *find_key(const study_source *r, const yaml_node *condition, const char *key)
+{
+    const yaml_node *k = study_child(r, condition);
+    while (k && strcmp(study_key(r, k), key) != 0)
+        k = study_next(r, k);
+    return k;
+}
+
+static fram_status add_first_condition(const study_source *r, const yaml_node *condition)
+{
+    fram_status status = FRAM_OK;
+    for (const yaml_node *k = study_child(r, condition); k && status == FRAM_OK; k = study_next(r, k)) {
+        status = study_add_key(r, k);
+        if (status == FRAM_OK)
+            status = add_value(r, k);
+    }
+    return status;
+}
+
+/* Of the keys of the first one, which stand in any order. */
+static fram_status add_later_condition(const study_source *r, const yaml_node *first, const yaml_node *condition)
+{
+    for (const yaml_node *k = study_child(r, condition); k; k = study_next(r, k))
+        if (!find_key(r, first, study_key(r, k)))
+            return study_refuse(r, k, "expected the keys of the first condition alone, as %s", r->out->keys.data[0]);
+    for (int32_t i = 0; i < r->out->keys.count; i++) {
+        const yaml_node *k = find_key(r, condition, r->out->keys.data[i]);
+        if (!k)
+            return study_refuse(r, condition, "expected the keys of the first condition: %s is missing",
+                                r->out->keys.data[i]);
+        fram_status status = add_value(r, k);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}
+
             status = add_value(r, nth_child(r, k, c / block % k->count));
         }
     }
@@ -197,20 +239,9 @@ static fram_status read_list(const study_source *r, const yaml_node *node)
         status = count_conditions(r, node, node->count);
     for (const yaml_node *c = study_child(r, node); c && status == FRAM_OK; c = study_next(r, c)) {
         status = expect(r, c, YAML_MAPPING, "keys with a value each");
-        bool first = c == study_child(r, node);
-        if (status == FRAM_OK && !first && c->count != r->out->keys.count)
-            status = study_refuse(r, c, "expected the keys of the first condition: %d, found %d",
-                                  (int)r->out->keys.count, (int)c->count);
-        int32_t at = 0;
-        for (const yaml_node *k = study_child(r, c); k && status == FRAM_OK; k = study_next(r, k), at++) {
-            if (first)
-                status = study_add_key(r, k);
-            else if (strcmp(r->out->keys.data[at], study_key(r, k)) != 0)
-                status = study_refuse(r, k, "expected the keys of the first condition in their order: %s",
-                                      r->out->keys.data[at]);
-            if (status == FRAM_OK)
-                status = add_value(r, k);
-        }
+        const yaml_node *first = study_child(r, node);
+        if (status == FRAM_OK)
+            status = c == first ? add_first_condition(r, c) : add_later_condition(r, first, c);
     }
     return status;
 }

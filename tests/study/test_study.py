@@ -666,7 +666,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
     def test_conditions_that_are_the_same_scenario_share_their_runs(self):
         # As Morris' designs on few levels have them: their runs have one folder, and are made once.
         base = "set: {run.duration: 0.3, run.transient: 0.1}\nkeep: summary\n"
-        same = "vary: {list: [{vessel.speed: 1}, {vessel.speed: 2}, {vessel.speed: 1}, {vessel.speed: 1.0}]}\n"
+        same = ("vary: {list: [{vessel.speed: 1, ice.thickness: 1}, {ice.thickness: 1, vessel.speed: 2}, "
+                "{ice.thickness: 1, vessel.speed: 1}, {vessel.speed: 1.0, ice.thickness: 1}]}\n")
         told = self.fram(self.write(base + "seeds: 2\n" + same), "-o", self.at / "twins", "--jobs", 4)
         self.assertEqual((told["runs"], told["made"], told["failed"]), (8, 4, 0))
         told = self.fram(self.write(base + "seeds: 3\n" + same), "-o", self.at / "twins", "--jobs", 4)
@@ -761,8 +762,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                      "study.yaml:2: extreme_within: expected most from 10 on")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "run.seed", "`seeds`")
         self.refused("vary: {grid: {vessel.speed: []}}\n", "vessel.speed")
-        self.refused("vary: {list: [{vessel.speed: 1}, {ice.thickness: 1}]}\n", "vessel.speed")
-        self.refused("vary: {latin: {count: 3, keys: {vessel.speed: [2, 1]}}}\n", "vessel.speed")
+        self.refused("vary: {list: [{vessel.speed: 1}, {ice.thickness: 1}]}\n", "alone, as vessel.speed")
+        self.refused("vary: {list: [{vessel.speed: 1, ice.thickness: 1}, {ice.thickness: 1}]}\n", "speed is missing")
+        self.refused("vary: {latin: {count: 3, keys: {vessel.speed: [2, 1]}}}\n",
+                     "study.yaml:2: vessel.speed: expected the smaller end first, as [1, 2]")
         self.refused("vary: {table: none.csv}\n", "none.csv")
         self.refused("nonsense: 1\n", "study.yaml:2: nonsense")
         (self.at / "empty.yaml").write_text("")
