@@ -241,6 +241,31 @@ number_fault real_from_text(const char *text, double *value)
     return NUMBER_GOOD;
 }
 
+number_fault time_from_text(const char *text, double *seconds)
+{
+    static const struct {
+        const char *name;
+        double seconds;
+    } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}, {"a", 31557600}, {"y", 31557600}};
+    char number[LONGEST_NUMBER + 1];
+    size_t length = strlen(text);
+    while (length > 0 && text[length - 1] >= 'a' && text[length - 1] <= 'z')
+        length--;
+    if (length > LONGEST_NUMBER)
+        return NUMBER_NOT_A_NUMBER;
+    memcpy(number, text, length);
+    number[length] = '\0';
+    double value = 0;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strcmp(text + length, units[i].name) != 0)
+            continue;
+        number_fault fault = real_from_text(number, &value);
+        *seconds = fault == NUMBER_GOOD ? value * units[i].seconds : *seconds;
+        return fault == NUMBER_GOOD && !isfinite(*seconds) ? NUMBER_TOO_LARGE : fault;
+    }
+    return NUMBER_NOT_A_NUMBER;
+}
+
 number_fault integer_from_text(const char *text, int64_t *value)
 {
     size_t sign = (text[0] == '+' || text[0] == '-') ? 1 : 0, digits = digits_of(text + sign);

@@ -24,6 +24,9 @@ typedef enum number_fault {
 } number_fault;
 /* The nearest double of a decimal number that fills the whole text. */
 number_fault real_from_text(const char *text, double *value);
+/* A decimal number with a unit of time behind it, in seconds: s, min, h, d, a or y (a year of 365.25 days); without one
+   of seconds. */
+number_fault time_from_text(const char *text, double *seconds);
 /* What strtod reads from the beginning of a text and where it ends, to the bit; up to 15 digits that a comma or the
    text's end follows take a fifth of its time. */
 double real_read(const char *text, char **end);

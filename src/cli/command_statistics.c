@@ -18,7 +18,8 @@ static bool read_time(const char *text, double *out)
     } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}, {"a", 31557600}, {"y", 31557600}};
     char *end = NULL;
     double value = strtod(text, &end);
-    if (end == text || !isfinite(value))
+    /* No hexadecimal numbers, as studies: tests/study/test_statistics.py has one list of times for both. */
+    if (end == text || !isfinite(value) || strpbrk(text, "xX"))
         return false;
     for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
         if (strcmp(end, units[i].unit) == 0) {

@@ -1,5 +1,6 @@
 #include "study/conditions.h"
 
+#include "base/number_text.h"
 #include "base/random.h"
 #include "study/condition_table.h"
 #include "study/words.h"
@@ -7,7 +8,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Streams of random numbers of this room: of strata, and of places inside them. */
@@ -52,9 +52,8 @@ const yaml_node *study_next(const study_source *r, const yaml_node *node)
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
 {
     const char *text = node->kind == YAML_SCALAR && !node->quoted ? yaml_text(r->tree, node->value) : "";
-    char *end = NULL;
-    double value = strtod(text, &end);
-    if (!*text || *end || !(value >= lo && value <= hi))
+    double value = 0;
+    if (real_from_text(text, &value) != NUMBER_GOOD || !(value >= lo && value <= hi))
         return study_refuse(r, node, "expected a number from %.10g to %.10g, found %s", lo, hi, *text ? text : "none");
     *out = value;
     return FRAM_OK;
@@ -74,18 +73,11 @@ fram_status study_whole(const study_source *r, const yaml_node *node, double lo,
 
 fram_status study_time(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
 {
-    static const struct {
-        const char *unit;
-        double seconds;
-    } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
     const char *text = node->kind == YAML_SCALAR ? yaml_text(r->tree, node->value) : "";
-    char *end = NULL;
-    double value = strtod(text, &end);
-    for (size_t i = 0; *text && i < sizeof units / sizeof *units; i++) {
-        if (strcmp(end, units[i].unit) == 0 && value * units[i].seconds >= lo && value * units[i].seconds <= hi) {
-            *out = value * units[i].seconds;
-            return FRAM_OK;
-        }
+    double value = 0;
+    if (time_from_text(text, &value) == NUMBER_GOOD && value >= lo && value <= hi) {
+        *out = value;
+        return FRAM_OK;
     }
     return study_refuse(r, node, "expected a time from %g to %g s, as 10800, 90min or 3h, found %s", lo, hi,
                         *text ? text : "none");
@@ -186,6 +178,14 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
         int32_t block = r->out->conditions;
         for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
             block /= k->count;
+            status = add_value(r, nth_child(r, k, c / block % k->count));
+        }
+    }
+    return status;
+}
+
+/* ---- list ---- */
+
 /* The value of a key of a condition; NULL: it has none. */
 static const yaml_node *find_key(const study_source *r, const yaml_node *condition, const char *key)
 {
@@ -223,14 +223,6 @@ static fram_status add_later_condition(const study_source *r, const yaml_node *f
     }
     return FRAM_OK;
 }
-
-            status = add_value(r, nth_child(r, k, c / block % k->count));
-        }
-    }
-    return status;
-}
-
-/* ---- list ---- */
 
 static fram_status read_list(const study_source *r, const yaml_node *node)
 {

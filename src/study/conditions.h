@@ -25,7 +25,7 @@ void study_beside(const study_source *r, const char *name, text_buffer *path);
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The same, whole. */
 fram_status study_whole(const study_source *r, const yaml_node *node, double lo, double hi, int64_t *out);
-/* A time in seconds, or with a unit: 90min, 3h, 20d. */
+/* A time in seconds, or with a unit: 90min, 3h, 20d, 1a. */
 fram_status study_time(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The refusal of a key that is none of the names, with the nearest one. */
 fram_status study_unknown(const study_source *r, const yaml_node *node, const char *const *names, size_t count);

@@ -356,14 +356,13 @@ static bool take_line(char **rest, char *out, size_t room)
 static bool read_figures(char **rest, run_row *row)
 {
     for (int i = 0; i < ROW_FIGURES; i++) {
-        char *line = cut_line(rest), *end = NULL;
+        char *line = cut_line(rest);
         size_t length = strlen(figures[i].name);
         if (!line || strncmp(line, figures[i].name, length) != 0 || line[length] != ' ')
             return false;
         if (!line[length + 1])
             continue;
-        row->figure[i] = strtod(line + length + 1, &end);
-        if (*end)
+        if (real_from_text(line + length + 1, &row->figure[i]) != NUMBER_GOOD)
             return false;
     }
     return true;

@@ -1,20 +1,15 @@
 #include "study/study_series.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include "base/number_text.h"
+
 #include <string.h>
 
-bool study_series_number(const char *value, double *out)
-{
-    char *end = NULL;
-    *out = strtod(value, &end);
-    return *value && !*end && isfinite(*out);
-}
+bool study_series_number(const char *value, double *out) { return real_from_text(value, out) == NUMBER_GOOD; }
 
 /* Conditions from the first on along which the key's number rises. */
 static int32_t rising(const study *s, int32_t key)
 {
-    double last, next;
+    double last = 0, next = 0;
     int32_t n = 1;
     if (!study_series_number(study_value(s, 0, key), &last))
         return 0;

@@ -15,7 +15,7 @@ typedef struct study_series {
 
 /* false: the conditions are no such series; a line through them would mean nothing. */
 bool study_series_find(const study *s, study_series *out);
-/* Number of a value; false: it is a word. */
+/* Number of a value; false: it is a word, and out is left. */
 bool study_series_number(const char *value, double *out);
 /* Whether the key tells the groups apart. */
 bool study_series_is_group_key(const study *s, const study_series *of, int32_t key);

@@ -15,6 +15,28 @@ static const char *text_of(double value)
     return text;
 }
 
+START_TEST(times_have_units)
+{
+    static const struct {
+        const char *text;
+        double seconds;
+    } good[] = {{"10800", 10800}, {"1.5e2s", 150}, {"90min", 5400},      {"-3h", -10800},
+                {"20d", 1728000}, {"1e3", 1000},   {"0.5a", 15778800.0}, {"1y", 31557600}};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        double got = 0;
+        ck_assert_msg(time_from_text(good[i].text, &got) == NUMBER_GOOD, "%s", good[i].text);
+        assert_relative(got, good[i].seconds, 1e-15);
+    }
+    static const char *const bad[] = {"", "h", "3x", "3 h", "0x10", "nan", "inf", "3hh", "1e", "3H"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        double got = 7;
+        ck_assert_msg(time_from_text(bad[i], &got) == NUMBER_NOT_A_NUMBER && got == 7, "%s: %g", bad[i], got);
+    }
+    double got = 7;
+    ck_assert(time_from_text("1e308a", &got) == NUMBER_TOO_LARGE);
+}
+END_TEST
+
 START_TEST(reals_print_as_the_shortest_text)
 {
     ck_assert_str_eq(text_of(0), "0");
@@ -199,6 +221,6 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", reals_print_as_the_shortest_text, digits_are_as_many_as_asked, digits_are_those_of_printf,
-          numbers_are_read_as_by_strtod, reals_of_any_bits_come_back, reals_are_read_strictly,
-          integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", times_have_units, reals_print_as_the_shortest_text, digits_are_as_many_as_asked,
+          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
+          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

@@ -173,5 +173,35 @@ START_TEST(hours_fill_a_leap_year_and_no_more)
 }
 END_TEST
 
-TEST_MAIN("condition_table", tables_of_any_program_are_read, hours_are_no_key, what_is_unclear_is_refused_at_its_place,
-          memory_runs_out, hours_fill_a_leap_year_and_no_more)
+/* What the command takes for a time, by the list that tests/study/test_statistics.py reads. */
+START_TEST(times_are_those_of_the_command)
+{
+    FILE *file = fopen("tests/data/times.csv", "r");
+    char line[80], text[120];
+    int rows = 0;
+    ck_assert_ptr_nonnull(file);
+    ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
+    for (; fgets(line, sizeof line, file); rows++) {
+        char *seconds = strchr(line, ',');
+        ck_assert_ptr_nonnull(seconds);
+        *seconds++ = '\0';
+        bool good = *seconds != '\n';
+        context ctx;
+        fram_error error = {0};
+        study s = {0};
+        context_init(&ctx);
+        int length = snprintf(text, sizeof text, "scenario: base.yaml\nextremes: {duration: %s}\n", line);
+        fram_status status = study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error);
+        ck_assert_msg((status == FRAM_OK) == good, "%s: %s", line, error.message);
+        if (status != FRAM_OK)
+            continue;
+        assert_relative(s.extremes.duration, strtod(seconds, NULL), 1e-15);
+        study_free(&ctx, &s);
+    }
+    ck_assert_int_gt(rows, 10);
+    ck_assert_int_eq(fclose(file), 0);
+}
+END_TEST
+
+TEST_MAIN("condition_table", times_are_those_of_the_command, tables_of_any_program_are_read, hours_are_no_key,
+          what_is_unclear_is_refused_at_its_place, memory_runs_out, hours_fill_a_leap_year_and_no_more)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """fram extremes and fram fatigue: fits beside those of scipy and R's evd where they are installed, and bad input."""
+import csv
 import json
 import math
 import os
@@ -314,6 +315,17 @@ class Statistics(unittest.TestCase):
         self.assertEqual(self.fram("extremes", *files, "--channel", "x", "--step", 1)["series"]["values"], 600)
         few = self.fram("extremes", *files[:1], "--channel", "x", "--step", 1)["methods"][0]["note"]
         self.assertIn("fewer than ten values", few)
+    def test_times_are_those_of_studies(self):
+        """By the list that tests/study/test_condition_table.c reads."""
+        file = self.write("x\n1\n2\n1\n3\n")
+        with open("tests/data/times.csv", newline="") as times:
+            for row in csv.DictReader(times):
+                words = ("extremes", file, "--channel", "x", "--step", 1, "--duration", row["text"])
+                if row["seconds"]:
+                    self.assertEqual(self.fram(*words)["duration_s"], float(row["seconds"]))
+                else:
+                    self.refused(words, "--duration", "expected a time")
+
 
     def test_series_that_hold_no_block_are_told(self):
         text = "x\n" + "".join(f"{math.sin(0.01 * i)}\n" for i in range(600))

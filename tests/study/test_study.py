@@ -754,6 +754,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         (self.at / "c.csv").write_text("title=a\nb\n")
         self.refused("vary: {table: c.csv}\n", "c.csv:0: title=a: expected a key")
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
+        self.refused("seeds: 0x10\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")
         self.refused("seeds:\n  least: 4\n  most: 40\n  extreme_within: 0.1\n",
