@@ -1,6 +1,7 @@
 /* The descriptors of scenario_keys.h, and what is asked of them. */
 #include "model/scenario_schema.h"
 #include "base/transcendental.h"
+#include "base/words.h"
 #include <string.h>
 
 /* Choices are read and written as int32_t. */
@@ -147,55 +148,12 @@ int32_t section_find(const scenario_section *section, const char *name)
     return -1;
 }
 
-/* Longest name that is compared, and the distance that stands for "not near". */
-enum { NAME_LIMIT = 40 };
-
-/* Number of insertions, deletions, changes and swaps of neighbours between two names (restricted Damerau-Levenshtein
-   distance, Damerau 1964; dynamic programming over three rows). */
-static int name_distance(const char *a, const char *b)
-{
-    int length_a = (int)strlen(a), length_b = (int)strlen(b);
-    if (length_a > NAME_LIMIT || length_b > NAME_LIMIT)
-        return NAME_LIMIT;
-    int rows[3][NAME_LIMIT + 1];
-    int *before = rows[0], *last = rows[1], *now = rows[2];
-    for (int j = 0; j <= length_b; j++) {
-        last[j] = j;
-        before[j] = 0;
-    }
-    for (int i = 1; i <= length_a; i++) {
-        now[0] = i;
-        for (int j = 1; j <= length_b; j++) {
-            int best = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            if (last[j] + 1 < best)
-                best = last[j] + 1;
-            if (now[j - 1] + 1 < best)
-                best = now[j - 1] + 1;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && before[j - 2] + 1 < best)
-                best = before[j - 2] + 1;
-            now[j] = best;
-        }
-        int *oldest = before;
-        before = last;
-        last = now;
-        now = oldest;
-    }
-    return last[length_b];
-}
-
 const char *section_nearest(const scenario_section *section, const char *name)
 {
-    /* A third of the letters may be wrong, at least one. */
-    int limit = 1 + (int)(strlen(name) / 3), nearest = limit + 1;
-    const char *found = NULL;
-    for (int32_t k = 0; k < section->key_count; k++) {
-        int distance = name_distance(section->keys[k].name, name);
-        if (distance < nearest) {
-            nearest = distance;
-            found = section->keys[k].name;
-        }
-    }
-    return found;
+    name_search near = name_search_begin(name);
+    for (int32_t k = 0; k < section->key_count; k++)
+        name_try(&near, section->keys[k].name);
+    return near.found;
 }
 
 double key_default(const scenario_key *key, double scale)

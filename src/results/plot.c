@@ -26,29 +26,6 @@ typedef struct plot {
     ARRAY(double *) kept; /* values in a larger unit */
 } plot;
 
-/* Characters that both begin with, then fewer left over. */
-static int likeness(const char *a, const char *b)
-{
-    int same = 0;
-    while (a[same] && a[same] == b[same])
-        same++;
-    return 100 * same - (int)strlen(b);
-}
-
-static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
-{
-    const char *nearest = d->series.columns.data[0].name;
-    for (int32_t i = 0; i < d->series.columns.count; i++) {
-        const char *other = d->series.columns.data[i].name;
-        bool inside = strstr(other, name) != NULL && strstr(nearest, name) == NULL;
-        if (inside || (likeness(name, other) > likeness(name, nearest) && strstr(nearest, name) == NULL))
-            nearest = other;
-    }
-    return error_set(
-        error, FRAM_ERROR_INPUT, d->folder, 0, name,
-        "the run has no channel of this name; did you mean %s? Without a channel, fram plot lists them all", nearest);
-}
-
 static panel *panel_of(plot *p, const char *unit)
 {
     for (int32_t i = 0; i < p->count; i++) {
@@ -73,7 +50,7 @@ static fram_status add_channel(plot *p, const run_data *d, const char *name, fra
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
     if (!c)
-        return no_channel(d, name, error);
+        return run_refuse_channel(d, name, NULL, error);
     panel *at = panel_of(p, c->unit);
     chart_line line = chart_line_make(c->name, p->time + p->first, c->value.data + p->first, p->rows, true);
     line.colour = at->count + 2; /* the palette's first is for backgrounds */
@@ -157,7 +134,7 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
     else if (d.series.rows == 0)
         status = run_data_refuse_empty(&d, error);
     else if (!p.time)
-        status = no_channel(&d, "time", error);
+        status = run_refuse_channel(&d, "time", NULL, error);
     if (status == FRAM_OK && p.time)
         choose_rows(&p, from, to, d.series.rows);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++)

@@ -2,6 +2,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/sort.h"
+#include "base/words.h"
 #include "io/file.h"
 #include "io/json_walk.h"
 #include "io/scenario_file.h"
@@ -462,4 +463,23 @@ fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
 {
     return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
                      "the run's series has no rows; give the scenario a shorter output.csv_interval");
+}
+
+fram_status run_refuse_channel(const run_data *d, const char *name, const char *also, fram_error *error)
+{
+    name_search near = name_search_begin(name);
+    const char *inside = NULL;
+    for (int32_t i = 0; i < d->series.columns.count; i++) {
+        const char *other = d->series.columns.data[i].name;
+        name_try(&near, other);
+        if (!inside && strstr(other, name))
+            inside = other;
+    }
+    if (also)
+        name_try(&near, also);
+    /* A part of a name, as `tension` of line_1_tension, is further from it than a third of its letters. */
+    const char *meant = near.found ? near.found : inside;
+    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name,
+                     "the run has no channel of this name; %s%s%s`fram plot %.200s` lists them all",
+                     meant ? "did you mean " : "", meant ? meant : "", meant ? "? " : "", d->folder);
 }

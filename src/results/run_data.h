@@ -86,5 +86,8 @@ double run_recorded_from(const run_data *d);
 bool run_leaves_out_steps(const run_data *d);
 /* That the series has no rows. */
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error);
+/* That the run has no channel of a name, and which may be meant; `also`: a name that is none of its columns and can be
+   asked for besides, or NULL. */
+fram_status run_refuse_channel(const run_data *d, const char *name, const char *also, fram_error *error);
 
 #endif

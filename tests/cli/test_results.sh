@@ -295,8 +295,12 @@ if [ $pictures = yes ]; then
     [ "$(head -c 4 two.png | tail -c 3)" = PNG ] || fail "two.png is no PNG"
     expect 0 "$FRAM" plot run roll -o one.svg
     holds "<svg" one.svg
-    expect 2 "$FRAM" plot run rolll -o no.png
-    says "did you mean roll" err
+    for wrong in rolll orll; do
+        expect 2 "$FRAM" plot run $wrong -o no.png
+        says "did you mean roll?" err
+    done
+    expect 2 "$FRAM" plot run averaged_x -o no.png
+    says "did you mean ice_force_averaged_x?" err
     expect 2 "$FRAM" plot run roll -o no.png --from 9
 fi
 expect 2 "$FRAM" plot run roll
