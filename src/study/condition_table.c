@@ -1,8 +1,8 @@
 #include "study/condition_table.h"
 
 #include "base/number_text.h"
+#include "io/csv_cell.h"
 #include "io/file.h"
-#include "io/text_buffer.h"
 #include "io/utf8.h"
 #include "study/key_names.h"
 
@@ -18,7 +18,7 @@ typedef struct table_reader {
     int32_t line;
     condition_table *out;
     fram_error *error;
-    text_buffer cell;
+    csv_cell cell;
 } table_reader;
 
 static const char hours_head[] = "hours";
@@ -31,54 +31,13 @@ static fram_status refuse(const table_reader *r, const char *head, const char *m
 static bool at_line_end(const table_reader *r) { return r->at == r->end || *r->at == '\n' || *r->at == '\r'; }
 static bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/* ---- cells ---- */
-
-static void pass_blanks(table_reader *r)
-{
-    while (r->at < r->end && is_blank(*r->at))
-        r->at++;
-}
-
-static fram_status read_quoted_cell(table_reader *r, const char *head)
-{
-    for (r->at++; !at_line_end(r); r->at++) {
-        if (*r->at == '"' && (r->at + 1 == r->end || r->at[1] != '"'))
-            break;
-        r->at += *r->at == '"';
-        text_add_bytes(r->ctx, &r->cell, r->at, 1);
-    }
-    if (at_line_end(r))
-        return refuse(r, head, "the quotation mark that opens here is not closed in its line");
-    r->at++;
-    pass_blanks(r);
-    return at_line_end(r) || *r->at == ',' ? FRAM_OK : refuse(r, head, "expected a comma behind the quotation mark");
-}
-
-static void read_plain(table_reader *r)
-{
-    const char *begin = r->at;
-    while (!at_line_end(r) && *r->at != ',')
-        r->at++;
-    const char *last = r->at;
-    while (last > begin && is_blank(last[-1]))
-        last--;
-    text_add_bytes(r->ctx, &r->cell, begin, (size_t)(last - begin));
-}
+/* ---- lines ---- */
 
 /* One cell, to its comma or the end of its line. */
-static fram_status read_cell(table_reader *r, const char *head)
+static fram_status read_cell(table_reader *r, const char *head, int32_t column)
 {
-    fram_status status = FRAM_OK;
-    r->cell.count = 0;
-    text_add(r->ctx, &r->cell, "");
-    pass_blanks(r);
-    if (r->at < r->end && *r->at == '"')
-        status = read_quoted_cell(r, head);
-    else
-        read_plain(r);
-    if (status == FRAM_OK && r->cell.failed)
-        return error_memory(r->error);
-    return status;
+    r->at = csv_cell_read(r->ctx, r->at, r->end, &r->cell);
+    return csv_cell_check(r->name, r->line, head, column, &r->cell, r->error);
 }
 
 /* Behind a line; false at the end of the file. */
@@ -97,7 +56,8 @@ static bool find_line(table_reader *r)
 {
     for (bool more = r->at < r->end; more; more = next_line(r)) {
         const char *begin = r->at;
-        pass_blanks(r);
+        while (r->at < r->end && is_blank(*r->at))
+            r->at++;
         if (!at_line_end(r) && *r->at != '#') {
             r->at = begin;
             return true;
@@ -140,7 +100,7 @@ static fram_status take_unit(table_reader *r, char *head)
 
 static fram_status add_table_head(table_reader *r)
 {
-    char *head = r->cell.data;
+    char *head = r->cell.text.data;
     if (!*head)
         return refuse(r, "", "expected a scenario key at the head of each column, found an empty one");
     if (strpbrk(head, ";\t"))
@@ -160,8 +120,8 @@ static fram_status read_heads(table_reader *r)
 {
     if (!find_line(r))
         return refuse(r, NULL, "the file has no head row");
-    for (;; r->at++) {
-        fram_status status = read_cell(r, NULL);
+    for (int32_t column = 0;; column++, r->at++) {
+        fram_status status = read_cell(r, NULL, column);
         if (status == FRAM_OK)
             status = add_table_head(r);
         if (status != FRAM_OK || at_line_end(r))
@@ -178,10 +138,10 @@ static fram_status read_row(table_reader *r)
         if (k == heads->count)
             return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, NULL,
                              "expected %d cells, a value for each key, found more", (int)heads->count);
-        fram_status status = read_cell(r, heads->data[k]);
-        if (status == FRAM_OK && !*r->cell.data)
+        fram_status status = read_cell(r, heads->data[k], k);
+        if (status == FRAM_OK && !*r->cell.text.data)
             status = refuse(r, heads->data[k], "expected a value, found an empty cell");
-        if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->cells, r->cell.data))
+        if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->cells, r->cell.text.data))
             status = error_memory(r->error);
         if (status != FRAM_OK)
             return status;
@@ -264,7 +224,7 @@ fram_status condition_table_parse(context *ctx, const char *name, const char *da
     *out = (condition_table){0};
     table_reader r = {.ctx = ctx, .name = name, .at = data, .end = data + size, .line = 1, .out = out, .error = error};
     fram_status status = read_all(&r);
-    text_free(ctx, &r.cell);
+    text_free(ctx, &r.cell.text);
     if (status != FRAM_OK)
         condition_table_free(ctx, out);
     return status;

@@ -3,13 +3,13 @@
 #include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "base/sort.h"
+#include "base/words.h"
+#include "io/csv_cell.h"
 #include "io/csv_read.h"
 #include "io/file.h"
 #include "io/utf8.h"
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
-#include "study/csv_cell.h"
-#include "study/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,35 +41,56 @@ static void split_head(char *head, char unit[UNIT_SIZE])
 
 enum { NO_HEAD = -1, TWO_HEADS = -2 };
 
+typedef struct csv_want {
+    const char *path;
+    int time, value; /* columns; time -1: not read */
+    int width;       /* columns of the file */
+    bool maxima;
+    context *ctx;
+    csv_cell *cell; /* room for one at a time */
+} csv_want;
+
+/* Sets the width.  Behind it all cells of the head have room. */
+static fram_status check_heads(csv_want *want, const char *line, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    want->width = 0;
+    for (const char *c = line + utf8_mark(line, strlen(line)); c && status == FRAM_OK; want->width++) {
+        c = csv_cell_next(want->ctx, c, want->cell);
+        status = csv_cell_check(want->path, 1, NULL, want->width, want->cell, error);
+    }
+    return status;
+}
+
 /* Number of the column; NO_HEAD without one, with the error set if it must be there; TWO_HEADS with the error set. */
-static int find_head(const char *path, const char *line, const char *name, bool must, char unit[UNIT_SIZE],
+static int find_head(const csv_want *head, const char *line, const char *name, bool must, char unit[UNIT_SIZE],
                      fram_error *error)
 {
-    char near[CSV_CELL_ROOM] = "", own[UNIT_SIZE];
-    csv_cell head;
-    int least = WORD_ROOM, at = 0, found = NO_HEAD;
+    char near[NAME_LENGTH_MOST + 1] = "", own[UNIT_SIZE];
+    name_search search = name_search_begin(name);
+    int at = 0, found = NO_HEAD;
     unit[0] = '\0';
     const char *header = line + utf8_mark(line, strlen(line));
     for (const char *c = header; c; at++) {
-        c = csv_cell_next(c, &head);
-        split_head(head.text, own);
-        if (strcmp(head.text, name) == 0 && found >= 0) {
-            csv_refuse_twice(path, name, found, at, error);
+        c = csv_cell_next(head->ctx, c, head->cell);
+        char *text = head->cell->text.data;
+        split_head(text, own);
+        if (strcmp(text, name) == 0 && found >= 0) {
+            csv_refuse_twice(head->path, name, found, at, error);
             return TWO_HEADS;
         }
-        if (strcmp(head.text, name) == 0) {
+        if (strcmp(text, name) == 0) {
             found = at;
             memcpy(unit, own, sizeof own);
         }
-        int distance = word_distance(head.text, name);
-        if (distance < least) {
-            least = distance;
-            memcpy(near, head.text, sizeof near);
-        }
+        search.found = NULL;
+        name_try(&search, text);
+        if (search.found)
+            snprintf(near, sizeof near, "%s", text);
     }
     bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = *near && !other_marks && *header != '#';
     if (must && found < 0)
-        error_set(error, FRAM_ERROR_INPUT, path, 1, name, "the file has no column of this name%s%s%s",
+        error_set(error, FRAM_ERROR_INPUT, head->path, 1, name, "the file has no column of this name%s%s%s",
                   other_marks      ? "; columns are divided by commas"
                   : *header == '#' ? "; comments stand behind the header"
                   : *near          ? "; did you mean "
@@ -78,54 +99,38 @@ static int find_head(const char *path, const char *line, const char *name, bool 
     return found;
 }
 
-typedef struct csv_want {
-    const char *path;
-    int time, value; /* columns; time -1: not read */
-    int width;       /* columns of the file */
-    bool maxima;
-} csv_want;
-
-static int count_heads(const char *line)
-{
-    csv_cell head;
-    int n = 0;
-    for (const char *c = line; c; n++)
-        c = csv_cell_next(c, &head);
-    return n;
-}
-
 /* Numbers of a line; *found false for an empty cell of maxima. */
 static fram_status read_line(const csv_want *want, const char *line, int number, double *time, double *value,
                              bool *found, fram_error *error)
 {
-    csv_cell own;
+    csv_cell *own = want->cell;
     int column = 0, seen = 0;
     *found = true;
     for (const char *c = line; c; column++) {
-        c = csv_cell_next(c, &own);
-        fram_status status = csv_cell_check(want->path, number, column, &own, error);
+        c = csv_cell_next(want->ctx, c, own);
+        fram_status status = csv_cell_check(want->path, number, NULL, column, own, error);
         if (status != FRAM_OK)
             return status;
-        if (column >= want->width && *own.text)
+        if (column >= want->width && *own->text.data)
             return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
                              "the row has more cells than the header has columns, %d: is one of the commas a decimal "
                              "or a thousands mark?",
                              want->width);
         if (column != want->time && column != want->value)
             continue;
-        if (!*own.text && want->maxima) {
+        if (!*own->text.data && want->maxima) {
             *found = false;
             seen++;
             continue;
         }
         double x = 0;
-        char *end = own.text + own.length;
-        while (end > own.text && end[-1] == ' ')
+        /* In quotation marks, too, blanks around a number are none of it. */
+        char *begin = own->text.data + strspn(own->text.data, " "), *end = own->text.data + own->text.count;
+        while (end > begin && end[-1] == ' ')
             *--end = '\0';
-        const char *begin = own.text + strspn(own.text, " ");
-        if (own.flaw == CSV_CELL_CUT || real_from_text(begin, &x) != NUMBER_GOOD)
+        if (real_from_text(begin, &x) != NUMBER_GOOD)
             return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
-                             "column %d: expected a number, found \"%.40s\"", column + 1, own.text);
+                             "column %d: expected a number, found \"%.40s\"", column + 1, begin);
         seen++;
         if (column == want->time)
             *time = x;
@@ -184,7 +189,8 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
 {
     char *text = NULL, time_unit[UNIT_SIZE];
     size_t size = 0;
-    csv_want want = {.path = path, .time = -1, .maxima = source->maxima};
+    csv_cell cell = {.flaw = CSV_CELL_SOUND};
+    csv_want want = {.path = path, .time = -1, .maxima = source->maxima, .ctx = ctx, .cell = &cell};
     fram_status readable = file_check(path, error);
     if (readable != FRAM_OK)
         return readable;
@@ -195,15 +201,17 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "expected text, found a NUL byte");
     if (status == FRAM_OK) {
         csv_end_lines(text);
-        want.width = count_heads(text);
-        want.value = find_head(path, text, source->channel, true, unit, error);
+        status = check_heads(&want, text, error);
+    }
+    if (status == FRAM_OK) {
+        want.value = find_head(&want, text, source->channel, true, unit, error);
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
     }
     if (status == FRAM_OK && !source->maxima && source->step > 0 &&
-        find_head(path, text, "time", false, time_unit, error) != NO_HEAD)
+        find_head(&want, text, "time", false, time_unit, error) != NO_HEAD)
         status = refuse_step(path, error);
     if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
-        want.time = find_head(path, text, "time", false, time_unit, error);
+        want.time = find_head(&want, text, "time", false, time_unit, error);
         if (want.time == TWO_HEADS)
             status = FRAM_ERROR_INPUT;
         else if (*time_unit && strcmp(time_unit, "s") != 0)
@@ -215,6 +223,7 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
     }
     if (status == FRAM_OK)
         status = read_lines(ctx, &want, text, rows, value, error);
+    text_free(ctx, &cell.text);
     memory_free(ctx, text);
     return status;
 }
@@ -223,21 +232,13 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
 
 static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
 {
-    const vessel_channel of_first = vessel_channel_name(&d->s, 0, "load");
     bool vessels = scenario_vessel_count(&d->s) > 0;
-    const char *near = vessels ? of_first.text : "time";
+    const vessel_channel of_first = vessel_channel_name(&d->s, 0, "load");
     /* In a list of vessels nothing is nearer to `load` than the load of one. */
-    int least = vessels && strcmp(name, "load") == 0 ? 0 : word_distance(near, name);
-    for (int32_t i = 0; i < d->series.columns.count; i++) {
-        int distance = word_distance(d->series.columns.data[i].name, name);
-        if (distance < least) {
-            least = distance;
-            near = d->series.columns.data[i].name;
-        }
-    }
-    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name,
-                     "the run has no channel of this name; did you mean %s? `fram plot %.200s` lists them all", near,
-                     d->folder);
+    if (vessels && strcmp(name, "load") == 0 && strcmp(of_first.text, name) != 0)
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name, "each vessel has its own; did you mean %s?",
+                         of_first.text);
+    return run_refuse_channel(d, name, vessels ? of_first.text : NULL, error);
 }
 
 /* The vessel whose `load` this is: NAME.load in a list of vessels; -1: no vessel's. */

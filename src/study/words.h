@@ -4,11 +4,10 @@
 
 #include <stddef.h>
 
+/* More than the longest of such words. */
 enum { WORD_ROOM = 64 };
-/* Number of letters to insert, delete or change (Levenshtein 1966); words longer than WORD_ROOM are far from all. */
-int word_distance(const char *a, const char *b);
-/* A word of the same meaning (largest for extreme), or else the one whose letters are nearest; NULL when none is near:
-   a third of the letters may be wrong, at least one. */
+/* A word of the same meaning (largest for extreme), or else the one that is nearest (base/words.h); NULL when none is
+ * near. */
 const char *word_nearest(const char *const *words, size_t count, const char *wrong);
 
 #endif

@@ -34,6 +34,12 @@ START_TEST(tables_of_any_program_are_read)
 {
     static const char *const cells[] = {"vessel.speed", "vessel.mode", "1.50", "towed", "2", "free"};
     read_as("vessel.speed,vessel.mode\n1.50,towed\n2,free\n", cells, 2, 2);
+    char wide[400], name[200];
+    memset(name, 'x', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    snprintf(wide, sizeof wide, "vessel.name\n \"%s\" \n", name);
+    const char *const longer[] = {"vessel.name", name};
+    read_as(wide, longer, 1, 1);
     read_as("\xef\xbb\xbfvessel.speed[m/s] , \"vessel.mode\"\r\n\r\n 1.50,\t\"towed\" \r\n2,free\r\n\r\n", cells, 2, 2);
     static const char *const odd[] = {"vessel.name", "ice.concentration", "a, \"b\"", "0.5"};
     read_as("vessel.name,ice.concentration[1]\n\"a, \"\"b\"\"\",0.5", odd, 2, 1);

@@ -259,6 +259,7 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "tensoin"), "tensoin", "did you mean tension?")
         first = self.write("# T of a tank\ntime[s],T[N]\n0,1\n1,2\n", "first.csv")
         self.refused(("extremes", first, "--channel", "T"), "first.csv:1: T:", "comments stand behind the header")
+        self.refused(("extremes", file, "--channel", "zzz"), "the file has no column of this name")
         self.refused(("extremes", file), "channel")
         self.refused(("extremes", str(file) + "-not-there"), "series.csv-not-there")
         self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
@@ -292,6 +293,10 @@ class Statistics(unittest.TestCase):
         self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:4:", "equal distances", "found one of 4 s")
         blanks = self.write("time,x\n\n0,1\n# a comment\n1,2\n5,3\n6,1\n", "blanks.csv")
         self.refused(("fatigue", blanks, "--channel", "x"), "blanks.csv:6:", "found one of 4 s")
+        quoted = self.write('time , "x, of ""A"""\n0, "1"\n1,\t"2.5" \n2,3\n', "quoted.csv")
+        self.assertEqual(self.fram("fatigue", quoted, "--channel", 'x, of "A"')["series"]["values"], 3)
+        self.refused(("fatigue", self.write('time,"x\n0,1\n', "open.csv"), "--channel", "x"),
+                     "open.csv:1:", "column 2: the quotation mark")
         commas = self.write("time,x\n0,1\n1,2,\n2,0,5\n", "commas.csv")
         self.refused(("fatigue", commas, "--channel", "x"), "commas.csv:4:", "more cells than the header", "a decimal")
         rows = "".join(f"{0.5 * i + (400 if i > 700 else 0)},{i % 7}\n" for i in range(1000))
@@ -310,11 +315,6 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", self.at / "none.csv", "--channel", "x"), "none.csv")
         self.refused(("extremes", self.at, "--channel", "x"), str(self.at))
 
-    def test_the_runs_of_a_large_study_are_taken_at_once(self):
-        files = [self.write("x\n1\n2\n", f"two{i}.csv") for i in range(300)]
-        self.assertEqual(self.fram("extremes", *files, "--channel", "x", "--step", 1)["series"]["values"], 600)
-        few = self.fram("extremes", *files[:1], "--channel", "x", "--step", 1)["methods"][0]["note"]
-        self.assertIn("fewer than ten values", few)
     def test_times_are_those_of_studies(self):
         """By the list that tests/study/test_condition_table.c reads."""
         file = self.write("x\n1\n2\n1\n3\n")
@@ -326,6 +326,11 @@ class Statistics(unittest.TestCase):
                 else:
                     self.refused(words, "--duration", "expected a time")
 
+    def test_the_runs_of_a_large_study_are_taken_at_once(self):
+        files = [self.write("x\n1\n2\n", f"two{i}.csv") for i in range(300)]
+        self.assertEqual(self.fram("extremes", *files, "--channel", "x", "--step", 1)["series"]["values"], 600)
+        few = self.fram("extremes", *files[:1], "--channel", "x", "--step", 1)["methods"][0]["note"]
+        self.assertIn("fewer than ten values", few)
 
     def test_series_that_hold_no_block_are_told(self):
         text = "x\n" + "".join(f"{math.sin(0.01 * i)}\n" for i in range(600))

@@ -733,7 +733,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("extremes: {annual: [0.01]}\n", "study.yaml:2: hours", "annual levels take")
         self.refused("extremes: {hours: [9000], annual: [0.01]}\n", "hours", "8784")
         self.refused("extremes: {levels: [1]}\n", "levels", "to 0.999999999, found 1")
-        self.refused("seed: 3\n", "seed", "did you mean seeds?")
+        self.refused("esdes: 3\n", "esdes", "did you mean seeds?")
 
     def test_mistakes_are_told_at_their_place(self):
         self.refused("vary: {grid: {ice.thicknes: [1]}}\n", "study.yaml:2: ice.thicknes",
