@@ -8,13 +8,21 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Colour-blind safe (Okabe and Ito 2008). */
+static const double line_colours[][3] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
+                                         {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00},
+                                         {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
+enum { LINE_COLOURS = sizeof line_colours / sizeof *line_colours };
+
+void chart_colour_text(int number, char out[CHART_COLOUR_TEXT])
+{
+    const double *c = line_colours[(number - 1) % LINE_COLOURS];
+    snprintf(out, CHART_COLOUR_TEXT, "#%02x%02x%02x", (unsigned)(255 * c[0] + 0.5), (unsigned)(255 * c[1] + 0.5),
+             (unsigned)(255 * c[2] + 0.5));
+}
+
 #ifdef FRAM_HAVE_CAIRO
 
-/* Colour-blind safe (Okabe and Ito 2008). */
-static const image_colour line_colours[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
-                                            {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00},
-                                            {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
-enum { LINE_COLOURS = sizeof line_colours / sizeof *line_colours };
 /* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
 enum { MOST_TICKS = 50 };
 static const image_colour chart_ink = {0.2, 0.2, 0.2}, chart_grid = {0.90, 0.91, 0.92};
@@ -309,7 +317,8 @@ static void draw_points(cairo_t *page, const chart_frame *f, const chart_line *l
 
 static image_colour colour_of(const chart_line *line, int32_t place)
 {
-    return line_colours[(line->colour > 0 ? line->colour - 1 : place) % LINE_COLOURS];
+    const double *c = line_colours[(line->colour > 0 ? line->colour - 1 : place) % LINE_COLOURS];
+    return (image_colour){c[0], c[1], c[2]};
 }
 
 static void draw_one(cairo_t *page, const chart_frame *f, const chart_line *line, image_colour colour, bool track)

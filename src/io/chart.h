@@ -47,6 +47,10 @@ static inline chart chart_make(const char *title, const char *subtitle, const ch
                    .line_count = count};
 }
 
+/* Of a number in the palette, as pages write it: "#99b3cc". */
+enum { CHART_COLOUR_TEXT = 8 };
+void chart_colour_text(int number, char out[CHART_COLOUR_TEXT]);
+
 /* Dense lines are drawn as the envelope of their values within each pixel column, so that no peak is lost.
    FRAM_ERROR_UNSUPPORTED without cairo. */
 #ifdef FRAM_HAVE_CAIRO

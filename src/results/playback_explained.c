@@ -1,6 +1,7 @@
 #include "results/playback_explained.h"
 
 #include "base/number_text.h"
+#include "io/chart.h"
 #include "io/record_layout.h"
 #include "results/mechanism_curve.h"
 #include "results/why.h"
@@ -85,14 +86,29 @@ static fram_status add_vessel(why *y, int32_t vessel, text_buffer *out, fram_err
     return status;
 }
 
+/* Names and texts, so that the page has none of its own; mechanisms in the colours of the report's chart. */
+static void add_words(context *ctx, text_buffer *out)
+{
+    text_add(ctx, out, "\"mechanisms\":[");
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        char colour[CHART_COLOUR_TEXT];
+        chart_colour_text(m + 1, colour);
+        text_format(ctx, out, "%s[\"%s\",\"%s\",\"%s\"]", m > 0 ? "," : "", mechanism_name((ice_mechanism)m),
+                    mechanism_text((ice_mechanism)m), colour);
+    }
+    text_add(ctx, out, "],\"ends\":[");
+    for (int e = 0; e < CHAIN_END_COUNT; e++)
+        text_format(ctx, out, "%s[\"%s\",\"%s\"]", e > 0 ? "," : "", chain_end_name((chain_end)e),
+                    chain_end_text((chain_end)e));
+    text_add(ctx, out, "]");
+}
+
 static fram_status add_loads(why *y, text_buffer *out, fram_error *error)
 {
     fram_status status = FRAM_OK;
-    text_add(y->ctx, out, "{\"mechanisms\":[");
-    for (int m = 0; m < MECHANISM_COUNT; m++)
-        text_format(y->ctx, out, "%s[\"%s\",\"%s\"]", m > 0 ? "," : "", mechanism_name((ice_mechanism)m),
-                    mechanism_text((ice_mechanism)m));
-    text_add(y->ctx, out, "],\"vessels\":[");
+    text_add(y->ctx, out, "{");
+    add_words(y->ctx, out);
+    text_add(y->ctx, out, ",\"vessels\":[");
     for (int32_t v = 0; v < scenario_vessel_count(&y->run.s) && status == FRAM_OK; v++) {
         peak_list_free(y->ctx, &y->peaks);
         status = peak_list_read(y->ctx, y->run.folder, v, &y->peaks, error);

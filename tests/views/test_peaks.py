@@ -10,6 +10,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -19,7 +20,8 @@ import zlib
 import chromium
 
 FRAM = os.environ["FRAM"]
-PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
+SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
+PAGE = SOURCE / "build" / "viewer" / "playback.html"
 TOWED = """
 title: Peaks
 run: {duration: 8, time_step: 0.02, transient: 0.5}
@@ -111,6 +113,27 @@ def check_click(browser, run):
     assert not browser.run("fram.poses.forces.filter((f) => f.kind === 'ice').length && fram.scene.arrows.count")
     calls = browser.run("fram.scene.renderer.info.render.calls")
     assert calls <= 20, calls
+
+
+def check_words(browser):
+    """Ends of chains and colours of mechanisms are those of `fram why` and of the report's chart."""
+    told = (SOURCE / "src/model/mechanism.h").read_text(encoding="utf-8")
+    ends = re.findall(r'X\(\w+, "(\w+)", "([^"]+)"\)', told[told.index("define CHAIN_ENDS"):])
+    for name, text in ends:
+        panel = browser.run(f"""(() => {{
+            const {{ peaks }} = fram, [peak] = peaks.vessel.peaks, [floe] = peak.detail.floes;
+            const link = {{ ...floe.chain[0], place: floe.point, push: [1000, 0, 0] }};
+            const floes = [{{ ...floe, chain: [link, link], end: '{name}' }}];
+            peaks.open({{ ...peak, detail: {{ ...peak.detail, floes }} }});
+            return document.getElementById('peak').innerText; }})()""")
+        assert f": {text}." in panel, f"the end {name} of a chain is {text!r}: {panel}"
+    browser.run("fram.peaks.close()")
+    told = (SOURCE / "src/io/chart.c").read_text(encoding="utf-8")
+    palette = re.findall(r"\{(0\.\d+), (0\.\d+), (0\.\d+)\}", told[:told.index("LINE_COLOURS")])
+    drawn = [[int(c[k:k + 2], 16) for k in (1, 3, 5)] for c in browser.run("fram.loads.colours")]
+    assert len(ends) == 7 and len(drawn) == 8 == len(palette), (ends, drawn, palette)
+    for page, chart in zip(drawn, palette):
+        assert all(abs(p - 255 * float(c)) < 0.51 for p, c in zip(page, chart)), (page, chart)
 
 
 def check_odd_clicks(browser):
@@ -352,6 +375,7 @@ def main():
         browser.open(run / "playback.html")
         check_curve(browser, rows)
         check_click(browser, run)
+        check_words(browser)
         check_odd_clicks(browser)
         check_keys(browser)
         check_finger(browser)

@@ -1,7 +1,7 @@
 // The panel of the picked floe: what it is, where it came from, and its speed and contact force over time: of the
 // frames that are in the page, and on a click of those in files beside it too.
 
-import { forceText } from './legend.js';
+import { FORCE_COLOURS, forceText } from './legend.js';
 
 const MOST = 400; // frames that are looked at
 
@@ -137,7 +137,7 @@ export class History {
             g.scale(ratio, ratio);
             g.font = '10.5px system-ui, "DejaVu Sans", sans-serif';
             this.curve(g, w, 0, h / 2 - 3, 'speed', (v) => `${v.toPrecision(3)} m/s`, '#00457f', (r) => r.speed);
-            this.curve(g, w, h / 2, h / 2 - 1, 'contact force', forceText, '#c2185b', (r) => r.force);
+            this.curve(g, w, h / 2, h / 2 - 1, 'contact force', forceText, FORCE_COLOURS.ice, (r) => r.force);
         }
         const g = canvas.getContext('2d');
         g.clearRect(0, 0, canvas.width, canvas.height);

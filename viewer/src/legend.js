@@ -5,6 +5,8 @@ const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sa
 const WIDTH = 204, EDGE = 12, LINE = 18;
 const SWATCH = 14, GAP = 12; // from a swatch to its name, and from a name to the next swatch [px]
 export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5', hull: '#8c5c1a' };
+/** What a kind is called where that is not its name. */
+const FORCE_WORDS = { hull: 'hull or wall' };
 const MARK = '#d9730d';
 /** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
 export const CHAIN = '#111111', BEHIND = '#7a7f3a';
@@ -31,7 +33,7 @@ export class Legend {
      *  or 0}. */
     set(content) {
         const { keys, forces, station } = content, rows = (list) => rowsOf(this.measure, list);
-        const kinds = forces.map((kind) => [FORCE_COLOURS[kind], kind]);
+        const kinds = forces.map((kind) => [FORCE_COLOURS[kind], FORCE_WORDS[kind] ?? kind]);
         this.content = content;
         this.rows = { keys: rows(keys), forces: rows(kinds), station: station.flatMap(rows) };
         this.drawn = '';
@@ -67,12 +69,12 @@ export class Legend {
 
     /** What is drawn, to be read aloud. */
     words(view) {
-        const { unit, ends, marked, hull, peak, keys, forces, station } = this.content;
+        const { unit, ends, marked, hull, peak, keys, station } = this.content, forces = this.rows.forces.flat();
         const range = (name, between) => `${name} from ${between.map((v) => Number(v.toPrecision(2))).join(' to ')}`;
         const said = [unit ? range(unit, ends) : keys.map(([, name]) => name).join(', ')];
         if (hull) said.push(range(hull.unit, hull.ends));
         if (peak) said.push('chains of the peak and floes behind');
-        if (forces.length) said.push(`${this.ofForces}: ${forces.join(', ')}`,
+        if (forces.length) said.push(`${this.ofForces}: ${forces.map(([, name]) => name).join(', ')}`,
             `${view.length} m: ${forceText(view.force)}`);
         said.push(...station.flat().map(([, name]) => name));
         if (marked) said.push(`orange: broke in the last ${marked} s`);

@@ -3,16 +3,14 @@
 
 import { BEHIND, CHAIN } from './legend.js';
 
-/** Of the mechanisms, in their order: those of the report's chart (Okabe and Ito 2008). */
-export const MECHANISM_COLOURS = ['#99b3cc', '#00458c', '#d65e00', '#009e73', '#cc78a6', '#e69e00', '#57b5e8',
-                                  '#73594d'];
-
 /** Of one vessel: {name, window, transient, time, load, parts: one array for each mechanism, peaks}; a peak:
  *  {rank, time, load, sentence, detail: what fram why --json tells}. Times [s], forces [N]. */
 export class Loads {
     constructor(told) {
         this.names = told.mechanisms.map(([name]) => name);
         this.texts = told.mechanisms.map(([, text]) => text);
+        this.colours = told.mechanisms.map(([, , colour]) => colour);
+        this.ends = new Map(told.ends); // of chains: name, text
         this.vessels = told.vessels.map((v) => ({
             ...v,
             peaks: v.peaks.map(({ sentence, detail }, i) => ({
@@ -21,7 +19,7 @@ export class Loads {
         }));
     }
 
-    colour(mechanism) { return MECHANISM_COLOURS[this.names.indexOf(mechanism)] ?? BEHIND; }
+    colour(mechanism) { return this.colours[this.names.indexOf(mechanism)] ?? BEHIND; }
 
     /** Mechanisms that have a part of the curve that is seen, by their place. */
     shown(vessel) {
@@ -59,16 +57,11 @@ export function linesOf(loads, peak, length) {
     return out;
 }
 
-const ENDS = {
-    inertia: 'held by its inertia', water: 'held by water and weight', sheet: 'fixed ice', driven: 'driven ice',
-    wall: 'a wall', vessel: 'a vessel', loop: 'back to a floe of its own',
-};
-
 /** The longest chain of a peak in words: "hull, floe 3 (12 kN), floe 5 (9 kN): held by its inertia"; '' without one. */
-export function chainText(peak, forceText) {
+export function chainText(loads, peak, forceText) {
     const longest = peak.detail.floes.reduce((a, b) => (b.chain.length > a.chain.length ? b : a), { chain: [] });
     if (longest.chain.length < 2) return '';
     const links = longest.chain.map((l) => `${l.floe >= 0 ? `floe ${l.floe}` : 'a body'} (${
         forceText(Math.hypot(...l.push) / 1000)})`);
-    return `Longest chain: hull, ${links.join(', ')}: ${ENDS[longest.end]}.`;
+    return `Longest chain: hull, ${links.join(', ')}: ${loads.ends.get(longest.end)}.`;
 }

@@ -77,7 +77,7 @@ export class PeakPanel {
             const row = add('li', `${Math.round(100 * part)} % ${loads.texts[m]}`, parts);
             row.style.setProperty('--swatch', loads.colour(name));
         }
-        const chain = chainText(peak, forceText), absent = this.absent();
+        const chain = chainText(loads, peak, forceText), absent = this.absent();
         if (chain) add('p', chain);
         if (absent) add('p', absent);
         panel.hidden = false;

@@ -1,7 +1,6 @@
 // The timeline: the averaged ice load over time, stacked by mechanism where the page knows them, its largest peaks,
 // marks where floes broke, and a cursor that can be dragged.
 
-import { MECHANISM_COLOURS } from './loads.js';
 import { forceText, secondsText } from './legend.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
@@ -58,14 +57,14 @@ export class Timeline {
     /** What pushes with the load goes up from zero, what pushes against it down: two bands a mechanism, of which one
      *  has no width at a time, so that a part that changes its side leaves no gap. */
     stack() {
-        const { vessel } = this, n = vessel.time.length;
+        const { vessel, loads } = this, n = vessel.time.length;
         this.up = new Float64Array(n);
         this.down = new Float64Array(n);
-        this.bands = this.loads.names.flatMap((_, m) => [[this.up, Math.max], [this.down, Math.min]]
+        this.bands = loads.names.flatMap((_, m) => [[this.up, Math.max], [this.down, Math.min]]
             .map(([from, side]) => {
                 const low = from.slice();
                 for (let k = 0; k < n; k++) from[k] += side(0, vessel.parts[m][k]);
-                return { colour: MECHANISM_COLOURS[m], low, high: from.slice() };
+                return { colour: loads.colours[m], low, high: from.slice() };
             }));
         this.largest = Math.max(largest(vessel.load), largest(vessel.peaks.map((p) => p.load)));
         this.top = Math.max(this.largest, largest(this.up), 1e-6);
@@ -166,7 +165,7 @@ export class Timeline {
         for (const m of this.kinds) {
             const wide = 14 + g.measureText(loads.names[m]).width + 12;
             if (x + wide > w - 4 && x > 4) { x = 4; y += LINE; }
-            g.fillStyle = MECHANISM_COLOURS[m];
+            g.fillStyle = loads.colours[m];
             g.fillRect(x, y - 9, 10, 10);
             g.fillStyle = INK;
             this.write(g, loads.names[m], x + 14, y);
