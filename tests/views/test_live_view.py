@@ -39,10 +39,10 @@ STATE = """({ frames: fram.record.frames.length, broke: fram.record.fractures.le
 
 # Of a page that has just got a frame; the camera is the one that follows.
 SHOWN = """(fram.prepare(), (() => {
-    const centre = fram.centre(), at = fram.controls.target, { forces, marked } = fram.legend.content;
+    const centre = fram.camera.centre(), at = fram.camera.controls.target, { forces, marked } = fram.legend.content;
     const pulls = fram.poses.forces.map((f) => Math.hypot(...f.force));
     return { time: fram.time, end: fram.end, off: Math.hypot(at.x - centre.x, at.y - centre.y),
-             longest: fram.arrowScale * Math.max(0, ...pulls), kinds: fram.poses.forces.map((f) => f.kind),
+             longest: fram.colours.arrowScale * Math.max(0, ...pulls), kinds: fram.poses.forces.map((f) => f.kind),
              named: forces, broke: fram.record.fractures.length, marked, born: fram.record.bodies.length,
              text: document.getElementById('history').innerText, told: fram.history.sorted?.at(-1)?.time }; })())"""
 FRAME = 15  # type of the block of a frame, src/io/record_layout.h

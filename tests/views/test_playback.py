@@ -22,7 +22,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from skipping import skip  # noqa: E402  (tests is no package)
 
 FRAM = os.environ["FRAM"]
-PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
+SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
+PAGE = SOURCE / "build" / "viewer" / "playback.html"
 TOWED = """
 title: Playback test
 run: {duration: 6, time_step: 0.02}
@@ -90,6 +91,35 @@ FLOE = """(() => {
 })()"""
 
 
+def numbers_after(path, name):
+    """Of the first pair of outer braces, brackets or the first value after `name =` in a source file."""
+    found = re.search(rf"{name}(?:\[\d*\])? = ([\[{{].*?[\]}}];|[^,;]+)", (SOURCE / path).read_text(encoding="utf-8"),
+                      re.DOTALL)
+    return [float(n) for n in re.findall(r"\d+(?:\.\d+)?(?:e\d+)?", found[1])]
+
+
+def check_twins():
+    """What the page cannot be told, since a record has none of it, is as the program has it."""
+    page, image = numbers_after("viewer/src/colours.js", "STOPS"), "src/io/image.c"
+    ramp = re.findall(r"\{(\d\.\d+), (\d\.\d+), (\d\.\d+)\}", (SOURCE / image).read_text(encoding="utf-8"))[:3]
+    assert page == [float(v) for stop in ramp for v in stop] and len(page) == 9, (page, ramp)
+    for path, names in ("src/sim/build_wash.c", ("SPACING", "DEPTH")), ("src/sim/build_propulsion.c", ("STERN",)):
+        for name in names:
+            assert numbers_after(path, name) == numbers_after("viewer/src/station.js", name), name
+    assert numbers_after("src/sim/build_wash.c", "DISC_LOAD") == numbers_after("viewer/src/station.js",
+                                                                              "DISC_PRESSURE")
+    kinds = re.findall(r"RECORD_FORCE_(\w+)\] = \{\{([\d., ]+)\}, \"([^\"]+)\"",
+                       (SOURCE / "src/results/video_scene.c").read_text(encoding="utf-8"))
+    legend = (SOURCE / "viewer/src/legend.js").read_text(encoding="utf-8")
+    colours = dict(re.findall(r"(\w+): '#(\w+)'", legend[legend.index("FORCE_COLOURS"):].split("\n")[0]))
+    words = dict(re.findall(r"(\w+): '([^']+)'", legend[legend.index("FORCE_WORDS"):].split("\n")[0]))
+    assert len(kinds) == len(colours) == 4, (kinds, colours)
+    for kind, rgb, name in kinds:
+        drawn = [int(colours[kind.lower()][k:k + 2], 16) / 255 for k in (0, 2, 4)]
+        assert all(abs(a - float(b)) < 0.006 for a, b in zip(drawn, rgb.split(","))), (kind, drawn, rgb)
+        assert words.get(kind.lower(), kind.lower()) == name, (kind, name)
+
+
 def is_deck(p):
     return p[0] > 1.2 * p[2] and p[0] > p[1] and p[0] > 60
 
@@ -134,7 +164,7 @@ def check_opening(browser, page):
     browser.call("Page.navigate", url=page.as_uri())
     browser.until("window.fram?.ready && fram.time > 0.5", "the page does not play when it is opened")
     assert browser.run("[camera.value, colour.value]") == ["follow", "force"]
-    off = browser.run("""(() => { const at = fram.centre().clone().project(fram.scene.camera);
+    off = browser.run("""(() => { const at = fram.camera.centre().clone().project(fram.scene.camera);
         return Math.hypot(at.x, at.y); })()""")
     assert off < 0.1, f"the vessel is {off} of the window off its middle"
     browser.call("Emulation.setDeviceMetricsOverride", width=420, height=720, deviceScaleFactor=1, mobile=False)
@@ -274,7 +304,7 @@ def check_tank(browser, folder):
     told = browser.run("document.getElementById('load').textContent")
     found = re.fullmatch(r"averaged ice force: X (-?[0-9.]+) kN, Y (-?[0-9.]+) kN", told)
     assert found and math.isclose(1e3 * float(found[1]), rows[-1]["ice_force_averaged_x[N]"], abs_tol=0.006), told
-    assert browser.run("fram.ranges.force[1]") < 0.1, "no floe takes a colour"
+    assert browser.run("fram.colours.ranges.force[1]") < 0.1, "no floe takes a colour"
     wide = browser.run("fram.scene.box.max.x - fram.scene.box.min.x")
     assert wide < 10, f"{wide} m for a tank of 5 m: the model is lost in it"
     disc = browser.run("fram.scene.station.thrusters[0].disc")
@@ -295,15 +325,17 @@ output: {frame_interval: 0.25}
     beside = ["--page-limit", "0.1", "-o", run / "beside.html"]
     subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet", *beside], check=True)
     browser.open(run / "beside.html")
-    met, kinds, longest = browser.run("[fram.record.frames.some((f) => !f.view && f.force[0] < 0), fram.kinds,"
-                                      "Math.max(...fram.record.frames.map((f) => -f.force[0])) * fram.arrowScale]")
+    met, kinds, longest = browser.run("""(() => { const { frames } = fram.record, { kinds, arrowScale } = fram.colours;
+        return [frames.some((f) => !f.view && f.force[0] < 0), kinds,
+                Math.max(...frames.map((f) => -f.force[0])) * arrowScale]; })()""")
     assert met and kinds == ["ice"] and 5 < longest < 40, (met, kinds, longest)
     browser.open(run / "playback.html")
     touched, kinds, longest, most, high = browser.run("""(() => {
         const frames = fram.record.frames.map((_, i) => fram.store.get(i));
         const pulls = frames.flatMap((f) => f.forces.map((one) => Math.hypot(...one.force)));
-        return [frames.map((f) => f.forces.length > 0), fram.kinds, Math.max(...pulls) * fram.arrowScale,
-                Math.max(...frames.map((f) => f.contact[1])), fram.ranges.force[1]]; })()""")
+        const { kinds, arrowScale, ranges } = fram.colours;
+        return [frames.map((f) => f.forces.length > 0), kinds, Math.max(...pulls) * arrowScale,
+                Math.max(...frames.map((f) => f.contact[1])), ranges.force[1]]; })()""")
     assert not any(touched[:6]) and any(touched), f"ice is to be met late: {touched}"
     assert kinds == ["ice"], f"arrows without a name: {kinds}"
     assert 5 < longest < 40, f"the longest arrow has {longest} m beside a ship of 48 m"
@@ -406,7 +438,7 @@ def check_colours(browser):
     for mode in ("plain", "speed", "force", "thickness", "age"):
         browser.choose("colour", mode)
         browser.run("fram.draw()")
-        seen[mode] = (browser.run("fram.legend.content.unit"), browser.run("[...fram.rgb]"))
+        seen[mode] = (browser.run("fram.legend.content.unit"), browser.run("[...fram.colours.rgb]"))
     units = [unit for unit, _ in seen.values()]
     assert units[0] is None and all("[" in unit for unit in units[1:]), units
     for mode in ("speed", "force", "age"):
@@ -414,7 +446,7 @@ def check_colours(browser):
     # What is left of a tile of level ice has a parent, but it is not what broke off.
     ages = browser.run("""(() => {
         const piece = fram.record.bodies.find((b) => b.parent >= 0);
-        const age = () => (fram.tabulate(), fram.brokeAt[piece.index]);
+        const age = () => (fram.colours.tabulate(), fram.colours.brokeAt[piece.index]);
         piece.level = true;
         const tile = age();
         piece.level = false;
@@ -425,7 +457,7 @@ def check_colours(browser):
         const { end } = fram;
         fram.end = fram.record.frames[0].time + 400;
         fram.findRanges();
-        const [, oldest] = fram.ranges.age;
+        const [, oldest] = fram.colours.ranges.age;
         fram.end = end;
         fram.findRanges();
         return oldest; })()""")
@@ -473,12 +505,12 @@ def check_cameras(browser):
     for camera in ("orbit", "follow", "top"):
         browser.choose("camera", camera)
         go(browser, "fram.end / 2")
-        views[camera] = browser.run("[...fram.scene.camera.position, fram.scaleAndNorth().angle]")
+        views[camera] = browser.run("[...fram.scene.camera.position, fram.seen().angle]")
     assert len({tuple(v[:3]) for v in views.values()}) == 3, views
     assert abs(views["top"][3]) < 0.02, f"north is not up in the view from the top: {views['top']}"
     assert -1.2 < views["orbit"][3] < -0.2, f"Y points up and left in the orbit view: {views['orbit']}"
     browser.choose("camera", "follow")
-    away = "[...fram.scene.camera.position.clone().sub(fram.centre())]"
+    away = "[...fram.scene.camera.position.clone().sub(fram.camera.centre())]"
     go(browser, 0.5)
     first = browser.run(away)
     go(browser, "fram.end")
@@ -496,8 +528,8 @@ def check_still(browser):
 
 def check_video(browser):
     # Slowly until it has some pictures, however long the machine takes for one.
-    browser.run("(fram.drawn = 0, fram.compose = (out) => (fram.drawn++, Object.getPrototypeOf(fram).compose.call(fram,"
-                "out)), 0)")
+    browser.run("(fram.drawn = 0, fram.film.compose = function (out) { fram.drawn++;"
+                "return Object.getPrototypeOf(this).compose.call(this, out); }, 0)")
     browser.choose("speed", "0.25")
     go(browser, 0)
     browser.click_on("film")
@@ -616,6 +648,7 @@ def main():
         skip("Chromium is not installed")
     if not PAGE.exists():
         skip("the viewer's page is not built (make viewer)")
+    check_twins()
     with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
         towed, rows = make_run(pathlib.Path(folder), "towed", TOWED)
         moored, _ = make_run(pathlib.Path(folder), "moored", MOORED)

@@ -1,28 +1,22 @@
 // The page: reads the record that stands in it, and plays it.
-import * as THREE from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { Camera } from './camera.js';
+import { Colours, RAMP, ramp, UNITS } from './colours.js';
+import { Film } from './film.js';
 import { History } from './history.js';
-import { drawHeader, Legend, secondsText } from './legend.js';
-import { Poses } from './poses.js';
-import { Loads } from './loads.js';
-import { PeakPanel } from './peaks.js';
+import { Legend, secondsText } from './legend.js';
 import { follow } from './live.js';
-import { bytesOf, Chunks, forcesOf, FrameStore, readRecord } from './record.js';
+import { Loads } from './loads.js';
+import { $, tell } from './page.js';
+import { PeakPanel } from './peaks.js';
+import { Poses } from './poses.js';
+import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
 import { readScenario, sizesOf, vesselsOf } from './scenario.js';
 import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
-const $ = (id) => document.getElementById(id);
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 60];
 const MARKED = 10; // seconds that a fracture stays marked
 const GAP = 12, LEAST_PANEL = 150; // from the legend to the panel of a peak under it, and what that asks for [px]
-const COLOURS = {
-    plain: { unit: null },
-    speed: { unit: 'speed [m/s]' },
-    force: { unit: 'contact force [kN]' },
-    thickness: { unit: 'thickness [m]' },
-    age: { unit: 'time since it broke off [s]' },
-};
 
 class Player {
     constructor(record) {
@@ -61,15 +55,16 @@ class Player {
             return;
         }
         this.scene = new Scene($('view'), record, this.poses, first);
-        this.controls = new OrbitControls(this.scene.camera, $('view'));
+        this.hull = record.bodies.find((b) => b.material === 'hull');
+        this.camera = new Camera($('view'), this.scene, this.poses, this.hull);
+        this.colours = new Colours(record, this.poses, this.sizes);
         this.legend = new Legend();
+        this.film = new Film($('view'), this.legend, () => this.seen());
         this.peakShown = false;
         this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t), (p) => this.peaks.open(p));
         this.tellLoads();
         this.history = new History($('history'), record, this.store);
-        this.hull = record.bodies.find((b) => b.material === 'hull');
         this.drawn = { bodies: record.bodies.length, fractures: record.fractures.length };
-        this.tabulate();
         this.poses.show(0);
         this.findRanges();
         this.connect();
@@ -115,8 +110,8 @@ class Player {
         scene.lit.place(this.poses, near);
         if (near === this.peakShown) return;
         this.peakShown = near;
-        const width = this.scene.arrowWidth, scale = this.arrowScale;
-        scene.peakArrows.show(near ? this.peaks.lines(scale, 0.05 * width) : []);
+        const { arrowScale, arrowWidth } = this.colours;
+        scene.peakArrows.show(near ? this.peaks.lines(arrowScale, 0.05 * arrowWidth) : []);
     }
 
     showStation() {
@@ -142,11 +137,10 @@ class Player {
             this.drawn = { bodies: bodies.length, fractures: fractures.length };
             this.poses.grow();
             this.scene.grow();
-            this.tabulate();
-            this.coloured = null;
+            this.colours.tabulate();
         }
         this.poses.frame = -1;
-        if (this.outgrown()) {
+        if (this.colours.outgrown()) {
             this.findRanges();
             this.setLegend();
         }
@@ -183,8 +177,8 @@ class Player {
         $('forces').onchange = () => { this.setLegend(); this.dirty = true; };
         $('hull').onchange = () => this.showPressure();
         $('still').onclick = () => this.still();
-        $('film').onclick = () => this.film();
-        this.controls.addEventListener('change', () => { this.dirty = true; });
+        $('film').onclick = () => this.takeFilm();
+        this.camera.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
         // Its texts may take another line; the view ends where it begins.
         new ResizeObserver(() => this.resize()).observe(document.querySelector('footer'));
@@ -232,89 +226,19 @@ class Player {
         $('play').ariaLabel = this.playing ? 'pause' : 'play';
     }
 
-    /** Whether ends of colours and lengths of arrows have to be found again: at twice as many frames, and when a frame
-     *  brings what they do not know: a kind of force, the first fracture, or so many large forces that an end more than
-     *  doubles.  Each new frame is read once. */
-    outgrown() {
-        const { bodies, frames, fractures } = this.record, { ends } = this;
-        const { contacts, pulls, kinds } = forcesOf({ bodies, frames: frames.slice(this.looked) });
-        this.looked = frames.length;
-        const rise = [ends.contacts.add(contacts), ends.pulls.add(pulls)].some(Boolean);
-        return rise || frames.length >= 2 * this.ranged || fractures.length > 0 !== this.marked ||
-            [...kinds].some((kind) => !this.kinds.includes(kind));
-    }
-
-    /** Ends of the colours and lengths of arrows: the 99th percentile of the frames that need no file from beside the
-     *  page; of speeds, which all bodies have, that of some of these. */
     findRanges() {
-        this.ranged = this.looked = this.record.frames.length;
-        this.marked = this.record.fractures.length > 0;
-        const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
-        const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [];
-        const pairs = Array.from({ length: n - 1 }, (_, f) => f)
-            .filter((f) => record.frames[f].view && record.frames[f + 1].view);
-        const looks = Math.min(pairs.length, 12);
-        for (let k = 0; k < looks; k++) {
-            const f = pairs[Math.floor(k * pairs.length / looks)];
-            poses.show(f, false);
-            for (const b of ice) if (poses.shown[b.index] && b.death > f + 1) speed.push(poses.speed[b.index]);
-        }
-        // Contacts are rare: one that few frames have would be missed by looking at some of them.
-        const { contacts: force, pulls: pull, kinds } = forcesOf(record);
-        this.ends = { contacts: new End(force, this.sizes.force), pulls: new End(pull, this.sizes.force) };
-        const least = (all) => all.reduce((a, b) => Math.min(a, b), Infinity);
-        const most = (all) => all.reduce((a, b) => Math.max(a, b), -Infinity);
-        this.ranges = {
-            speed: [0, new End(speed, 0.05 * this.sizes.speed).value],
-            force: [0, this.ends.contacts.value],
-            thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
-            age: [0, Math.max(10, 0.25 * (this.end - record.frames[0].time))],
-        };
-        this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
-        const size = this.scene.box.getSize(new THREE.Vector3());
-        // A few arrows may be longer: one hard blow must not make all others vanish.
-        this.arrowScale = 0.12 * Math.max(size.x, size.y) / this.ends.pulls.value;
-        this.scene.arrowWidth = 0.05 * Math.max(size.x, size.y);
-    }
-
-    centre() {
-        if (this.hull) {
-            const at = 7 * this.hull.index;
-            return new THREE.Vector3(this.poses.pose[at], this.poses.pose[at + 1], 0);
-        }
-        return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
-    }
-
-    /** Of the hull [m]. */
-    length() {
-        let [stern, stem] = [Infinity, -Infinity];
-        for (let i = 0; i < (this.hull?.vertices?.length ?? 0); i += 3) {
-            stern = Math.min(stern, this.hull.vertices[i]);
-            stem = Math.max(stem, this.hull.vertices[i]);
-        }
-        return Math.max(0, stem - stern);
+        this.colours.findRanges(this.scene.box, this.end);
+        this.scene.arrowWidth = this.colours.arrowWidth;
     }
 
     placeCamera() {
-        const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
-        const mode = $('camera').value, camera = this.scene.camera;
-        // A ship is seen whole, however small the domain is beside it and however narrow the window.
-        const { width, height } = this.room();
-        const upright = Math.max(1, height / width);
-        const near = Math.max(wide, 3.5 * this.length()) * upright;
         this.poses.show(this.frameAt(this.time));
-        const target = mode === 'follow' || mode === 'below' ? this.centre()
-            : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
-        const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
-            : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
-            : mode === 'follow' ? [-0.28 * near, -0.3 * near, 0.2 * near]
-            : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
-        camera.position.copy(target).add(new THREE.Vector3(...offset));
-        this.controls.target.copy(target);
-        this.controls.update();
-        this.hullAt = this.hull && this.centre();
+        this.camera.place($('camera').value, this.room());
         this.dirty = true;
     }
+
+    /** What the legend shows of the camera. */
+    seen() { return this.camera.scaleAndNorth(this.colours.arrowScale); }
 
     /** Number of the frame at a time, with a fraction. */
     frameAt(time) {
@@ -328,68 +252,21 @@ class Player {
         return span > 0 ? lo + Math.min(1, Math.max(0, (time - frames[lo].time) / span)) : lo;
     }
 
-    // ---- colours ----
-
-    /** Own colours, and for the modes with a value those of the ramp for ice that has one. */
-    colourBodies(time) {
-        const mode = $('colour').value, [lo, hi] = this.ranges[mode] ?? [0, 1], { rgb, poses } = this;
-        const per = hi > lo ? 255 / (hi - lo) : 0, { shown } = poses, ice = this.ice;
-        if (this.coloured !== mode) rgb.set(this.ownColours);
-        this.coloured = mode;
-        if (mode === 'plain') return;
-        const values = mode === 'speed' ? poses.speed : mode === 'force' ? poses.contact
-            : mode === 'thickness' ? this.thickness : this.brokeAt;
-        for (let i = 0; i < ice.length; i++) {
-            const k = ice[i];
-            if (!shown[k]) continue;
-            const value = mode === 'age' ? hi - (time - values[k]) : values[k]; // new is dark
-            if (value !== value) continue; // an original floe has no age
-            const c = 3 * Math.min(255, Math.max(0, Math.round((value - lo) * per)));
-            rgb[3 * k] = RAMP[c]; rgb[3 * k + 1] = RAMP[c + 1]; rgb[3 * k + 2] = RAMP[c + 2];
-        }
-    }
-
-    /** What does not change of each body, as tables: looked up in every frame. */
-    tabulate() {
-        const { bodies, frames } = this.record, n = bodies.length;
-        this.ice = Uint32Array.from(bodies.filter((b) => b.material === 'ice'), (b) => b.index);
-        this.thickness = Float32Array.from(bodies, (b) => b.thickness ?? 0);
-        // What is left of a tile that broke has not broken off.
-        const off = (b) => b.parent >= 0 && !b.level;
-        this.brokeAt = Float64Array.from(bodies, (b) => (off(b) ? frames[b.birth]?.time ?? NaN : NaN));
-        this.ownColours = new Float32Array(3 * n);
-        for (const b of bodies) own(b).toArray(this.ownColours, 3 * b.index);
-        this.rgb = this.ownColours.slice();
-    }
-
     setLegend() {
-        const { unit } = COLOURS[$('colour').value], mode = $('colour').value, ends = [...this.ranges[mode] ?? [0, 1]];
+        const mode = $('colour').value, unit = UNITS[mode], { ranges, kinds } = this.colours;
+        const ends = [...ranges[mode] ?? [0, 1]];
         if (mode === 'age') ends.reverse();
         const ice = this.record.bodies.some((b) => b.material === 'ice');
         const keys = [[ice, own({ material: 'ice' }), 'ice'], [this.hull, own({ material: 'hull' }), 'vessel']];
         this.legend.set({
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
-            forces: $('forces').checked ? this.kinds : [], station: this.scene.station.keys(),
+            forces: $('forces').checked ? kinds : [], station: this.scene.station.keys(),
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
             vessels: this.record.bodies.filter((b) => b.material === 'hull').length,
         });
         this.placePeak();
         this.dirty = true;
-    }
-
-    /** The scale bar holds at the point the camera looks at; the arrow points along global Y as it is seen there. */
-    scaleAndNorth() {
-        const camera = this.scene.camera, { target } = this.controls, distance = camera.position.distanceTo(target);
-        const perPixel = 2 * distance * Math.tan(camera.fov * Math.PI / 360) / $('view').clientHeight;
-        const raw = 130 * perPixel, power = 10 ** Math.floor(Math.log10(raw));
-        const length = power * [5, 2, 1].find((m) => m * power <= raw);
-        camera.updateMatrixWorld();
-        const at = target.clone().project(camera);
-        const to = target.clone().add(new THREE.Vector3(0, 0.05 * distance, 0)).project(camera);
-        const angle = Math.atan2((to.x - at.x) * camera.aspect, to.y - at.y);
-        return { length, pixels: Math.round(length / perPixel), force: length / this.arrowScale / 1000,
-                 angle: Math.round(angle * 100) / 100 };
     }
 
     // ---- picking and export ----
@@ -407,55 +284,14 @@ class Player {
         this.dirty = true;
     }
 
-    /** The picture as it stands with title, time and legend drawn into it. */
-    compose(out) {
-        const from = $('view'), ratio = from.width / from.clientWidth, g = out.getContext('2d');
-        if (out.width !== from.width || out.height !== from.height) {
-            out.width = from.width; out.height = from.height;
-        }
-        g.setTransform(1, 0, 0, 1, 0, 0);
-        g.drawImage(from, 0, 0);
-        g.setTransform(ratio, 0, 0, ratio, 12 * ratio, 12 * ratio);
-        drawHeader(g, $('title').textContent, [$('clock').textContent, $('load').textContent]);
-        g.setTransform(ratio, 0, 0, ratio, from.width - (this.legend.width + 12) * ratio, 12 * ratio);
-        this.legend.draw(g, this.scaleAndNorth());
-        return out;
-    }
-
     still() {
-        return new Promise((done) => {
-            this.draw();
-            this.compose(document.createElement('canvas')).toBlob((blob) => {
-                download(blob, `fram-${this.time.toFixed(1)}s.png`);
-                done(blob);
-            });
-        });
+        this.draw();
+        return this.film.still(`fram-${this.time.toFixed(1)}s.png`);
     }
 
     /** Records the canvas while the run plays to its end; a second click ends it. */
-    film() {
-        if (this.recorder) { this.recorder.stop(); return this.filmed; }
-        const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/mp4']
-            .find((t) => window.MediaRecorder?.isTypeSupported(t));
-        if (!type) { note('This browser cannot record video; fram video makes one.'); return Promise.resolve(null); }
-        const parts = [];
-        this.filmCanvas = this.compose(document.createElement('canvas'));
-        const stream = this.filmCanvas.captureStream(25);
-        this.recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 8e6 });
-        this.recorder.ondataavailable = (e) => parts.push(e.data);
-        this.filmed = new Promise((done) => {
-            this.recorder.onstop = () => {
-                const blob = new Blob(parts, { type });
-                this.recorder = null;
-                $('film').textContent = 'video';
-                download(blob, `fram.${type.includes('mp4') ? 'mp4' : 'webm'}`);
-                done(blob);
-            };
-        });
-        this.recorder.start(500);
-        $('film').textContent = 'stop';
-        if (!this.playing) this.toggle();
-        return this.filmed;
+    takeFilm() {
+        return this.film.click(() => { if (!this.playing) this.toggle(); });
     }
 
     // ---- the loop ----
@@ -498,7 +334,7 @@ class Player {
 
     stop() {
         this.toggle();
-        if (this.recorder) this.recorder.stop();
+        this.film.stop();
     }
 
     /** What a frame costs this script, without the drawing itself, is measured in prepare(). */
@@ -506,11 +342,10 @@ class Player {
         this.dirty = false;
         if (!this.prepare()) return;
         this.scene.render();
-        if (this.recorder) this.compose(this.filmCanvas);
+        this.film.add();
     }
 
     prepare() {
-        const before = this.hullAt; // where it was drawn last: the poses may be of another moment by now
         const state = this.poses.show(this.frameAt(this.time));
         this.waiting = !state;
         $('waiting').hidden = true;
@@ -518,24 +353,20 @@ class Player {
             if (this.sayGone(this.poses.wanted) && this.playing) this.stop();
             return false;
         }
-        this.hullAt = this.hull && this.centre();
-        if (['follow', 'below'].includes($('camera').value) && before) {
-            const moved = this.hullAt.clone().sub(before);
-            this.scene.camera.position.add(moved);
-            this.controls.target.add(moved);
-        }
-        this.colourBodies(state.time);
-        this.scene.update(this.rgb);
+        this.camera.follow($('camera').value);
+        this.colours.colourBodies($('colour').value, state.time);
+        this.scene.update(this.colours.rgb);
         this.showPeak(state.time);
         this.scene.pressure?.place(this.poses);
         const forces = $('forces').checked ? this.poses.forces : [];
-        this.scene.showForces(this.peakShown ? forces.filter((f) => f.kind !== 'ice') : forces, this.arrowScale);
+        this.scene.showForces(this.peakShown ? forces.filter((f) => f.kind !== 'ice') : forces,
+            this.colours.arrowScale);
         this.showStation();
         this.scene.showMarkers(state.time, MARKED);
         if (this.picked) this.scene.placeRing(this.picked);
         this.history.draw(state.time);
         this.timeline.draw(this.time);
-        this.legend.show($('legend'), this.scaleAndNorth());
+        this.legend.show($('legend'), this.seen());
         this.tell(state);
         return true;
     }
@@ -558,24 +389,6 @@ class Player {
     }
 }
 
-/** The 99th percentile of numbers, or `least` where that is more. */
-class End {
-    constructor(all, least) {
-        this.count = all.length;
-        this.value = Math.max(least, Float64Array.from(all).sort()[this.rank] || 0);
-        this.above = all.filter((v) => v > 2 * this.value).length;
-    }
-
-    get rank() { return Math.floor(0.99 * (this.count - 1)); }
-
-    /** Whether that of these too is more than twice as large. */
-    add(more) {
-        this.count += more.length;
-        this.above += more.filter((v) => v > 2 * this.value).length;
-        return this.above > 0 && this.count - this.above <= this.rank;
-    }
-}
-
 /** A page is opened to see the run; with #still at its end it waits for the button. */
 function playWhenReady(player) {
     if (!player.ready) setTimeout(() => playWhenReady(player), 20);
@@ -594,26 +407,6 @@ function watch(address) {
     };
     follow(address, begin, (text) => { waiting.hidden = true; tell(text); });
 }
-
-function download(blob, name) {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(blob);
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
-function note(text) { tell(text); setTimeout(() => { $('note').textContent = ''; }, 6000); }
-function tell(text) { $('note').textContent = text; }
-
-/** White as ice over amber to dark purple: slow or thin to fast or thick.  The same as image_ramp of src/io/image.c. */
-const STOPS = [[0.96, 0.97, 0.96], [0.98, 0.72, 0.30], [0.42, 0.05, 0.35]];
-function ramp(t) {
-    const x = 2 * Math.min(1, Math.max(0, t)), k = x < 1 ? 0 : 1;
-    const [r, g, b] = STOPS[k].map((v, i) => v + (x - k) * (STOPS[k + 1][i] - v));
-    return new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-}
-const RAMP = Float32Array.from({ length: 768 }, (_, i) => ramp(Math.floor(i / 3) / 255).toArray()[i % 3]);
 
 try {
     const record = $('record').textContent.trim();

@@ -1,0 +1,78 @@
+// From where the scene is seen: the ready views, the one that goes along with the hull, and what a metre and Y are on
+// the screen.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+export class Camera {
+    /** hull: of the record, or none. */
+    constructor(canvas, scene, poses, hull) {
+        this.canvas = canvas;
+        this.scene = scene;
+        this.poses = poses;
+        this.hull = hull;
+        this.controls = new OrbitControls(scene.camera, canvas);
+    }
+
+    centre() {
+        if (this.hull) {
+            const at = 7 * this.hull.index;
+            return new THREE.Vector3(this.poses.pose[at], this.poses.pose[at + 1], 0);
+        }
+        return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
+    }
+
+    /** Of the hull [m]. */
+    length() {
+        let [stern, stem] = [Infinity, -Infinity];
+        for (let i = 0; i < (this.hull?.vertices?.length ?? 0); i += 3) {
+            stern = Math.min(stern, this.hull.vertices[i]);
+            stem = Math.max(stem, this.hull.vertices[i]);
+        }
+        return Math.max(0, stem - stern);
+    }
+
+    /** A ready view, of the moment that the poses are of.  room: {width, height} of the view. */
+    place(mode, room) {
+        const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
+        const { camera } = this.scene;
+        // A ship is seen whole, however small the domain is beside it and however narrow the window.
+        const upright = Math.max(1, room.height / room.width);
+        const near = Math.max(wide, 3.5 * this.length()) * upright;
+        const target = goesAlong(mode) ? this.centre() : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
+        const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
+            : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
+            : mode === 'follow' ? [-0.28 * near, -0.3 * near, 0.2 * near]
+            : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
+        camera.position.copy(target).add(new THREE.Vector3(...offset));
+        this.controls.target.copy(target);
+        this.controls.update();
+        this.hullAt = this.hull && this.centre();
+    }
+
+    /** After the poses have gone on: as far as the hull has from where it was at the last call. */
+    follow(mode) {
+        const before = this.hullAt;
+        this.hullAt = this.hull && this.centre();
+        if (!goesAlong(mode) || !before) return;
+        const moved = this.hullAt.clone().sub(before);
+        this.scene.camera.position.add(moved);
+        this.controls.target.add(moved);
+    }
+
+    /** The scale bar holds at the point the camera looks at; the arrow points along global Y as it is seen there.
+     *  arrowScale: of forces, metres a newton. */
+    scaleAndNorth(arrowScale) {
+        const { camera } = this.scene, { target } = this.controls, distance = camera.position.distanceTo(target);
+        const perPixel = 2 * distance * Math.tan(camera.fov * Math.PI / 360) / this.canvas.clientHeight;
+        const raw = 130 * perPixel, power = 10 ** Math.floor(Math.log10(raw));
+        const length = power * [5, 2, 1].find((m) => m * power <= raw);
+        camera.updateMatrixWorld();
+        const at = target.clone().project(camera);
+        const to = target.clone().add(new THREE.Vector3(0, 0.05 * distance, 0)).project(camera);
+        const angle = Math.atan2((to.x - at.x) * camera.aspect, to.y - at.y);
+        return { length, pixels: Math.round(length / perPixel), force: length / arrowScale / 1000,
+                 angle: Math.round(angle * 100) / 100 };
+    }
+}
+
+function goesAlong(mode) { return mode === 'follow' || mode === 'below'; }
