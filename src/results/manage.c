@@ -1,12 +1,11 @@
 #include "results/manage.h"
 
-#include "base/channel_statistics.h"
 #include "base/sort.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_parts.h"
-#include "results/rainflow.h"
+#include "results/run_channels.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -91,52 +90,27 @@ static bool sum_alarms(const manage_run *m, bool largest, double *least, double 
     return good;
 }
 
-/* Mean and largest size of two channels taken as components; NaN without them. */
-static void magnitude(const manage_run *m, const char *x_name, const char *y_name, double *mean, double *most)
+static bool size_statistics(const manage_run *m, const char *x, const char *y, channel_statistics *out)
 {
-    const double *t = run_channel(&m->d, "time"), *x = run_vessel_channel(&m->d, m->vessel, x_name);
-    const double *y = run_vessel_channel(&m->d, m->vessel, y_name);
-    double sum = 0;
-    int32_t n = 0;
-    *mean = *most = (double)NAN;
-    for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
-        double size = sqrt(x[i] * x[i] + y[i] * y[i]);
-        if (!time_is_after(t[i], m->d.s.run.transient))
-            continue;
-        sum += size;
-        *most = n++ > 0 ? fmax(*most, size) : size;
-    }
-    if (n > 0)
-        *mean = sum / n;
+    return run_size_statistics(m->ctx, &m->d, m->vessel, x, y, out);
 }
 
 /* The line with the greatest damage, NaN without lines; false: no memory. */
 static bool sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
 {
-    const double *t = run_channel(&m->d, "time");
-    int32_t first = run_first_row(&m->d), rows = m->d.series.rows;
-    /* Each value stands for a step, the last one too. */
-    double steps = rows - first - 1.0, seconds = t && steps > 0 ? (t[rows - 1] - t[first]) * (steps + 1) / steps : 0;
-    rain_cycles cycles = {0};
-    bool good = true;
     out->tension_range = (double)NAN;
-    for (int32_t line = 1; line <= lines && seconds > 0 && good; line++) {
+    for (int32_t line = 1; line <= lines; line++) {
         char name[40];
+        double range;
         snprintf(name, sizeof name, "line_%d_tension", (int)line);
-        const double *tension = run_vessel_channel(&m->d, m->vessel, name);
-        if (!tension)
-            continue;
-        good = rainflow(m->ctx, tension + first, rows - first, &cycles);
-        if (!good)
-            break;
-        double range = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
-        if (out->tension_line > 0 && range <= out->tension_range)
+        if (!run_equivalent_range(m->ctx, &m->d, run_vessel_channel(&m->d, m->vessel, name), &range))
+            return false;
+        if (isnan(range) || (out->tension_line > 0 && range <= out->tension_range))
             continue;
         out->tension_range = range;
         out->tension_line = line;
     }
-    rainflow_free(m->ctx, &cycles);
-    return good;
+    return true;
 }
 
 static int32_t line_count(const scenario_vessel *keys)
@@ -149,24 +123,28 @@ static int32_t line_count(const scenario_vessel *keys)
 
 fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *error)
 {
-    double unused;
+    channel_statistics load, offset, tension;
     *out = (manage_summary){.limit = m->limit, .largest_time = (double)NAN};
     for (int p = 0; p < MANAGE_PLACES; p++)
         sum_place(m, p, out);
     sum_wait(m, out);
     bool good = sum_alarms(m, false, &out->alarm_least, &out->alarm_median) &&
                 sum_alarms(m, true, &out->warning_least, &out->warning_median);
-    magnitude(m, "ice_force_averaged_x", "ice_force_averaged_y", &out->load_mean, &out->load_most);
-    magnitude(m, "offset_x", "offset_y", &unused, &out->offset_most);
-    magnitude(m, "line_tension_max", "line_tension_max", &unused, &out->tension_most);
-    out->tension_most *= sqrt(0.5);
     const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
-    good = good && sum_fatigue(m, line_count(keys), out);
+    good = good && size_statistics(m, "ice_force_averaged_x", "ice_force_averaged_y", &load) &&
+           size_statistics(m, "offset_x", "offset_y", &offset) &&
+           size_statistics(m, "line_tension_max", NULL, &tension) && sum_fatigue(m, line_count(keys), out);
+    if (!good)
+        return error_memory(error);
+    out->load_mean = load.mean;
+    out->load_most = load.greatest;
+    out->offset_most = offset.greatest;
+    out->tension_most = tension.greatest;
     if (keys->mooring.lines.count == 0)
         out->tension_most = (double)NAN;
     if (keys->mooring.lines.count == 0 && !keys->positioning.active)
         out->offset_most = (double)NAN;
-    return good ? FRAM_OK : error_memory(error);
+    return FRAM_OK;
 }
 
 /* ---- tables ---- */

@@ -1,13 +1,13 @@
 /* The page of ice management: what a client asks first, then figures, tables, charts and the plan. */
 #include "results/manage_parts.h"
 
-#include "base/channel_statistics.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
 #include "results/rainflow.h"
 #include "results/replay_plan.h"
+#include "results/run_channels.h"
 #include "results/track_results.h"
 
 #include <stdio.h>
@@ -258,21 +258,23 @@ static fram_status size_chart(management_page *p, fram_error *error)
 
 /* The moment after the transient at which the averaged ice load was largest, so that the plan shows what caused it; the
    end where there was none.  In words too. */
-static double telling_time(const manage_run *m, char title[64])
+static fram_status telling_time(const manage_run *m, char title[64], double *time, fram_error *error)
 {
-    const double *t = run_channel(&m->d, "time"), *x = run_vessel_channel(&m->d, m->vessel, "ice_force_averaged_x");
-    const double *y = run_vessel_channel(&m->d, m->vessel, "ice_force_averaged_y");
-    double most = 0, time = m->moments.data[m->moments.count - 1].time;
+    const double *t = run_channel(&m->d, "time");
+    double most = 0;
+    double_array load = {0};
+    bool good = run_size_channel(m->ctx, &m->d, m->vessel, "ice_force_averaged_x", "ice_force_averaged_y", &load);
+    *time = m->moments.data[m->moments.count - 1].time;
     snprintf(title, 64, "The field at the end");
-    for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
-        double load = x[i] * x[i] + y[i] * y[i];
-        if (!time_is_after(t[i], m->d.s.run.transient) || !(load > most))
+    for (int32_t i = run_first_row(&m->d); t && i < load.count; i++) {
+        if (!(load.data[i] > most))
             continue;
-        most = load;
-        time = t[i];
+        most = load.data[i];
+        *time = t[i];
         snprintf(title, 64, "The field when the ice load was largest");
     }
-    return time;
+    array_free(m->ctx, &load);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 /* The field from above then. */
@@ -285,8 +287,10 @@ static fram_status plan(management_page *p, fram_error *error)
     replay_plan shapes = {0};
     text_buffer png = {0};
     char caption[64], title[64];
-    double time = telling_time(m, title);
-    fram_status status = replay_open(m->ctx, m->d.folder, &r, error);
+    double time;
+    fram_status status = telling_time(m, title, &time, error);
+    if (status == FRAM_OK)
+        status = replay_open(m->ctx, m->d.folder, &r, error);
     if (status != FRAM_OK)
         return status;
     status = replay_moment_until(&r, time, &now, error);

@@ -1,6 +1,7 @@
 #include "results/mechanism_curve.h"
 
 #include "results/peaks.h"
+#include "results/run_channels.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,40 +57,49 @@ static bool make_room(context *ctx, mechanism_curve *curve)
 }
 
 /* The row of the largest averaged load among those of a stretch. */
-static int32_t largest_row(const double *x, const double *y, int32_t first, int32_t end)
+static int32_t largest_row(const double *load, int32_t first, int32_t end)
 {
     int32_t best = first;
     for (int32_t i = first; i < end; i++)
-        best = x[i] * x[i] + y[i] * y[i] > x[best] * x[best] + y[best] * y[best] ? i : best;
+        best = load[i] > load[best] ? i : best;
     return best;
+}
+
+static void fill_curve(const run_data *run, const mechanism_columns *columns, const double *load, int32_t every,
+                       mechanism_curve *curve)
+{
+    const double *time = run_channel(run, "time");
+    double window = scenario_averaging_window(&run->s), part[MECHANISM_COUNT];
+    int32_t rows = run->series.rows;
+    for (int32_t k = 0; k < curve->count; k++) {
+        int32_t end = (k + 1) * every < rows ? (k + 1) * every : rows, row = largest_row(load, k * every, end);
+        curve->time[k] = time[row];
+        curve->load[k] = load[row];
+        parts_at(columns, time, row, window, load[row], part);
+        for (int m = 0; m < MECHANISM_COUNT; m++)
+            curve->part[m][k] = part[m];
+    }
 }
 
 fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vessel, mechanism_curve *curve,
                                  fram_error *error)
 {
     int32_t rows = run->series.rows, every = (rows + MECHANISM_CURVE_MOST - 1) / MECHANISM_CURVE_MOST;
-    const double *time = run_channel(run, "time"), *x = run_vessel_channel(run, vessel, "ice_force_averaged_x");
-    const double *y = run_vessel_channel(run, vessel, "ice_force_averaged_y");
     mechanism_columns columns;
+    double_array load = {0};
     *curve = (mechanism_curve){0};
-    if (rows == 0 || !time || !x || !y || !mechanism_columns_find(run, vessel, &columns))
-        return FRAM_OK;
-    double window = scenario_averaging_window(&run->s);
-    curve->count = (rows + every - 1) / every;
-    if (!make_room(ctx, curve)) {
-        mechanism_curve_free(ctx, curve);
-        return error_memory(error);
+    bool good = run_size_channel(ctx, run, vessel, "ice_force_averaged_x", "ice_force_averaged_y", &load);
+    bool known = load.count > 0 && run_channel(run, "time") && mechanism_columns_find(run, vessel, &columns);
+    if (good && known) {
+        curve->count = (rows + every - 1) / every;
+        good = make_room(ctx, curve);
+        if (good)
+            fill_curve(run, &columns, load.data, every, curve);
+        else
+            mechanism_curve_free(ctx, curve);
     }
-    for (int32_t k = 0; k < curve->count; k++) {
-        int32_t end = (k + 1) * every < rows ? (k + 1) * every : rows, row = largest_row(x, y, k * every, end);
-        double part[MECHANISM_COUNT];
-        curve->time[k] = time[row];
-        curve->load[k] = sqrt(x[row] * x[row] + y[row] * y[row]);
-        parts_at(&columns, time, row, window, curve->load[k], part);
-        for (int m = 0; m < MECHANISM_COUNT; m++)
-            curve->part[m][k] = part[m];
-    }
-    return FRAM_OK;
+    array_free(ctx, &load);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 void mechanism_curve_add(mechanism_curve *curve, double time, double load, const double part[MECHANISM_COUNT])

@@ -1,6 +1,6 @@
 #include "results/report_parts.h"
 
-#include "base/channel_statistics.h"
+#include "results/run_channels.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,14 +24,8 @@ void report_number(double value, char out[32])
 fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error)
 {
     r->vessel = vessel;
-    array_clear(&r->load);
-    const double *x = run_vessel_channel(&r->d, vessel, "ice_force_averaged_x");
-    const double *y = run_vessel_channel(&r->d, vessel, "ice_force_averaged_y");
-    for (int32_t i = 0; x && y && i < r->d.series.rows; i++) {
-        if (!array_push(r->ctx, &r->load, sqrt(x[i] * x[i] + y[i] * y[i])))
-            return error_memory(error);
-    }
-    return FRAM_OK;
+    bool good = run_size_channel(r->ctx, &r->d, vessel, "ice_force_averaged_x", "ice_force_averaged_y", &r->load);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 vessel_title report_vessel(const report *r)

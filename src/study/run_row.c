@@ -1,14 +1,12 @@
 #include "study/run_row.h"
 
-#include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "ice/fracture.h"
 #include "io/atomic_file.h"
 #include "model/scenario_vessel.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
-#include "results/rainflow.h"
-#include "results/run_data.h"
+#include "results/run_channels.h"
 #include "results/station_results.h"
 #include "study/cells.h"
 #include "vessel/event.h"
@@ -39,55 +37,6 @@ const char *run_figure_unit(run_figure figure) { return figures[figure].unit; }
 
 /* ---- from a run ---- */
 
-/* Statistics of a channel, or of the magnitude of two. */
-static fram_status statistics(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y,
-                              channel_statistics *out, fram_error *error)
-{
-    const double *time = run_channel(d, "time"), *a = run_vessel_channel(d, vessel, x),
-                 *b = y ? run_vessel_channel(d, vessel, y) : NULL;
-    double none = (double)NAN;
-    *out = (channel_statistics){none, none, none, none, none, none, none, 0};
-    if (!time || !a || (y && !b))
-        return FRAM_OK;
-    double_array value = {0};
-    if (!array_resize(ctx, &value, d->series.rows))
-        return error_memory(error);
-    for (int32_t i = 0; i < value.count; i++)
-        value.data[i] = b ? sqrt(a[i] * a[i] + b[i] * b[i]) : fabs(a[i]);
-    *out = channel_statistics_of(time, value.data, value.count, d->s.run.transient);
-    array_free(ctx, &value);
-    return FRAM_OK;
-}
-
-/* Damage-equivalent range of a channel, or of the magnitude of two, of the time after the transient. */
-static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y, double *out,
-                           fram_error *error)
-{
-    const double *time = run_channel(d, "time"), *a = run_vessel_channel(d, vessel, x),
-                 *b = y ? run_vessel_channel(d, vessel, y) : NULL;
-    if (!time || !a || (y && !b))
-        return FRAM_OK;
-    double_array value = {0};
-    double from = (double)NAN, to = (double)NAN;
-    bool good = true;
-    for (int32_t i = 0; i < d->series.rows && good; i++) {
-        if (!time_is_after(time[i], d->s.run.transient))
-            continue;
-        from = value.count > 0 ? from : time[i];
-        to = time[i];
-        good = array_push(ctx, &value, b ? sqrt(a[i] * a[i] + b[i] * b[i]) : a[i]);
-    }
-    /* Each value stands for a step, the last one too. */
-    double seconds = value.count > 1 ? (to - from) * value.count / (value.count - 1) : 0;
-    rain_cycles cycles = {0};
-    good = good && rainflow(ctx, value.data, value.count, &cycles);
-    if (good && seconds > 0)
-        *out = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
-    rainflow_free(ctx, &cycles);
-    array_free(ctx, &value);
-    return good ? FRAM_OK : error_memory(error);
-}
-
 /* The largest tension of a line as it parted [N], after the transient; NaN without.  Series have what came before and
    after that step, which begins with the event. */
 static double tension_of_parting(const run_data *d, int32_t vessel)
@@ -107,20 +56,16 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
 {
     channel_statistics offset, heading, tension, power, parted;
     const scenario_vessel *v = scenario_vessel_entry(&d->s, vessel).keys;
-    fram_status status = statistics(ctx, d, vessel, "offset_x", "offset_y", &offset, error);
-    if (status == FRAM_OK)
-        status = statistics(ctx, d, vessel, "heading_deviation", NULL, &heading, error);
-    if (status == FRAM_OK)
-        status = statistics(ctx, d, vessel, "line_tension_max", NULL, &tension, error);
-    if (status == FRAM_OK)
-        status = statistics(ctx, d, vessel, "thruster_power", NULL, &power, error);
-    if (status == FRAM_OK)
-        status = statistics(ctx, d, vessel, "lines_parted", NULL, &parted, error);
-    if (status == FRAM_OK && v->mooring.lines.count > 0)
-        status =
-            fatigue(ctx, d, vessel, "line_tension_max", NULL, &out->figure[ROW_line_tension_range_equivalent], error);
-    if (status != FRAM_OK)
-        return status;
+    double *range = &out->figure[ROW_line_tension_range_equivalent];
+    bool good = run_size_statistics(ctx, d, vessel, "offset_x", "offset_y", &offset) &&
+                run_size_statistics(ctx, d, vessel, "heading_deviation", NULL, &heading) &&
+                run_size_statistics(ctx, d, vessel, "line_tension_max", NULL, &tension) &&
+                run_size_statistics(ctx, d, vessel, "thruster_power", NULL, &power) &&
+                run_size_statistics(ctx, d, vessel, "lines_parted", NULL, &parted);
+    if (good && v->mooring.lines.count > 0)
+        good = run_equivalent_range(ctx, d, run_vessel_channel(d, vessel, "line_tension_max"), range);
+    if (!good)
+        return error_memory(error);
     out->figure[ROW_offset_mean] = offset.mean;
     out->figure[ROW_offset_largest] = offset.greatest;
     out->figure[ROW_heading_deviation_largest] = heading.greatest;
@@ -155,20 +100,28 @@ _Static_assert(ROW_share_friction - ROW_share_splitting == (int)MECHANISM_FRICTI
                    ROW_FIGURES - ROW_share_splitting == (int)MECHANISM_COUNT,
                "a share for each mechanism, in their order");
 
-static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
+/* Of the horizontal magnitude of the averaged ice load. */
+static fram_status add_load(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
+    const char *x = "ice_force_averaged_x", *y = "ice_force_averaged_y";
     channel_statistics load;
-    fram_status status = statistics(ctx, d, vessel, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
-    if (status == FRAM_OK)
-        status = fatigue(ctx, d, vessel, "ice_force_averaged_x", "ice_force_averaged_y",
-                         &out->figure[ROW_load_range_equivalent], error);
-    if (status == FRAM_OK && station_has_results(&d->s, vessel))
-        status = add_station(ctx, d, vessel, out, error);
-    out->figure[ROW_time] = d->note.time;
+    double_array size = {0};
+    bool good = run_size_statistics(ctx, d, vessel, x, y, &load) && run_size_channel(ctx, d, vessel, x, y, &size) &&
+                run_equivalent_range(ctx, d, size.data, &out->figure[ROW_load_range_equivalent]);
+    array_free(ctx, &size);
     out->figure[ROW_load_mean] = load.mean;
     out->figure[ROW_load_deviation] = load.deviation;
     out->figure[ROW_load_significant] = load.significant;
     out->figure[ROW_load_largest] = load.greatest;
+    return good ? FRAM_OK : error_memory(error);
+}
+
+static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
+{
+    fram_status status = add_load(ctx, d, vessel, out, error);
+    if (status == FRAM_OK && station_has_results(&d->s, vessel))
+        status = add_station(ctx, d, vessel, out, error);
+    out->figure[ROW_time] = d->note.time;
     out->figure[ROW_force_x_mean] = channel_mean(d, vessel, "ice_force_averaged_x");
     out->figure[ROW_force_y_mean] = channel_mean(d, vessel, "ice_force_averaged_y");
     out->figure[ROW_fractures] = run_fractures(d, FRACTURE_SPLIT) + run_fractures(d, FRACTURE_BENDING);

@@ -1,6 +1,5 @@
 #include "study/series_file.h"
 
-#include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "base/sort.h"
 #include "base/words.h"
@@ -9,7 +8,7 @@
 #include "io/file.h"
 #include "io/utf8.h"
 #include "model/scenario_vessel.h"
-#include "results/run_data.h"
+#include "results/run_channels.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -255,17 +254,15 @@ static fram_status take_channel(context *ctx, const run_data *d, const char *nam
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
     int32_t vessel = c ? -1 : load_of(d, name);
-    const double *x = vessel < 0 ? NULL : run_vessel_channel(d, vessel, "ice_force_averaged_x");
-    const double *y = vessel < 0 ? NULL : run_vessel_channel(d, vessel, "ice_force_averaged_y");
-    bool load = x && y;
+    const char *x = "ice_force_averaged_x", *y = "ice_force_averaged_y";
+    bool load = vessel >= 0 && run_vessel_channel(d, vessel, x) && run_vessel_channel(d, vessel, y);
     if (!c && !load)
         return no_channel(d, name, error);
     snprintf(unit, UNIT_SIZE, "%s", load ? "N" : c->unit);
-    if (!array_resize(ctx, value, d->series.rows))
-        return error_memory(error);
-    for (int32_t i = 0; i < value->count; i++)
-        value->data[i] = load ? sqrt(x[i] * x[i] + y[i] * y[i]) : c->value.data[i];
-    return FRAM_OK;
+    bool good = load ? run_size_channel(ctx, d, vessel, x, y, value) : array_resize(ctx, value, d->series.rows);
+    for (int32_t i = 0; good && !load && i < value->count; i++)
+        value->data[i] = c->value.data[i];
+    return good ? FRAM_OK : error_memory(error);
 }
 
 static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, const char *name)

@@ -1,0 +1,18 @@
+/* What is made of the channels of a run: sizes, their statistics and ranges of fatigue. */
+#ifndef RESULTS_RUN_CHANNELS_H
+#define RESULTS_RUN_CHANNELS_H
+
+#include "base/channel_statistics.h"
+#include "results/run_data.h"
+
+/* The size of a channel of a vessel, |x|, or with y of the vector of the two, sqrt(x^2 + y^2), in every row; nothing
+   where the run lacks one of them.  out is filled anew.  false: no memory. */
+bool run_size_channel(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y, double_array *out);
+/* Statistics of that size after the transient; NaN without it.  false: no memory. */
+bool run_size_statistics(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y,
+                         channel_statistics *out);
+/* The range that does the damage of a channel after the transient with a cycle a second, of chains
+   (results/rainflow.h); NaN without a time between its values.  value: one a row, NULL for none.  false: no memory. */
+bool run_equivalent_range(context *ctx, const run_data *d, const double *value, double *out);
+
+#endif
