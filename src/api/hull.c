@@ -6,6 +6,7 @@
 #include "base/transcendental.h"
 #include "io/hull_mend.h"
 #include "io/hull_view.h"
+#include "model/scenario_schema.h"
 #include "vessel/hydrostatics.h"
 
 #include <stddef.h>
@@ -207,8 +208,12 @@ void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, 
 
 static void fram_hull_condition_fill(fram_hull_condition *c)
 {
-    *c =
-        (fram_hull_condition){sizeof *c, (double)NAN, (double)NAN, {(double)NAN, (double)NAN, (double)NAN}, 1025, 9.81};
+    *c = (fram_hull_condition){sizeof *c,
+                               (double)NAN,
+                               (double)NAN,
+                               {(double)NAN, (double)NAN, (double)NAN},
+                               scenario_key_find("environment", "water_density")->value,
+                               scenario_key_find("environment", "gravity")->value};
 }
 DEFINITION_DEFAULT(fram_hull_condition, fram_hull_condition)
 

@@ -6,6 +6,7 @@
 #include "ice/fracture.h"
 #include "ice/sheet.h"
 #include "ice/wedge.h"
+#include "model/scenario_schema.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,26 +63,34 @@ fram_status(fram_ice_sheet)(double a_over_l, double poisson_ratio, fram_ice_shee
     return FRAM_OK;
 }
 
+/* Ice and water of a scenario that says nothing of them. */
 static void fram_ice_edge_fill(fram_ice_edge *load)
 {
+    scenario usual;
+    scenario_defaults(&usual, scenario_default_scale());
     *load = (fram_ice_edge){.size = sizeof *load,
-                            .thickness = 1,
-                            .elastic_modulus = 5e9,
-                            .poisson_ratio = 0.3,
-                            .flexural_strength = 0.5e6,
-                            .crushing_strength = 2e6,
-                            .water_density = 1025,
-                            .gravity = 9.81,
-                            .wedges = 3,
-                            .thick_plate_radius = true,
+                            .thickness = usual.ice.thickness,
+                            .elastic_modulus = usual.ice.elastic_modulus,
+                            .poisson_ratio = usual.ice.poisson_ratio,
+                            .flexural_strength = usual.ice.flexural_strength,
+                            .crushing_strength = usual.ice.crushing_strength,
+                            .water_density = usual.environment.water_density,
+                            .gravity = usual.environment.gravity,
+                            .wedges = (int)usual.ice.fracture.wedges,
+                            .thick_plate_radius = usual.ice.fracture.thick_plate_radius,
                             .included_angle = PI,
-                            .ice_density = 920};
+                            .ice_density = usual.ice.density};
 }
 DEFINITION_DEFAULT(fram_ice_edge, fram_ice_edge)
 
-/* Thicknesses of scenarios [m]. */
-#define LEAST_THICKNESS 1e-6
-#define MOST_THICKNESS 100.0
+/* As a scenario's key has it. */
+static fram_status need_thickness(double thickness, fram_error *error)
+{
+    const scenario_key *key = scenario_key_find("ice", "thickness");
+    char range[48];
+    snprintf(range, sizeof range, "%g to %g m", key->lo, key->hi);
+    return need(thickness >= key->lo && thickness <= key->hi, "thickness", range, thickness, error);
+}
 
 static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 {
@@ -114,8 +123,7 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
         status = need(l->included_angle <= radians(360), "included_angle", "at most 2 pi radians (360 degrees)",
                       l->included_angle, error);
     if (status == FRAM_OK)
-        status = need(l->thickness >= LEAST_THICKNESS && l->thickness <= MOST_THICKNESS, "thickness", "1e-6 to 100 m",
-                      l->thickness, error);
+        status = need_thickness(l->thickness, error);
     if (status == FRAM_OK)
         status = need(l->ice_density < l->water_density, "ice_density", "less than the density of the water",
                       l->ice_density, error);

@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/json_walk.h"
 #include "io/text_buffer.h"
+#include "model/scenario_schema.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -212,15 +213,13 @@ static fram_status read_kind(reading *r, json_walk *w)
     return status;
 }
 
-/* As the scenario's own keys of thickness [m]. */
-#define MOST_THICKNESS 100.0
-
 /* The kind and thickness of a feature; its other properties are its own business. */
 static fram_status read_properties(reading *r, json_walk w)
 {
     char key[16];
     bool more = true;
     json_kind kind;
+    double most = scenario_key_find("ice", "thickness")->hi;
     if (!w.at)
         return FRAM_OK;
     fram_status status = json_walk_kind(&w, &kind, r->error);
@@ -251,10 +250,10 @@ static fram_status read_properties(reading *r, json_walk w)
         status = json_walk_number(&w, &r->thickness, r->error);
         if (status == FRAM_OK && !(r->thickness > 0))
             return json_walk_refuse(&place, r->key, r->error, "expected a thickness over 0 m, found %g", r->thickness);
-        if (status == FRAM_OK && r->thickness > MOST_THICKNESS)
+        if (status == FRAM_OK && r->thickness > most)
             return json_walk_refuse(&place, r->key, r->error,
-                                    "expected a thickness of at most %g m, found %g: is it in centimetres?",
-                                    MOST_THICKNESS, r->thickness);
+                                    "expected a thickness of at most %g m, found %g: is it in centimetres?", most,
+                                    r->thickness);
     }
     return status;
 }

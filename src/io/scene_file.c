@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "io/file.h"
+#include "model/scenario_schema.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -260,7 +261,11 @@ static fram_status read_statements(scene_reader *r, char *text, size_t size)
 fram_status scene_text_parse(context *ctx, const char *name, char *text, size_t size, scene_text *out,
                              fram_error *error)
 {
-    *out = (scene_text){.gravity = 9.81, .water_density = 1025, .form_drag = 1, .skin_drag = 0.01, .friction = 0.1};
+    *out = (scene_text){.gravity = scenario_key_find("environment", "gravity")->value,
+                        .water_density = scenario_key_find("environment", "water_density")->value,
+                        .form_drag = 1,
+                        .skin_drag = 0.01,
+                        .friction = 0.1};
     if (size > SCENE_MOST_BYTES)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "a scene has at most %d bytes", SCENE_MOST_BYTES);
     scene_reader r = {.ctx = ctx, .name = name, .scene = out, .error = error};

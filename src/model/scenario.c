@@ -15,11 +15,7 @@ void scenario_defaults(scenario *s, double scale)
     s->run.scale = scale;
 }
 
-double scenario_default_scale(void)
-{
-    const scenario_section *run = scenario_schema.keys[section_find(&scenario_schema, "run")].section;
-    return run->keys[section_find(run, "scale")].value;
-}
+double scenario_default_scale(void) { return scenario_key_find("run", "scale")->value; }
 
 static void section_free(context *ctx, const scenario_section *section, void *data)
 {

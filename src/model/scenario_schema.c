@@ -148,6 +148,12 @@ int32_t section_find(const scenario_section *section, const char *name)
     return -1;
 }
 
+const scenario_key *scenario_key_find(const char *section, const char *name)
+{
+    const scenario_section *of = scenario_schema.keys[section_find(&scenario_schema, section)].section;
+    return &of->keys[section_find(of, name)];
+}
+
 const char *section_nearest(const scenario_section *section, const char *name)
 {
     name_search near = name_search_begin(name);

@@ -65,7 +65,7 @@ expect 2 "$FRAM" ice break --contact-area 1e6
 says "no larger than 3 characteristic lengths" err
 expect 0 "$FRAM" ice break --contact-area 100 --contact-width 80
 expect 2 "$FRAM" ice break --thickness 1e-300
-says "1e-6 to 100 m" err
+says "1e-06 to 100 m" err
 expect 2 "$FRAM" ice break --ice-density 1030
 says "less than the density of the water" err
 
