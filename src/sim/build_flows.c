@@ -25,22 +25,30 @@ static void rows_free(context *ctx, flow_rows *rows)
         array_free(ctx, &rows->column[i]);
 }
 
-static fram_status read_rows(context *ctx, const scenario *s, const scenario_flow *from, flow_rows *rows,
-                             fram_error *error)
+/* What a table is read with: its section and that one's name, and what flows. */
+typedef struct flow_job {
+    context *ctx;
+    const scenario *s;
+    const scenario_flow *from;
+    const char *key, *medium;
+    fram_error *error;
+} flow_job;
+
+static fram_status read_rows(const flow_job *j, flow_rows *rows)
 {
     static const char *const names[4] = {"angle[deg]", "cx", "cy", "cn"};
-    if (from->table_file[0]) {
+    if (j->from->table_file[0]) {
         char path[2 * SCENARIO_TEXT_SIZE];
-        if (!scenario_resolve_path(s, from->table_file, path, sizeof path))
-            return error_set(error, FRAM_ERROR_INPUT, from->table_file, 0, NULL, "the path is too long");
-        return csv_read(ctx, path, names, 4, rows->column, error);
+        if (!scenario_resolve_path(j->s, j->from->table_file, path, sizeof path))
+            return error_set(j->error, FRAM_ERROR_INPUT, j->from->table_file, 0, NULL, "the path is too long");
+        return csv_read(j->ctx, path, names, 4, rows->column, j->error);
     }
-    for (int32_t i = 0; i < from->table.count; i++) {
-        const scenario_flow_row *r = &from->table.data[i];
+    for (int32_t i = 0; i < j->from->table.count; i++) {
+        const scenario_flow_row *r = &j->from->table.data[i];
         const double value[4] = {r->angle_deg, r->cx, r->cy, r->cn};
         for (int k = 0; k < 4; k++)
-            if (!array_push(ctx, &rows->column[k], value[k]))
-                return error_memory(error);
+            if (!array_push(j->ctx, &rows->column[k], value[k]))
+                return error_memory(j->error);
     }
     return FRAM_OK;
 }
@@ -48,61 +56,58 @@ static fram_status read_rows(context *ctx, const scenario *s, const scenario_flo
 /* ---- rules ---- */
 
 /* Names the row: of the scenario, or of its file. */
-static fram_status fault(context *ctx, const scenario *s, const scenario_flow *from, const char *key, int32_t row,
-                         const char *rule, double found, fram_error *error)
+static fram_status fault(const flow_job *j, int32_t row, const char *rule, double found)
 {
     char name[80];
     char path[2 * SCENARIO_TEXT_SIZE];
-    bool in_file = from->table_file[0] && scenario_resolve_path(s, from->table_file, path, sizeof path);
-    snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
+    bool in_file = j->from->table_file[0] && scenario_resolve_path(j->s, j->from->table_file, path, sizeof path);
+    snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", j->key, (int)row);
     if (in_file && row >= 0)
-        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, row), name, "expected %s, found %g",
-                         rule, found);
-    error_value(error, name, rule, found);
-    scenario_locate(s, error);
+        return error_set(j->error, FRAM_ERROR_INPUT, path, csv_line_of(j->ctx, path, row), name,
+                         "expected %s, found %g", rule, found);
+    error_value(j->error, name, rule, found);
+    scenario_locate(j->s, j->error);
     return FRAM_ERROR_INPUT;
 }
 
 static bool differs(double a, double b) { return !(fabs(a - b) <= 1e-9); }
 
-static fram_status check_ends(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
-                              const flow_rows *rows, int32_t count, fram_error *error)
+static fram_status check_ends(const flow_job *j, const flow_rows *rows, int32_t count)
 {
     const double *angle = rows->column[0].data;
     int32_t last = count - 1;
     if (differs(angle[0], 0))
-        return fault(ctx, s, from, key, 0, "the angle 0 first", angle[0], error);
+        return fault(j, 0, "the angle 0 first", angle[0]);
     bool whole = !differs(angle[last], 360);
     if (!whole && differs(angle[last], 180))
-        return fault(ctx, s, from, key, last, "180 (for equal sides) or 360 degrees last", angle[last], error);
+        return fault(j, last, "180 (for equal sides) or 360 degrees last", angle[last]);
     for (int k = 1; k < 4 && whole; k++)
         if (differs(rows->column[k].data[last], rows->column[k].data[0]))
-            return fault(ctx, s, from, key, last, "at 360 degrees what stands at 0", rows->column[k].data[last], error);
+            return fault(j, last, "at 360 degrees what stands at 0", rows->column[k].data[last]);
     for (int k = 2; k < 4 && !whole; k++)
         for (int32_t i = 0; i < count; i += last)
             if (differs(rows->column[k].data[i], 0))
-                return fault(ctx, s, from, key, i, "no CY and CN at 0 and 180 degrees, since the sides are alike",
-                             rows->column[k].data[i], error);
+                return fault(j, i, "no CY and CN at 0 and 180 degrees, since the sides are alike",
+                             rows->column[k].data[i]);
     return FRAM_OK;
 }
 
-static fram_status check_rows(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
-                              const flow_rows *rows, fram_error *error)
+static fram_status check_rows(const flow_job *j, const flow_rows *rows)
 {
     int32_t count = rows->column[0].count;
     if (count < 2 || count > FLOW_ANGLES)
-        return fault(ctx, s, from, key, -1, "2 to 73 rows", count, error);
+        return fault(j, -1, "2 to 73 rows", count);
     for (int32_t i = 0; i < count; i++) {
         for (int k = 0; k < 4; k++)
             if (!isfinite(rows->column[k].data[i]))
-                return fault(ctx, s, from, key, i, "finite numbers", rows->column[k].data[i], error);
+                return fault(j, i, "finite numbers", rows->column[k].data[i]);
         for (int k = 1; k < 4; k++)
             if (!(fabs(rows->column[k].data[i]) <= COEFFICIENT_MOST))
-                return fault(ctx, s, from, key, i, "coefficients from -100 to 100", rows->column[k].data[i], error);
+                return fault(j, i, "coefficients from -100 to 100", rows->column[k].data[i]);
         if (i > 0 && !(rows->column[0].data[i] > rows->column[0].data[i - 1]))
-            return fault(ctx, s, from, key, i, "a larger angle than in the row before", rows->column[0].data[i], error);
+            return fault(j, i, "a larger angle than in the row before", rows->column[0].data[i]);
     }
-    return check_ends(ctx, s, from, key, rows, count, error);
+    return check_ends(j, rows, count);
 }
 
 /* ---- slips ---- */
@@ -114,7 +119,7 @@ static vec2 force_area(const flow_table *t, int32_t i)
 }
 
 /* Angles that are counted from ahead, or forces of other signs: such a hull swims against the current, ever faster. */
-static void warn_of_signs(context *ctx, const char *key, const char *medium, const flow_table *t)
+static void warn_of_signs(const flow_job *j, const flow_table *t)
 {
     double largest = 0;
     for (int32_t i = 0; i < t->count; i++)
@@ -125,10 +130,10 @@ static void warn_of_signs(context *ctx, const char *key, const char *medium, con
         double along = force.x * real_cos(t->angle[i]) + force.y * real_sin(t->angle[i]);
         if (size < FORCE_LEAST * largest || along >= -AGAINST_MOST * size)
             continue;
-        log_write(ctx, LOG_WARNING,
+        log_write(j->ctx, LOG_WARNING,
                   "%s: at %.4g degrees cx and cy push the vessel against the motion of the %s: angles are of where it "
                   "goes, 0 from astern and 180 from ahead, cx is forward and cy to port",
-                  key, t->angle[i] * (180 / PI), medium);
+                  j->key, t->angle[i] * (180 / PI), j->medium);
         return;
     }
 }
@@ -163,20 +168,18 @@ static void set_ends(flow_table *t)
 }
 
 /* height: of the part of the hull that the medium meets; middle: of that part over the design waterline [m]. */
-static fram_status build_one(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
-                             const char *medium, const vessel_model *hull, double height, double middle,
-                             flow_table *out, fram_error *error)
+static fram_status build_one(const flow_job *j, const vessel_model *hull, double height, double middle, flow_table *out)
 {
+    const scenario_flow *from = j->from;
     flow_rows rows = {0};
     *out = (flow_table){0};
     if (from->table.count == 0 && !from->table_file[0])
         return FRAM_OK;
-    fram_status status =
-        from->table.count > 0 && from->table_file[0]
-            ? fault(ctx, s, from, key, -1, "a table or a table_file, not both", from->table.count, error)
-            : read_rows(ctx, s, from, &rows, error);
+    fram_status status = from->table.count > 0 && from->table_file[0]
+                             ? fault(j, -1, "a table or a table_file, not both", from->table.count)
+                             : read_rows(j, &rows);
     if (status == FRAM_OK)
-        status = check_rows(ctx, s, from, key, &rows, error);
+        status = check_rows(j, &rows);
     const hull_particulars *p = &hull->particulars;
     out->frontal = automatic_or(from->frontal_area, p->beam * height);
     out->lateral = automatic_or(from->lateral_area, p->length * height);
@@ -187,10 +190,10 @@ static fram_status build_one(context *ctx, const scenario *s, const scenario_flo
         out->coefficient[i] = vec3_make(rows.column[1].data[i], rows.column[2].data[i], rows.column[3].data[i]);
         out->count = i + 1;
     }
-    rows_free(ctx, &rows);
+    rows_free(j->ctx, &rows);
     if (status == FRAM_OK) {
         set_ends(out);
-        warn_of_signs(ctx, key, medium, out);
+        warn_of_signs(j, out);
     }
     return status;
 }
@@ -204,12 +207,12 @@ fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *ent
     snprintf(water, sizeof water, "%s.current_coefficients", entry->path);
     snprintf(air, sizeof air, "%s.wind_coefficients", entry->path);
     vessel->flows.depth = 0.5 * draught;
-    fram_status status = build_one(ctx, s, &v->current_coefficients, water, "current", vessel, draught, -0.5 * draught,
-                                   &vessel->flows.water, error);
+    const flow_job current = {ctx, s, &v->current_coefficients, water, "current", error};
+    const flow_job wind = {ctx, s, &v->wind_coefficients, air, "wind", error};
+    fram_status status = build_one(&current, vessel, draught, -0.5 * draught, &vessel->flows.water);
     if (status == FRAM_OK)
         warn_of_lift(ctx, water, v, &vessel->flows.water);
     if (status == FRAM_OK)
-        status = build_one(ctx, s, &v->wind_coefficients, air, "wind", vessel, freeboard, 0.5 * freeboard,
-                           &vessel->flows.air, error);
+        status = build_one(&wind, vessel, freeboard, 0.5 * freeboard, &vessel->flows.air);
     return status;
 }
