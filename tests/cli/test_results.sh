@@ -122,8 +122,8 @@ for cell in '"3' '"3"1' '"3"1"'; do
     says "quotation mark" err
 done
 printf 'time,T\n0,1\n20,%0200d1\n40,1\n' 0 >history.csv
-expect 2 "$FRAM" fatigue history.csv --channel T
-says "history.csv:3: column 2: expected a number" err
+expect 0 "$FRAM" fatigue history.csv --channel T
+says "3 values" out
 # A picture's kind is that of its name.
 for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
     option=-o

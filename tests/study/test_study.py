@@ -462,8 +462,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertGreater(max(p % 1 for p in places) - min(p % 1 for p in places), 0.3)
             orders.append([int(p) for p in places])
         self.assertNotEqual(*orders)
-        self.refused("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
-                     "    - {ice.thickness: 1, vessel.speed: 2}\n", "study.yaml:5", "in their order")
         self.refused("vary:\n  table:\n", "study.yaml:3: table", "expected the name of a CSV file")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "study.yaml:2", "seeds are given by")
         # Texts too, and mistakes at their place in the table; but those of `set` in the study file.
