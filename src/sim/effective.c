@@ -60,7 +60,7 @@ static void motion_words(const effective_list *t, double speed, double towards, 
 {
     int n = snprintf(out, PART_SIZE, "%.4g m/s towards %.4g deg %s", speed, towards, arrow_of(towards));
     if (speed > 0 && meets_are_known(t))
-        snprintf(out + n, PART_SIZE - (size_t)n, ", from %s", meets_from(towards, sanity_heading(t->s, 0, t->made)));
+        snprintf(out + n, PART_SIZE - (size_t)n, ", from %s", meets_from(towards, sanity_start(t->s, 0, t->made).z));
     else if (!(speed > 0))
         snprintf(out, PART_SIZE, "0");
 }
@@ -262,7 +262,7 @@ static void tell_vessel(const effective_list *t, int32_t vessel)
                    v->path.data[v->path.count - 1].time);
     } else if (v->mode == VESSEL_FREE) {
         keeping_words(v, kept);
-        double heading = sanity_heading(t->s, vessel, t->made);
+        double heading = sanity_start(t->s, vessel, t->made).z;
         sanity_say(t->tell, t->to, "%s: free, bow towards %.4g deg %s%s, %.4g m/s at the start%s", name, heading,
                    arrow_of(heading), equilibrium_words(t, v), v->speed, kept);
     } else {

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/pool.h"
 #include "io/scenario_file.h"
+#include "model/scenario_vessel.h"
 #include "sim/build.h"
 #include "sim/notes.h"
 #include "sim/pace.h"
@@ -135,6 +136,16 @@ static fram_status make_world(run *r, field_report *report, fram_error *error)
     return status;
 }
 
+/* Whether some of what is warned of is known when the world is made: how thick the floes of a file are, and where a
+   vessel on its mooring begins. */
+static bool tells_when_made(const scenario *s)
+{
+    bool tells = s->ice.source == ICE_FILE;
+    for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++)
+        tells = vessel_begins_at_equilibrium(scenario_vessel_entry(s, i).keys);
+    return tells;
+}
+
 fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
                       fram_error *error)
 {
@@ -145,12 +156,11 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
         status = recording_prepare(&r.record, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK) {
-        /* How thick the floes of a file are is known when they are made. */
-        bool of_file = s->ice.source == ICE_FILE;
-        if (!of_file)
+        bool when_made = tells_when_made(s);
+        if (!when_made)
             scenario_log_warnings(ctx, s, NULL);
         status = make_world(&r, &report, error);
-        if (of_file)
+        if (when_made)
             scenario_log_warnings(ctx, s, status == FRAM_OK ? &r.world : NULL);
     }
     if (status == FRAM_OK) {

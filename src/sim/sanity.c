@@ -267,15 +267,15 @@ static void tell_hull(const teller *t, const vessel_entry *e)
 
 /* What a vessel turns about in a field of floes, global: amidships, or its turret.  Beyond the edge of a drifting sheet
    there is open water, not a band: there the ship is looked at as it lies. */
-static vec2 turns_about(const scenario *scene, const scenario_vessel *v, double *reach)
+static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 start, double *reach)
 {
     bool turret = v->mode == VESSEL_FREE && v->mooring.turret && v->mooring.lines.count > 0;
     turret = turret && scene->ice.source != ICE_LEVEL;
-    double c = real_cos(radians(v->heading_deg)), s = real_sin(radians(v->heading_deg));
+    double c = real_cos(radians(start.z)), s = real_sin(radians(start.z));
     double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
     double along = 0.5 * v->hull.length + fabs(x), across = 0.5 * v->hull.beam + fabs(y);
     *reach = sqrt(along * along + across * across);
-    return vec2_make(v->x + c * x - s * y, v->y + s * x + c * y);
+    return vec2_make(start.x + c * x - s * y, start.y + s * x + c * y);
 }
 
 static double edge_from(const scenario_domain *d, vec2 at)
@@ -285,14 +285,14 @@ static double edge_from(const scenario_domain *d, vec2 at)
 
 /* Nearest edge of a fed domain within the reach of the vessel, turned any way: the band moves floes through the hull.
  */
-static void tell_domain(const teller *t, const vessel_entry *e)
+static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
 {
     const scenario_domain *d = &t->s->domain;
     const scenario_vessel *v = e->keys;
     if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
     double reach, band = sanity_least_band(t->s), edge = edge_from(d, vec2_make(v->x, v->y));
-    double room = edge_from(d, turns_about(t->s, v, &reach)) - band;
+    double room = edge_from(d, turns_about(t->s, v, start, &reach)) - band;
     if (d->boundary == DOMAIN_FEEDING && room < reach)
         sanity_say(
             t->tell, t->to,
@@ -443,7 +443,7 @@ void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);
-        tell_domain(&t, &e);
+        tell_domain(&t, &e, sanity_start(s, i, made));
         tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, i, made, tell, to);

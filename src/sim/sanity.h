@@ -28,8 +28,9 @@ void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 
-/* With which heading a vessel begins [deg]: that of `made`, else that of its keys. */
-double sanity_heading(const scenario *s, int32_t vessel, const world *made);
+/* Where the ship's origin begins and with which heading (x, y, heading: m, m, deg): as in `made` where that was found
+   at the equilibrium of a mooring, else as its keys have it. */
+vec3 sanity_start(const scenario *s, int32_t vessel, const world *made);
 
 /* Whether a current of that speed across a hull [m/s] matters to its station, and acts on its faces with the drag of
    one that goes ahead. */

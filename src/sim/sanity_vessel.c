@@ -335,20 +335,23 @@ bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double a
            n->hull_drag.water_form < SIDE_LEAST && across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
 }
 
-double sanity_heading(const scenario *s, int32_t vessel, const world *made)
+vec3 sanity_start(const scenario *s, int32_t vessel, const world *made)
 {
     const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
-    if (made && vessel_begins_at_equilibrium(v))
-        return degrees(quat_roll_pitch_yaw(made->bodies.orientation[made->vessels.body[vessel]]).z);
-    return v->path.count > 0 ? v->path.data[0].heading_deg : v->heading_deg;
+    if (!made || !vessel_begins_at_equilibrium(v))
+        return vec3_make(v->x, v->y, v->path.count > 0 ? v->path.data[0].heading_deg : v->heading_deg);
+    int32_t body = made->vessels.body[vessel];
+    vec3 at = body_to_global(&made->bodies, body, vec3_scale(made->vessels.centre[vessel], -1));
+    return vec3_make(at.x, at.y, degrees(quat_roll_pitch_yaw(made->bodies.orientation[body]).z));
 }
 
-/* A vessel kept on station in a beam current with the drag of a hull that goes ahead. */
+/* A vessel kept on station in a beam current with the drag of a hull that goes ahead: where it is known how it lies. */
 static void tell_current_across(const teller *t, double heading_deg)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_environment *n = &t->s->environment;
-    bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active);
+    bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active) &&
+                (t->made || !vessel_begins_at_equilibrium(v));
     double across = n->current_speed * fabs(real_sin((n->current_direction_deg - heading_deg) * (PI / 180)));
     if (!kept || n->current_file[0] != '\0' || !sanity_drags_as_ahead(t->s, v, across))
         return;
@@ -383,6 +386,6 @@ void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sa
     tell_fairleads(&t);
     tell_motion(&t);
     tell_dry(&t);
-    tell_current_across(&t, sanity_heading(s, vessel, made));
+    tell_current_across(&t, sanity_start(s, vessel, made).z);
     tell_flows(&t);
 }

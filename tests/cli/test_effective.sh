@@ -93,10 +93,37 @@ YAML
 expect 0 "$FRAM" check tanker.yaml
 told "bow towards 0 deg →, from which it begins at the equilibrium of its mooring, 0 m/s at the start, 8 mooring lines"
 holds "current: 0.4 m/s towards 150 deg ↖\$" err
+grep 'comes across' err && fail "a current across a hull is told, and how it lies is not known"
 expect 0 "$FRAM" check tanker.yaml --build
 told "bow towards 59.36 deg ↗ at the equilibrium of its mooring, 0 m/s at the start, 8 mooring lines"
 told "current: 0.4 m/s towards 150 deg ↖, from the starboard beam"
 told "a current of 0.4 m/s comes across the hull"
+expect 0 "$FRAM" run tanker.yaml -o tanker
+told "a current of 0.4 m/s comes across the hull"
+# One that weathervanes to its current.
+sed 's/depth: 80,/& turret: true, x: 60,/; s/mode: free/&\n  heading_deg: 90/' tanker.yaml >vane.yaml
+for how in "check vane.yaml" "check vane.yaml --build" "run vane.yaml -o vane"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $how --set environment.current_direction_deg=180
+    grep 'comes across' err && fail "$how tells of a current across a hull that lies along it"
+done
+# A boat lies as far downstream of its anchor, 100 m ahead, as its line reaches: there the edge of the domain is near.
+cat >boat.yaml <<'YAML'
+run: {duration: 0.05, time_step: 0.05}
+vessel:
+  mode: free
+  heading_deg: 90
+  hull: {length: 20, beam: 6, draught: 2, freeboard: 1}
+  mooring: {depth: 50, lines: [{kind: spring, distance: 100, pretension: 1e4, stiffness: 1e5, fairlead_distance: 0}]}
+ice: {mean_floe_area: 100, thickness: 0.3, concentration: 0.1}
+domain: {x_min: -100, x_max: 211, y_min: -100, y_max: 100, boundary: feeding}
+environment: {current_speed: 0.5}
+YAML
+for how in "check boat.yaml --build" "run boat.yaml -o boat"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $how
+    told "domain: its edge with the band is"
+done
 
 # On a carriage.
 cat >tow.yaml <<'YAML'
