@@ -82,7 +82,8 @@ static void judge_end(verdict *v)
          n->message);
 }
 
-/* A hull at a wall measures the wall: the run's own event, found by its kind in run.json. */
+/* A hull at a wall measures the wall, and one at the band of a field ice that nothing pushes aside: the run's own
+   events, found by their kinds in run.json. */
 static void judge_walls(verdict *v)
 {
     const run_note *n = &v->r->d.note;
@@ -94,6 +95,12 @@ static void judge_walls(verdict *v)
                  "run.duration or give another course.",
                  "%s%s ran into a wall of the domain at %.4g s.", e->vessel[0] ? "Vessel " : "The vessel", e->vessel,
                  e->time);
+        else if (strcmp(e->kind, "band") == 0)
+            find(v, VERDICT_BAD,
+                 "Loads and motion after that are not those of ice that gives way: enlarge the domain or shorten "
+                 "run.duration.",
+                 "%s%s reached the band of the ice field, whose floes nothing pushes aside, at %.4g s.",
+                 e->vessel[0] ? "Vessel " : "The vessel", e->vessel, e->time);
     }
 }
 

@@ -326,12 +326,15 @@ def check_late(folder):
                        (1.5, "The vessel held its station from 5 s on."),
                        (3, "The offset passed its limit of 50 m at 3 s, before the recording began; the rows reach")):
         events = [] if lost is None else [{"time_s": lost, "kind": "position_lost", "value": 60, "text": "lost"},
-                                          {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"}]
+                                          {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"},
+                                          {"time_s": 9, "kind": "band", "value": 0, "text": "-"}]
         note.write_text(json.dumps({**json.loads(note.read_text()), "events": events}))
         subprocess.run([FRAM, "report", run, "-q"], check=True)
         page = (run / "report.html").read_text()
         assert told in page, (lost, page[page.index("verdict"):][:900])
         assert "recorded from 5 to 14 s of 14; Fram" in page and "5 to 14" in page
+        band = "The vessel reached the band of the ice field, whose floes nothing pushes aside, at 9 s." in page
+        assert band == ("verdict bad" in page) == (lost is not None), (lost, band)
     assert "did not hold its station" in page and "as far as the run went" not in page
 
 
