@@ -65,7 +65,8 @@ static void list_station(lister *l, const world *w, int32_t v)
 {
     if (!station_is_kept(&w->stations, &w->vessels, v) || goes_by_track(w, v))
         return;
-    add_vector(l, CONTROL_SET_POINT, v, 2, "set_point", "m", "where the ship's origin shall be, global frame");
+    if (!station_is_of_heading_alone(&w->stations, v))
+        add_vector(l, CONTROL_SET_POINT, v, 2, "set_point", "m", "where the ship's origin shall be, global frame");
     add(l, CONTROL_SET_POINT, v, v, 2, "set_point_heading", 0, "deg", "heading that is wanted");
     if (thrusters_of(w, v) > 0)
         add(l, CONTROL_POSITIONING, v, v, 0, "positioning", 0, "1",

@@ -31,8 +31,11 @@ static pid_gains of_heading_alone(pid_gains g)
     return (pid_gains){yaw_of(g.proportional), yaw_of(g.derivative), yaw_of(g.integral)};
 }
 
-/* Thrusters that assist a mooring: it has the place, whatever x and y the way points have. */
-static bool is_of_heading_alone(const pid_gains *g) { return !(g->proportional.x > 0 || g->proportional.y > 0); }
+bool station_is_of_heading_alone(const station_table *stations, int32_t vessel)
+{
+    const pid_gains *g = &stations->gains[vessel];
+    return !(g->proportional.x > 0 || g->proportional.y > 0);
+}
 
 bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel)
 {
@@ -114,13 +117,13 @@ static bool book(context *ctx, event_table *events, bool beyond, bool within, in
    is watched stays at its place as the vessel turns. */
 static bool turns_as_told(const station_table *s, int32_t row)
 {
-    return s->positioning[row] && s->heading_rule[row] == HEADING_FIXED && !is_of_heading_alone(&s->gains[row]);
+    return s->positioning[row] && s->heading_rule[row] == HEADING_FIXED && !station_is_of_heading_alone(s, row);
 }
 
 vec2 station_watched_place(const station_table *s, int32_t row, const vessel_table *vessels, vec3 target)
 {
     vec3 home = s->home[row], off = vec3_add(s->watched[row], vessels->centre[row]);
-    vec3 moved = is_of_heading_alone(&s->gains[row]) ? vec3_make(0, 0, 0) : vec3_sub(target, home);
+    vec3 moved = station_is_of_heading_alone(s, row) ? vec3_make(0, 0, 0) : vec3_sub(target, home);
     if (turns_as_told(s, row) && target.z != home.z)
         moved = vec3_add(moved, vec3_sub(plane_to_global(target.z, off), plane_to_global(home.z, off)));
     return vec2_make(s->watched_home[row].x + moved.x, s->watched_home[row].y + moved.y);
@@ -210,7 +213,7 @@ static void control(station_table *s, int32_t row, const station_moment *now, ve
     const motion_estimate *e = &s->estimate[row];
     vec3 feed = plane_to_vessel(e->place.z, vec3_scale(fed_load(s, row), -s->feed_gain[row]));
     const reference_state *r = &s->reference[row];
-    if (is_of_heading_alone(&s->gains[row]))
+    if (station_is_of_heading_alone(s, row))
         feed = yaw_of(feed); /* the mooring takes the forces, those of the ice too */
     s->demand[row] = pid_step(&s->gains[row], e->place, e->velocity, r->place, r->velocity, feed,
                               s->saturated[row] != 0, &s->integral[row], dt);

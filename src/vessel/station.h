@@ -93,6 +93,8 @@ void station_begin(station_table *stations, const station_definition *d, int32_t
                    const body_table *bodies);
 /* Whether a vessel keeps station. */
 bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel);
+/* Of one that does: whether its thrusters assist a mooring, which has the place, whatever x and y are wanted. */
+bool station_is_of_heading_alone(const station_table *stations, int32_t vessel);
 
 /* What the step looks like to a station. */
 typedef struct station_moment {

@@ -173,23 +173,34 @@ START_TEST(speeds_that_end_a_world)
 }
 END_TEST
 
-/* A ship that drives itself goes by its track: without thrusters nothing of it follows a set point. */
-START_TEST(no_set_point_for_a_ship_on_its_track)
+/* A ship that drives itself goes by its track, and one whose thrusters turn it about its mooring stays there: of what
+   nothing of it follows there is no set point. */
+START_TEST(no_set_point_that_nothing_follows)
 {
-    static const char *const thrusters[] = {"", "  thrusters: [{x: 18}]\n"};
-    static const char driving[] = "run: {duration: 1, time_step: 0.05}\n"
-                                  "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
-                                  "  propulsion: {bollard_pull: 4.0e5, waypoints: [{x: 99}]}\n%sice: {source: none}\n";
-    char text_of_ship[400];
+#define DRIVES "propulsion: {bollard_pull: 4.0e5, waypoints: [{x: 99}]}\n"
+#define LINES "mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}\n"
+    static const struct {
+        const char *gear;
+        bool place, heading;
+    } ships[] = {{"  " DRIVES, false, false},
+                 {"  " DRIVES "  thrusters: [{x: 18}]\n", true, true},
+                 {"  thrusters: [{x: 18}]\n  " LINES "  positioning: {active: true, control: heading}\n", false, true},
+                 {"  " LINES "  positioning: {control: heading}\n", false, true}};
+    static const char ship[] = "run: {duration: 1, time_step: 0.05}\n"
+                               "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                               "%sice: {source: none}\n";
+    char text_of_ship[500];
     const double time = 1, place[] = {99, 9, 0};
     assert_ok(fram_context_create(NULL, &ctx, &e), e);
-    for (int with = 0; with < 2; with++) {
-        snprintf(text_of_ship, sizeof text_of_ship, driving, thrusters[with]);
+    for (size_t i = 0; i < sizeof ships / sizeof *ships; i++) {
+        snprintf(text_of_ship, sizeof text_of_ship, ship, ships[i].gear);
         assert_ok(fram_scenario_parse(ctx, text_of_ship, NULL, NULL, 0, &s, &e), e);
         assert_ok(fram_world_create(s, &w, &e), e);
-        ck_assert_int_eq(fram_world_find_input(w, "set_point_x") >= 0, with);
+        ck_assert_int_eq(fram_world_find_input(w, "set_point_x") >= 0, ships[i].place);
+        ck_assert_int_eq(fram_world_find_input(w, "set_point_y") >= 0, ships[i].place);
+        ck_assert_int_eq(fram_world_find_input(w, "set_point_heading") >= 0, ships[i].heading);
         fram_status status = fram_world_set_path(w, 0, &time, place, 1, &e);
-        ck_assert_int_eq(status, with ? FRAM_OK : FRAM_ERROR_USAGE);
+        ck_assert_int_eq(status, ships[i].heading ? FRAM_OK : FRAM_ERROR_USAGE);
         assert_ok(fram_world_set_path(w, 0, NULL, NULL, 0, &e), e);
         fram_world_destroy(w);
         fram_scenario_destroy(s);
@@ -338,5 +349,5 @@ START_TEST(the_working_folder_changes)
 END_TEST
 
 TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, speeds_that_end_a_world,
-          no_set_point_for_a_ship_on_its_track, arrays, recordings, memory_runs_out, older_definitions_are_taken,
+          no_set_point_that_nothing_follows, arrays, recordings, memory_runs_out, older_definitions_are_taken,
           the_working_folder_changes)
