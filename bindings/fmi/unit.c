@@ -236,25 +236,10 @@ unit_status unit_enter_initialization(unit *u)
     return status;
 }
 
-/* Whether an input is an order to a thruster of the vessel whose input `positioning` is the other one. */
-static bool is_order_of(const unit *u, const variable *v, const variable *positioning)
+/* An order to a thruster of the vessel whose input `positioning` is the other one. */
+static bool is_order_of(const variable *v, const variable *positioning)
 {
-    fram_channel order, other;
-    if (!positioning || fram_world_input(u->world, v->index, &order, NULL) != FRAM_OK ||
-        fram_world_input(u->world, positioning->index, &other, NULL) != FRAM_OK)
-        return false;
-    size_t vessel = strlen(other.name) - strlen("positioning");
-    return strncmp(order.name, other.name, vessel) == 0 && strncmp(order.name + vessel, "thruster_", 9) == 0;
-}
-
-/* Whether the name of an input, behind that of its vessel, begins so. */
-static bool is_called(const unit *u, const variable *v, const char *name)
-{
-    fram_channel input;
-    if (fram_world_input(u->world, v->index, &input, NULL) != FRAM_OK)
-        return false;
-    const char *point = strrchr(input.name, '.');
-    return strncmp(point ? point + 1 : input.name, name, strlen(name)) == 0;
+    return positioning && v->role == INPUT_ORDER && v->vessel == positioning->vessel;
 }
 
 static unit_status tell_input(unit *u, variable *v)
@@ -269,33 +254,27 @@ static unit_status tell_input(unit *u, variable *v)
 
 static bool has_changed(const variable *v) { return v->kind == VARIABLE_INPUT && v->value != v->told; }
 
-/* Whether two inputs are of one tow velocity, or of one set point: to tell one of them ends the vessel's path. */
-static bool end_one_path(const unit *u, const variable *a, const variable *b)
-{
-    fram_channel one, other;
-    bool known = fram_world_input(u->world, a->index, &one, NULL) == FRAM_OK &&
-                 fram_world_input(u->world, b->index, &other, NULL) == FRAM_OK;
-    if (!known || !((is_called(u, a, "tow_velocity_") && is_called(u, b, "tow_velocity_")) ||
-                    (is_called(u, a, "set_point_") && is_called(u, b, "set_point_"))))
-        return false;
-    const char *point = strrchr(one.name, '.');
-    size_t vessel = point ? (size_t)(point + 1 - one.name) : 0; /* of its name with the point */
-    return strncmp(one.name, other.name, vessel) == 0 && !strchr(other.name + vessel, '.');
-}
+/* Parts of a tow velocity or of a set point, of which a vessel has one: to tell a part ends the vessel's path. */
+static bool is_of_path(const variable *v) { return v->role == INPUT_TOW || v->role == INPUT_SET_POINT; }
 
 /* Inputs that changed, and those whose path ends with that: where it has led meanwhile is not what the importer says.
  */
 static void find_due(unit *u)
 {
-    for (int i = 0; i < u->count; i++)
-        u->variables[i].is_due = has_changed(&u->variables[i]);
     for (int i = 0; i < u->count; i++) {
-        for (int k = 0; k < u->count && has_changed(&u->variables[i]); k++) {
-            variable *other = &u->variables[k];
-            if (other->kind == VARIABLE_INPUT && end_one_path(u, &u->variables[i], other) &&
-                other->value != fram_world_input_value(u->world, other->index))
-                other->is_due = true;
-        }
+        u->variables[i].is_due = has_changed(&u->variables[i]);
+        u->variables[i].path_ends = false;
+    }
+    for (int i = 0; i < u->count; i++) {
+        const variable *v = &u->variables[i];
+        if (v->is_due && is_of_path(v))
+            u->variables[v->vessel].path_ends = true;
+    }
+    for (int i = 0; i < u->count; i++) {
+        variable *v = &u->variables[i];
+        if (is_of_path(v) && u->variables[v->vessel].path_ends &&
+            v->value != fram_world_input_value(u->world, v->index))
+            v->is_due = true;
     }
 }
 
@@ -306,8 +285,7 @@ static unit_status tell_slower(unit *u)
     unit_status status = UNIT_OK;
     for (int i = 0; i < u->count && status == UNIT_OK; i++) {
         variable *v = &u->variables[i];
-        if (v->is_due && is_called(u, v, "tow_velocity_") &&
-            fabs(v->value) < fabs(fram_world_input_value(u->world, v->index)))
+        if (v->is_due && v->role == INPUT_TOW && fabs(v->value) < fabs(fram_world_input_value(u->world, v->index)))
             status = tell_input(u, v);
     }
     return status;
@@ -322,10 +300,10 @@ static unit_status tell_inputs(unit *u)
     unit_status status = tell_slower(u);
     for (int i = 0; i < u->count && status == UNIT_OK; i++) {
         variable *v = &u->variables[i];
-        if (!v->is_due && (v->kind != VARIABLE_INPUT || !is_order_of(u, v, handed_over)))
+        if (!v->is_due && !is_order_of(v, handed_over))
             continue;
         status = tell_input(u, v);
-        if (v->value == 0 && is_called(u, v, "positioning"))
+        if (v->value == 0 && v->role == INPUT_POSITIONING)
             handed_over = v;
     }
     return status;
@@ -361,9 +339,55 @@ static void read_outputs(unit *u)
     }
 }
 
+/* The name of an input; how long that of its vessel is, with the point. */
+static const char *input_name(const unit *u, const variable *v, size_t *vessel)
+{
+    fram_channel input;
+    *vessel = 0;
+    if (v->kind != VARIABLE_INPUT || fram_world_input(u->world, v->index, &input, NULL) != FRAM_OK)
+        return "";
+    const char *point = strrchr(input.name, '.');
+    *vessel = point ? (size_t)(point + 1 - input.name) : 0;
+    return input.name;
+}
+
+static input_role role_of(const char *name)
+{
+    static const struct {
+        const char *begin;
+        input_role role;
+    } roles[] = {{"tow_velocity_", INPUT_TOW},
+                 {"set_point_", INPUT_SET_POINT},
+                 {"positioning", INPUT_POSITIONING},
+                 {"thruster_", INPUT_ORDER}};
+    for (size_t i = 0; i < sizeof roles / sizeof *roles; i++) {
+        if (strncmp(name, roles[i].begin, strlen(roles[i].begin)) == 0)
+            return roles[i].role;
+    }
+    return INPUT_ALONE;
+}
+
+/* Which inputs belong together: names tell, once, since each step asks. */
+static void find_roles(unit *u)
+{
+    for (int i = 0; i < u->count; i++) {
+        variable *v = &u->variables[i];
+        size_t length, other;
+        const char *name = input_name(u, v, &length);
+        v->role = role_of(name + length);
+        v->vessel = i;
+        for (int k = i - 1; k >= 0 && v->vessel == i; k--) {
+            const char *before = input_name(u, &u->variables[k], &other);
+            if (other == length && strncmp(before, name, length) == 0)
+                v->vessel = u->variables[k].vessel;
+        }
+    }
+}
+
 void unit_read_start(unit *u)
 {
     read_outputs(u);
+    find_roles(u);
     for (int i = 0; i < u->count; i++) {
         variable *v = &u->variables[i];
         if (v->kind == VARIABLE_INPUT)

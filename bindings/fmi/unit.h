@@ -32,6 +32,8 @@ typedef enum unit_phase {
 enum { UNIT_LOG_WARNING = 1, UNIT_LOG_ERROR = 2, UNIT_LOG_REST = 4, UNIT_LOG_ALL = 7 };
 
 typedef enum variable_kind { VARIABLE_INPUT, VARIABLE_OUTPUT, VARIABLE_TIME } variable_kind;
+/* What an input is to others of its vessel. */
+typedef enum input_role { INPUT_ALONE, INPUT_TOW, INPUT_SET_POINT, INPUT_POSITIONING, INPUT_ORDER } input_role;
 typedef struct variable {
     variable_kind kind;
     int index; /* of the world's input or channel */
@@ -39,6 +41,9 @@ typedef struct variable {
     double told;       /* input: what the world holds */
     bool is_looked_at; /* may be read while the importer looks on */
     bool is_due;       /* input: to be told before the next step */
+    bool path_ends;    /* the first of its vessel: one of those that end its path is to be told */
+    input_role role;
+    int vessel; /* number of the first variable of the same vessel, or of the world */
 } variable;
 
 enum { UNIT_TOKEN_ROOM = 40 }; /* {8-4-4-4-12 hexadecimal digits} */
