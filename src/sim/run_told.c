@@ -67,6 +67,15 @@ static bool path_is_given(const scenario_vessel *v, const world *w, int32_t vess
     return !given_place(v, count, &time, &place);
 }
 
+/* A path of a free vessel is its way points; a set point that is told ends them. */
+static const char *path_name(const scenario_vessel *v, const world *w, int32_t vessel)
+{
+    bool there = false;
+    for (int32_t i = 0; i < w->waypoints.count && !there; i++)
+        there = w->waypoints.vessel[i] == vessel;
+    return v->mode == VESSEL_FREE && !there ? "set_point" : "path";
+}
+
 /* Of a carriage that goes straight on; on a path the velocity is that of the step. */
 static bool velocity_is_given(const scenario_vessel *v, const world *w, int32_t vessel)
 {
@@ -86,7 +95,7 @@ void run_told_add(context *ctx, const scenario *s, const world *w, text_buffer *
         if (input_find(&w->inputs, INPUT_FORCE, v) >= 0)
             add_name(&l, vessel_channel_name(s, v, "outside_force").text);
         if (!path_is_given(keys, w, v))
-            add_name(&l, vessel_channel_name(s, v, "path").text);
+            add_name(&l, vessel_channel_name(s, v, path_name(keys, w, v)).text);
         else if (!velocity_is_given(keys, w, v))
             add_name(&l, vessel_channel_name(s, v, "tow_velocity").text);
     }

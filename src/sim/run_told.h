@@ -8,8 +8,9 @@
 #include "model/world.h"
 
 /* Names in quotes, divided by commas: components of wind, current and drift, and of each vessel the force from outside,
-   the path and the velocity of its carriage, by the names of inputs (controls.h).  When it was told is not known, nor
-   orders to thrusters, set points and lines, which are no conditions. */
+   the path and the velocity of its carriage, by the names of inputs (controls.h); "set_point" where that ended way
+   points of the scenario.  When it was told is not known, nor other set points, orders to thrusters and lines, which
+   are no conditions. */
 void run_told_add(context *ctx, const scenario *s, const world *w, text_buffer *out);
 
 #endif

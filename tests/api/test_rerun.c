@@ -153,6 +153,42 @@ START_TEST(what_was_told_is_named)
 }
 END_TEST
 
+/* A set point in place of way points, a path in place of them, and a set point where there were none. */
+START_TEST(set_points_that_end_way_points_are_named)
+{
+    static const char ship[] = "run: {duration: 1, time_step: 0.05}\n"
+                               "vessels:\n  - {name: a, mode: free, hull: {length: 40, beam: 10, draught: 4}%s}\n"
+                               "ice: {source: none}\ndomain: {boundary: open}\n";
+    static const char *const points[] = {", positioning: {waypoints: [{time: 0.5, x: 1}]}", ""};
+    static const char *const told[] = {"\"told\": [\"a.set_point\"],", "\"told\": [],", "\"told\": [\"a.path\"],"};
+    const double time = 1, place[] = {9, 9, 0};
+    open_all();
+    for (int i = 0; i < 3; i++) {
+        char text[400];
+        fram_scenario *s;
+        fram_world *w;
+        fram_record_definition d;
+        snprintf(text, sizeof text, ship, points[i % 2]);
+        assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
+        assert_ok(fram_world_create(s, &w, &e), e);
+        fram_record_default(&d);
+        d.folder = run;
+        d.force = true;
+        assert_ok(fram_world_record(w, &d, &e), e);
+        if (i < 2)
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "a.set_point_heading"), 9, &e), e);
+        else
+            assert_ok(fram_world_set_path(w, 0, &time, place, 1, &e), e);
+        assert_ok(fram_world_step(w, &e), e);
+        assert_ok(fram_world_record_end(w, NULL, &e), e);
+        ck_assert_msg(run_file_has("run.json", told[i]), "%s", told[i]);
+        fram_world_destroy(w);
+        fram_scenario_destroy(s);
+    }
+    close_all();
+}
+END_TEST
+
 /* From a checkpoint behind the input it is the run again; the one at the scenario's end is there, though the program
    goes on. */
 START_TEST(from_a_checkpoint)
@@ -292,5 +328,6 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("rerun", what_was_told_is_named, steered, steered_a_little, from_a_checkpoint, rows_far_apart, no_row_behind,
-          last_step, beyond_the_end, before_a_window_has_passed, memory_runs_out)
+TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
+          from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
+          memory_runs_out)
