@@ -12,8 +12,10 @@ static const double softness_of_stage[SOFT_STAGES] = {1e6 / ALLOCATION_MISS_COST
 #define ALONG_MOST 40
 /* The equation is solved to this part of what it sums. */
 #define SOLVED 1e-14
-/* A step ends where the slope of the dual along it is this part of that at its start. */
+/* A step ends where the slope of the dual along it is this part of that at its start, and not beyond the largest value
+   but for rounding: in parts of the slope. */
 #define SLOPE_LEFT 0.1
+#define SLOPE_PAST 1e-6
 /* Where no more than the second part of a demand is missed it is brought down to the first, in so many rounds. */
 #define MISS_LEFT 1e-13
 #define MISS_NEAR 1e-3
@@ -112,7 +114,7 @@ static vec3 step_along(const set_problem *p, vec3 *y, vec3 step, double slope, v
     for (int k = 0; k < ALONG_MOST; k++) {
         left = left_over(p, vec3_mad(*y, step, share), thrust, size, change);
         double now = vec3_dot(left, step);
-        if (fabs(now) <= SLOPE_LEFT * slope || (k == 0 && now > 0))
+        if (now >= -SLOPE_PAST * slope && (now <= SLOPE_LEFT * slope || k == 0))
             break;
         if (now > 0) {
             low = share, at_low = now;

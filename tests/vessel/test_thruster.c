@@ -367,6 +367,28 @@ START_TEST(no_other_orders_are_better)
 }
 END_TEST
 
+/* The whole of what a dear tunnel and two propellers astern give, at a corner of each. */
+START_TEST(a_dear_thruster_is_used_to_its_end)
+{
+    bare_vessel b;
+    bare_vessel_open(&b);
+    thruster_table *t = &b.thrusters;
+    for (int side = 1; side >= -1; side -= 2)
+        add(&b, THRUSTER_MAIN, -38, 5 * side, 4e5, 0);
+    add(&b, THRUSTER_TUNNEL, 33, 0, 1e5, 0);
+    t->astern[0] = t->astern[1] = 2e5;
+    for (double cost = 1; cost < 2e6; cost *= 10) {
+        bool reached;
+        t->cost[2] = cost;
+        thruster_allocate(t, 0, LEVER, vec3_make(-399996, 99999, 3299967), &reached);
+        ck_assert_msg(reached, "cost %g", cost);
+        assert_relative(t->order[0] + t->order[1], -399996, 1e-6);
+        assert_relative(t->order[2], 99999, 1e-6);
+    }
+    bare_vessel_close(&b);
+}
+END_TEST
+
 /* Around a circle, within reach and beyond it, the thrusts of azimuths go with the demand, as its root where one is
    turned at its limit. */
 START_TEST(small_changes_of_the_demand_are_small_ones_of_the_thrust)
@@ -395,4 +417,4 @@ END_TEST
 TEST_MAIN("thruster", azimuths_turn_at_their_rate, shafts_have_a_rate_and_a_time, astern, the_nearer_edge_of_a_sector,
           nothing_is_gained_by_leaving_a_limit, ruddered_propellers_steer_while_they_hold_astern,
           an_azimuth_at_its_limit_turns_to_what_is_needed, no_other_orders_are_better,
-          small_changes_of_the_demand_are_small_ones_of_the_thrust)
+          a_dear_thruster_is_used_to_its_end, small_changes_of_the_demand_are_small_ones_of_the_thrust)
