@@ -13,6 +13,8 @@ enum { ALLOCATION_MOST = 64 };
 #define ALLOCATION_MISS_COST 1e8
 /* A demand is reached when no more than this part of it is missed. */
 #define ALLOCATION_REACHED 1e-6
+/* Up to this part of it may be missed because a newton missed has a price, and not an infinite one. */
+#define ALLOCATION_NEAR 1e-3
 
 /* One thrust of fixed direction. */
 typedef struct allocation_column {

@@ -16,9 +16,8 @@ static const double softness_of_stage[SOFT_STAGES] = {1e6 / ALLOCATION_MISS_COST
    but for rounding: in parts of the slope. */
 #define SLOPE_LEFT 0.1
 #define SLOPE_PAST 1e-6
-/* Where no more than the second part of a demand is missed it is brought down to the first, in so many rounds. */
+/* Where little of a demand is missed it is brought down to this part, in so many rounds. */
 #define MISS_LEFT 1e-13
-#define MISS_NEAR 1e-3
 #define ROUNDS_MOST 4
 
 /* By duality: the thrusts of a multiplier y are the points of the sets nearest to B'y / weight, and y solves
@@ -171,7 +170,7 @@ double allocation_solve_sets(const allocation_set *sets, int32_t count, double l
     /* About what was found, again: what softness misses falls to rounding, near the end of the reach and where
        thrusters push against each other slowly. */
     double demand = vec3_length(p.tau), left = vec3_length(miss);
-    for (int k = 0; k < ROUNDS_MOST && left > MISS_LEFT * demand && left <= MISS_NEAR * demand; k++) {
+    for (int k = 0; k < ROUNDS_MOST && left > MISS_LEFT * demand && left <= ALLOCATION_NEAR * demand; k++) {
         p.origin = y;
         solve_dual(&p, &y, thrust);
         miss = missed_by(&p, thrust);

@@ -310,6 +310,8 @@ static void give_order(thruster_table *t, int32_t row, thruster_mode mode, vec2 
     }
 }
 
+static double length_over(vec3 tau, double lever) { return vec3_length(vec3_make(tau.x, tau.y, tau.z / lever)); }
+
 vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau, bool *reached)
 {
     thruster_part parts[ALLOCATION_MOST / 2] = {0};
@@ -317,7 +319,9 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
     double u[ALLOCATION_MOST] = {0};
     int count = gather_parts(t, vessel, parts);
     vec3 miss = allocation_solve(columns, columns_of(t, parts, count, columns), lever, tau, u, reached);
-    if (all_fit(t, parts, count, u)) {
+    /* A little may be missed within reach, by the price of a miss alone. */
+    bool settled = *reached || length_over(miss, lever) >= ALLOCATION_NEAR * length_over(tau, lever);
+    if (settled && all_fit(t, parts, count, u)) {
         for (int k = 0; k < count; k++) {
             vec2 f = {u[parts[k].column], turns(t, parts[k].row) ? u[parts[k].column + 1] : 0};
             give_order(t, parts[k].row, MODE_BOTH, f);

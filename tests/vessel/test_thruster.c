@@ -389,6 +389,28 @@ START_TEST(a_dear_thruster_is_used_to_its_end)
 }
 END_TEST
 
+/* Tunnels close together, of which a moment takes much: the price of a miss alone leaves 1e-6 of it. */
+START_TEST(what_the_price_of_a_miss_leaves_is_reached)
+{
+    bare_vessel b;
+    bare_vessel_open(&b);
+    thruster_table *t = &b.thrusters;
+    const double tunnels[3][3] = {{12.89, 39.7e3, 6.8e3}, {-16.39, 7.2e3, 4.8e3}, {-16.42, 40.5e3, 13.4e3}};
+    for (int i = 0; i < 3; i++) {
+        add(&b, THRUSTER_TUNNEL, tunnels[i][0], 0, tunnels[i][1], 0);
+        t->astern[i] = tunnels[i][2];
+    }
+    bool reached;
+    double cost;
+    const vec3 tau = {0, 33564, 613636};
+    vec3 miss = thruster_allocate(t, 0, LEVER, tau, &reached);
+    ck_assert(reached);
+    ck_assert(length_of(miss) < 1e-9 * length_of(tau));
+    assert_vec3_close(effect_of_orders(t, &cost), tau, 1e-3);
+    bare_vessel_close(&b);
+}
+END_TEST
+
 /* Around a circle, within reach and beyond it, the thrusts of azimuths go with the demand, as its root where one is
    turned at its limit. */
 START_TEST(small_changes_of_the_demand_are_small_ones_of_the_thrust)
@@ -417,4 +439,5 @@ END_TEST
 TEST_MAIN("thruster", azimuths_turn_at_their_rate, shafts_have_a_rate_and_a_time, astern, the_nearer_edge_of_a_sector,
           nothing_is_gained_by_leaving_a_limit, ruddered_propellers_steer_while_they_hold_astern,
           an_azimuth_at_its_limit_turns_to_what_is_needed, no_other_orders_are_better,
-          a_dear_thruster_is_used_to_its_end, small_changes_of_the_demand_are_small_ones_of_the_thrust)
+          a_dear_thruster_is_used_to_its_end, what_the_price_of_a_miss_leaves_is_reached,
+          small_changes_of_the_demand_are_small_ones_of_the_thrust)
