@@ -91,6 +91,8 @@ double thruster_power(const thruster_table *t, int32_t row)
 #define SOLUTIONS_MOST 64
 /* Of two ways to divide the thrust the second has to be cheaper by this part. */
 #define CHEAPER 1e-9
+/* Larger demands [N] are not shared out, since costs, their squares, would be no numbers. */
+#define DEMAND_MOST 1e100
 /* A thrust lies where it may, to this part of the largest. */
 #define ALLOWED 1e-9
 
@@ -317,6 +319,9 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
     thruster_part parts[ALLOCATION_MOST / 2] = {0};
     allocation_column columns[ALLOCATION_MOST] = {0};
     double u[ALLOCATION_MOST] = {0};
+    *reached = false;
+    if (!(length_over(tau, lever) <= DEMAND_MOST))
+        return tau;
     int count = gather_parts(t, vessel, parts);
     vec3 miss = allocation_solve(columns, columns_of(t, parts, count, columns), lever, tau, u, reached);
     /* A little may be missed within reach, by the price of a miss alone. */

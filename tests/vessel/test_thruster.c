@@ -411,6 +411,30 @@ START_TEST(what_the_price_of_a_miss_leaves_is_reached)
 }
 END_TEST
 
+/* What a controller of senseless gains demands: not met, and no order is lost by it. */
+START_TEST(demands_that_are_no_numbers_leave_the_orders)
+{
+    const double sizes[] = {1e90, 1e160, HUGE_VAL, -HUGE_VAL, NAN};
+    for (layout which = RUDDERS; which < LAYOUTS; which++) {
+        bare_vessel b;
+        thruster_table *t = open_layout(&b, which);
+        for (int k = 0; k < 5; k++) {
+            bool reached;
+            double before, cost;
+            thruster_allocate(t, 0, LEVER, vec3_make(3e4, 1e4, 2e5), &reached);
+            vec3 made = effect_of_orders(t, &before);
+            thruster_allocate(t, 0, LEVER, vec3_make(sizes[k], 1e4, 2e5), &reached);
+            ck_assert_msg(!reached, "layout %d, %g", which, sizes[k]);
+            vec3 now = effect_of_orders(t, &cost);
+            if (k > 0)
+                assert_vec3_close(now, made, 0);
+            ck_assert(k > 0 || now.x > made.x);
+        }
+        bare_vessel_close(&b);
+    }
+}
+END_TEST
+
 /* Around a circle, within reach and beyond it, the thrusts of azimuths go with the demand, as its root where one is
    turned at its limit. */
 START_TEST(small_changes_of_the_demand_are_small_ones_of_the_thrust)
@@ -440,4 +464,4 @@ TEST_MAIN("thruster", azimuths_turn_at_their_rate, shafts_have_a_rate_and_a_time
           nothing_is_gained_by_leaving_a_limit, ruddered_propellers_steer_while_they_hold_astern,
           an_azimuth_at_its_limit_turns_to_what_is_needed, no_other_orders_are_better,
           a_dear_thruster_is_used_to_its_end, what_the_price_of_a_miss_leaves_is_reached,
-          small_changes_of_the_demand_are_small_ones_of_the_thrust)
+          demands_that_are_no_numbers_leave_the_orders, small_changes_of_the_demand_are_small_ones_of_the_thrust)
