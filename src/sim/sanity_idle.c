@@ -176,7 +176,7 @@ static const char CELLS[] = "with ice.source voronoi the cells are the shapes";
 static const char NO_WALLS[] = "domain.boundary is not walls";
 static const char ALONE[] = "there is no other vessel", NO_WASH[] = "wash.active is false";
 static const char DRY[] = "environment.water is false", PRESCRIBED[] = "mode is prescribed";
-static const char HEADING[] = "with positioning.control heading lines hold the place";
+static const char HEADING[] = "positioning.control heading leaves the place to lines";
 static const char BOX[] = "hull.form is box", CONE[] = "hull.form is cone";
 static const char TUNNEL[] = "kind is tunnel", NO_AZIMUTH[] = "kind is not azimuth";
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";

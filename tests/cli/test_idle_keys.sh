@@ -246,7 +246,10 @@ told ship.yaml "vessel.thrusters[1].setting: without effect, since positioning.a
     --set "vessel.thrusters[1].setting=0.5" --set vessel.positioning.active=true
 points="waypoints: [{time: 20, x: 5, y: 2, heading_deg: 30}, {time: 40, x: 9}]"
 sed "s/^  thrusters/  positioning: {active: true, control: heading, $points}\n&/" ship.yaml >points.yaml
-told points.yaml "vessel.positioning.waypoints[0].x and 2 more: without effect, since with positioning.control heading"
+told points.yaml "vessel.positioning.waypoints[0].x and 2 more: without effect, since positioning.control heading"
+# Without lines too: no sentence says that lines hold it.
+sed "/mooring:/,/breaking_load/d" points.yaml >adrift.yaml
+told adrift.yaml "waypoints[0].x and 2 more: without effect|positioning.control heading leaves the place to lines"
 told points.yaml "waypoints: the vessel is not steered there|its heading's deviation counts from them" \
     --set vessel.positioning.active=false
 grep 'positioning.control: without effect' err && fail "what offsets count from goes by the control"
