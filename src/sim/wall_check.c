@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/events_tell.h"
+#include "vessel/plane_motion.h"
 
 #include <math.h>
 
@@ -183,6 +184,16 @@ static bool told_of_place(context *ctx, const scenario *s, const vessel_entry *e
     return !clear;
 }
 
+/* Where lines hold the place the vessel turns there: about amidships, or its turret. */
+static vec2 turned_place(const scenario_vessel *v, double heading)
+{
+    bool turret = v->mooring.turret && v->mooring.lines.count > 0;
+    double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
+    vec3 from = plane_to_global(radians(v->heading_deg), vec3_make(x, y, 0));
+    vec3 to = plane_to_global(heading, vec3_make(x, y, 0));
+    return vec2_make(v->x + from.x - to.x, v->y + from.y - to.y);
+}
+
 static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
 {
     const scenario_vessel *v = e->keys;
@@ -190,9 +201,10 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
     place_list course = {"propulsion.waypoints", v->propulsion.waypoints.count};
     for (int32_t i = 0; v->positioning.active && i < stations.count; i++) {
         const scenario_waypoint *p = &v->positioning.waypoints.data[i];
-        box2 reach = plan_reach(hull, radians(p->heading_deg));
-        /* Where lines hold the place it turns there. */
-        vec2 place = v->positioning.control == CONTROL_HEADING ? vec2_make(v->x, v->y) : vec2_make(p->x, p->y);
+        double heading = radians(p->heading_deg);
+        box2 reach = plan_reach(hull, heading);
+        bool turns = v->positioning.control == CONTROL_HEADING;
+        vec2 place = turns ? turned_place(v, heading) : vec2_make(p->x, p->y);
         if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, place, reach))
             return;
     }

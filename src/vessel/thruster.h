@@ -64,8 +64,8 @@ double thruster_power(const thruster_table *thrusters, int32_t row);
    frame): the cheapest that reach it with each thruster where it can push, otherwise those that miss least.  Of ways
    through different halves of what a ruddered propeller or an azimuth with a forbidden sector can give the better one
    counts, without memory, so that orders may jump with the demand there; of more than five such thrusters not all ways.
-   Returns what is missed; *reached as allocation_solve.  A demand that is no number, or has 100 digits, leaves the orders
-   as they are and is not reached. */
+   Returns what is missed; *reached as allocation_solve.  A demand that is no number, or has 100 digits, leaves the
+   orders as they are and is not reached. */
 vec3 thruster_allocate(thruster_table *thrusters, int32_t vessel, double lever, vec3 tau, bool *reached);
 
 /* One step: failures that are due (an event each), shafts and angles follow their orders, thrusts are added to
