@@ -18,7 +18,8 @@ static bool is_populated(const scenario_ice *i)
 /* Of no ice. */
 static const ice_range no_range = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
 
-ice_range ice_range_of(const scenario_ice *i)
+/* By keys. */
+static ice_range ice_range_of(const scenario_ice *i)
 {
     const ice_kind own = {i->thickness, i->flexural_strength, i->crushing_strength};
     ice_range r = no_range;

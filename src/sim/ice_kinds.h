@@ -11,16 +11,15 @@ typedef struct ice_kind {
     double thickness, flexural_strength, crushing_strength; /* [m], [Pa] */
 } ice_kind;
 
-/* Of all ice that the scenario makes the thinnest and the thickest kind. */
+/* The thinnest and the thickest kind of ice. */
 typedef struct ice_range {
     ice_kind thinnest, thickest;
 } ice_range;
-ice_range ice_range_of(const scenario_ice *i);
-/* Whether any of it, and all of it, may break. */
+/* Whether any ice of the scenario, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);
 bool ice_all_breaks(const scenario_ice *i);
-/* The same, but of the floes that were made where they are a file's.  made: the world of the scenario before its first
-   step; NULL: there is none, and all goes by keys. */
+/* Of all ice that the scenario makes; of floes of a file by those that were made.  made: the world of the scenario
+   before its first step; NULL: there is none, and all goes by keys. */
 ice_range ice_range_made(const scenario_ice *i, const world *made);
 /* With the rest of what all ice has in common. */
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k);

@@ -11,7 +11,7 @@ typedef struct told_list {
     const char *comma;
 } told_list;
 
-static void add_name(told_list *l, const char *name)
+static void add_told(told_list *l, const char *name)
 {
     text_format(l->ctx, l->out, "%s\"%s\"", l->comma, name);
     l->comma = ", ";
@@ -28,7 +28,7 @@ static void add_flow(told_list *l, const world *w, input_kind kind, const char *
         char full[32];
         snprintf(full, sizeof full, "%s_%c", name, "xyz"[axis]);
         if (told[axis] != 0)
-            add_name(l, full);
+            add_told(l, full);
     }
 }
 
@@ -93,10 +93,10 @@ void run_told_add(context *ctx, const scenario *s, const world *w, text_buffer *
     for (int32_t v = 0; v < scenario_vessel_count(s) && v < w->vessels.count; v++) {
         const scenario_vessel *keys = scenario_vessel_entry(s, v).keys;
         if (input_find(&w->inputs, INPUT_FORCE, v) >= 0)
-            add_name(&l, vessel_channel_name(s, v, "outside_force").text);
+            add_told(&l, vessel_channel_name(s, v, "outside_force").text);
         if (!path_is_given(keys, w, v))
-            add_name(&l, vessel_channel_name(s, v, path_name(keys, w, v)).text);
+            add_told(&l, vessel_channel_name(s, v, path_name(keys, w, v)).text);
         else if (!velocity_is_given(keys, w, v))
-            add_name(&l, vessel_channel_name(s, v, "tow_velocity").text);
+            add_told(&l, vessel_channel_name(s, v, "tow_velocity").text);
     }
 }

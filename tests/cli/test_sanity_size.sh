@@ -46,7 +46,7 @@ told drive.yaml "vessel.propulsion.open_water_speed: 8 m/s is 1.61 times the roo
 told towed.yaml "vessel.speed: 6 m/s is 1.2 times the root" --set vessel.speed=6
 
 # A hull's file in millimetres reaches into the walls, and no mass fits it: its unit is told before that is refused.
-"$FRAM" hull --length 40 --beam 10 --draught 4 --box -o metres.obj >hull
+"$FRAM" hull --length 40 --beam 10 --draught 4 --box -o metres.obj >told
 awk '$1 == "v" { print "v", 1000 * $2, 1000 * $3, 1000 * $4; next } 1' metres.obj >mm.obj
 printf '%s\n' 'vessel: {hull: {form: file, file: mm.obj}}' >mm.yaml
 for options in domain.boundary=walls vessel.mass=1.6e6; do
