@@ -22,6 +22,14 @@ static box2 plan_reach(const vessel_model *hull, double heading)
     return out;
 }
 
+/* The same from the ship's origin, by which places are given. */
+static box2 reach_about_origin(const vessel_model *hull, double heading)
+{
+    vec3 off = plane_to_global(heading, vec3_make(hull->centre.x, hull->centre.y, 0));
+    box2 reach = plan_reach(hull, heading);
+    return (box2){{reach.lo.x + off.x, reach.lo.y + off.y}, {reach.hi.x + off.x, reach.hi.y + off.y}};
+}
+
 static bool is_clear(box2 domain, vec2 centre, box2 reach)
 {
     return centre.x + reach.lo.x >= domain.lo.x && centre.x + reach.hi.x <= domain.hi.x &&
@@ -184,6 +192,9 @@ static bool told_of_place(context *ctx, const scenario *s, const vessel_entry *e
     return !clear;
 }
 
+/* To the micrometre, so that 0 is told as such. */
+static double rounded(double x) { return floor(1e6 * x + 0.5) / 1e6; }
+
 /* Where lines hold the place the vessel turns there: about amidships, or its turret. */
 static vec2 turned_place(const scenario_vessel *v, double heading)
 {
@@ -191,7 +202,7 @@ static vec2 turned_place(const scenario_vessel *v, double heading)
     double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
     vec3 from = plane_to_global(radians(v->heading_deg), vec3_make(x, y, 0));
     vec3 to = plane_to_global(heading, vec3_make(x, y, 0));
-    return vec2_make(v->x + from.x - to.x, v->y + from.y - to.y);
+    return vec2_make(rounded(v->x + from.x - to.x), rounded(v->y + from.y - to.y));
 }
 
 static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
@@ -202,7 +213,7 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
     for (int32_t i = 0; v->positioning.active && i < stations.count; i++) {
         const scenario_waypoint *p = &v->positioning.waypoints.data[i];
         double heading = radians(p->heading_deg);
-        box2 reach = plan_reach(hull, heading);
+        box2 reach = reach_about_origin(hull, heading);
         bool turns = v->positioning.control == CONTROL_HEADING;
         vec2 place = turns ? turned_place(v, heading) : vec2_make(p->x, p->y);
         if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, place, reach))

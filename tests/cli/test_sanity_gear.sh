@@ -123,14 +123,14 @@ grep 'waypoints' err && fail "a way point of the end is told"
 told late.yaml "vessel.positioning.waypoints: the vessel is not steered there, since positioning.active is false" \
     --set vessel.positioning.active=false
 grep 'waypoints: without effect' err && fail "way points that the offset counts from are told to be idle"
-# On a turret the ship turns about that: to 70 m ahead of where it lay.
+# On a turret the ship turns about that: to 70 m ahead of where it lay, 44 m long to both sides of amidships.
 turns='positioning: {active: true, control: heading, waypoints: [{time: 60, heading_deg: 180}]}'
 sed "s/^  thrusters.*/&\n  $turns/; s/feeding/walls/" ship.yaml >turned.yaml
 forward=(--set vessel.mooring.turret=true --set vessel.mooring.x=35)
 told turned.yaml "vessel.positioning.waypoints[0]: at (70, 0) m the hull stands in a wall" "${forward[@]}" \
-    --set domain.x_max=100
-for options in domain.x_max=115 vessel.mooring.turret=false; do
-    expect 0 "$FRAM" check turned.yaml "${forward[@]}" --set domain.x_max=100 --set "$options"
+    --set domain.x_max=112
+for options in domain.x_max=116 vessel.mooring.turret=false; do
+    expect 0 "$FRAM" check turned.yaml "${forward[@]}" --set domain.x_max=112 --set "$options"
     grep 'stands in a wall' err && fail "a ship that turns beside the wall is told: $options"
 done
 sed '/thrusters:/d' late.yaml >towed.yaml

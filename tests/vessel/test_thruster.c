@@ -389,7 +389,7 @@ START_TEST(a_dear_thruster_is_used_to_its_end)
 }
 END_TEST
 
-/* Tunnels close together, of which a moment takes much: the price of a miss alone leaves 1e-6 of it. */
+/* Tunnels close together turn the vessel with large thrusts: the price of a miss alone leaves some 1e-6 of it. */
 START_TEST(what_the_price_of_a_miss_leaves_is_reached)
 {
     bare_vessel b;
@@ -400,9 +400,11 @@ START_TEST(what_the_price_of_a_miss_leaves_is_reached)
         add(&b, THRUSTER_TUNNEL, tunnels[i][0], 0, tunnels[i][1], 0);
         t->astern[i] = tunnels[i][2];
     }
+    /* The foremost one gives all it can, so that the two others, 30 mm apart, push against each other. */
+    t->order[0] = 39.7e3, t->order[1] = 7e3, t->order[2] = -13e3;
     bool reached;
     double cost;
-    const vec3 tau = {0, 33564, 613636};
+    const vec3 tau = effect_of_orders(t, &cost);
     vec3 miss = thruster_allocate(t, 0, LEVER, tau, &reached);
     ck_assert(reached);
     ck_assert(length_of(miss) < 1e-9 * length_of(tau));
@@ -414,7 +416,7 @@ END_TEST
 /* What a controller of senseless gains demands: not met, and no order is lost by it. */
 START_TEST(demands_that_are_no_numbers_leave_the_orders)
 {
-    const double sizes[] = {1e90, 1e160, HUGE_VAL, -HUGE_VAL, NAN};
+    const double sizes[] = {1e90, 1e160, HUGE_VAL, -HUGE_VAL, (double)NAN};
     for (layout which = RUDDERS; which < LAYOUTS; which++) {
         bare_vessel b;
         thruster_table *t = open_layout(&b, which);
