@@ -3,8 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Part of a time: far less than a step, and more than the last digits of a file. */
-#define TIME_SLACK 1e-9
+/* Part of a time: more than the last of the 12 digits of a series, half of which is 5e-12 at most, and far less than a
+   step also where times are seconds since 1970 (1.7e9). */
+#define TIME_SLACK 1e-11
 
 bool time_is_after(double time, double from) { return from == 0 ? time >= 0 : time - from > TIME_SLACK * fabs(time); }
 

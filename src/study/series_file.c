@@ -17,6 +17,8 @@
 
 /* Times may miss their places by this part of a step: files have few digits. */
 #define STEP_TOLERANCE 0.05
+/* And by this part of themselves: the last of the 12 digits of a series. */
+#define LAST_DIGIT 1e-11
 
 /* ---- a CSV file, in which some cells are texts ---- */
 
@@ -367,7 +369,7 @@ static fram_status check_times(context *ctx, const char *path, const series_rows
     if (!(own > 0))
         return error_set(error, FRAM_ERROR_INPUT, path, 2, "time", "expected rising times, in seconds");
     for (int32_t i = 0; i < n; i++) {
-        if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + 1e-9 * fabs(time->data[i]))
+        if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + LAST_DIGIT * fabs(time->data[i]))
             continue;
         return refuse_times(ctx, path, rows, i, own, error);
     }

@@ -31,6 +31,7 @@ END_TEST
 START_TEST(rows_after_a_time)
 {
     ck_assert(time_is_after(5.05, 5) && !time_is_after(5, 5) && !time_is_after(5 * (1 + 1e-12), 5));
+    ck_assert(time_is_after(1.7e9 + 0.1, 1.7e9) && !time_is_after(1.7e9 * (1 + 5e-12), 1.7e9));
     ck_assert(time_is_after(0, 0) && !time_is_after(-1, 0) && !time_is_after(-5, -5) && time_is_after(-4, -5));
     ck_assert(time_is_after(-1e9, -HUGE_VAL) && !time_is_after(1e9, HUGE_VAL));
 }

@@ -128,6 +128,12 @@ class Statistics(unittest.TestCase):
         file = self.write(" time[s],\t x [kN]\n" + "".join(f"{i / 10},{i * 7919 % 100}\n" for i in range(-200, 100)))
         for words, values in (((), 300), (("--from", "-5"), 149), (("--from", "0"), 100)):
             self.assertEqual(self.fram("fatigue", file, "--channel", "x", *words)["series"]["values"], values)
+        # Seconds since 1970 too, among which a row that is left out is noticed.
+        rows = [f"{1700000000 + i / 10:.1f},{i * 7919 % 100}\n" for i in range(100)]
+        file = self.write("time,x\n" + "".join(rows))
+        self.assertEqual(self.fram("fatigue", file, "--channel", "x", "--from", "1700000000")["series"]["values"], 99)
+        self.write("time,x\n" + "".join(rows[:50] + rows[51:]))
+        self.refused(("fatigue", file, "--channel", "x"), "series.csv:52:", "found one of 0.2 s")
 
     def test_a_realization_counts_once(self):
         file = self.write("time,x\n" + "".join(f"{i},{i * 7919 % 100}\n" for i in range(100)))
