@@ -273,6 +273,21 @@ static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, 
     return strncmp(name, own.text, strlen(own.text)) == 0;
 }
 
+/* Whether a line was let go while rows went on that count: by an event, whose time is that of the row before, in which
+   the line has its tension still; or by the channel, where there may be events that nothing tells. */
+static bool lines_were_let_go(const run_data *d, int32_t vessel, double from)
+{
+    const double *time = run_channel(d, "time"), *gone = run_vessel_channel(d, vessel, "lines_parted");
+    int32_t first = 0, last = d->series.rows - 1;
+    while (time && first <= last && !time_is_after(time[first], from))
+        first++;
+    if (!time || first > last)
+        return false;
+    double begin = time[first] - 0.5 * d->s.run.time_step;
+    return run_event_from(d, vessel, EVENT_LINE_RELEASE, begin) < HUGE_VAL ||
+           (run_lacks_events(d) && gone && gone[last] > gone[first]);
+}
+
 /* Notes lines that parted, where the channel is one of a vessel's line tensions or its offset, and that were let go
    after what is left out. */
 static void note_lines(const run_data *d, const series_source *source, series_data *out)
@@ -284,10 +299,8 @@ static void note_lines(const run_data *d, const series_source *source, series_da
         if (!out->offset && !tension)
             continue;
         bool parted = run_lines_broken(d, v) > 0;
-        /* One that is let go as the run begins is in no row of it. */
-        bool let_go = run_event_from(d, v, EVENT_LINE_RELEASE, fmax(from, d->s.run.time_step)) < HUGE_VAL;
         out->parted += parted;
-        out->fewer += parted || let_go;
+        out->fewer += parted || lines_were_let_go(d, v, from);
         return;
     }
 }

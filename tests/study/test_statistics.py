@@ -44,6 +44,18 @@ ice: {source: floes, floes: [{x: 14, length: 6, width: 6}]}
 domain: {x_min: -60, x_max: 60, y_min: -60, y_max: 60, boundary: open}
 """
 
+MOORED = """run: {duration: 0.6, time_step: 0.1, transient: 0}
+vessel:
+  mode: free
+  hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}
+  mooring:
+    depth: 50
+    lines: [{kind: spring, count: 4, spacing_deg: 90, distance: 200, pretension: 5.0e+4, stiffness: 1.0e+5,
+             release_time: 0.1}]
+ice: {source: none}
+domain: {x_min: -60, x_max: 60, y_min: -60, y_max: 60, boundary: open}
+"""
+
 
 class Statistics(unittest.TestCase):
     def setUp(self):
@@ -253,6 +265,22 @@ class Statistics(unittest.TestCase):
         self.write("a,b\n1,2\n", "run/series.csv")
         for words in (("fatigue", run), ("report", run, "-o", self.at / "page.html"), ("compare", run, run)):
             self.refused(words, "series.csv:1:", "without the column time[s]")
+
+    def test_lines_that_are_let_go_are_told(self):
+        # They have their tension in the row of that time, of which a run that was killed tells no event.
+        scene = self.write(MOORED, "moored.yaml")
+        for release, told in ((0.1, True), (0, False)):
+            run = self.at / f"moored-{release}"
+            self.fram("run", scene, "-o", run, "--quiet", "--set", f"vessel.mooring.lines[0].release_time={release}")
+            note = json.loads((run / "run.json").read_text())
+            self.assertEqual(len(note["events"]), 4)
+            for changes in ({}, {"status": "running", "events": []}, {"events": [], "events_left_out": 4}):
+                (run / "run.json").write_text(json.dumps({**note, **changes}))
+                for begin in (0, 0.1):
+                    done = subprocess.run([FRAM, "fatigue", run, "--channel", "line_1_tension", "--from", str(begin)],
+                                          capture_output=True, text=True, check=True)
+                    self.assertEqual("were let go in 1 of 1 runs" in done.stderr, told and begin == 0,
+                                     (release, changes, begin, done.stderr))
 
     def refused(self, words, *said):
         error = self.fram(*words, code=2)["error"]
