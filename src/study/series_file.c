@@ -72,6 +72,11 @@ static int find_head(const csv_want *head, const char *line, const char *name, b
     int at = 0, found = NO_HEAD;
     unit[0] = '\0';
     const char *header = line + utf8_mark(line, strlen(line));
+    if (must && *header == '#') {
+        error_set(error, FRAM_ERROR_INPUT, head->path, 1, name,
+                  "expected the names of the columns, found a comment: comments stand behind the header");
+        return NO_HEAD;
+    }
     for (const char *c = header; c; at++) {
         c = csv_cell_next(head->ctx, c, head->cell);
         char *text = head->cell->text.data;
@@ -89,13 +94,12 @@ static int find_head(const csv_want *head, const char *line, const char *name, b
         if (search.found)
             snprintf(near, sizeof near, "%s", text);
     }
-    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = *near && !other_marks && *header != '#';
+    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = *near && !other_marks;
     if (must && found < 0)
         error_set(error, FRAM_ERROR_INPUT, head->path, 1, name, "the file has no column of this name%s%s%s",
-                  other_marks      ? "; columns are divided by commas"
-                  : *header == '#' ? "; comments stand behind the header"
-                  : *near          ? "; did you mean "
-                                   : "",
+                  other_marks ? "; columns are divided by commas"
+                  : *near     ? "; did you mean "
+                              : "",
                   guess ? near : "", guess ? "?" : "");
     return found;
 }

@@ -294,6 +294,8 @@ class Statistics(unittest.TestCase):
         first = self.write("# T of a tank\ntime[s],T[N]\n0,1\n1,2\n", "first.csv")
         self.refused(("extremes", first, "--channel", "T"), "first.csv:1: T:", "comments stand behind the header")
         self.refused(("extremes", file, "--channel", "zzz"), "the file has no column of this name")
+        first = self.write("# by a tank, T[kN]\ntime[s],T[N]\n0,1\n1,2\n", "first.csv")
+        self.refused(("extremes", first, "--channel", "T"), "first.csv:1: T:", "comments stand behind the header")
         self.refused(("extremes", file), "channel")
         self.refused(("extremes", str(file) + "-not-there"), "series.csv-not-there")
         self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
