@@ -1,5 +1,6 @@
 #include "io/yaml_indent.h"
 #include "base/text.h"
+#include "io/utf8.h"
 
 #include <string.h>
 
@@ -20,35 +21,75 @@ typedef struct indentation {
     int32_t level[LEVELS_MOST], levels; /* columns at which blocks stand open */
     yaml_line last;
     int32_t bracket_line, bracket_column, brackets; /* the first one that is open, how many */
+    char quote;                                     /* the one that is open, or 0 */
+    bool begins, ended;                             /* a value may begin here; one in quotes or brackets just ended */
     yaml_blame *out;
 } indentation;
+
+static bool parts_words(char c) { return c == ' ' || c == '\t'; }
+
+/* Takes the character at *i, in quotes; behind both of a pair that stands for one within them. */
+static void take_quoted(indentation *r, const char *text, size_t size, size_t *i)
+{
+    bool pair = r->quote == '"' ? text[*i] == '\\' : *i + 1 < size && text[*i] == '\'' && text[*i + 1] == '\'';
+    if (pair) {
+        (*i)++;
+    } else if (text[*i] == r->quote) {
+        r->quote = 0;
+        r->ended = true;
+    }
+}
+
+/* Takes the character at i, which is no blank and not in quotes.  One of a plain text is only that, "run [1 of 2". */
+static void take_plain(indentation *r, const char *text, size_t size, size_t i, int32_t number)
+{
+    char c = text[i];
+    bool begins = r->begins, ended = r->ended, last = i + 1 == size || parts_words(text[i + 1]);
+    r->begins = r->ended = false;
+    if (c == '"' || c == '\'')
+        r->quote = begins ? c : '\0';
+    if ((c == '[' || c == '{') && (begins || r->brackets > 0)) {
+        if (r->brackets++ == 0) {
+            r->bracket_line = number;
+            r->bracket_column = (int32_t)i + 1;
+        }
+        r->begins = true;
+    }
+    if ((c == ']' || c == '}') && r->brackets > 0) {
+        r->brackets--;
+        r->ended = true;
+    }
+    if (c == ':')
+        r->begins = last || ended;
+    if (c == ',')
+        r->begins = r->brackets > 0;
+    if (c == '-' || c == '?')
+        r->begins = begins && last;
+}
 
 /* Brackets and comments of a line: returns its length without the comment. */
 static size_t scan(indentation *r, const char *text, size_t size, int32_t number)
 {
-    char quote = 0;
-    for (size_t i = 0; i < size; i++) {
-        char c = text[i];
-        if (quote) {
-            if (c == '\\' && quote == '"')
-                i++;
-            else if (c == quote)
-                quote = 0;
+    size_t i = number == 1 ? utf8_mark(text, size) : 0;
+    if (r->brackets == 0) {
+        r->quote = '\0';
+        r->begins = true;
+        r->ended = false;
+    }
+    if (size > i + 3 && strncmp(text + i, "---", 3) == 0 && parts_words(text[i + 3]))
+        i += 3; /* the mark of a document */
+    for (; i < size; i++) {
+        if (r->quote) {
+            take_quoted(r, text, size, &i);
             continue;
         }
-        bool parted = i == 0 || text[i - 1] == ' ';
-        if (c == '#' && parted)
+        if (text[i] == '#' && (i == 0 || parts_words(text[i - 1])))
             return i;
-        if ((c == '"' || c == '\'') && (parted || strchr("[{,:", text[i - 1])))
-            quote = c;
-        if (c == '[' || c == '{') {
-            if (r->brackets++ == 0) {
-                r->bracket_line = number;
-                r->bracket_column = (int32_t)i + 1;
-            }
-        }
-        if ((c == ']' || c == '}') && r->brackets > 0)
-            r->brackets--;
+        if (r->begins && (text[i] == '&' || text[i] == '!')) /* a name or a kind before the value */
+            while (i + 1 < size && !parts_words(text[i + 1]) && !strchr(r->brackets > 0 ? ",[]{}" : "", text[i + 1]))
+                i++;
+        else if (!parts_words(text[i]))
+            take_plain(r, text, size, i, number);
     }
     return size;
 }
@@ -57,12 +98,14 @@ static bool next_yaml_line(indentation *r, yaml_line *out)
 {
     if (r->at >= r->end)
         return false;
-    const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
-    size_t size = (size_t)((stop ? stop : r->end) - r->at);
+    const char *stop = r->at;
+    while (stop < r->end && *stop != '\n' && *stop != '\r')
+        stop++;
+    size_t size = (size_t)(stop - r->at);
     *out = (yaml_line){.number = ++r->number, .text = r->at};
-    r->at += size + (stop ? 1 : 0);
+    r->at = stop + (r->end - stop > 1 && stop[0] == '\r' && stop[1] == '\n' ? 2 : stop < r->end);
     size = scan(r, out->text, size, out->number);
-    while (size > 0 && strchr(" \t\r", out->text[size - 1]))
+    while (size > 0 && strchr(" \t", out->text[size - 1]))
         size--;
     out->size = size;
     while ((size_t)out->indent < size && out->text[out->indent] == ' ')
