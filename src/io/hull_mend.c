@@ -89,28 +89,33 @@ static const char *advice_for(const hull_reading *r, mesh_defect defect)
                  "file";
 }
 
-/* The corner of a face that is not in the edge; -1 where the face does not have that edge. */
-static int32_t corner_off(const mesh *m, int32_t face, const int32_t edge[2])
+/* The corner of a face that is not in its edge from a to b; -1 where the face does not run along that. */
+static int32_t corner_off(const mesh *m, int32_t face, int32_t a, int32_t b)
 {
     const int32_t *v = m->face.data[face].v;
-    for (int k = 0; k < 3; k++) {
-        int32_t a = v[k], b = v[(k + 1) % 3];
-        if ((a == edge[0] && b == edge[1]) || (a == edge[1] && b == edge[0]))
+    for (int k = 0; k < 3; k++)
+        if (v[k] == a && v[(k + 1) % 3] == b)
             return v[(k + 2) % 3];
-    }
     return -1;
 }
 
-/* Two faces at the edge that have the same corners. */
-static bool find_twins(const mesh *m, const int32_t edge[2], int32_t twin[2])
+/* Two faces along the edge from a to b that have the same corners. */
+static bool find_twins_along(const mesh *m, int32_t a, int32_t b, int32_t twin[2])
 {
     for (twin[0] = 0; twin[0] < m->face.count; twin[0]++) {
-        int32_t off = corner_off(m, twin[0], edge);
+        int32_t off = corner_off(m, twin[0], a, b);
         for (twin[1] = twin[0] + 1; off >= 0 && twin[1] < m->face.count; twin[1]++)
-            if (corner_off(m, twin[1], edge) == off)
+            if (corner_off(m, twin[1], a, b) == off)
                 return true;
     }
     return false;
+}
+
+/* Those that turn unlike are no twins but the two sides of a wall or deck, and with one of them that would still be
+   there. */
+static bool find_twins(const mesh *m, const int32_t edge[2], int32_t twin[2])
+{
+    return find_twins_along(m, edge[0], edge[1], twin) || find_twins_along(m, edge[1], edge[0], twin);
 }
 
 static fram_status refuse_report(hull_reading *r, const mesh_report *report)

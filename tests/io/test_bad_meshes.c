@@ -68,6 +68,9 @@ static const bad_mesh bad[] = {
     {"flat.obj", OBJ_POINTS "v 0.5 0.5 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n", 10, "face 5", "has no area"},
     {"inner_wall.obj", OBJ_CUBE OBJ_LAST "f 1 3 7 5\n", 15, "face 7", "has one triangle"},
     {"twice.obj", OBJ_CUBE OBJ_LAST OBJ_LAST, 14, "face 6", "it has the corners of face 7; leave one of the two out"},
+    /* The two sides of a deck have the same corners too; to leave out one of them would leave the deck. */
+    {"deck.obj", OBJ_CUBE OBJ_LAST "f 1 3 7\nf 1 7 5\nf 7 3 1\nf 5 7 1\n", 10, "face 2",
+     "remove inner walls, decks and lids"},
     {"two_cubes_on_an_edge.obj",
      OBJ_CUBE OBJ_LAST "v 2 1 0\nv 2 2 0\nv 1 2 0\nv 2 1 1\nv 2 2 1\nv 1 2 1\n"
                        "f 11 10 9 3\nf 7 12 13 14\nf 3 9 12 7\nf 9 10 13 12\nf 10 11 14 13\nf 11 3 7 14\n",
