@@ -11,6 +11,7 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
 
@@ -338,6 +339,26 @@ def check_late(folder):
     assert "did not hold its station" in page and "as far as the run went" not in page
 
 
+def check_late_frames(folder):
+    """The first frame tells when a recording began, however far apart rows are; without it the next one is that."""
+    run = folder / "water"
+    scenario, series, record = run / "scenario.yaml", run / "series.csv", run / "record.fram"
+    scenario.write_text(re.sub("csv_interval: 0 ", "csv_interval: 1.8 ", scenario.read_text()))
+    head, *rows = series.read_text().splitlines()
+    series.write_text("\n".join([head, *(row for row in rows if float(row.split(",")[0]) >= 1.79)]) + "\n")
+    for told in (False, True):
+        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        page = (run / "report.html").read_text()
+        assert ("recorded from 1 to 2 s of 2; Fram" in page) == told, re.search("<p.*Fram.*", page)
+        data, block = record.read_bytes(), (24, 24)
+        while True:
+            kind, length = struct.unpack_from("4xIQ", data, block[1])
+            block = (block[1], block[1] + 24 + (length + 7) // 8 * 8)
+            if kind == 15:
+                break
+        record.write_bytes(data[:block[0]] + data[block[1]:])
+
+
 FLOES = """
 run: {duration: 0.02, time_step: 0.02}
 vessel: {mode: towed, x: -30, speed: 1, %s}
@@ -387,6 +408,7 @@ def main():
             said.append(f"{name}: {check(name, run, pictures):g} %")
         check_times(pathlib.Path(folder))
         check_water(pathlib.Path(folder), pictures)
+        check_late_frames(pathlib.Path(folder))
         check_loose(pathlib.Path(folder))
         check_ice(pathlib.Path(folder))
         check_late(pathlib.Path(folder))
