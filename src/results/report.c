@@ -265,7 +265,8 @@ static void scenario_table(report *r)
         html_fact(&r->page, "over depth", "plus the profile %s", file_told(r, e->current_profile_file));
     flow_fact(r, "wind", e->wind_file, e->wind_speed, e->wind_direction_deg);
     if (r->d.note.told.count > 0)
-        html_fact(&r->page, "told by a program", "%s; the rows above are the scenario's", r->d.note.told.data);
+        html_fact(&r->page, "told by a program", "the rows above are the scenario's, in place of which were %s",
+                  r->d.note.told.data);
     html_fact(&r->page, "run", "%g s in steps of %g s, seed %lld", s->run.duration, s->run.time_step,
               (long long)s->run.seed);
     html_table_end(&r->page);

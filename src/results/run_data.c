@@ -120,19 +120,25 @@ static fram_status read_inputs(context *ctx, json_walk *w, run_note *n, fram_err
     return status == FRAM_OK && n->inputs.failed ? error_memory(error) : status;
 }
 
+/* So many names of what a program told fit in a cell of a page. */
+enum { TOLD_MOST = 16 };
+
 static fram_status read_told(context *ctx, json_walk *w, run_note *n, fram_error *error)
 {
     bool more = true;
+    int count = 0;
     fram_status status = json_walk_enter(w, JSON_ARRAY, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    for (; status == FRAM_OK; count++) {
         char name[VESSEL_NAME_MOST + 48];
-        status = json_walk_element(w, first, &more, error);
+        status = json_walk_element(w, count == 0, &more, error);
         if (status != FRAM_OK || !more)
             break;
         status = json_walk_text(w, name, sizeof name, error);
-        if (status == FRAM_OK)
-            text_format(ctx, &n->told, "%s%s", first ? "" : ", ", name);
+        if (status == FRAM_OK && count < TOLD_MOST)
+            text_format(ctx, &n->told, "%s%s", count == 0 ? "" : ", ", name);
     }
+    if (count > TOLD_MOST)
+        text_format(ctx, &n->told, " and %d more", count - TOLD_MOST);
     return status == FRAM_OK && n->told.failed ? error_memory(error) : status;
 }
 

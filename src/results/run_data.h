@@ -32,7 +32,7 @@ typedef struct run_note {
     double step_median, step_p99, step_p999, step_longest; /* wall time [ms]; 0: not told */
     ARRAY(run_event) events;
     ARRAY(run_track) tracks;
-    text_buffer told;   /* names of what a program told the world in place of the scenario, "wind_x, path"; or none */
+    text_buffer told;   /* names of what a program told the world in place of the scenario, "wind_x, path and 2 more" */
     text_buffer inputs; /* SHA-256 of the files that the scenario names, one after the other */
 } run_note;
 

@@ -285,7 +285,8 @@ def check_water(folder, pictures):
     note = json.loads((run / "run.json").read_text())
     message = "what went wrong takes many words, " * 14 + "and the last ones say what to do"
     assert 480 < len(message) < 512
-    (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message}, indent=2))
+    told = [f"ship_{i}.applied_force_x_of_a_long_name" for i in range(200)]
+    (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message, "told": told}, indent=2))
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
     assert message in page, page[page.index("The run failed"):][:600]
@@ -293,6 +294,8 @@ def check_water(folder, pictures):
     tables = Tables()
     tables.feed(page)
     assert tables.rows["contact points"] == ["0"] * 5, tables.rows["contact points"]
+    assert tables.rows["told by a program"] == [
+        f"the rows above are the scenario's, in place of which were {', '.join(told[:16])} and 184 more"]
     if pictures:
         assert 'alt="Position"' in page
         for chart in ("Histogram of the load", "Exceedance of the load", "Roll and pitch"):
