@@ -45,7 +45,7 @@ typedef struct fram_field_definition {
     double smallest_area; /* smaller floes and cut pieces are left out [m2]; default 0 */
     bool degrees;         /* the file holds longitudes and latitudes (WGS 84), which are laid flat about the centre of
                              all rings; that goes to `offset`, with y to the north; scale must be 1; default false */
-    bool lengths;         /* the file holds lengths, even if they look like degrees, as those of small floes 40 to 90 m
+    bool lengths;         /* the file holds lengths, even if they look like degrees, as those of small floes 37 to 90 m
                              from the origin of a tank; default false: such a file is refused with scale 1 */
 } fram_field_definition;
 FRAM_API void fram_field_default(fram_field_definition *definition, size_t size);

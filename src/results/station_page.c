@@ -36,7 +36,7 @@ static void describe(context *ctx, const station_data *d, text_buffer *b)
     const scenario *s = d->s;
     double transient = s->run.transient;
     if (station_first_row(d, transient) == d->rows) {
-        text_format(ctx, b, "Nothing was measured: series.csv has no row from %g s on.\n", transient);
+        text_format(ctx, b, "Nothing was measured: series.csv has no row after %g s.\n", transient);
         describe_events(ctx, d, b);
         return;
     }
