@@ -1,5 +1,5 @@
-/* A column of anybody's CSV file, in which some cells are texts.  Knows the file; must not know runs, nor what the
-   steps between its rows have to be. */
+/* A column of anybody's CSV file, in which some cells are texts. One module with series_file, one of whose sources it
+   is. Knows the file; must not know runs, nor what the steps between its rows have to be. */
 #ifndef STUDY_SERIES_CSV_H
 #define STUDY_SERIES_CSV_H
 
