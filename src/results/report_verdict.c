@@ -294,7 +294,8 @@ static fram_status judge_load(verdict *v, fram_error *error)
     if (!time || rows < 2 || first >= r->load.count)
         return FRAM_OK;
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
-    double span = time[first + rows - 1] - time[first];
+    /* Each value stands for a step. */
+    double step = (time[first + rows - 1] - time[first]) / (rows - 1), span = step * rows;
     char name[48], mean[40], most[40], remedy[TEXT_SIZE], needed[32];
     whose(r, name);
     force(s.mean, mean);
@@ -304,7 +305,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
     if (!(s.greatest > 0))
         return judge_no_load(v, name, error);
     load_distribution d;
-    if (!load_distribution_of(r->ctx, r->load.data + first, rows, span / (rows - 1), &d)) {
+    if (!load_distribution_of(r->ctx, r->load.data + first, rows, step, &d)) {
         load_distribution_free(r->ctx, &d);
         return error_memory(error);
     }
