@@ -42,6 +42,21 @@ static void assert_refused(const char *text, size_t size, int line, const char *
 }
 #define ASSERT_REFUSED(text, line, words) assert_refused((text), sizeof(text) - 1, (line), (words))
 
+/* The text is taken: at 0.25 s there is 1 N, at 0.5 s -2500. */
+static void assert_two_rows(const char *text, size_t size)
+{
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_msg(read_text(text, size, columns, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(columns[0].count, 2);
+    ck_assert_int_eq(columns[1].count, 2);
+    assert_bits(columns[0].data[0], 0.25);
+    assert_bits(columns[0].data[1], 0.5);
+    assert_bits(columns[1].data[0], 1);
+    assert_bits(columns[1].data[1], -2500);
+    free_columns(columns);
+}
+
 START_TEST(columns_are_found_by_name_in_any_order)
 {
     static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5,\n"; /* a comma at the end is none */
@@ -60,14 +75,7 @@ END_TEST
 START_TEST(ends_of_lines_do_not_matter)
 {
     static const char text[] = "\xef\xbb\xbftime,force [N]\r\n0.25,1\r\n0.5,-2500";
-    double_array columns[COLUMNS] = {0};
-    fram_error error;
-    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
-    ck_assert_int_eq(columns[0].count, 2);
-    ck_assert_int_eq(columns[1].count, 2);
-    assert_bits(columns[0].data[0], 0.25);
-    assert_bits(columns[1].data[1], -2500);
-    free_columns(columns);
+    assert_two_rows(text, sizeof text - 1);
 }
 END_TEST
 
@@ -75,15 +83,7 @@ END_TEST
 START_TEST(blanks_do_not_matter)
 {
     static const char text[] = "time[s] , force[N]\n 0.25 ,\t1 \n\n0.5\t, -2500\n  \r\n\n";
-    double_array columns[COLUMNS] = {0};
-    fram_error error;
-    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
-    ck_assert_int_eq(columns[0].count, 2);
-    ck_assert_int_eq(columns[1].count, 2);
-    assert_bits(columns[0].data[0], 0.25);
-    assert_bits(columns[1].data[0], 1);
-    assert_bits(columns[1].data[1], -2500);
-    free_columns(columns);
+    assert_two_rows(text, sizeof text - 1);
 }
 END_TEST
 
@@ -93,15 +93,7 @@ START_TEST(other_columns_may_hold_anything)
     static const char text[] = "date,\"note, by hand\",time[s],gust,force[N],end\n"
                                "2026-01-01 00:00,\"calm, 1\"\" of ice\" ,0.25,,1,\n"
                                "2026-01-01 00:15,5\" of ice,0.5,nan,-2500,x\n";
-    double_array columns[COLUMNS] = {0};
-    fram_error error;
-    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
-    ck_assert_int_eq(columns[0].count, 2);
-    ck_assert_int_eq(columns[1].count, 2);
-    assert_bits(columns[0].data[0], 0.25);
-    assert_bits(columns[0].data[1], 0.5);
-    assert_bits(columns[1].data[1], -2500);
-    free_columns(columns);
+    assert_two_rows(text, sizeof text - 1);
     ASSERT_REFUSED("time[s],note,force[N]\n1,\"a,2\n", 2, "column 2: expected a quotation mark at the end");
     ASSERT_REFUSED("time[s],note,force[N]\n1,\"a\"b,2\n", 2, "column 2: expected a quotation mark at the end");
     ASSERT_REFUSED("time[s],note,force[N]\n1,,\n", 2, "has 2 values");

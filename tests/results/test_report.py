@@ -317,13 +317,18 @@ def check_loose(folder):
     assert page.count("<td>bending</td>") == bent and page.count("<td>came loose</td>") == 1
 
 
+def keep_rows(series, since):
+    """Leaves the rows of a series from a time on."""
+    head, *rows = series.read_text().splitlines()
+    series.write_text("\n".join([head, *(row for row in rows if float(row.split(",")[0]) >= since)]) + "\n")
+
+
 def check_late(folder):
     """A recording that began on the way, as one of a program does: from when on, and what was lost before it."""
     run = folder / "feeding"
     scenario, series, note = run / "scenario.yaml", run / "series.csv", run / "run.json"
     scenario.write_text(re.sub("offset_limit: auto.*", "offset_limit: 50", scenario.read_text()))
-    head, *rows = series.read_text().splitlines()
-    series.write_text("\n".join([head, *(row for row in rows if float(row.split(",")[0]) >= 5)]) + "\n")
+    keep_rows(series, 5)
     (run / "record.fram").unlink()
     scenario.write_text(re.sub("frame_interval: .*", "frame_interval: 0", scenario.read_text()))
     for lost, told in ((None, "The vessel held its station from 5 s on."),
@@ -347,8 +352,7 @@ def check_late_frames(folder):
     run = folder / "water"
     scenario, series, record = run / "scenario.yaml", run / "series.csv", run / "record.fram"
     scenario.write_text(re.sub("csv_interval: 0 ", "csv_interval: 1.8 ", scenario.read_text()))
-    head, *rows = series.read_text().splitlines()
-    series.write_text("\n".join([head, *(row for row in rows if float(row.split(",")[0]) >= 1.79)]) + "\n")
+    keep_rows(series, 1.79)
     for told in (False, True):
         subprocess.run([FRAM, "report", run, "-q"], check=True)
         page = (run / "report.html").read_text()
