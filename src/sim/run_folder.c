@@ -149,10 +149,9 @@ static bool is_summary(const char *name) { return strcmp(name, "run.json") == 0;
 /* All others that a run, or what is made of it, leaves in its folder. */
 static bool is_result(const char *name)
 {
-    static const char *const names[] = {"failed.fram",   "plan.png",     "loads.png",       "station.png",
-                                        "station.png",   "station.json", "peaks.fram",      "peaks.fram.new",
-                                        "playback.html", "report.html",  "run.nc",          "run.mp4",
-                                        "manage.html",   "manage.csv",   "manage-sizes.csv"};
+    static const char *const names[] = {
+        "failed.fram",   "plan.png",    "loads.png", "station.png", "station.json", "peaks.fram", "peaks.fram.new",
+        "playback.html", "report.html", "run.nc",    "run.mp4",     "manage.html",  "manage.csv", "manage-sizes.csv"};
     bool found = is_of_vessel(name) || is_field(name);
     for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
         found = strcmp(name, names[i]) == 0;
