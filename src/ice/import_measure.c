@@ -5,16 +5,24 @@
 
 #include <math.h>
 
-/* The least width of what two outlines have in common. */
+/* The shorter side of the box around it or, where it is bent, of the rectangle of its area and perimeter. */
+static double part_width(polygon p, double side)
+{
+    double area = polygon_area(p), perimeter = polygon_perimeter(p);
+    return fmin(side, 4 * area / (perimeter + sqrt(fmax(0, perimeter * perimeter - 16 * area))));
+}
+
+/* The largest width of the parts that two outlines have in common. */
 static fram_status common_width(context *ctx, overlay *o, polygon a, polygon b, double *width, fram_error *error)
 {
     polygon_list common = {0};
     fram_status status = overlay_intersection(o, a, b, &common, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&common); i++) {
         oriented_box box;
-        status = polygon_oriented_box(ctx, polygon_list_get(&common, i), &box);
+        polygon part = polygon_list_get(&common, i);
+        status = polygon_oriented_box(ctx, part, &box);
         if (status == FRAM_OK)
-            *width = fmax(*width, box.sides[1]);
+            *width = fmax(*width, part_width(part, box.sides[1]));
         else
             error_memory(error);
     }

@@ -118,12 +118,16 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
         dropped += field->notes.data[i].dropped;
     log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mended",
               (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
-    if (m.overlaps)
+    /* Within the skin lies what contacts and rounding leave of floes that a run wrote. */
+    if (m.overlap_width > s->run.solver.contact_skin)
         log_write(
             ctx, LOG_WARNING,
             "%d pairs of floes overlap, by %.3g m at most: they will push each other apart; ice.bad_rings: repair "
             "cuts them apart",
             (int)m.overlaps, m.overlap_width);
+    else if (m.overlaps)
+        log_write(ctx, LOG_INFO, "%d pairs of floes overlap, by %.3g m at most, which is less than the contact skin",
+                  (int)m.overlaps, m.overlap_width);
     return FRAM_OK;
 }
 

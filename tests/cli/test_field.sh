@@ -198,6 +198,19 @@ expect 2 "$FRAM" field packed.yaml --json
 same "$(value 'j["error"]["file"].endswith("bow.geojson")')" True "the file of bad templates"
 says "none of its 1 outlines" err
 
+# An overlap is as wide as it is where it goes round a corner, and told of a scenario from the contact skin on.
+for by in 9.999 9.99999; do
+    echo "MULTIPOLYGON (((0 0, 30 0, 30 10, 10 10, 10 30, 0 30, 0 0))," \
+        "(($by $by, 40 $by, 40 40, $by 40, $by $by)))" >bent$by.wkt
+done
+printf '%s\n' 'vessel: {present: false}' 'domain: {x_min: -9, x_max: 49, y_min: -9, y_max: 49}' \
+    'ice: {source: file, file: bent9.999.wkt}' >bent.yaml
+expect 0 "$FRAM" field bent.yaml
+says "1 pairs of floes overlap, by 0.001 m at most" err
+says "at most 0.001 m wide" out
+expect 0 "$FRAM" field bent.yaml --set ice.file=bent9.99999.wkt
+! grep -q '^warning: .*overlap' err || fail "an overlap within the skin warns: $(cat err)"
+
 # A hull that reaches into a wall is refused as by a run.
 cat >wall.yaml <<'END'
 vessel: {x: 100, y: 0, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}

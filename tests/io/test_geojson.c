@@ -418,6 +418,23 @@ START_TEST(overlaps_are_measured_and_cut)
 }
 END_TEST
 
+/* A square over the inner corner of an L by a thousandth: a bent strip of 0.001 by 20 m on each side of 20.001. */
+START_TEST(a_bent_overlap_is_as_wide_as_its_strip)
+{
+    rig *r = rig_make();
+    assert_ok(parse(r, COLLECTION(FEATURE("[[0,0],[30,0],[30,10],[10,10],[10,30],[0,30],[0,0]]") "," FEATURE(
+                           "[[9.999,9.999],[40,9.999],[40,40],[9.999,40],[9.999,9.999]]"))),
+              r->error);
+    import_options o = options_of(IMPORT_REFUSE);
+    import_measure m;
+    assert_ok(import(r, &o), r->error);
+    assert_ok(import_field_measure(&r->ctx, r->plane, NULL, &r->field.outlines, &m, &r->error), r->error);
+    assert_relative(m.overlap_area, 0.001 * (2 * 20.001 - 0.001), 1e-9);
+    assert_relative(m.overlap_width, 0.001, 1e-9);
+    rig_free(r);
+}
+END_TEST
+
 START_TEST(simplified_within_the_tolerance)
 {
     rig *r = rig_make();
@@ -572,6 +589,7 @@ int main(void)
     tcase_add_test(cases, crop_slivers_and_keep_out);
     tcase_add_test(cases, tiles_stay_whole);
     tcase_add_test(cases, overlaps_are_measured_and_cut);
+    tcase_add_test(cases, a_bent_overlap_is_as_wide_as_its_strip);
     tcase_add_test(cases, simplified_within_the_tolerance);
     tcase_add_test(cases, what_is_written_reads_back_to_the_bit);
     tcase_add_test(cases, limits_and_files);
