@@ -68,7 +68,7 @@ FRAM_API void fram_field_destroy(fram_field *field);
 enum { FRAM_FIELD_BINS = 12 };
 
 typedef struct fram_field_summary {
-    int rings;    /* of the file */
+    int rings;    /* of the file, also of that of a scenario */
     int floes;    /* that came of them */
     int dropped;  /* rings or cut pieces that were left out */
     int repaired; /* rings that were mended */
@@ -81,7 +81,9 @@ typedef struct fram_field_summary {
     int overlaps;                       /* pairs of floes that share area */
     double overlap_area;                /* of all pairs together [m2] */
     double overlap_width;               /* the largest width of what a pair shares [m] */
-    int overlap_features[2];            /* features (from 1) of the pair that shares the largest area; 0, 0: none */
+    int overlap_features[2];            /* features (from 1) of the pair that shares the largest area: of the file, of
+                                           drawn floes of the one that fram_field_save writes; 0, 0: none, and 0 for a
+                                           drawn floe among those of a file */
     /* Floes by the diameter of the circle of equal area: bin[i] holds those over bin_edge[i] up to bin_edge[i+1]. */
     double bin_edge[FRAM_FIELD_BINS + 1]; /* [m] */
     int bin[FRAM_FIELD_BINS];

@@ -42,11 +42,13 @@ static box2 window_of(const fram_field_definition *d)
 
 static double box_area(box2 b) { return (b.hi.x - b.lo.x) * (b.hi.y - b.lo.y); }
 
+/* Of the file that the floes are of or, where there is none, of one that is written. */
 static int feature_of(const fram_field *f, int32_t floe)
 {
-    if (f->generated)
+    if (f->source.place.count == 0)
         return floe + 1;
-    return floe < 0 ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
+    bool drawn = floe < 0 || floe >= f->floes.ring.count;
+    return drawn ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
 }
 
 fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error)

@@ -22,6 +22,11 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
 {
     context *ctx = &f->context->inner;
     fram_status status = build_outlines(ctx, s, &f->drawn, &f->window, error);
+    f->source = f->drawn.source;
+    f->floes = f->drawn.file;
+    f->drawn.source = (import_rings){0};
+    f->drawn.file = (import_field){0};
+    array_clear(&f->floes.thickness); /* of the file; those of the scenario follow */
     for (int32_t i = 0; status == FRAM_OK && i < f->drawn.traits.count; i++) {
         const floe_traits *t = &f->drawn.traits.data[i];
         f->other_ice = f->other_ice || is_other_ice(s, t);

@@ -8,15 +8,15 @@
 
 struct fram_field {
     fram_context *context;
-    bool generated;      /* by a scenario; source is empty then, and floes has no rings */
-    import_rings source; /* of a file */
-    import_field floes;
-    drawn_ice drawn; /* of a scenario, without outlines: those are in floes */
-    bool tile;       /* of a scenario that is fed: what repeats itself */
-    bool other_ice;  /* some are not as strong as the scenario's ice, or do not break: files keep nothing of it */
-    double target;   /* concentration that the scenario asks for, or NaN [1] */
-    box2 window;     /* what is shown [m] */
-    vec2 period;     /* of an endless field, whose tile is the window; 0, 0: it ends [m] */
+    bool generated;      /* by a scenario */
+    import_rings source; /* of a file, also of that of a scenario, then without the rings themselves */
+    import_field floes;  /* those of a file come first and have a ring each, drawn ones have none */
+    drawn_ice drawn;     /* of a scenario, without what is in source and floes */
+    bool tile;           /* of a scenario that is fed: what repeats itself */
+    bool other_ice;      /* some are not as strong as the scenario's ice, or do not break: files keep nothing of it */
+    double target;       /* concentration that the scenario asks for, or NaN [1] */
+    box2 window;         /* what is shown [m] */
+    vec2 period;         /* of an endless field, whose tile is the window; 0, 0: it ends [m] */
     fram_field_definition made;
     fram_field_summary about;
 };

@@ -37,7 +37,7 @@ const char *import_event_text(import_event event)
         [IMPORT_NOTE_HOLE] = "is a hole",
         [IMPORT_NOTE_SMALL] = "is under the smallest area",
         [IMPORT_NOTE_OUTSIDE] = "is outside the domain",
-        [IMPORT_NOTE_KEPT_OUT] = "is in the way of the vessel",
+        [IMPORT_NOTE_KEPT_OUT] = "is in the way of a vessel or of open water",
         [IMPORT_NOTE_OVERLAP] = "overlaps a smaller floe",
     };
     return text[event];

@@ -1,7 +1,6 @@
 #include "sim/draw_ice.h"
 
 #include "ice/field_cells.h"
-#include "ice/import.h"
 #include "io/outline_file.h"
 #include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
@@ -16,6 +15,8 @@ void drawn_ice_free(context *ctx, drawn_ice *d)
     array_free(ctx, &d->traits);
     array_free(ctx, &d->shapes);
     array_free(ctx, &d->parts);
+    import_rings_free(ctx, &d->source);
+    import_field_free(ctx, &d->file);
 }
 
 floe_traits scenario_traits(const scenario *s, double thickness)
@@ -137,8 +138,8 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
     char path[2 * SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, s->ice.file, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
-    import_rings rings = {0};
-    import_field field = {0};
+    import_rings *rings = &out->source;
+    import_field *field = &out->file;
     const import_options options = {.name = path,
                                     .degrees = s->ice.file_coordinates == FILE_DEGREES,
                                     .scale = s->ice.file_scale,
@@ -153,20 +154,20 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
                                     .bad = s->ice.bad_rings,
                                     .smallest_area = s->ice.smallest_floe_area,
                                     .keep_out = keep_out};
-    fram_status status = outline_file_read(ctx, path, &rings, error);
+    fram_status status = outline_file_read(ctx, path, rings, error);
     if (status == FRAM_OK)
-        status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
+        status = import_field_make(ctx, w->scratch.plane, rings, &options, field, error);
+    polygon_list_free(ctx, &rings->rings);
     if (status == FRAM_OK) {
-        log_notes(ctx, &rings, &field);
-        tell_thickness(ctx, s, &field);
-        status = report_import(ctx, s, w, path, keep_out, &field, &out->report, error);
+        log_notes(ctx, rings, field);
+        tell_thickness(ctx, s, field);
+        status = report_import(ctx, s, w, path, keep_out, field, &out->report, error);
     }
-    for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)
-        if (!polygon_list_push(ctx, &out->outlines, polygon_list_get(&field.outlines, i)) ||
-            !array_push(ctx, &out->traits, scenario_traits(s, field.thickness.data[i])))
+    for (int32_t i = 0; status == FRAM_OK && i < field->thickness.count; i++)
+        if (!array_push(ctx, &out->traits, scenario_traits(s, field->thickness.data[i])))
             status = error_memory(error);
-    import_rings_free(ctx, &rings);
-    import_field_free(ctx, &field);
+    out->outlines = field->outlines;
+    field->outlines = (polygon_list){0};
     return status;
 }
 

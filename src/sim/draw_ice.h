@@ -3,6 +3,7 @@
 #define SIM_DRAW_ICE_H
 
 #include "ice/field_pack.h"
+#include "ice/import.h"
 #include "model/scenario.h"
 #include "model/world.h"
 
@@ -26,6 +27,8 @@ typedef struct drawn_ice {
     ARRAY(field_population_report) parts;
     field_packed_report packed; /* of the populations; packed.field is that of the whole field too */
     field_report report;        /* of the whole field */
+    import_rings source;        /* of ice.file: where its rings stand, without the rings */
+    import_field file;          /* what became of them, but its outlines, which are the first of those above */
 } drawn_ice;
 void drawn_ice_free(context *ctx, drawn_ice *d);
 

@@ -211,6 +211,28 @@ says "at most 0.001 m wide" out
 expect 0 "$FRAM" field bent.yaml --set ice.file=bent9.99999.wkt
 ! grep -q '^warning: .*overlap' err || fail "an overlap within the skin warns: $(cat err)"
 
+# What became of the rings of a scenario's file is told as of the file alone: one beside the domain, one in open water,
+# a bow tie, and two that overlap, by their features.
+cat >rings.wkt <<'END'
+POLYGON ((200 0, 209 0, 209 9, 200 9, 200 0))
+POLYGON ((20 20, 29 20, 29 29, 20 29, 20 20))
+POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))
+POLYGON ((-9 20, -19 30, -9 30, -19 20, -9 20))
+POLYGON ((8 0, 17 0, 17 9, 8 9, 8 0))
+END
+cat >rings.yaml <<'END'
+vessel: {present: false}
+domain: {x_min: -50, x_max: 50, y_min: -50, y_max: 50}
+ice: {source: file, file: rings.wkt, bad_rings: drop, open_water: [{x: 25, y: 25, length: 6, width: 6}]}
+END
+expect 0 "$FRAM" field rings.yaml --json -v
+same "$(value 'j["rings"], j["floes"], [n["feature"] for n in j["dropped"]], j["overlap"]["feature_a"]')" \
+    "5 2 [1, 2, 4] 3" "rings of a scenario's file"
+says "feature 2, polygon 1, ring 1 (20, 20): is in the way of a vessel or of open water; left out" err
+expect 0 "$FRAM" field rings.yaml --set ice.bad_rings=repair
+says "left out: 2, repaired: 2" out
+says "repaired: feature 4, polygon 1, ring 1 (line 4): crosses or touches itself" out
+
 # A hull that reaches into a wall is refused as by a run.
 cat >wall.yaml <<'END'
 vessel: {x: 100, y: 0, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
