@@ -39,6 +39,7 @@ const char *import_event_text(import_event event)
         [IMPORT_NOTE_OUTSIDE] = "is outside the domain",
         [IMPORT_NOTE_KEPT_OUT] = "is in the way of a vessel or of open water",
         [IMPORT_NOTE_OVERLAP] = "overlaps a smaller floe",
+        [IMPORT_NOTE_SLIVER] = "is a sliver beside the smaller floe that was cut out of it",
     };
     return text[event];
 }

@@ -63,6 +63,7 @@ typedef enum import_event {
     IMPORT_NOTE_OUTSIDE,  /* outside the domain */
     IMPORT_NOTE_KEPT_OUT, /* in a keep-out zone */
     IMPORT_NOTE_OVERLAP,  /* repair: what it shares with a smaller floe is left to that one */
+    IMPORT_NOTE_SLIVER,   /* repair: a piece that such a cut leaves is too thin for a floe */
     IMPORT_EVENT_COUNT
 } import_event;
 /* "crosses or touches itself" */

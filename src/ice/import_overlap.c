@@ -9,8 +9,10 @@
 
 /* Common area under this part of the areas of both outlines is rounding (polygon_overlap_area: about 1e-15). */
 #define OVERLAP_ROUNDING 1e-12
-/* A cut piece under this part of its floe is a sliver of two digitised edges, no floe. */
-#define SLIVER 1e-3
+/* A cut piece whose hydraulic diameter, 4 area / perimeter, is under this part of the side of a square as large as its
+   floe is a sliver of two digitised edges, no floe: a strip as long as that side goes under a thousandth of the floe.
+ */
+#define SLIVER 2e-3
 
 /* ---- pairs ---- */
 
@@ -118,6 +120,21 @@ static fram_status cut_overlaps(cutting *c, int32_t floe, bool *touched)
     return status;
 }
 
+static bool is_sliver(polygon p, polygon whole)
+{
+    return 4 * polygon_area(p) < SLIVER * sqrt(polygon_area(whole)) * polygon_perimeter(p);
+}
+
+/* A piece of the floe, if it may stay. */
+static fram_status add_cut_piece(cutting *c, int32_t floe, polygon whole, polygon p)
+{
+    if (polygon_area(p) < c->options->smallest_area)
+        return add_floe_note(c, floe, IMPORT_NOTE_SMALL, true, p.vertex[0]);
+    if (is_sliver(p, whole))
+        return add_floe_note(c, floe, IMPORT_NOTE_SLIVER, true, p.vertex[0]);
+    return keep(c, floe, p) ? FRAM_OK : error_memory(c->error);
+}
+
 static fram_status replace_floe(cutting *c, int32_t floe)
 {
     polygon whole = polygon_list_get(&c->was->outlines, floe);
@@ -125,15 +142,9 @@ static fram_status replace_floe(cutting *c, int32_t floe)
     fram_status status = cut_overlaps(c, floe, &touched);
     if (status != FRAM_OK || !touched)
         return status != FRAM_OK ? status : keep(c, floe, whole) ? FRAM_OK : error_memory(c->error);
-    double least = fmax(c->options->smallest_area, SLIVER * polygon_area(whole));
     status = add_floe_note(c, floe, IMPORT_NOTE_OVERLAP, polygon_list_count(&c->pieces) == 0, whole.vertex[0]);
-    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++) {
-        polygon p = polygon_list_get(&c->pieces, i);
-        if (polygon_area(p) < least)
-            status = add_floe_note(c, floe, IMPORT_NOTE_SMALL, true, p.vertex[0]);
-        else if (!keep(c, floe, p))
-            status = error_memory(c->error);
-    }
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++)
+        status = add_cut_piece(c, floe, whole, polygon_list_get(&c->pieces, i));
     return status;
 }
 

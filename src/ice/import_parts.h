@@ -25,7 +25,7 @@ fram_status import_fits_tile(context *ctx, const import_options *options, const 
                              fram_error *error);
 
 /* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.
-   Cut pieces under the smallest area or a thousandth of their floe are left out. */
+   Cut pieces under the smallest area and slivers are left out. */
 fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *options, import_field *field,
                                 fram_error *error);
 

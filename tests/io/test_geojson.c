@@ -435,6 +435,34 @@ START_TEST(a_bent_overlap_is_as_wide_as_its_strip)
 }
 END_TEST
 
+/* What a cut leaves beside the smaller floe: a tip of 18 m2 is a floe however large the one that it was of, 5 m2 of
+   0.05 m by 100 are a sliver. */
+START_TEST(a_sliver_is_thin_not_small)
+{
+    static const struct {
+        const char *cut, *by;
+        int floes, notes;
+    } row[] = {{"[[0,0],[200,0],[200,47],[211,47],[211,50],[200,50],[200,100],[0,100],[0,0]]",
+                "[[200,30],[205,30],[205,70],[200,70],[200,30]]", 3, 1},
+               {"[[0,0],[100,0],[100,100],[0,100],[0,0]]", "[[90,-1],[99.95,-1],[99.95,101],[90,101],[90,-1]]", 2, 2}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        rig *r = rig_make();
+        char text[600];
+        snprintf(text, sizeof text, COLLECTION(FEATURE("%s") "," FEATURE("%s")), row[i].cut, row[i].by);
+        assert_ok(parse(r, text), r->error);
+        import_options o = options_of(IMPORT_REPAIR);
+        o.smallest_area = 4;
+        assert_ok(import(r, &o), r->error);
+        ck_assert_int_eq(polygon_list_count(&r->field.outlines), row[i].floes);
+        ck_assert_int_eq(r->field.notes.count, row[i].notes);
+        ck_assert_int_eq(r->field.notes.data[0].event, IMPORT_NOTE_OVERLAP);
+        ck_assert_int_eq(r->field.notes.data[row[i].notes - 1].event,
+                         i == 0 ? IMPORT_NOTE_OVERLAP : IMPORT_NOTE_SLIVER);
+        rig_free(r);
+    }
+}
+END_TEST
+
 START_TEST(simplified_within_the_tolerance)
 {
     rig *r = rig_make();
@@ -589,6 +617,7 @@ int main(void)
     tcase_add_test(cases, crop_slivers_and_keep_out);
     tcase_add_test(cases, tiles_stay_whole);
     tcase_add_test(cases, overlaps_are_measured_and_cut);
+    tcase_add_test(cases, a_sliver_is_thin_not_small);
     tcase_add_test(cases, a_bent_overlap_is_as_wide_as_its_strip);
     tcase_add_test(cases, simplified_within_the_tolerance);
     tcase_add_test(cases, what_is_written_reads_back_to_the_bit);
