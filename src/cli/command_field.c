@@ -74,13 +74,6 @@ static bool read_bad(field_words *w)
     return false;
 }
 
-/* Scenarios are YAML, and no other input of this command is. */
-static bool is_scenario(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-}
-
 /* NULL, or an option that has nothing to act on. */
 static const char *misplaced_option(const field_words *w)
 {
@@ -118,12 +111,12 @@ static command_files files_of(const field_words *w)
 /* Words that contradict themselves: an exit code, -1 to go on. */
 static int check_field_words(const common_options *common, field_words *w)
 {
-    w->scenario = is_scenario(w->path);
+    w->scenario = field_is_scenario(w->path);
     const char *misplaced = misplaced_option(w);
     if (misplaced)
         return answer_usage(common, misplaced,
                             w->scenario ? "is for files of outlines; a scenario has keys for it"
-                                        : "is for scenarios, whose names end in .yaml");
+                                        : "is for scenarios, which are .yaml, .yml or .json");
     if (w->crop && !read_window(w->crop, w->field.crop_lo, w->field.crop_hi))
         return answer_usage(common, "--crop", "expected X0,Y0,X1,Y1 in metres, with X0 < X1 and Y0 < Y1");
     w->field.crop = w->crop != NULL;

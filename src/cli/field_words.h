@@ -22,6 +22,9 @@ typedef struct field_words {
     double cell;
 } field_words;
 
+/* By its ending; one of .json is a scenario where its object has no member that the objects of GeoJSON have. */
+bool field_is_scenario(const char *path);
+
 const char *field_title(const field_words *w);
 /* Prints what the field is, for people or as JSON; returns the exit code. */
 int field_answer(const field_words *w, const common_options *common, const fram_field *field);

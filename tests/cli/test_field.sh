@@ -191,6 +191,15 @@ for scale in 1 2; do
 done
 expect 2 "$FRAM" field once.geojson --set run.seed=1
 says "is for scenarios" err
+# A scenario in JSON is none of GeoJSON, whose members may come in any order.
+echo '{"run": {"seed": 2}, "vessel": {"present": false}, "ice": {"source": "file", "file": "x}.json"},
+    "domain": {"x_min": -50, "x_max": 50, "y_min": -50, "y_max": 50}}' >scenario.json
+echo '{"name": "\"type", "bbox": [{"run": 1}],
+    "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]], "type": "Polygon"}' >"x}.json"
+expect 0 "$FRAM" field scenario.json --set ice.thickness=0.5 --json
+same "$(value 'j["rings"], j["floes"], "made" in j')" "1 1 True" "a scenario in JSON"
+expect 0 "$FRAM" field "x}.json" --json
+same "$(value '"made" in j')" False "GeoJSON that begins with members of others"
 expect 2 "$FRAM" field packed.yaml --window 1,2,3
 printf '%s\n' '{"type":"Polygon","coordinates":[[[0,0],[1,1],[1,0],[0,1],[0,0]]]}' >bow.geojson
 sed -i 's/size: constant,/size: constant, shape: templates, templates: bow.geojson,/' packed.yaml
