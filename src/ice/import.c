@@ -274,12 +274,48 @@ static fram_status import_ring(importing *m)
 
 /* ---- all rings ---- */
 
+/* What most rings and pieces were left out for, and how many: 0 where all were mended to nothing.  A hole is never why
+   no floe is left. */
+static import_event commonest_loss(const import_field *field, int32_t *most)
+{
+    int32_t count[IMPORT_EVENT_COUNT] = {0};
+    import_event event = IMPORT_NOTE_FLAT;
+    *most = 0;
+    for (int32_t i = 0; i < field->notes.count; i++) {
+        const import_note *n = &field->notes.data[i];
+        if (n->dropped && n->event != IMPORT_NOTE_HOLE && ++count[n->event] > *most) {
+            event = n->event;
+            *most = count[event];
+        }
+    }
+    return event;
+}
+
+static fram_status refuse_without_rings(const importing *m)
+{
+    const char *name = m->options->name;
+    if (m->rings->passed_over == 0)
+        return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL, "the file has no floes");
+    return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
+                     "the file has no floes; %d features of kind vessel or wall were passed over",
+                     (int)m->rings->passed_over);
+}
+
 static fram_status refuse_empty(const importing *m)
 {
-    return error_set(m->error, FRAM_ERROR_INPUT, m->options->name, 0, NULL,
-                     "no floe is left: %d rings were read, %d of them or their pieces left out; look at scale, offset "
-                     "and domain",
-                     (int)m->rings->place.count, (int)m->out->notes.count);
+    const char *name = m->options->name;
+    int rings = (int)m->rings->place.count;
+    int32_t most;
+    import_event event = commonest_loss(m->out, &most);
+    if (rings == 0)
+        return refuse_without_rings(m);
+    if (most == 0)
+        return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "no floe is left of %d rings: none winds round an area", rings);
+    return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
+                     "no floe is left of %d rings: %d of them or of their pieces were left out because each %s%s",
+                     rings, (int)most, import_event_text(event),
+                     event == IMPORT_NOTE_OUTSIDE ? "; look at scale, offset and domain" : "");
 }
 
 static fram_status import_all(importing *m, bool crops)

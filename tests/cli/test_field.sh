@@ -309,6 +309,23 @@ for words in "--scale 0" "--scale nan" "--scale -1" "--scale 1e300" "--crop 1,2,
     value 'j["error"]["message"]' >/dev/null || fail "no JSON error after $words"
 done
 
+# Why no floe is left.
+none_left() {
+    local words=$1
+    shift
+    expect 2 "$FRAM" field "$@"
+    says "$words" err
+    case $words in *outside*) ;; *) ! grep -qF "look at scale" err || fail "scale is to blame: $(cat err)" ;; esac
+}
+none_left "left of 1 rings: 1 of them or of their pieces were left out because each crosses" bow.geojson --bad drop
+none_left "4 of them or of their pieces were left out because each is under the smallest area" once.geojson \
+    --smallest 1000
+none_left "each is outside the domain; look at scale, offset and domain" once.geojson --crop 900,0,999,9
+echo '{"type": "Feature", "properties": {"kind": "wall"}, "geometry": null}' >walls.geojson
+echo 'POLYGON ((0 0, 5 0, 5 5, 5 0, 0 0))' >spike.wkt
+none_left "left of 1 rings: none winds round an area" spike.wkt --bad repair
+none_left "the file has no floes; 1 features of kind vessel or wall were passed over" walls.geojson
+
 # Nothing is written over the input, nor two outputs into one file.
 cp floes.geojson keep.geojson
 ln -s keep.geojson link.geojson
