@@ -7,6 +7,9 @@
 
 /* Notes that are printed for people; JSON has all. */
 enum { NOTES_SHOWN = 12 };
+/* Coordinates are written without a power of ten up to this [m], with so many decimals at most. */
+#define COORDINATE_FIXED 1e9
+enum { COORDINATE_DECIMALS = 9, COORDINATE_SIZE = 32 };
 
 const char *field_title(const field_words *w)
 {
@@ -23,6 +26,41 @@ static const char *whole_of(const field_words *w, const fram_field *field)
     return w->crop ? "the window" : "the box around it";
 }
 
+/* Decimals that tell the extent of a field to five digits at least, wherever it lies: a UTM northing has seven before
+   the point. */
+static int coordinate_decimals(const fram_field_summary *s)
+{
+    double extent = fmax(s->hi[0] - s->lo[0], s->hi[1] - s->lo[1]);
+    int decimals = 0;
+    for (; decimals < COORDINATE_DECIMALS && extent < 1e5; extent *= 10)
+        decimals++;
+    return decimals;
+}
+
+/* Without zeros at the end. */
+static const char *coordinate_text(double value, int decimals, char text[COORDINATE_SIZE])
+{
+    if (!(fabs(value) <= COORDINATE_FIXED)) {
+        snprintf(text, COORDINATE_SIZE, "%.9g", value);
+        return text;
+    }
+    int length = snprintf(text, COORDINATE_SIZE, "%.*f", decimals, value);
+    while (decimals > 0 && text[length - 1] == '0')
+        text[--length] = '\0';
+    if (decimals > 0 && text[length - 1] == '.')
+        text[--length] = '\0';
+    return strcmp(text, "-0") == 0 ? "0" : text;
+}
+
+static void print_box(const fram_field_summary *s)
+{
+    char text[4][COORDINATE_SIZE];
+    int decimals = coordinate_decimals(s);
+    printf("  x from %s to %s m, y from %s to %s m\n", coordinate_text(s->lo[0], decimals, text[0]),
+           coordinate_text(s->hi[0], decimals, text[1]), coordinate_text(s->lo[1], decimals, text[2]),
+           coordinate_text(s->hi[1], decimals, text[3]));
+}
+
 static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
 {
     if (w->scenario)
@@ -30,7 +68,7 @@ static void print_summary(const field_words *w, const fram_field *field, const f
     else
         printf("%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
     printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
-    printf("  x from %.6g to %.6g m, y from %.6g to %.6g m\n", s->lo[0], s->hi[0], s->lo[1], s->hi[1]);
+    print_box(s);
     printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration, whole_of(w, field));
     printf("  floes of %.6g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
            s->largest_diameter);

@@ -75,8 +75,8 @@ static void tell_zones_elsewhere(context *ctx, const scenario *s, const polygon_
     }
     if (polygon_list_count(zones) > 0)
         log_write(ctx, LOG_WARNING,
-                  "ice.open_water_file: all of it lies beside the domain and keeps no ice away: x from %.6g to %.6g, y "
-                  "from %.6g to %.6g m",
+                  "ice.open_water_file: all of it lies beside the domain and keeps no ice away: x from %.9g to %.9g, y "
+                  "from %.9g to %.9g m",
                   all.lo.x, all.hi.x, all.lo.y, all.hi.y);
 }
 

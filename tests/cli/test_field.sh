@@ -29,8 +29,10 @@ same "$(value 'j["rings"], j["floes"], j["area_m2"], len(j["dropped"]), len(j["r
 same "$(value 'j["dropped"][0]["feature"], j["dropped"][0]["line"]')" "2 5" "what was dropped"
 expect 0 "$FRAM" field floes.geojson --bad repair --json
 same "$(value 'j["floes"], j["area_m2"], len(j["repaired"]), sum(j["histogram"]["floes"])')" "4 250 1 4" repaired
-expect 0 "$FRAM" field floes.geojson --bad drop
+expect 0 "$FRAM" field floes.geojson --bad drop --x 400000 --y 8600000
 says "2 floes of 3 rings" out
+# In metres of a map: seven digits before the point, and those that tell the field's extent.
+says "x from 400000 to 400050.1 m, y from 8600000 to 8600010 m" out
 says "floes of 100 to 100 m2" out
 expect 0 "$FRAM" field floes.geojson --bad drop --scale 3.59198
 says "floes of 1290.23 to 1290.23 m2" out
