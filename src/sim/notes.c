@@ -204,13 +204,24 @@ static void tell_warning(const void *to, const char *text) { note_warning(to, "%
 
 static void tell_fact(const void *to, const char *text) { note_fact(to, "%s", text); }
 
+static void note_size(const note_taker *n, const scenario *s)
+{
+    scene_size size = n->made ? scene_size_made(s, n->made->floes.count) : scene_size_of(s);
+    char floes[64] = "", beside[96] = "";
+    if (size.uncounted)
+        snprintf(beside, sizeof beside, " beside %s, which are not counted", size.uncounted);
+    if (!size.uncounted || size.floes >= 0.5)
+        snprintf(floes, sizeof floes, " for about %.0f floe%s", size.floes,
+                 size.floes > 0.5 && size.floes < 1.5 ? "" : "s");
+    note_fact(n, "memory: about %.2g GB%s%s; run.memory_limit is %g GB", size.bytes * 1e-9, floes, beside,
+              s->run.memory_limit);
+    note_fact(n, "disk: about %.2g MB for what the run leaves%s", size.disk * 1e-6, beside);
+}
+
 static void take_notes(const note_taker *n, const scenario *s)
 {
     note_fact(n, "run: %.0f steps of %g s", (double)step_at(s->run.duration, s->run.time_step), s->run.time_step);
-    scene_size size = scene_size_of(s);
-    note_fact(n, "memory: about %.2g GB for about %.0f floe%s; run.memory_limit is %g GB", size.bytes * 1e-9,
-              size.floes, size.floes > 0.5 && size.floes < 1.5 ? "" : "s", s->run.memory_limit);
-    note_fact(n, "disk: about %.2g MB for what the run leaves", size.disk * 1e-6);
+    note_size(n, s);
     if (n->out)
         effective_tell(n->ctx, s, n->made, tell_fact, n);
     note_ice(n, s);

@@ -91,12 +91,34 @@ static double disk_bytes(const scenario *s, double floes)
            times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES);
 }
 
+static double floe_bytes(ice_source source)
+{
+    if (source == ICE_LEVEL)
+        return TILE_BYTES;
+    return source == ICE_FILE || source == ICE_PACKED ? PACKED_BYTES : CELL_BYTES;
+}
+
+static scene_size size_of_floes(const scenario *s, double floes)
+{
+    return (scene_size){floes, PROGRAM_BYTES + floe_bytes(s->ice.source) * floes, disk_bytes(s, floes), NULL};
+}
+
+static const char *uncounted_floes(const scenario *s)
+{
+    const char *of = s->ice.source == ICE_FILE ? "the floes of its file" : NULL;
+    bool drawn = s->ice.source == ICE_FILE || s->ice.source == ICE_PACKED || s->ice.source == ICE_VORONOI;
+    for (int32_t i = 0; drawn && i < s->ice.populations.count; i++)
+        if (s->ice.populations.data[i].size == SIZE_HISTOGRAM)
+            return of ? "the floes of its file and of histograms" : "the floes of histograms";
+    return of;
+}
+
 scene_size scene_size_of(const scenario *s)
 {
     scenario larger = *s;
     if (s->domain.boundary == DOMAIN_FEEDING && s->ice.source != ICE_LEVEL)
         larger = feeding_scenario(s, tile_floe_area(s));
-    double floes = 0, each = CELL_BYTES;
+    double floes = 0;
     switch (s->ice.source) {
     case ICE_NONE:
         break;
@@ -105,7 +127,6 @@ scene_size scene_size_of(const scenario *s)
         break;
     case ICE_LEVEL:
         floes = build_tile_number(s);
-        each = TILE_BYTES;
         break;
     case ICE_VORONOI:
         floes = s->ice.populations.count > 0 ? population_floes(&larger) : domain_area(&larger) / s->ice.mean_floe_area;
@@ -113,10 +134,18 @@ scene_size scene_size_of(const scenario *s)
     case ICE_FILE:
     case ICE_PACKED:
         floes = population_floes(&larger);
-        each = PACKED_BYTES;
         break;
     }
-    return (scene_size){floes, PROGRAM_BYTES + each * floes, disk_bytes(s, floes)};
+    scene_size size = size_of_floes(s, floes);
+    size.uncounted = uncounted_floes(s);
+    return size;
+}
+
+scene_size scene_size_made(const scenario *s, int32_t floes)
+{
+    scene_size size = scene_size_of(s);
+    /* What is counted goes before: of an endless field the tile, not what of it is in the domain. */
+    return size.uncounted ? size_of_floes(s, fmax(size.floes, floes)) : size;
 }
 
 /* What makes the scenario large. */

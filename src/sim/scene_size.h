@@ -9,8 +9,11 @@ typedef struct scene_size {
     double floes; /* at the start, about; those of ice.file and of histograms are not counted */
     double bytes; /* that a run takes, about: at least half of it in the fields that were measured, at most all */
     double disk;  /* bytes of the run's folder in the end, within a factor of two in the runs that were measured */
+    const char *uncounted; /* floes beside those, "the floes of its file"; NULL: none */
 } scene_size;
 scene_size scene_size_of(const scenario *s);
+/* The same of a scenario whose ice was made, with so many floes: none are uncounted. */
+scene_size scene_size_made(const scenario *s, int32_t floes);
 
 /* FRAM_ERROR_INPUT, naming the key that makes it so large, when the scenario takes more than run.memory_limit, or has
    more floes than can be numbered; or for tiles of level ice that are smaller than the smallest floe. */

@@ -244,6 +244,13 @@ expect 0 "$FRAM" field rings.yaml --set ice.bad_rings=repair
 says "left out: 2, repaired: 2" out
 says "repaired: feature 4, polygon 1, ring 1 (line 4): crosses or touches itself" out
 
+# How large its run is, is known when its floes are made; before that they are said to be missing.
+expect 0 "$FRAM" check rings.yaml --set ice.bad_rings=drop
+says "memory: about 0.015 GB beside the floes of its file, which are not counted; run.memory_limit" err
+says "MB for what the run leaves beside the floes of its file, which are not counted" err
+expect 0 "$FRAM" check rings.yaml --build --set run.duration=0.1
+says "memory: about 0.015 GB for about 2 floes; run.memory_limit" err
+
 # A hull that reaches into a wall is refused as by a run.
 cat >wall.yaml <<'END'
 vessel: {x: 100, y: 0, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}

@@ -44,6 +44,8 @@ START_TEST(floes_that_are_made)
         ck_assert_msg(fabs(size.floes - made) <= cases[i].part * made, "case %zu: %g floes expected, %g made", i,
                       size.floes, made);
         ck_assert(size.bytes > 1e7 && size.bytes < 1e8);
+        ck_assert_ptr_null(size.uncounted);
+        assert_bits(scene_size_made(&k.s, k.w.floes.count).bytes, size.bytes);
         assert_ok(scene_size_check(&k.s, &error), error);
         scene_close(&k);
     }
@@ -59,6 +61,27 @@ START_TEST(a_tile_is_larger)
     assert_relative(open, 240 * 140 / 100.0, 1e-12);
     s.domain.boundary = DOMAIN_FEEDING;
     assert_relative(scene_size_of(&s).floes, 1.25 * 240 * (140 + 60) / 100.0, 1e-12);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+/* Floes of files are known when they are made. */
+START_TEST(floes_that_are_not_counted)
+{
+    scenario s;
+    read_scenario(HOUSE PLAN "ice: {source: packed, concentration: 0.8, populations: [{size: histogram, histogram: "
+                             "none.csv}, {size: constant, diameter: 20}]}\n",
+                  &s);
+    scene_size counted = scene_size_of(&s), made = scene_size_made(&s, 1000);
+    ck_assert_str_eq(counted.uncounted, "the floes of histograms");
+    ck_assert(counted.floes > 0 && counted.floes < 1000);
+    ck_assert_ptr_null(made.uncounted);
+    assert_bits(made.floes, 1000);
+    assert_relative((made.bytes - counted.bytes) / (1000 - counted.floes), 10e3, 1e-9);
+    ck_assert(made.disk > counted.disk);
+    assert_bits(scene_size_made(&s, 1).floes, counted.floes);
+    s.ice.source = ICE_FILE;
+    ck_assert_str_eq(scene_size_of(&s).uncounted, "the floes of its file and of histograms");
     scenario_free(&ctx, &s);
 }
 END_TEST
@@ -96,4 +119,4 @@ START_TEST(what_is_too_large_is_refused)
 }
 END_TEST
 
-TEST_MAIN("scene_size", floes_that_are_made, a_tile_is_larger, what_is_too_large_is_refused)
+TEST_MAIN("scene_size", floes_that_are_made, a_tile_is_larger, floes_that_are_not_counted, what_is_too_large_is_refused)
