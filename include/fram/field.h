@@ -71,7 +71,7 @@ typedef struct fram_field_summary {
     int rings;    /* of the file, also of that of a scenario */
     int floes;    /* that came of them */
     int dropped;  /* rings or cut pieces that were left out */
-    int repaired; /* rings that were mended */
+    int repaired; /* mendings; a ring may have several, as one that was closed and then cut */
     int vertices, concave;
     double lo[2], hi[2];     /* corners of the box around the floes [m] */
     double area;             /* of the floes [m2] */

@@ -82,7 +82,7 @@ static void print_summary(const field_words *w, const fram_field *field, const f
     else
         printf("  no overlaps\n");
     if (!w->scenario || s->dropped > 0 || s->repaired > 0)
-        printf("  left out: %d, repaired: %d\n", s->dropped, s->repaired);
+        printf("  left out: %d, repairs: %d\n", s->dropped, s->repaired);
     if (s->passed_over > 0)
         printf("  passed over: %d features of kind vessel or wall, which are not ice\n", s->passed_over);
 }

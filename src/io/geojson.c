@@ -213,13 +213,29 @@ static fram_status read_kind(reading *r, json_walk *w)
     return status;
 }
 
+static fram_status read_thickness(reading *r, json_walk *w, json_kind kind)
+{
+    json_walk place = *w;
+    double most = scenario_key_find("ice", "thickness")->hi;
+    if (kind != JSON_NUMBER)
+        return json_walk_refuse(&place, r->key, r->error, "expected a number for the property thickness, found %s",
+                                kind == JSON_STRING ? "a text" : "none");
+    fram_status status = json_walk_number(w, &r->thickness, r->error);
+    if (status == FRAM_OK && !(r->thickness > 0))
+        return json_walk_refuse(&place, r->key, r->error, "expected a thickness over 0 m, found %g", r->thickness);
+    if (status == FRAM_OK && r->thickness > most)
+        return json_walk_refuse(&place, r->key, r->error,
+                                "expected a thickness of at most %g m, found %g: is it in centimetres?", most,
+                                r->thickness);
+    return status;
+}
+
 /* The kind and thickness of a feature; its other properties are its own business. */
 static fram_status read_properties(reading *r, json_walk w)
 {
     char key[16];
     bool more = true;
     json_kind kind;
-    double most = scenario_key_find("ice", "thickness")->hi;
     if (!w.at)
         return FRAM_OK;
     fram_status status = json_walk_kind(&w, &kind, r->error);
@@ -246,14 +262,7 @@ static fram_status read_properties(reading *r, json_walk w)
             status = status == FRAM_OK ? json_walk_skip(&w, r->error) : status;
             continue;
         }
-        json_walk place = w;
-        status = json_walk_number(&w, &r->thickness, r->error);
-        if (status == FRAM_OK && !(r->thickness > 0))
-            return json_walk_refuse(&place, r->key, r->error, "expected a thickness over 0 m, found %g", r->thickness);
-        if (status == FRAM_OK && r->thickness > most)
-            return json_walk_refuse(&place, r->key, r->error,
-                                    "expected a thickness of at most %g m, found %g: is it in centimetres?", most,
-                                    r->thickness);
+        status = read_thickness(r, &w, kind);
     }
     return status;
 }

@@ -117,7 +117,7 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
     int32_t dropped = 0;
     for (int32_t i = 0; i < field->notes.count; i++)
         dropped += field->notes.data[i].dropped;
-    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mended",
+    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mendings",
               (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
     /* Within the skin lies what contacts and rounding leave of floes that a run wrote. */
     if (m.overlap_width > s->run.solver.contact_skin)

@@ -241,7 +241,7 @@ same "$(value 'j["rings"], j["floes"], [n["feature"] for n in j["dropped"]], j["
     "5 2 [1, 2, 4] 3" "rings of a scenario's file"
 says "feature 2, polygon 1, ring 1 (20, 20): is in the way of a vessel or of open water; left out" err
 expect 0 "$FRAM" field rings.yaml --set ice.bad_rings=repair
-says "left out: 2, repaired: 2" out
+says "left out: 2, repairs: 2" out
 says "repaired: feature 4, polygon 1, ring 1 (line 4): crosses or touches itself" out
 
 # How large its run is, is known when its floes are made; before that they are said to be missing.

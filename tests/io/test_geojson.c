@@ -131,7 +131,7 @@ static const bad_text bad_texts[] = {
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":{\"thickness\":150}}"), 2, 61, "feature 1",
      "expected a thickness of at most 100 m, found 150: is it in centimetres?"},
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":{\"thickness\":\"1\"}}"), 2, 61, "feature 1",
-     "expected a number"},
+     "expected a number for the property thickness, found a text"},
     {COLLECTION("{\"type\":\"Feature\",\"geometry\":null,\"properties\":[]}"), 2, 48, "feature 1",
      "expected an object"},
     {"{\"type\":\"GeometryCollection\"}", 1, 1, "feature 1", "no member \"geometries\""},
