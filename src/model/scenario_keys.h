@@ -56,7 +56,7 @@
     X(kind, CHOICE(solver_kind, SOLVER_FAST, "sequential fast accurate"), "",                                     \
       "fast: batched and accelerated; sequential: projected Gauss-Seidel in contact order, the reference; "       \
       "accurate: run to the tolerance, to judge the others by")                                                   \
-    X(iterations, INTEGER(30, 1, 1000000), "1", "velocity sweeps of a step")                                      \
+    X(iterations, INTEGER(30, 1, 1000000), "1", "fast, sequential: velocity sweeps of a step")                    \
     X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                  \
     X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                  \
     X(correction_rate, REAL(0.8, 0, 1), "1", "largest part of an overlap that a step corrects")                   \

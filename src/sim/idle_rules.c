@@ -99,6 +99,8 @@ static bool wets_no_hull(const idle_question *q)
     return !wet;
 }
 
+static bool is_accurate(const idle_question *q) { return q->s->run.solver.kind == SOLVER_ACCURATE; }
+static bool corrects_velocities(const idle_question *q) { return q->s->run.solver.baumgarte; }
 static bool is_sequential(const idle_question *q) { return q->s->run.solver.kind == SOLVER_SEQUENTIAL; }
 static bool is_not_accurate(const idle_question *q) { return q->s->run.solver.kind != SOLVER_ACCURATE; }
 
@@ -166,6 +168,8 @@ static const char TUNNEL[] = "kind is tunnel", NO_AZIMUTH[] = "kind is not azimu
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";
 
 static const idle_rule rules[] = {
+    {"run.solver.iterations", is_accurate, "run.solver.kind is accurate"},
+    {"run.solver.position_iterations", corrects_velocities, "run.solver.baumgarte is true"},
     {"run.solver.tolerance", is_sequential, "run.solver.kind is sequential"},
     {"run.solver.most_iterations", is_not_accurate, "run.solver.kind is not accurate"},
     {"ice.level.", is_no_sheet, "ice.source is not level"},

@@ -39,6 +39,11 @@ silent() { # SCENE OPTIONS...
 silent field.yaml
 before=$(hash_of field.yaml)
 idle field.yaml run.solver.most_iterations=7 "run.solver.kind is not accurate"
+before=$(hash_of field.yaml --set run.solver.kind=accurate)
+told field.yaml "run.solver.iterations|: without effect, since run.solver.kind is accurate" \
+    --set run.solver.kind=accurate --set run.solver.iterations=7
+same "$(hash_of field.yaml --set run.solver.kind=accurate --set run.solver.iterations=7)" "$before" "sweeps"
+before=$(hash_of field.yaml)
 idle field.yaml ice.level.tile_size=9 "ice.source is not level"
 idle field.yaml ice.file_scale=2 "ice.source is not file"
 idle field.yaml ice.strength.correlation_length=3 "neither strength varies"

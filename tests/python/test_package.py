@@ -701,9 +701,15 @@ ice: {source: none}
             fram.StationKeeping(fram.Scenario.from_text(FREE), observations=["no_such"])
         box = fram.Box([0, -1], [1, 1])
         self.assertIn(box.sample(), box)
-        for low, high in ((5, np.inf), (-np.inf, -5), (-np.inf, np.inf)):
+        for low, high in ((5, np.inf), (-np.inf, -5), (-np.inf, np.inf), (-1.7e308, 1.7e308)):
             half = fram.Box([low], [high])
             self.assertIn(half.sample(), half)
+        for low, high, shape in ((-1, 1, ()), (-1, [1, 2], (2,))):
+            wide = fram.Box(low, high)
+            self.assertEqual(wide.shape, shape)
+            self.assertIn(wide.sample(), wide)
+        with self.assertRaises(fram.InputError):
+            fram.Box([0, 2], [1, 1])
         self.assertNotIn([2, 0], box)
         self.assertIn("Box", repr(box))
 

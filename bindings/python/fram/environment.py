@@ -15,7 +15,9 @@ class Box:
     """A box of real numbers, as gymnasium.spaces.Box: low, high, shape, dtype, sample, contains."""
 
     def __init__(self, low, high, dtype=np.float64):
-        self.low, self.high = np.asarray(low, dtype), np.asarray(high, dtype)
+        self.low, self.high = (np.array(bound, dtype) for bound in np.broadcast_arrays(low, high))
+        if np.any(self.low > self.high):
+            raise InputError("input", f"expected low <= high, found {low} and {high}", key="low")
         self.shape, self.dtype = self.low.shape, np.dtype(dtype)
         self._random = np.random.default_rng()
 
@@ -27,7 +29,8 @@ class Box:
         """A random point; a side without end counts from -1 to 1, or to 1 beyond its other end."""
         low = np.where(np.isfinite(self.low), self.low, np.minimum(-1, self.high - 1))
         high = np.where(np.isfinite(self.high), self.high, np.maximum(1, self.low + 1))
-        return self._random.uniform(low, high).astype(self.dtype)
+        # By halves: the way from end to end of large bounds is no number.
+        return np.asarray(2 * self._random.uniform(low / 2, high / 2), self.dtype)
 
     def contains(self, x: Any) -> bool:
         """Whether x is a point of the box."""
