@@ -215,7 +215,7 @@ deb: | $(STAMPS)/core $(STAMPS)/deb ## Debian packages of this machine's kind un
 archive: | $(STAMPS)/core $(STAMPS)/deb ## a relocatable tar archive under build/packages
 	@JOBS=$(JOBS) tools/package.sh archive
 
-test-packages: | $(STAMPS)/trial ## the packages and the archive in empty Debian 12 roots (as root, with a network)
+test-packages: build | $(STAMPS)/trial ## the packages and the archive in empty Debian 12 roots (as root, with a network)
 	@JOBS=$(JOBS) tools/try_packages.sh
 
 deps: ## install all that building and checking needs
