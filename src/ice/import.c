@@ -301,6 +301,14 @@ static fram_status refuse_without_rings(const importing *m)
                      (int)m->rings->passed_over);
 }
 
+/* What to look at where all of a file was left out for one reason; "" where its words say all. */
+static const char *remedy_of(import_event event)
+{
+    if (event == IMPORT_NOTE_OUTSIDE)
+        return "; look at scale, offset and domain";
+    return event == IMPORT_NOTE_KEPT_OUT ? "; look at where these lie, and at ice.keep_out_margin" : "";
+}
+
 static fram_status refuse_empty(const importing *m)
 {
     const char *name = m->options->name;
@@ -314,8 +322,7 @@ static fram_status refuse_empty(const importing *m)
                          "no floe is left of %d rings: none winds round an area", rings);
     return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
                      "no floe is left of %d rings: %d of them or of their pieces were left out because each %s%s",
-                     rings, (int)most, import_event_text(event),
-                     event == IMPORT_NOTE_OUTSIDE ? "; look at scale, offset and domain" : "");
+                     rings, (int)most, import_event_text(event), remedy_of(event));
 }
 
 static fram_status import_all(importing *m, bool crops)
