@@ -618,8 +618,10 @@ ice: {source: none}
 
     def test_what_the_collector_meets_in_a_circle_is_destroyed_in_order(self):
         # In a process of its own: a wrong order is a crash. The world, its scenario and context are in one circle with
-        # the functions of the script; a recording goes on when Python ends.
+        # the functions of the script; a recording goes on when Python ends. The collector comes while cffi holds the
+        # lock under which it finds a function that is asked for first, as it may.
         text = ("import fram, gc, sys\n"
+                "gc.disable()\n"
                 "class Circle: pass\n"
                 "def make():\n"
                 "    c = Circle(); c.self = c\n"
@@ -629,17 +631,22 @@ ice: {source: none}
                 "    c.place, c.shapes = c.world.view().position, c.world.shapes()\n"
                 "    return c\n"
                 "for _ in range(5): make()\n"
-                "gc.collect()\n"
+                "with fram._library.ffi._lock: gc.collect()\n"
+                "assert not fram._library._made, fram._library._made\n"
+                "make().world.record(sys.argv[3])\n"
+                "with fram._library.ffi._lock: gc.collect()\n"
                 "assert not fram._library._made, fram._library._made\n"
                 "kept = make()\n"
                 "keep = lambda: kept\n"
                 "kept.recording = kept.world.record(sys.argv[2])\n"
                 "kept.world.step(3)\n")
-        folder = self.folder / "at the end"
-        done = subprocess.run([sys.executable, "-c", text, TOWED, folder], capture_output=True, text=True, check=False,
+        folder, collected = self.folder / "at the end", self.folder / "collected"
+        done = subprocess.run([sys.executable, "-c", text, TOWED, folder, collected], capture_output=True, text=True,
+                              check=False, timeout=60,
                               env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1])})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(fram.open_run(folder).info["steps"], 5)
+        self.assertEqual(fram.open_run(collected).info["status"], "stopped")
 
     def test_a_recording_ends_with_its_world(self):
         """Whatever arrays are held; the log hears of it, also one that goes with the world."""

@@ -49,6 +49,10 @@ def _library_path() -> str:
 ffi = cffi.FFI()
 ffi.cdef(_declarations())
 lib = ffi.dlopen(_library_path())
+# cffi finds a function when it is asked for first, and holds a lock meanwhile.  Python's collector may come just then
+# and free a world, whose own calls, and those of a log that hears of it, would wait for that lock for ever.
+for _name in dir(lib):
+    getattr(lib, _name)
 
 
 class FramError(Exception):
