@@ -648,6 +648,21 @@ ice: {source: none}
         self.assertEqual(fram.open_run(folder).info["steps"], 5)
         self.assertEqual(fram.open_run(collected).info["status"], "stopped")
 
+    def test_a_world_that_was_looked_at_goes_with_its_last_name(self):
+        """Not when the collector comes; a view alone keeps what it shows."""
+        self.addCleanup(gc.enable)
+        gc.disable()
+        world = towed().world()
+        world.record(self.folder / "looked at")
+        world.step()
+        view, address = world.view(), fram._library._address(world._pointer)
+        world.shapes()
+        del world
+        self.assertEqual(fram.open(self.folder / "looked at").info["status"], "stopped")
+        self.assertTrue(np.isfinite(view.position[view.lives != 0]).all())
+        del view
+        self.assertNotIn(address, fram._library._made)
+
     def test_a_recording_ends_with_its_world(self):
         """Whatever arrays are held; the log hears of it, also one that goes with the world."""
         for arrays, circle in itertools.product((False, True), repeat=2):

@@ -67,6 +67,10 @@ class _Keep:
         self.pointer = pointer
 
 
+def _closed() -> UsageError:
+    return UsageError("usage", "the world was closed", key="world")
+
+
 _NEVER = (-1,)
 """In place of the number of changes of a world that is not looked at: no number of one."""
 _VIEW_COLUMNS = {"lives": ("u1", 1), "generation": ("u4", 1), "mass": ("f8", 1), "position": ("f8", 3),
@@ -84,25 +88,28 @@ class View:
     # A world's memory tells by a number whether anything moved; asking in each step costs no call of the library.
 
     def __init__(self, world: "World"):
-        self._world = world
+        # Not the world, which knows its view: in a circle it would wait for Python's collector, and its recording too.
+        self._keep: Optional[_Keep] = world._keep
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._number = 0  # of the changes when the arrays were found
 
     def _look(self) -> None:
         """Finds the arrays where they are now."""
-        world, room = self._world, ffi.new("fram_body_view *")
-        if lib.fram_world_view(world._living(), room, ffi.NULL, ffi.sizeof("fram_body_view")) != 0:
+        if self._keep is None:
+            raise _closed()
+        room = ffi.new("fram_body_view *")
+        if lib.fram_world_view(self._keep.pointer, room, ffi.NULL, ffi.sizeof("fram_body_view")) != 0:
             raise UsageError("usage", "the world cannot be viewed", key="world")
         count = room.slots
         for column, (dtype, width) in _VIEW_COLUMNS.items():
             shape = (count, width) if width > 1 else (count,)
-            setattr(self, "_" + column, np.asarray(_Memory(world._keep, getattr(room, column), shape, dtype))
+            setattr(self, "_" + column, np.asarray(_Memory(self._keep, getattr(room, column), shape, dtype))
                     if count else _frozen(np.empty(shape, dtype)))
         self._changes, self._number = room.changes, room.changes[0]
 
     def _forget(self) -> None:
         """The world is closed."""
-        self._changes, self._number = _NEVER, 0
+        self._keep, self._changes, self._number = None, _NEVER, 0
         for column in _VIEW_COLUMNS:
             setattr(self, "_" + column, None)
 
@@ -327,7 +334,7 @@ class World:
 
     def _living(self):
         if self._pointer is None:
-            raise UsageError("usage", "the world was closed", key="world")
+            raise _closed()
         return self._pointer
 
     def _call(self, function, *arguments, size: Optional[int] = None, reads: bool = False) -> None:
