@@ -366,6 +366,23 @@ class Worlds(unittest.TestCase):
                 world.step()  # it meets no ice, which the log is told at the end
             scenario.world().close()
 
+    def test_a_recorded_world_does_not_go_back(self):
+        """That is told before anything is tried; what ends a block is told as it is."""
+        world = towed().world()
+        with tempfile.TemporaryDirectory() as folder:
+            with world.record(pathlib.Path(folder) / "run"):
+                world.step()
+                with self.assertRaisesRegex(fram.UsageError, "world: it is recorded"), world.snapshot():
+                    world.step()
+            self.assertEqual(fram.open(pathlib.Path(folder) / "run").info["steps"], 1)
+            with self.assertRaisesRegex(KeyError, "mine"), world.snapshot():
+                world.record(pathlib.Path(folder) / "within")
+                raise KeyError("mine")
+            world.close()
+        other = towed().world()
+        with self.assertRaisesRegex(fram.UsageError, "closed"), other.snapshot():
+            other.close()
+
     def test_a_world_closed_under_its_recording_or_view(self):
         world = towed().world()
         with tempfile.TemporaryDirectory() as folder:

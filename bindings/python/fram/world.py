@@ -250,7 +250,9 @@ def _frozen(array: np.ndarray) -> np.ndarray:
 
 
 class Snapshot:
-    """A state that was kept.  As a context manager it goes back to the state when the block ends."""
+    """A state that was kept.  As a context manager it goes back to the state when the block ends; UsageError at its
+    begin while the world is recorded, which cannot go back.
+    """
 
     def __init__(self, world: "World"):
         self._world, self._state = world, world.to_bytes()
@@ -260,10 +262,17 @@ class Snapshot:
         self._world.from_bytes(self._state)
 
     def __enter__(self) -> "Snapshot":
+        if self._world.recorded:
+            raise UsageError("usage", "it is recorded, and its series would not follow from one another: end the "
+                             "recording before", key="world")
         return self
 
-    def __exit__(self, *_exception) -> None:
-        self.restore()
+    def __exit__(self, kind, *_exception) -> None:
+        try:
+            self.restore()
+        except Exception:
+            if kind is None:  # otherwise what ended the block says more
+                raise
 
 
 class Recording:
