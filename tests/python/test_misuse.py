@@ -433,6 +433,7 @@ class Runs(unittest.TestCase):
             series.write("99")
         for text in (repr(run), run._repr_html_()):
             self.assertTrue("running" in text and f"{time}" in text and "0123" not in text, text)
+        self.assert_refused(lambda: run.hash, "run.json", 0, "state_hash")
         (self.bad / "series.csv").unlink()
         self.assertIn("running at t = 0.0 s", repr(run))
         self.assertIn("&lt;b&gt;&amp;", self.broken("run.json", b'{"title": "<b>&"}')._repr_html_())

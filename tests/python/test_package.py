@@ -523,6 +523,12 @@ ice: {source: none}
             self.assertEqual(data["ice_force_x"].attrs["units"], "N")
             np.testing.assert_array_equal(data["time"], columns["time"])
             np.testing.assert_array_equal(data["ice_force_x"], columns["ice_force_x"])
+            self.assertEqual(data.attrs["state_hash"], run.hash)
+            # One that goes on has none.
+            whole = (run.folder / "run.json").read_text()
+            (run.folder / "run.json").write_text(json.dumps({**run.info, "status": "running"}))
+            self.assertNotIn("state_hash", run.to_xarray().attrs)
+            (run.folder / "run.json").write_text(whole)
         except ImportError:
             print("without xarray")
         try:

@@ -142,12 +142,17 @@ class Run:
 
     @property
     def hash(self) -> str:
-        """State hash at the end, as `World.hash`."""
-        info = self.info
-        if "state_hash" not in info:
+        """State hash at the end, as `World.hash`; InputError for a run that goes on or was killed."""
+        found = self._known_hash()
+        if found is None:
             raise InputError("input", "expected the state hash of a run, found none", key="state_hash",
                              file=str(self.folder / "run.json"))
-        return info["state_hash"]
+        return found
+
+    def _known_hash(self) -> Optional[str]:
+        """None of a run that goes on or was killed: run.json has that of its beginning."""
+        info = self.info
+        return None if info.get("status") == "running" else info.get("state_hash")
 
     @property
     def scenario_text(self) -> str:
@@ -178,13 +183,16 @@ class Run:
         return columns if pandas is None else pandas.DataFrame(columns)
 
     def to_xarray(self):
-        """The series as an xarray Dataset over time, with units as attributes; ImportError without xarray."""
+        """The series as an xarray Dataset over time, with units as attributes, and the run's state hash if it has
+        ended; ImportError without xarray."""
         import xarray
         columns, units = _read_table(self.folder / "series.csv", ["time"])
         time = columns.pop("time")
         data = xarray.Dataset({name: ("time", values, {"units": units[name]}) for name, values in columns.items()},
                               coords={"time": ("time", time, {"units": units["time"]})})
-        data.attrs["state_hash"] = self.hash
+        found = self._known_hash()
+        if found is not None:
+            data.attrs["state_hash"] = found
         return data
 
     @property
