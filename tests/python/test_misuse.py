@@ -504,10 +504,11 @@ class Environment(unittest.TestCase):
         one = fram.StationKeeping(self.scenario, actions="thruster_1_order", observations="offset_x", interval=0.12)
         self.assertEqual((one.actions, one.observations), (("thruster_1_order",), ("offset_x",)))
         self.assertAlmostEqual(one.interval, 0.1)
-        for wrong in ({"actions": ["wind_x"]}, {"actions": ["time"]}, {"observations": ["nothing"]}):
+        for wrong in ({"actions": ["wind_x"]}, {"actions": ["time"]}, {"observations": ["nothing"]},
+                      {"actions": ["thruster_2_order", "thruster_2_order"]}):
             with self.assertRaises(fram.InputError) as caught:
                 fram.StationKeeping(self.scenario, **wrong)
-            self.assertEqual([caught.exception.key], *wrong.values())
+            self.assertEqual(caught.exception.key, *(names[-1] for names in wrong.values()))
         for interval in (0, -1, float("nan"), float("inf")):
             with self.assertRaises(fram.InputError) as caught:
                 fram.StationKeeping(self.scenario, interval=interval)

@@ -123,6 +123,8 @@ class StationKeeping:
             if name not in orders:
                 raise InputError("input", f"expected orders to thrusters ({', '.join(orders)}), whose limits are known",
                                  key=name)
+            if self.actions.count(name) > 1:
+                raise InputError("input", "expected each order once: the last one alone would count", key=name)
         for name in self.observations:
             if name not in self._first:
                 raise InputError("input", "the world has no such channel or input", key=name)
