@@ -199,6 +199,7 @@ typedef struct line_reader {
     fram_status (*read)(void *user, const char *path, int line, const char *text, fram_error *error);
     void *user;
     bool open_end; /* the last line counts without its end; otherwise it is taken for one that was cut short */
+    bool stops;    /* who asks to stop is heard */
 } line_reader;
 
 /* Without its end, be it of one character or two. */
@@ -258,6 +259,15 @@ static fram_status next_line(line_buffer *b, const char *path, int number, char 
 /* Rows between two words about how far the reading is. */
 enum { ROWS_TOLD = 256 };
 
+static fram_status tell_rows(context *ctx, const line_reader *reader, double done, double size, fram_error *error)
+{
+    static const char what[] = "reading rows";
+    if (reader->stops)
+        return work_continue(ctx, what, done, size, error);
+    work_tell(ctx, what, done, size);
+    return FRAM_OK;
+}
+
 static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, const char *path, const line_reader *reader,
                                fram_error *error)
 {
@@ -272,7 +282,9 @@ static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, cons
         if (length == 0 || (line[length - 1] != '\n' && !reader->open_end))
             break;
         if (number++ % ROWS_TOLD == 0)
-            work_tell(ctx, "reading rows", done, (double)size);
+            status = tell_rows(ctx, reader, done, (double)size, error);
+        if (status != FRAM_OK)
+            return status;
         done += (double)length;
         trim_end(line, length);
         const char *text = number == 1 ? line + utf8_mark(line, strlen(line)) : line;
@@ -323,7 +335,7 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
     if (!at)
         return error_memory(error);
     column_reader r = {.ctx = ctx, .names = names, .count = count, .at = at, .columns = columns};
-    const line_reader reader = {read_columns, &r, true};
+    const line_reader reader = {read_columns, &r, true, false};
     fram_status status = read_lines(ctx, path, &reader, error);
     memory_free(ctx, at);
     return status;
@@ -346,7 +358,7 @@ static fram_status find_row(void *user, const char *path, int line, const char *
 int csv_line_of(context *ctx, const char *path, int32_t row)
 {
     row_finder f = {.left = row};
-    const line_reader reader = {find_row, &f, true};
+    const line_reader reader = {find_row, &f, true, false};
     return read_lines(ctx, path, &reader, NULL) == FRAM_OK ? f.line : 0;
 }
 
@@ -411,7 +423,7 @@ fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_
 {
     *out = (csv_table){0};
     table_reader r = {ctx, out};
-    const line_reader reader = {read_table_line, &r, false};
+    const line_reader reader = {read_table_line, &r, false, true};
     fram_status status = read_lines(ctx, path, &reader, error);
     if (status != FRAM_OK)
         csv_table_free(ctx, out);

@@ -37,7 +37,8 @@ typedef struct csv_table {
 } csv_table;
 
 /* A row without its end, cut short while a run writes the file, ends the reading.  FRAM_ERROR_INPUT as csv_read, and
-   for a name that is too long.  On failure the table is empty. */
+   for a name that is too long; FRAM_INTERRUPTED where the context is asked to stop, which csv_read does not hear: a run
+   that was stopped reads its own series for its results.  On failure the table is empty. */
 fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error);
 void csv_table_free(context *ctx, csv_table *t);
 /* NULL when there is none of this name. */

@@ -140,12 +140,22 @@ static void begin_row(run_row *out)
         out->figure[i] = (double)NAN;
 }
 
+/* What has ended is kept, also when the context is asked to stop. */
+static fram_status read_ended(context *ctx, const char *folder, run_data *out, fram_error *error)
+{
+    const volatile int *stop = ctx->stop;
+    ctx->stop = NULL;
+    fram_status status = run_data_read(ctx, folder, false, out, error);
+    ctx->stop = stop;
+    return status;
+}
+
 /* A scenario without a vessel has a row too: of its ice. */
 fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_error *error)
 {
     run_data d;
     *out = (run_rows){0};
-    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    fram_status status = read_ended(ctx, folder, &d, error);
     if (status != FRAM_OK)
         return status;
     int32_t vessels = scenario_vessel_count(&d.s);
@@ -221,7 +231,7 @@ static void fill_failure(context *ctx, const char *folder, int exit_code, run_ro
     begin_row(out);
     out->failed = true;
     tell_end(exit_code, out->reason);
-    if (run_data_read(ctx, folder, false, &d, NULL) != FRAM_OK) {
+    if (read_ended(ctx, folder, &d, NULL) != FRAM_OK) {
         read_log_beside(ctx, folder, out->reason);
         return;
     }

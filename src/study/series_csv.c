@@ -151,11 +151,14 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
     for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n')) {
         double t = 0, x = 0;
         bool found = true;
+        fram_status status = FRAM_OK;
         if (number++ % ROWS_TOLD == 0)
-            work_tell(ctx, "reading rows", (double)(line - text), size);
+            status = work_continue(ctx, "reading rows", (double)(line - text), size, error);
+        if (status != FRAM_OK)
+            return status;
         if (line[1] == '\n' || line[1] == '\r' || line[1] == '#')
             continue;
-        fram_status status = read_line(want, line + 1, number, &t, &x, &found, error);
+        status = read_line(want, line + 1, number, &t, &x, &found, error);
         if (status != FRAM_OK)
             return status;
         if (found && (!array_push(ctx, value, x) || !array_push(ctx, &rows->line, number) ||

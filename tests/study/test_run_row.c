@@ -190,7 +190,11 @@ START_TEST(parts_that_came_loose_are_no_floes_that_broke)
     ck_assert_int_eq(mkdir(folder, 0700), 0);
     for (int i = 0; i < 4; i++)
         write_file(folder, files[i][0], files[i][1]);
+    /* It has ended, and counts though the program asks to stop. */
+    static const int stop = 1;
+    ctx.stop = &stop;
     assert_ok(run_rows_of(&ctx, folder, &rows, &error), error);
+    ck_assert(ctx.stop == &stop);
     ck_assert_int_eq(rows.count, 1);
     ck_assert_double_eq(rows.data[0].figure[ROW_fractures], 3);
     array_free(&ctx, &rows);
