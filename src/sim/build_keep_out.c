@@ -22,7 +22,7 @@ fram_status build_footprints(context *ctx, const world *w, polygon_list *out, fr
     return status;
 }
 
-static fram_status add_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+fram_status build_wide_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
     polygon_list all = {0};
     fram_status status = build_footprints(ctx, w, &all, error);
@@ -110,7 +110,7 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
 
 fram_status build_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
-    fram_status status = add_footprints(ctx, s, w, out, error);
+    fram_status status = build_wide_footprints(ctx, s, w, out, error);
     if (status == FRAM_OK)
         status = add_rectangles(ctx, s, out, error);
     return status == FRAM_OK ? add_file(ctx, s, w, out, error) : status;

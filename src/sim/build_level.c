@@ -76,27 +76,9 @@ static bool push_openings(context *ctx, const scenario *s, polygon_list *out)
 /* The vessels' footprints with their margin, and what the scenario opens. */
 static fram_status find_openings(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
-    polygon_list footprints = {0};
-    vec2_array wide = {0};
-    fram_status status = build_footprints(ctx, w, &footprints, error);
-    for (int32_t i = 0; i < polygon_list_count(&footprints) && status == FRAM_OK; i++) {
-        vec2_array corners = {0};
-        polygon p = polygon_list_get(&footprints, i);
-        double m = s->ice.keep_out_margin;
-        const vec2 shift[4] = {{-m, -m}, {m, -m}, {m, m}, {-m, m}};
-        bool good = true;
-        for (int32_t k = 0; k < p.count && good; k++)
-            for (int n = 0; n < 4 && good; n++)
-                good = array_push(ctx, &corners, vec2_add(p.vertex[k], shift[n]));
-        good = good && polygon_convex_hull(ctx, (polygon){corners.data, corners.count}, &wide) &&
-               polygon_list_push(ctx, out, (polygon){wide.data, wide.count});
-        array_free(ctx, &corners);
-        status = good ? FRAM_OK : error_memory(error);
-    }
+    fram_status status = build_wide_footprints(ctx, s, w, out, error);
     if (status == FRAM_OK && !push_openings(ctx, s, out))
         status = error_memory(error);
-    polygon_list_free(ctx, &footprints);
-    array_free(ctx, &wide);
     return status;
 }
 

@@ -394,6 +394,31 @@ START_TEST(a_sheet_goes_on_beyond_the_domain)
 }
 END_TEST
 
+/* The sheet is open as far from a hull as the margin says, whichever way that heads, held or drifting. */
+START_TEST(a_margin_is_as_wide_at_every_heading)
+{
+    static const char *const text = "run: {duration: 1}\n"
+                                    "vessel: {mode: towed, hull: {form: box, length: 20, beam: 10, draught: 3}}\n"
+                                    "ice: {source: level, thickness: 1, keep_out_margin: 2}\n"
+                                    "domain: {x_min: -40, x_max: 40, y_min: -40, y_max: 40}\n";
+    static const char *const boundary[] = {"domain.boundary=open", "domain.boundary=feeding"};
+    static const char *const heading[] = {"vessel.heading_deg=0", "vessel.heading_deg=30", "vessel.heading_deg=45",
+                                          "vessel.heading_deg=90"};
+    const double straight = 20 * 10 + 2 * 60, arcs = 4 * PI, tangents = 4 * 8 * real_tan(PI / 8);
+    for (int i = 0; i < 8; i++) {
+        scene with, without;
+        scene_open_with(&with, text, (const char *[]){boundary[i / 4], heading[i % 4]}, 2);
+        scene_open_with(&without, text, (const char *[]){boundary[i / 4], "vessel.present=false"}, 2);
+        double corners = (ice_mass(&without) - ice_mass(&with)) / with.s.ice.density - straight;
+        /* For the arc round a corner stand two tangents at least. */
+        ck_assert_msg(corners >= arcs - 1e-6 && corners <= tangents + 1e-6,
+                      "%g m2 are open round the corners with %s, %g within arcs", corners, heading[i % 4], arcs);
+        scene_close(&with);
+        scene_close(&without);
+    }
+}
+END_TEST
+
 /* A seam of tiles leaves slivers of contact that give way until rounding is left of them: with them this solver's
    velocities were no numbers, at which a step fails. */
 START_TEST(slivers_on_seams_carry_nothing)
@@ -411,6 +436,7 @@ START_TEST(slivers_on_seams_carry_nothing)
 }
 END_TEST
 
-TEST_MAIN("level_ice", a_sheet_is_held_somewhere, a_sheet_goes_on_beyond_the_domain, slivers_on_seams_carry_nothing,
-          a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less, trimming_keeps_the_load,
-          dead_shapes_go, the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
+TEST_MAIN("level_ice", a_sheet_is_held_somewhere, a_sheet_goes_on_beyond_the_domain,
+          a_margin_is_as_wide_at_every_heading, slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull,
+          ram_back_off_return, crushed_ice_is_never_less, trimming_keeps_the_load, dead_shapes_go,
+          the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
