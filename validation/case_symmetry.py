@@ -25,6 +25,22 @@ environment: {{current_speed: {0.25 * root}, current_direction_deg: 90, wind_spe
 """
 
 
+def melting(scale):
+    """A ship whose sides melt the level ice that they have bent, lengths times scale, and the heat of that too."""
+    root = math.sqrt(scale)
+    return f"""run: {{duration: {100 * root}, time_step: {0.02 * root}, scale: {30 * scale}}}
+vessel:
+  mode: towed
+  x: {-32 * scale}
+  speed: {2 * root}
+  hull: {{form: icebreaker, length: {60 * scale}, beam: {14 * scale}, draught: {5 * scale}, freeboard: {3 * scale}}}
+ice: {{source: level, breakable: true, thickness: {0.7 * scale}, crushing_strength: {2e6 * scale},
+      elastic_modulus: {5e9 * scale}, flexural_strength: {5e5 * scale}, level: {{x_min: 0}},
+      fracture: {{latent_heat: {334e3 * scale}}}}}
+domain: {{x_min: {-80 * scale}, x_max: {60 * scale}, y_min: {-30 * scale}, y_max: {30 * scale}, boundary: open}}
+"""
+
+
 def placed(turn=0, mirror=1, hull_speed=1.5, shift=0.0, kind="accurate", stick=0.0):
     """A driven hull meets two floes off its centre line; turned by 0 or 90 degrees, mirrored, everything moving."""
     co, si = (1, 0) if turn == 0 else (0, 1)
@@ -69,12 +85,12 @@ def case(out):
     c = ladder.Case(
         "Symmetries",
         1,
-        f"Ice force on a hull over {STEPS} steps: a scene scaled by Froude's rule with lambda 4 and 16; hull that "
-        "moves in still water against ice and water that move past it (50 steps); mirrored and turned by 90 "
-        "degrees.",
+        f"Ice force on a hull over {STEPS} steps: a scene scaled by Froude's rule with lambda 4 and 16; a ship in "
+        "level ice that breaks and melts, with lambda 4; hull that moves in still water against ice and water that "
+        "move past it (50 steps); mirrored and turned by 90 degrees.",
         "The runs themselves.",
-        "Scaled: 1e-12 of the largest force (powers of two: finds hidden dimensional constants). Moved: 1e-9. Mirrored "
-        "and turned: 1e-6, with the accurate solver, since the order of contacts changes.",
+        "Scaled: 1e-12 of the largest force (powers of four: finds hidden dimensional constants). Moved: 1e-9. "
+        "Mirrored and turned: 1e-6, with the accurate solver, since the order of contacts changes.",
     )
     c.header = ["change", "largest force [kN]", "largest difference / largest force", "allowed"]
     plain = forces(scaled(1.0), STEPS)
@@ -89,6 +105,8 @@ def case(out):
         large = [tuple(x / scale**3 for x in f) for f in forces(scaled(scale), STEPS)]
         enter(f"scaled by {scale:g}", plain, large, 1e-12)
         histories[scale] = large
+    large = [tuple(x / 4**3 for x in f) for f in forces(melting(4.0), STEPS)]
+    enter("level ice that melts, scaled by 4", forces(melting(1.0), STEPS), large, 1e-12)
     enter("moving hull, moving ice", forces(placed(hull_speed=3.0), 50), forces(placed(hull_speed=0.0, shift=-3.0), 50),
           1e-9)
     straight = forces(placed(), 150)

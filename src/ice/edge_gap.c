@@ -1,9 +1,6 @@
 /* Gaps between a hull and the face that it left or melted; see edge_gap.h. */
 #include "ice/edge_gap.h"
 
-/* Heat that melts ice; what warms it first, and what flows into the hull, is left out (docs/decisions/0569) [J/kg]. */
-static const double LATENT_HEAT = 334e3;
-
 /* The end of an even patch over the arm of its contacts, which have its second moments. */
 static const double END_OVER_ARM = 1.7320508075688772;
 
@@ -58,12 +55,12 @@ void edge_gap_open(const edge_support_table *supports, int32_t row, const body_t
 /* Depth that the heat of friction melts off the face in a step, mu p v/(rho L), of an edge that is bent; no more than
    lets it go, C n_z^2 N, so that its load fades in steps of any length [m].  Under a hull that moves as it is told
    nothing is bent. */
-static double melted(const body_table *bodies, double density, double time_step, const crushing_patch *p,
-                     const contact *first, double pressed)
+static double melted(const body_table *bodies, double density, double latent_heat, double time_step,
+                     const crushing_patch *p, const contact *first, double pressed)
 {
     vec3 past = past_at(bodies, p, p->centre);
     vec3 slip = vec3_mad(past, p->normal, -vec3_dot(past, p->normal));
-    double depth = first->friction_kinetic * pressed * vec3_length(slip) / (p->area * density * LATENT_HEAT);
+    double depth = first->friction_kinetic * pressed * vec3_length(slip) / (p->area * density * latent_heat);
     double bent = first->give * time_step * pressed * p->normal.z * p->normal.z;
     return bent > 0 && !first->crush_infinite ? depth * bent / (depth + bent) : 0;
 }
@@ -74,7 +71,7 @@ double edge_gap_after(edge_gap_rules rules, const body_table *bodies, double den
     const contact *first = first_contact_of(p, contacts);
     double pressed = edge_gap_pressed(p, contacts);
     if (pressed > 0)
-        return rules.melts ? melted(bodies, density, time_step, p, first, pressed) : 0;
+        return rules.melts ? melted(bodies, density, rules.latent_heat, time_step, p, first, pressed) : 0;
     double recoil = first->crush_infinite ? 0 : first->recoil;
     double closes = closing_speed(bodies, p, contacts) - recoil * p->normal.z;
     return rules.gaps ? fmax(first->gap - closes * time_step, 0) : 0;

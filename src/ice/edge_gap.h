@@ -12,8 +12,9 @@ void edge_gap_open(const edge_support_table *supports, int32_t row, const body_t
 
 /* What happens to gaps. */
 typedef struct edge_gap_rules {
-    bool gaps;  /* a hull that draws back keeps the way */
-    bool melts; /* the heat of friction melts the face of an edge that is bent */
+    bool gaps;          /* a hull that draws back keeps the way */
+    bool melts;         /* the heat of friction melts the face of an edge that is bent */
+    double latent_heat; /* that melts ice; what warms it first, and what flows into the hull, is left out [J/kg] */
 } edge_gap_rules;
 
 /* The gap of a patch after the solve [m]: where it presses what friction melts, of ice of this density [kg/m3]; where

@@ -73,6 +73,7 @@ typedef struct fracture_settings {
     bool edge_inertia;          /* with edges_give: ice and water under a bending edge have mass */
     bool edge_gaps;             /* with edges_give: a hull that drew back meets the edge where it left it */
     bool edge_melts;            /* with edges_give: by the heat of friction where a hull slides along it */
+    double latent_heat;         /* of that [J/kg] */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 

@@ -26,7 +26,7 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
 {
     load_work *w = &j->scratch->load;
     const body_table *bodies = j->state->bodies;
-    const edge_gap_rules rules = {j->settings->edge_gaps, j->settings->edge_melts};
+    const edge_gap_rules rules = {j->settings->edge_gaps, j->settings->edge_melts, j->settings->latent_heat};
     array_clear(&w->parts);
     if (!j->settings->edges_give)
         return true;

@@ -253,6 +253,8 @@
       "edge_threshold, meets it where it left it; false: as soon as it turns")                                        \
     X(edge_melts, BOOLEAN(true), "",                                                                                  \
       "level and fixed ice, with edge_elastic: where a hull slides along a bent edge friction's heat melts its face") \
+    X(latent_heat, REAL(334e3, 1e-3, 1e12), "J/kg",                                                                   \
+      "edge_melts: heat that melts ice; goes with lambda, as the square of a speed, in a scenario that is scaled")    \
     X(edge_inertia, BOOLEAN(true), "",                                                                                \
       "level and fixed ice, with edge_compliance: ice and the water that moves with it have mass as an edge bends, "  \
       "so that breaking loads rise and pieces shorten with speed; false: both are those of a load at rest")           \

@@ -65,6 +65,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .edge_inertia = s->ice.fracture.edge_inertia,
                                .edge_gaps = s->ice.fracture.edge_gaps,
                                .edge_melts = s->ice.fracture.edge_melts,
+                               .latent_heat = s->ice.fracture.latent_heat,
                                .crush_notches = s->ice.crush_notches,
                                .crush_trims = s->ice.crush_trims};
 }

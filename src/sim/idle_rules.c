@@ -155,12 +155,19 @@ static bool has_wind_file(const idle_question *q) { return q->s->environment.win
 static bool is_no_estimate(const idle_question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_ESTIMATE; }
 static bool is_not_given(const idle_question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_GIVEN; }
 
+static bool slides_freely(const idle_question *q) { return q->s->ice.friction.ice_hull_kinetic == 0; }
+static bool melts_nothing(const idle_question *q)
+{
+    return !q->s->ice.fracture.edge_melts || idle_rule_of("ice.fracture.edge_melts", q);
+}
+
 static const char OWN_FORM[] = "hull.form is not file", MESH[] = "with hull.form file the mesh has its own";
 static const char UNBREAKABLE[] = "ice.breakable is false";
 static const char FREE_ICE[] = "there is neither level ice nor a fixed floe";
 static const char CELLS[] = "with ice.source voronoi the cells are the shapes";
 static const char NO_WALLS[] = "domain.boundary is not walls";
 static const char ALONE[] = "there is no other vessel", NO_WASH[] = "wash.active is false";
+static const char TOLD_HULLS[] = "there is no vessel of mode towed or free";
 static const char DRY[] = "environment.water is false", PRESCRIBED[] = "mode is prescribed";
 static const char HEADING[] = "positioning.control heading leaves the place to lines";
 static const char BOX[] = "hull.form is box", CONE[] = "hull.form is cone";
@@ -234,6 +241,9 @@ static const idle_rule rules[] = {
     {"ice.fracture.edge_compliance", has_rigid_edges, NULL},
     {"ice.fracture.edge_", has_rigid_edges, "ice.fracture.edge_compliance is false"},
     {"ice.fracture.edge_melts", bends_no_edge, "ice.fracture.edge_elastic is false"},
+    {"ice.fracture.edge_melts", wets_no_hull, TOLD_HULLS}, /* nothing is bent under those that move as they are told */
+    {"ice.fracture.edge_melts", slides_freely, "ice.friction.ice_hull_kinetic is 0"},
+    {"ice.fracture.latent_heat", melts_nothing, "friction melts no edge (ice.fracture.edge_melts)"},
     {"ice.fracture.under_pieces", holds_no_ice, FREE_ICE},
     {"ice.crush_trims", holds_no_ice, FREE_ICE},
     {"ice.correct_unbreakable", has_only_breakable, "all ice may break (ice.breakable)"},
@@ -357,7 +367,7 @@ static const idle_rule rules[] = {
     {"environment.floe_damping", is_dry, DRY},
     {"environment.ice_drag.", is_dry, DRY},
     {"environment.hull_drag.", is_dry, DRY},
-    {"environment.hull_drag.", wets_no_hull, "there is no vessel of mode towed or free"},
+    {"environment.hull_drag.", wets_no_hull, TOLD_HULLS},
     {"environment.current_speed", has_current_file, "environment.current_file tells the current"},
     {"environment.current_direction_deg", has_no_current, "there is no environment.current_speed"},
     {"environment.wind_speed", has_wind_file, "environment.wind_file tells the wind"},

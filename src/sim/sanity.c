@@ -43,6 +43,7 @@ static const usual usual_values[] = {
     {"ice.crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.populations[].crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.fracture.toughness", 1e4, 1e6, 1.5, "what was measured on ice", "give Pa m^0.5, not kPa m^0.5"},
+    {"ice.fracture.latent_heat", 2e4, 2e7, 1, "what ice takes to melt", "give J/kg, not kJ/kg"},
     {"ice.density", 650, 960, 0, "what was measured on ice", "give kg/m3"},
     {"ice.friction.ice_ice_static", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
     {"ice.friction.ice_ice_kinetic", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},

@@ -137,6 +137,23 @@ told edges.yaml "ice.fracture.edge_elastic and 3 more: without effect, since ice
     --set ice.fracture.edge_melts=false --set ice.fracture.edge_inertia=false
 told edges.yaml "ice.fracture.edge_melts: without effect, since ice.fracture.edge_elastic is false" \
     --set ice.top_plane_area=false --set ice.fracture.edge_elastic=false --set ice.fracture.edge_melts=false
+
+# Friction melts them where a hull slides along that is not led.
+sed 's/top_plane_area: true, //; s/duration: 2/duration: 4/; s/hull: {/&form: icebreaker, /' edges.yaml >melting.yaml
+silent melting.yaml --set ice.fracture.edge_melts=false
+silent melting.yaml --set ice.fracture.latent_heat=2e5
+[ "$(hash_of melting.yaml --set ice.fracture.latent_heat=2e5)" != "$(hash_of melting.yaml)" ] || fail "nothing melts"
+sed 's/mode: towed/mode: prescribed/' melting.yaml >led.yaml
+before=$(hash_of led.yaml)
+idle led.yaml ice.fracture.edge_melts=false "there is no vessel of mode towed or free"
+idle led.yaml ice.fracture.latent_heat=2e5 "friction melts no edge"
+sed 's/breakable: true,/& friction: {ice_hull_static: 0, ice_hull_kinetic: 0},/' melting.yaml >slippery.yaml
+before=$(hash_of slippery.yaml)
+idle slippery.yaml ice.fracture.edge_melts=false "ice.friction.ice_hull_kinetic is 0"
+idle slippery.yaml ice.fracture.latent_heat=2e5 "friction melts no edge"
+told melting.yaml "ice.fracture.latent_heat: without effect, since friction melts no edge" \
+    --set ice.fracture.edge_melts=false --set ice.fracture.latent_heat=2e5
+
 told edges.yaml "ice.correct_unbreakable: without effect, since all ice may break" --set ice.correct_unbreakable=true
 silent edges.yaml --set ice.breakable=false --set ice.correct_unbreakable=true
 silent edges.yaml --set ice.top_plane_area=false --set ice.fracture.edge_elastic=false

@@ -39,6 +39,7 @@ told ship.yaml "ice.flexural_strength: 500 Pa|not kPa or MPa" --set ice.flexural
 told ship.yaml "ice.elastic_modulus: 5 Pa|not GPa" --set ice.elastic_modulus=5
 told ship.yaml "ice.crushing_strength: 2 Pa|not kPa or MPa" --set ice.crushing_strength=2
 told ship.yaml "ice.fracture.toughness: 150 Pa m^0.5|not kPa" --set ice.fracture.toughness=150
+told ship.yaml "ice.fracture.latent_heat: 334 J/kg|not kJ/kg" --set ice.fracture.latent_heat=334
 told ship.yaml "environment.wind_speed: 70 m/s|knot" --set environment.wind_speed=70
 told ship.yaml "environment.current_speed: 40 m/s|cm/s" --set environment.current_speed=40
 told ship.yaml "vessel.speed: 15 m/s|knot" --set vessel.speed=15

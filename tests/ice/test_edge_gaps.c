@@ -24,6 +24,7 @@ static void gap_rig_make(gap_rig *g, double dt, double friction)
     g->scratch = fracture_scratch_create(&g->r.ctx);
     g->settings.time_step = dt;
     g->r.solver.contact_skin = 1e-4; /* closes gaps between floes, not these */
+    g->settings.latent_heat = MELTS;
     g->settings.edges_give = g->settings.edge_gaps = g->settings.edge_melts = g->settings.crush_trims = true;
     g->r.settings.edges = (edge_compliance){true, false, 1025, 9.81, 3, true, true};
     pair_policy *p = &g->r.policies.of[MATERIAL_HULL][MATERIAL_ICE];
