@@ -104,6 +104,15 @@ void drift_load(const drift_world *w, const contact_array *contacts, double dt)
     w->drift->load[0] = vec2_make(sum.x / dt, sum.y / dt);
 }
 
+/* Of its mass at the start: what a floe that has broken up goes on with, so that forces still divide by it. */
+static const double LEAST_MASS = 1e-3;
+
+/* Where the ice far away drives with whatever is needed, the mass decides nothing: it is that of the tiles at least. */
+static double least_mass(const drift_definition *d, double tiles)
+{
+    return isfinite(d->line_load) ? LEAST_MASS * d->mass : tiles;
+}
+
 /* What broke off since the last step took its share of the momentum with it. */
 static void book_broken(const drift_world *w)
 {
@@ -111,7 +120,7 @@ static void book_broken(const drift_world *w)
     double now = drift_tile_mass(w), broken = t->ice[0] - now;
     t->broken[0] += broken;
     if (w->definition->bounded)
-        t->mass[0] = fmax(t->mass[0] - broken, now);
+        t->mass[0] = fmax(t->mass[0] - broken, least_mass(w->definition, now));
     t->ice[0] = now;
 }
 
@@ -136,7 +145,7 @@ fram_status drift_begin(context *ctx, const drift_world *w, vec2 velocity, fram_
     t->column[0] = w->start->column;
     t->row[0] = w->start->row;
     t->ice[0] = drift_tile_mass(w);
-    t->mass[0] = fmax(w->definition->mass, t->ice[0]);
+    t->mass[0] = fmax(w->definition->mass, least_mass(w->definition, t->ice[0]));
     for (int32_t i = 0; i < w->floes->count; i++)
         if (w->floes->body[i] >= 0 && w->floes->tile[i] != 0)
             w->bodies->velocity[w->floes->body[i]] = vec3_make(velocity.x, velocity.y, 0);

@@ -33,7 +33,7 @@ typedef struct drift_definition {
     double smallest_piece; /* as in shape_add_prism [m2] */
     double line_load; /* most that the ice far away drives with, per metre across; INFINITY: whatever is needed [N/m] */
     double mass;      /* of all that moves together at the start, ice outside the window too; with a line load [kg] */
-    bool bounded;     /* what breaks off makes that mass less; otherwise the sheet is fed */
+    bool bounded;     /* a floe with four edges: what breaks off makes that mass less; otherwise the sheet is fed */
 } drift_definition;
 
 /* One row, or none without a sheet that drifts. */

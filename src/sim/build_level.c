@@ -12,6 +12,11 @@
    (a/l of 0.01 to 0.05; docs/theory.md). */
 static const double TILE_LENGTHS = 2;
 
+static box2 fed_window(const scenario *s)
+{
+    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
+}
+
 static box2 sheet_plan(const scenario *s)
 {
     const scenario_level *l = &s->ice.level;
@@ -44,8 +49,7 @@ tile_grid build_tiles(const scenario *s)
     if (s->ice.source != ICE_LEVEL)
         return (tile_grid){.columns = 0};
     if (s->domain.boundary == DOMAIN_FEEDING) {
-        tile_grid drifting = drift_grid_over(
-            (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}}, tile_size(s));
+        tile_grid drifting = drift_grid_over(fed_window(s), tile_size(s));
         drifting.least_seam = s->ice.edge_threshold;
         return drifting;
     }
@@ -58,15 +62,20 @@ tile_grid build_tiles(const scenario *s)
     return g;
 }
 
+static void opening_corners(const scenario_opening *o, vec2 corner[4])
+{
+    double x = o->length / 2, y = o->width / 2, angle = radians(o->angle_deg);
+    const vec2 own[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    for (int k = 0; k < 4; k++)
+        corner[k] = (vec2){o->x + real_cos(angle) * own[k].x - real_sin(angle) * own[k].y,
+                           o->y + real_sin(angle) * own[k].x + real_cos(angle) * own[k].y};
+}
+
 static bool push_openings(context *ctx, const scenario *s, polygon_list *out)
 {
     for (int32_t i = 0; i < s->ice.level.openings.count; i++) {
-        const scenario_opening *o = &s->ice.level.openings.data[i];
-        double x = o->length / 2, y = o->width / 2, angle = radians(o->angle_deg);
-        vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-        for (int k = 0; k < 4; k++)
-            corner[k] = (vec2){o->x + real_cos(angle) * corner[k].x - real_sin(angle) * corner[k].y,
-                               o->y + real_sin(angle) * corner[k].x + real_cos(angle) * corner[k].y};
+        vec2 corner[4];
+        opening_corners(&s->ice.level.openings.data[i], corner);
         if (!polygon_list_push(ctx, out, (polygon){corner, 4}))
             return false;
     }
@@ -120,11 +129,20 @@ static fram_status make_tiles(context *ctx, const scenario *s, floe_definition d
     return status;
 }
 
+static double box_area(box2 b) { return fmax(0, b.hi.x - b.lo.x) * fmax(0, b.hi.y - b.lo.y); }
+
+static double area_inside(polygon p, box2 b)
+{
+    const vec2 corner[4] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
+    return polygon_overlap_area(p, (polygon){corner, 4});
+}
+
+/* Of the ice inside `plan`: tiles of a sheet that drifts reach out of the domain. */
 static field_report level_report(const polygon_list *outlines, box2 plan)
 {
-    double area = 0, whole = (plan.hi.x - plan.lo.x) * (plan.hi.y - plan.lo.y);
+    double area = 0, whole = box_area(plan);
     for (int32_t i = 0; i < polygon_list_count(outlines); i++)
-        area += polygon_area(polygon_list_get(outlines, i));
+        area += area_inside(polygon_list_get(outlines, i), plan);
     return (field_report){.floes = polygon_list_count(outlines), .concentration = area / whole, .free_area = whole};
 }
 
@@ -132,10 +150,9 @@ static field_report level_report(const polygon_list *outlines, box2 plan)
 static fram_status check_openings(context *ctx, const scenario *s, box2 plan, const polygon_list *openings,
                                   const polygon_list *outlines, fram_error *error)
 {
-    const vec2 corner[4] = {plan.lo, {plan.hi.x, plan.lo.y}, plan.hi, {plan.lo.x, plan.hi.y}};
     int32_t count = s->ice.level.openings.count, others = polygon_list_count(openings) - count;
     for (int32_t i = 0; i < count; i++)
-        if (!(polygon_overlap_area(polygon_list_get(openings, others + i), (polygon){corner, 4}) > 0))
+        if (!(area_inside(polygon_list_get(openings, others + i), plan) > 0))
             log_write(ctx, LOG_WARNING, "ice.level.openings[%d]: it lies beside the ice and opens nothing", (int)i);
     if (polygon_list_count(outlines) > 0)
         return FRAM_OK;
@@ -186,40 +203,82 @@ static fram_status ice_area(context *ctx, box2 extent, const polygon_list *openi
     return status;
 }
 
-/* 0: what is simulated of it tells. */
+/* Where a sheet that drifts is at the start, however far it reaches. */
+static box2 sheet_extent(const scenario *s)
+{
+    const scenario_level *l = &s->ice.level;
+    return (box2){{automatic_or(l->x_min, -HUGE_VAL), automatic_or(l->y_min, -HUGE_VAL)},
+                  {automatic_or(l->x_max, HUGE_VAL), automatic_or(l->y_max, HUGE_VAL)}};
+}
+
+static box2 box_common(box2 a, box2 b)
+{
+    return (box2){{fmax(a.lo.x, b.lo.x), fmax(a.lo.y, b.lo.y)}, {fmin(a.hi.x, b.hi.x), fmin(a.hi.y, b.hi.y)}};
+}
+
+double build_ice_in_domain(const scenario *s)
+{
+    box2 domain = fed_window(s), extent = sheet_extent(s), part = box_common(extent, domain);
+    double area = box_area(part);
+    for (int32_t i = 0; i < s->ice.level.openings.count && area > 0; i++) {
+        vec2 corner[4];
+        opening_corners(&s->ice.level.openings.data[i], corner);
+        area -= area_inside((polygon){corner, 4}, part);
+    }
+    return (area > 0 ? area : fmin(box_area(domain), box_area(extent))) * s->ice.thickness * s->ice.density;
+}
+
+/* Area of a floe with four edges; of a sheet that lacks one, the ice of it in the domain, or, where none is there yet,
+   that of a domain full of it. */
+static fram_status find_sheet_area(context *ctx, const scenario *s, box2 extent, const polygon_list *openings,
+                                   double *area, fram_error *error)
+{
+    bool floe = isfinite(box_area(extent));
+    box2 domain = fed_window(s), part = floe ? extent : box_common(extent, domain);
+    *area = box_area(part);
+    if (*area > 0 && polygon_list_count(openings) > 0) {
+        fram_status status = ice_area(ctx, part, openings, area, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    if (floe && !(*area > 0))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
+                         "nothing is left of the sheet of %.4g m by %.4g m beside its openings",
+                         extent.hi.x - extent.lo.x, extent.hi.y - extent.lo.y);
+    if (!(*area > 0))
+        *area = box_area(domain);
+    return FRAM_OK;
+}
+
+/* 0: nothing asks for it, since the sheet drifts whatever it meets and has no end. */
 static fram_status find_sheet_mass(context *ctx, const scenario *s, box2 extent, const polygon_list *openings,
                                    double *mass, fram_error *error)
 {
-    double length = extent.hi.x - extent.lo.x, width = extent.hi.y - extent.lo.y, area = length * width;
-    *mass = automatic_or(s->ice.level.mass, 0);
-    if (!is_automatic(s->ice.level.mass) || !isfinite(area))
-        return FRAM_OK;
-    fram_status status = polygon_list_count(openings) > 0 ? ice_area(ctx, extent, openings, &area, error) : FRAM_OK;
-    *mass = area * s->ice.thickness * s->ice.density;
-    if (status == FRAM_OK && !(area > 0))
-        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
-                           "nothing is left of the sheet of %.4g m by %.4g m beside its openings", length, width);
+    double area = 0;
+    fram_status status = FRAM_OK;
+    bool floe = isfinite(box_area(extent)), asked = !is_automatic(s->ice.level.line_load);
+    if (is_automatic(s->ice.level.mass) && (floe || asked))
+        status = find_sheet_area(ctx, s, extent, openings, &area, error);
+    *mass = automatic_or(s->ice.level.mass, area * s->ice.thickness * s->ice.density);
     return status;
 }
 
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error)
 {
-    const scenario_level *l = &s->ice.level;
     if (s->ice.source != ICE_LEVEL || s->domain.boundary != DOMAIN_FEEDING)
         return FRAM_OK;
-    box2 extent = {{automatic_or(l->x_min, -HUGE_VAL), automatic_or(l->y_min, -HUGE_VAL)},
-                   {automatic_or(l->x_max, HUGE_VAL), automatic_or(l->y_max, HUGE_VAL)}};
+    box2 extent = sheet_extent(s);
     *out = (drift_definition){.drifts = true,
-                              .window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+                              .window = fed_window(s),
                               .extent = extent,
                               .ice = tile_definition(s, MOTION_CARRIED),
                               .smallest = s->ice.smallest_floe_area,
                               .smallest_piece = s->ice.smallest_piece_area,
-                              .line_load = automatic_or(l->line_load, HUGE_VAL)};
+                              .line_load = automatic_or(s->ice.level.line_load, HUGE_VAL)};
     if (!push_openings(ctx, s, &out->openings))
         return error_memory(error);
     fram_status status = find_sheet_mass(ctx, s, extent, &out->openings, &out->mass, error);
-    out->bounded = out->mass > 0;
+    out->bounded = isfinite(box_area(extent));
     return status;
 }
 
@@ -241,7 +300,7 @@ fram_status build_drifting(context *ctx, const scenario *s, const model *m, worl
         status = make_tiles(ctx, s, m->sheet.ice, &outlines, &cells, w, error);
     if (status == FRAM_OK)
         status = mark_seams(ctx, g, w, error);
-    *report = level_report(&outlines, g->plan);
+    *report = level_report(&outlines, m->sheet.window);
     polygon_list_free(ctx, &first.openings);
     polygon_list_free(ctx, &outlines);
     array_free(ctx, &cells);

@@ -12,6 +12,9 @@ fram_status build_level(context *ctx, const scenario *s, world *w, field_report 
 tile_grid build_tiles(const scenario *s);
 /* What is fixed of level ice that drifts; out stays as it is without. */
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error);
+/* Mass of a drifting sheet's ice in the domain at the start, of a domain full of it, or of all of it if that is less,
+   where none is there yet [kg]; less where openings overlap one another. */
+double build_ice_in_domain(const scenario *s);
 /* Level ice that drifts: its tiles in the window at the start, at rest. */
 fram_status build_drifting(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                            fram_error *error);

@@ -1,5 +1,6 @@
 #include "ice/feeding.h"
 #include "ice/floe.h"
+#include "sim/build_level.h"
 #include "sim/build_model.h"
 #include "sim/build_packed.h"
 #include "sim/sanity_parts.h"
@@ -229,8 +230,8 @@ static void tell_level(const teller *t)
                    "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m in the run: there will "
                    "be no ice",
                    gap, speed * t->s->run.duration);
-    double mass = i->density * i->thickness * (d->x_max - d->x_min) * (d->y_max - d->y_min);
-    if (fed && automatic_or(l->mass, HUGE_VAL) < mass)
+    double mass = fed ? build_ice_in_domain(t->s) : 0;
+    if (automatic_or(l->mass, HUGE_VAL) < mass)
         sanity_say(t->tell, t->to,
                    "ice.level.mass: %.4g kg is less than that of the ice in the domain, %.4g kg: give all that slows "
                    "down together, in kg",

@@ -55,6 +55,11 @@ all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
+all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=140 ice.level.mass=5e6 --
+all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=170 ice.level.x_max=190 ice.level.y_min=0 \
+    ice.level.y_max=20 ice.level.mass=3e5 --
+all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=140 ice.level.mass=1e6 -- \
+    "level.mass: 1e+06 kg is less than that of the ice in the domain"
 law='{size: power, diameter_min: 2, diameter_max: 20, exponent: 1.7}'
 sed "s/^ice:.*/ice: {source: voronoi, populations: [$law]}/" towed.yaml >cells.yaml
 all_told cells.yaml ice.smallest_floe_area=8 -- \

@@ -334,6 +334,64 @@ START_TEST(basins_have_no_mass)
 }
 END_TEST
 
+/* A sheet without four edges has the mass of its ice in the domain at the start, however large its tiles are, and a
+   domain's full where none is there yet, and so does the concentration that is told; one that is given is kept, and
+   what breaks off takes none of it along, since more comes in. */
+START_TEST(tiles_do_not_weigh_on_a_sheet)
+{
+    static const char text[] =
+        "vessel: {present: false}\n"
+        "ice:\n  source: level\n  thickness: 0.8\n  density: 920\n  breakable: true\n"
+        "  level:\n    x_min: 15\n    line_load: 0\n    openings: [{x: 60, length: 20, width: 30}]\n"
+        "domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40, boundary: feeding, drift_speed: 0.8,\n"
+        "         drift_direction_deg: 180}\n";
+    static const char *const size[] = {"ice.level.tile_size=8", "ice.level.tile_size=auto", "ice.level.tile_size=100"};
+    double mass = (45.0 * 80 - 10 * 30) * 0.8 * 920;
+    for (int i = 0; i < 3; i++) {
+        scene k;
+        scene_open_with(&k, text, &size[i], 1);
+        assert_relative(k.w.drift.mass[0], mass, 1e-9);
+        ck_assert_double_gt(k.w.drift.ice[0], mass);
+        world again;
+        field_report report;
+        fram_error error = {0};
+        assert_ok(build_world(&k.ctx, &k.s, &k.m, &again, &report, &error), error);
+        assert_relative(report.concentration, mass / (120.0 * 80 * 0.8 * 920), 1e-9);
+        world_free(&k.ctx, &again);
+        scene_close(&k);
+        const char *const light[] = {size[i], "ice.level.mass=1e6"};
+        scene_open_with(&k, text, light, 2);
+        assert_absolute(k.w.drift.mass[0], 1e6, 0);
+        k.w.drift.ice[0] += 5e5; /* as if so much had broken off */
+        scene_steps(&k, 1);
+        assert_absolute(k.w.drift.broken[0], 5e5, 1);
+        assert_absolute(k.w.drift.mass[0], 1e6, 0);
+        scene_close(&k);
+        const char *const outside[] = {size[i], "ice.level.x_min=70"};
+        scene_open_with(&k, text, outside, 2);
+        assert_relative(k.w.drift.mass[0], 120.0 * 80 * 0.8 * 920, 1e-9);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+/* A floe that is broken up has a mass still, so that what pushes on it divides by it. */
+START_TEST(a_broken_floe_keeps_a_mass)
+{
+    static const char *const light[] = {"ice.level.mass=1e6"};
+    scene k;
+    scene_open_with(&k, PIER, light, 1);
+    k.w.drift.ice[0] += 6e5;
+    scene_steps(&k, 1);
+    assert_relative(k.w.drift.mass[0], 4e5, 1e-6);
+    k.w.drift.ice[0] += 6e5;
+    scene_steps(&k, 1);
+    assert_relative(k.w.drift.mass[0], 1e3, 1e-9);
+    ck_assert(isfinite(k.w.drift.velocity[0].x));
+    scene_close(&k);
+}
+END_TEST
+
 /* The sheet is crushed at the pier, drifts back by 1 m and comes again: nothing before the old face, and ice at it. */
 START_TEST(no_load_before_the_old_face)
 {
@@ -486,5 +544,5 @@ END_TEST
 
 TEST_MAIN("drift", drifts_as_it_is_told, whichever_moves, nothing_gets_lost, pieces_have_the_velocity_of_the_sheet,
           curved_drift, reversal_keeps_the_channel, a_floe_stops_after_the_distance_of_its_energy, basins_have_no_mass,
-          no_load_before_the_old_face, a_limited_drive, an_ample_drive, water_takes_a_floe_along,
-          water_takes_a_sheet_along_at_its_depth, refusals_name_their_key)
+          tiles_do_not_weigh_on_a_sheet, a_broken_floe_keeps_a_mass, no_load_before_the_old_face, a_limited_drive,
+          an_ample_drive, water_takes_a_floe_along, water_takes_a_sheet_along_at_its_depth, refusals_name_their_key)
