@@ -2,17 +2,22 @@
 #include "geometry/mesh.h"
 
 #include <assert.h>
+#include <math.h>
 
 stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin, double height)
 {
-    return (stream){vec3_sub(velocity, media_current(m, height)), spin, 0.5 * m->water_density * c->water_form,
-                    0.5 * m->water_density * c->water_skin};
+    return (stream){.velocity = vec3_sub(velocity, media_current(m, height)),
+                    .spin = spin,
+                    .form = 0.5 * m->water_density * c->water_form,
+                    .skin = 0.5 * m->water_density * c->water_skin};
 }
 
 stream stream_of_air(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin)
 {
-    return (stream){vec3_sub(velocity, m->wind), spin, 0.5 * m->air_density * c->air_form,
-                    0.5 * m->air_density * c->air_skin};
+    return (stream){.velocity = vec3_sub(velocity, m->wind),
+                    .spin = spin,
+                    .form = 0.5 * m->air_density * c->air_form,
+                    .skin = 0.5 * m->air_density * c->air_skin};
 }
 
 /* Twice the area vector of a triangle. */
@@ -31,7 +36,10 @@ void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double hei
     }
 }
 
-static vec3 velocity_at(const stream *s, vec3 point) { return vec3_add(s->velocity, vec3_cross(s->spin, point)); }
+static vec3 velocity_at(const stream *s, vec3 point)
+{
+    return vec3_mad(vec3_add(s->velocity, vec3_cross(s->spin, point)), s->shear, point.z);
+}
 
 static void add_at(wrench *load, vec3 force, vec3 point)
 {
@@ -44,8 +52,9 @@ static void add_at(wrench *load, vec3 force, vec3 point)
    monomials. */
 static void add_form(wrench *load, const stream *s, const vec3 *vertex, int n, vec3 normal)
 {
-    /* vn(r) = n . v + (n x spin) . r */
+    /* vn(r) = n . v + (n x spin) . r + (n . shear) z */
     vec3 slope = vec3_cross(normal, s->spin);
+    slope.z += vec3_dot(normal, s->shear);
     double level = vec3_dot(normal, s->velocity);
     bool into = false, away = false;
     for (int i = 0; i < n; i++) {
@@ -155,4 +164,62 @@ void facet_add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, ve
         add_form(load, s, vertex, n, normal);
     if (s->skin > 0)
         add_skin(load, s, vertex, n, normal);
+}
+
+/* ---- a current that changes with depth ---- */
+
+/* Rows of the profile that are no deeper than a height over still water. */
+static int32_t rows_above(const current_profile *p, double height)
+{
+    int32_t k = 0;
+    while (k < p->count && p->depth[k] <= -height)
+        k++;
+    return k;
+}
+
+/* The water between rows k - 1 and k, the first and the last one having all above and below. */
+static stream stream_of_layer(const stream *surface, const current_profile *p, int32_t k, double height)
+{
+    stream s = *surface;
+    int32_t above = k > 0 ? k - 1 : 0;
+    s.velocity = vec3_sub(s.velocity, vec3_sub(p->velocity[above], p->velocity[0]));
+    if (k == 0 || k == p->count)
+        return s;
+    vec3 change = vec3_sub(p->velocity[k], p->velocity[above]);
+    s.shear = vec3_scale(change, 1 / (p->depth[k] - p->depth[above]));
+    s.velocity = vec3_mad(s.velocity, s.shear, height + p->depth[above]);
+    return s;
+}
+
+/* The part of a facet between two heights, in its own axes. */
+static int facet_between(const vec3 *vertex, int n, double low, double high, vec3 out[FACET_VERTICES])
+{
+    vec3 under[FACET_VERTICES];
+    n = facet_clip(vertex, n, vec3_make(0, 0, 1), high, under);
+    return facet_clip(under, n, vec3_make(0, 0, -1), -low, out);
+}
+
+void facet_add_water_drag(wrench *load, const stream *s, const media *m, double height, const vec3 *vertex, int n,
+                          vec3 normal)
+{
+    const current_profile *p = &m->profile;
+    assert(n <= 4);
+    if (p->count == 0 || n < 3) {
+        facet_add_drag(load, s, vertex, n, normal);
+        return;
+    }
+    double low = vertex[0].z, high = vertex[0].z;
+    for (int i = 1; i < n; i++) {
+        low = fmin(low, vertex[i].z);
+        high = fmax(high, vertex[i].z);
+    }
+    /* A facet that lies flat where the profile bends has one layer, and is cut by none. */
+    int32_t first = rows_above(p, high + height), last = rows_above(p, low + height);
+    for (int32_t k = first; k <= last; k++) {
+        vec3 part[FACET_VERTICES];
+        stream own = stream_of_layer(s, p, k, height);
+        int count = facet_between(vertex, n, k < last ? -p->depth[k] - height : -HUGE_VAL,
+                                  k > first ? -p->depth[k - 1] - height : HUGE_VAL, part);
+        facet_add_drag(load, &own, part, count, normal);
+    }
 }

@@ -26,6 +26,7 @@ typedef struct stream {
     vec3 spin;     /* angular velocity of the body [rad/s] */
     double form;   /* 1/2 rho Cd [kg/m3] */
     double skin;   /* 1/2 rho Cf [kg/m3] */
+    vec3 shear;    /* by how much `velocity` grows with the height of a point [1/s] */
 } stream;
 
 /* The wet and the dry side of a body with that motion; the current is that at a height over still water [m]. */
@@ -57,7 +58,13 @@ void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double hei
    Water and air).
    Form drag is exact: the part that moves into the medium is cut out, and |vn| vn is a polynomial there.
    Skin drag is a quadrature: 6 points of degree 4 on a triangle (Dunavant 1985, table II, p = 4), 2 x 2 Gauss points on
-   a quadrilateral, triangles about the mean vertex beyond.  It is exact while the body does not turn. */
+   a quadrilateral, triangles about the mean vertex beyond.  It is exact while the body does not turn and the medium has
+   one velocity. */
 void facet_add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, vec3 normal);
+/* The same of a wet facet, n <= 4, in a current that may change with depth: there the facet is cut where the profile
+   bends, so that form drag is exact in it too.  s: the water at the surface; height: of the centre of mass over still
+   water [m]. */
+void facet_add_water_drag(wrench *load, const stream *s, const media *m, double height, const vec3 *vertex, int n,
+                          vec3 normal);
 
 #endif

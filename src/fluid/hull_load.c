@@ -63,19 +63,6 @@ static void add_layers(const hull_walk *w, const current_profile *p, point_strea
     }
 }
 
-/* The water as a facet of n vertices meets it. */
-static stream water_at(const hull_walk *w, const vec3 *vertex, int n)
-{
-    stream s = w->water;
-    if (w->media->profile.count > 0) {
-        double height = 0;
-        for (int i = 0; i < n; i++)
-            height += vertex[i].z / n;
-        s.velocity = vec3_sub(w->state->velocity, media_current(w->media, w->state->position.z + height));
-    }
-    return s;
-}
-
 /* ---- sample points ---- */
 
 static void flush(const hull_walk *w, const point_stream *s, point_run *run, point_sums *sums)
@@ -154,8 +141,10 @@ static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under
     for (int32_t i = all->large_first.data[first]; i < all->large_first.data[end]; i++) {
         vec3 corner[3];
         corners_of(w, all->large.data[i], corner);
-        stream s = under ? water_at(w, corner, 3) : w->air;
-        facet_add_drag(under ? &sums->water : &sums->air, &s, corner, 3, normal_of(corner));
+        if (under)
+            facet_add_water_drag(&sums->water, &w->water, w->media, w->state->position.z, corner, 3, normal_of(corner));
+        else
+            facet_add_drag(&sums->air, &w->air, corner, 3, normal_of(corner));
     }
 }
 
@@ -167,10 +156,8 @@ static void add_cut_drag(const hull_walk *w, int32_t place, branch_sums *sums)
     corners_of(w, place, corner);
     vec3 normal = normal_of(corner);
     int n = triangle_clip_below(corner, -height, part);
-    if (w->wet && n >= 3) {
-        stream s = water_at(w, part, n);
-        facet_add_drag(&sums->water, &s, part, n, normal);
-    }
+    if (w->wet)
+        facet_add_water_drag(&sums->water, &w->water, w->media, height, part, n, normal);
     n = w->dry ? facet_clip(corner, 3, vec3_make(0, 0, -1), height, part) : 0;
     if (n >= 3)
         facet_add_drag(&sums->air, &w->air, part, n, normal);

@@ -18,16 +18,8 @@ typedef struct mesh_sums {
 static void add_wet(const mesh_walk *w, mesh_sums *sums, const vec3 *part, int n, vec3 normal)
 {
     facet_add_pressure(&sums->pressure, part, n, w->state->position.z);
-    if (!stream_acts(&w->water) || n < 3)
-        return;
-    stream water = w->water;
-    if (w->media->profile.count > 0) {
-        double height = w->state->position.z;
-        for (int i = 0; i < n; i++)
-            height += part[i].z / n;
-        water.velocity = vec3_sub(w->state->velocity, media_current(w->media, height));
-    }
-    facet_add_drag(&sums->water, &water, part, n, normal);
+    if (stream_acts(&w->water))
+        facet_add_water_drag(&sums->water, &w->water, w->media, w->state->position.z, part, n, normal);
 }
 
 static void add_triangle(const mesh_walk *w, mesh_sums *sums, int32_t face)
