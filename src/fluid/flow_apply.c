@@ -23,7 +23,7 @@ static void add_to(wrench *sum, wrench load)
 
 void flows_add(const media *m, const hull_flows *flows, mat3 rotation, vec3 velocity, fluid_load *load)
 {
-    vec3 current = media_current(m, -flows->depth);
+    vec3 current = media_hull_current(m, flows->depth);
     if (flows->water.count > 0)
         add_to(&load->water_drag, flow_load(&flows->water, m->water_density, rotation, vec3_sub(current, velocity)));
     if (flows->air.count > 0)

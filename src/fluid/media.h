@@ -49,6 +49,9 @@ typedef struct media {
 media media_at(const media *still, const media_history *history, double time);
 /* Current at a height over still water (0 or less; above it, that of the surface) [m/s]. */
 vec3 media_current(const media *m, double height);
+/* The one current that a hull as a whole meets, where tables or matrices know no other: at half its draught, whose
+   depth below still water is given [m]. */
+static inline vec3 media_hull_current(const media *m, double depth) { return media_current(m, -depth); }
 
 /* Drag of one body's surface: form -1/2 rho Cd A |vn| vn n on faces moving into the medium, skin -1/2 rho Cf A |vt| vt
    (docs/theory.md, Water and air). */

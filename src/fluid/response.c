@@ -241,10 +241,10 @@ void prisms_respond(context *ctx, const media *m, const drag_coefficients coeffi
 
 /* ---- matrices ---- */
 
-/* The body's velocity relative to the water at its centre of mass, body axes. */
-static pair6 relative_velocity(const media *m, const body_table *b, int32_t slot, mat3 r)
+/* The body's velocity relative to the water, body axes. */
+static pair6 relative_velocity(const hydrodynamics *h, const media *m, const body_table *b, int32_t slot, mat3 r)
 {
-    vec3 current = media_current(m, fmin(0, b->position[slot].z));
+    vec3 current = media_hull_current(m, h->depth);
     return (pair6){mat3_tmul_vec(r, vec3_sub(b->velocity[slot], current)), mat3_tmul_vec(r, b->angular_velocity[slot])};
 }
 
@@ -317,7 +317,7 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
                            const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load)
 {
     mat3 r = quat_matrix(bodies->orientation[slot]);
-    pair6 v = relative_velocity(m, bodies, slot, r);
+    pair6 v = relative_velocity(h, m, bodies, slot, r);
     matrix6 diagonal = diagonal_of(&h->added_mass), rigid = rigid_matrix(bodies, slot);
     matrix6 added = coupled ? h->added_mass : diagonal, damping = coupled ? h->damping : diagonal_of(&h->damping);
     pair6 force = {mat3_tmul_vec(r, load->force), mat3_tmul_vec(r, load->moment)};

@@ -43,6 +43,7 @@ typedef struct hydrodynamics {
     matrix6 added_mass; /* symmetric [kg, kg m, kg m2] */
     matrix6 damping;    /* [N s/m, N s, N m s] */
     bool measured;      /* what a steady flow does is a table's, which has Munk's moment in it */
+    double depth;       /* below still water, where the current is taken [m] */
 } hydrodynamics;
 
 /* Munk's moment about the body's z axis on one that goes through the water with this velocity and does not turn, body

@@ -161,6 +161,7 @@ fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_ent
     if (status == FRAM_OK)
         status = build_flows(ctx, s, entry, &v, error);
     v.hydrodynamics.measured = v.flows.water.count > 0;
+    v.hydrodynamics.depth = v.flows.depth;
     v.wash = build_wash(s, entry->keys, &v);
     if (status == FRAM_OK && !array_push(ctx, &m->vessels, v))
         status = error_memory(error);

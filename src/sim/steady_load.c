@@ -3,9 +3,9 @@
 #include "vessel/plane_motion.h"
 
 /* The vessel's velocity past the water, its own axes, where it lies still with this heading. */
-static vec3 past_water(const world *w, int32_t vessel, const media *now, double heading)
+static vec3 past_water(const model *m, int32_t vessel, const media *now, double heading)
 {
-    vec3 current = media_current(now, fmin(0, w->bodies.position[w->vessels.body[vessel]].z));
+    vec3 current = media_hull_current(now, m->vessels.data[vessel].hydrodynamics.depth);
     return vec3_neg(plane_to_vessel(heading, current));
 }
 
@@ -19,7 +19,7 @@ vec3 steady_damping_load(const model *m, const world *w, int32_t vessel, const m
 {
     if (!has_matrices(m, w, vessel))
         return vec3_make(0, 0, 0);
-    pair6 past = {vec3_neg(past_water(w, vessel, now, heading)), {0, 0, 0}};
+    pair6 past = {vec3_neg(past_water(m, vessel, now, heading)), {0, 0, 0}};
     pair6 push = matrix6_mul(&m->vessels.data[vessel].hydrodynamics.damping, past);
     return plane_to_global(heading, vec3_make(push.linear.x, push.linear.y, push.angular.z));
 }
@@ -38,7 +38,7 @@ vec3 steady_drag_load(const model *m, const world *w, int32_t vessel, const medi
     flows_add(now, flows, still.rotation, rest, &load);
     vec3 force = vec3_add(load.water_drag.force, load.wind_drag.force);
     double munk = has_matrices(m, w, vessel) && w->vessels.mode[vessel] == VESSEL_FREE
-                      ? hydrodynamics_munk(&m->vessels.data[vessel].hydrodynamics, past_water(w, vessel, now, heading))
+                      ? hydrodynamics_munk(&m->vessels.data[vessel].hydrodynamics, past_water(m, vessel, now, heading))
                       : 0;
     return vec3_make(force.x, force.y, load.water_drag.moment.z + load.wind_drag.moment.z + munk);
 }

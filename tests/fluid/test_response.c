@@ -331,6 +331,33 @@ START_TEST(damping_of_any_strength)
 }
 END_TEST
 
+/* In a current that changes with depth the matrices meet that at the depth they are told, wherever the centre of mass
+   is. */
+START_TEST(matrices_in_a_current_of_depth)
+{
+    random_stream r = random_begin(46, 0, 0);
+    hydrodynamics h = {.added_mass = coupled_matrix(&r, 500), .damping = {{{50}, {0, 80}, {0, 0, 60}}}, .depth = 3};
+    media of_depth = still_water, uniform = still_water;
+    of_depth.profile = (current_profile){3, {0, 2, 6}, {{0.8, 0.4, 0}, {0.8, 0.4, 0}, {0, 0, 0}}};
+    uniform.current = vec3_make(0.6, 0.3, 0);
+    static const double height[] = {1, -2, -4.5};
+    for (int i = 0; i < 3; i++) {
+        rig k;
+        int32_t slot = rig_open(&k, 900, (sym3){800, 900, 1000, 20, -30, 10});
+        set_diagonal(&k.bodies, slot, &h.added_mass);
+        k.bodies.position[slot].z = height[i];
+        k.bodies.velocity[slot] = vec3_make(0.2, -0.1, 0.05);
+        wrench load = nothing, expected = nothing;
+        hydrodynamics_respond(&h, true, &of_depth, 0.05, &k.bodies, slot, &nothing, &load);
+        hydrodynamics_respond(&h, true, &uniform, 0.05, &k.bodies, slot, &nothing, &expected);
+        ck_assert_double_gt(vec3_length(expected.force), 5);
+        assert_vec3_close(load.force, expected.force, 1e-12 * 900);
+        assert_vec3_close(load.moment, expected.moment, 1e-12 * 900);
+        rig_close(&k);
+    }
+}
+END_TEST
+
 /* ---- prisms ---- */
 
 static int32_t add_floe(rig *k, double thickness)
@@ -605,5 +632,6 @@ END_TEST
 
 TEST_MAIN("response", parts_of_the_response, whole_matrix_accelerates, contacts_meet_the_diagonal,
           contacts_meet_all_of_it_in_time, contacts_settle_at_a_wall, strong_coupling_does_not_swing,
-          coasting_keeps_energy, damping_of_any_strength, weak_drag_is_left_alone, quick_bound_changes_nothing,
-          strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
+          coasting_keeps_energy, damping_of_any_strength, matrices_in_a_current_of_depth, weak_drag_is_left_alone,
+          quick_bound_changes_nothing, strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass,
+          floe_with_damping)

@@ -4,6 +4,7 @@
 #include "scene.h"
 #include "sim/capability.h"
 #include "sim/ice_loads.h"
+#include "sim/steady_load.h"
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -139,6 +140,26 @@ START_TEST(loads_of_wind_and_damping)
     assert_relative(c.loads.wind[2].y, 0.5 * 1.225 * 400 * 120, 1e-3);
     assert_relative(c.loads.drag[2].y, 0.5 * 1025 * 240, 1e-3);
     close_found(&k, &c);
+}
+END_TEST
+
+/* In a current that changes with depth matrices meet that at half the draught, as in a run, wherever the centre of mass
+   is. */
+START_TEST(damping_in_a_current_of_depth)
+{
+    static const char *const height[] = {"vessel.centre_of_gravity_z=1", "vessel.centre_of_gravity_z=-3"};
+    for (int i = 0; i < 2; i++) {
+        scene k;
+        scene_open_with(&k, box, &height[i], 1);
+        vessel_model *hull = &k.m.vessels.data[0];
+        hull->has_hydrodynamics = true;
+        hull->hydrodynamics.damping = (matrix6){{{[0] = 1e5}, {[1] = 1e5}}};
+        media now = k.m.media;
+        now.profile = (current_profile){2, {0, 4}, {{0.6, 0.4, 0}, {0, 0, 0}}};
+        vec3 load = steady_damping_load(&k.m, &k.w, 0, &now, radians(30));
+        assert_vec3_close(load, vec3_make(0.3e5, 0.2e5, 0), 1e-6);
+        scene_close(&k);
+    }
 }
 END_TEST
 
@@ -639,7 +660,7 @@ START_TEST(a_stop_flag_is_seen)
 END_TEST
 
 TEST_MAIN("capability", limits_by_hand, limits_of_thrusters_that_turn, loads_between_directions_and_speeds,
-          loads_of_wind_and_damping, no_loads_without_water, out_of_order_from_the_start, what_is_left_after_a_line,
-          ships_that_turn, balances_are_those_of_a_run, use_as_it_is_written, broken_ice_by_formula, measured_ice,
-          speeds_that_are_measured, ice_that_was_met, refusals, refusals_name_the_place_in_the_list,
-          a_stop_flag_is_seen)
+          loads_of_wind_and_damping, damping_in_a_current_of_depth, no_loads_without_water, out_of_order_from_the_start,
+          what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run, use_as_it_is_written,
+          broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met, refusals,
+          refusals_name_the_place_in_the_list, a_stop_flag_is_seen)
