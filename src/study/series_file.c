@@ -101,9 +101,12 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     if (status != FRAM_OK)
         return status;
     const double *t = run_channel(&d, "time");
+    int32_t vessel;
     if (d.series.rows == 0)
         status = run_data_refuse_empty(&d, error);
-    else
+    else if (!source->channel) /* the load is a vessel's */
+        status = scenario_choose_vessel(&d.s, folder, NULL, &vessel, error);
+    if (status == FRAM_OK)
         status = take_channel(ctx, &d, source->channel ? source->channel : "load", value, unit, error);
     if (status == FRAM_OK && (!t || !array_resize(ctx, time, d.series.rows)))
         status = error_memory(error);

@@ -88,11 +88,19 @@ END
 "$FRAM" compare "$run" "$run" -o "$scratch/c.html" --quiet || fail "the comparison failed"
 grep -q "tug: ice load along X, mean" "$scratch/c.html" || fail "the comparison has no row of the tug"
 
-# Fatigue and extremes are of the vessel that is named, and say so where none is.
+# Fatigue and extremes are of the vessel that is named, and say so where none is, or there is none.
 "$FRAM" fatigue "$run" --channel tug.load --quiet || fail "there is no fatigue of the load on the tug"
 expect 2 "$FRAM" fatigue "$run" --channel barge.load
 expect 2 "$FRAM" fatigue "$run"
 says "did you mean icebreaker.load?" err
+printf 'vessel: {present: false}\nice: {source: floes, floes: [{x: 0}]}\n' >"$scratch/bare.yaml"
+expect 0 "$FRAM" run "$scratch/bare.yaml" -o "$scratch/bare" --quiet --set run.duration=2
+for command in extremes fatigue; do
+    expect 2 "$FRAM" $command "$scratch/bare"
+    says "there is no vessel" err
+    expect 2 "$FRAM" $command "$scratch/bare" --channel load
+    says "no channel of this name" err
+done
 
 # The capability of the vessel that is asked for, the others left out.
 expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula
