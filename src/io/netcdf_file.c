@@ -25,7 +25,7 @@
     X(put_var_double)   \
     X(put_var_int)      \
     X(put_var_string)   \
-    X(put_vara_float)   \
+    X(put_vara_double)  \
     X(strerror)
 #define POINTER(name) __typeof__(nc_##name) *name;
 struct netcdf_calls {
@@ -168,11 +168,11 @@ void netcdf_put_text(netcdf_file *f, int variable, const char **values)
         keep(f, f->nc->put_var_string(f->id, variable, values));
 }
 
-void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
+void netcdf_put_row(netcdf_file *f, int variable, size_t row, const double *values, size_t count)
 {
     const size_t start[2] = {row, 0}, edge[2] = {1, count};
     if (!f->failed && count > 0)
-        keep(f, f->nc->put_vara_float(f->id, variable, start, edge, values));
+        keep(f, f->nc->put_vara_double(f->id, variable, start, edge, values));
 }
 
 fram_status netcdf_end(netcdf_file *f, fram_error *error)
@@ -220,7 +220,7 @@ void netcdf_attribute(netcdf_file *f, const char *name, const char *text) { (voi
 void netcdf_put_f64(netcdf_file *f, int variable, const double *values) { (void)f, (void)variable, (void)values; }
 void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values) { (void)f, (void)variable, (void)values; }
 void netcdf_put_text(netcdf_file *f, int variable, const char **values) { (void)f, (void)variable, (void)values; }
-void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
+void netcdf_put_row(netcdf_file *f, int variable, size_t row, const double *values, size_t count)
 {
     (void)f, (void)variable, (void)row, (void)values, (void)count;
 }

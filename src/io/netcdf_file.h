@@ -32,8 +32,8 @@ void netcdf_attribute(netcdf_file *f, const char *name, const char *text);
 void netcdf_put_f64(netcdf_file *f, int variable, const double *values);
 void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values);
 void netcdf_put_text(netcdf_file *f, int variable, const char **values);
-/* Row `row` of a variable over two dimensions, or number `row` of one over one: `count` values. */
-void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count);
+/* Row `row` of a variable over two dimensions, or number `row` of one over one: `count` values, rounded to its type. */
+void netcdf_put_row(netcdf_file *f, int variable, size_t row, const double *values, size_t count);
 /* Close, sync and give the file its name; or remove it and say what failed. */
 fram_status netcdf_end(netcdf_file *f, fram_error *error);
 void netcdf_abandon(netcdf_file *f);

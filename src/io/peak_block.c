@@ -8,6 +8,7 @@ typedef struct cursor {
     unsigned char *out; /* NULL: reads */
     const unsigned char *in;
     size_t at, size;
+    vec2 origin;
     bool bad;
 } cursor;
 
@@ -38,6 +39,14 @@ static void vector(cursor *c, vec3 *v)
     real(c, &v->z);
 }
 
+/* The origin is in whole metres, and what was read is written again with the same bytes. */
+static void place(cursor *c, vec3 *v)
+{
+    vec3 near = vec3_make(v->x - c->origin.x, v->y - c->origin.y, v->z);
+    vector(c, &near);
+    *v = vec3_make(near.x + c->origin.x, near.y + c->origin.y, near.z);
+}
+
 static void floe(cursor *c, peak_floe *f)
 {
     bytes(c, &f->number, sizeof f->number);
@@ -47,7 +56,7 @@ static void floe(cursor *c, peak_floe *f)
     bytes(c, &f->links, 1);
     bytes(c, &f->end, 1);
     vector(c, &f->force);
-    vector(c, &f->point);
+    place(c, &f->point);
     for (int i = 0; i < MECHANISM_COUNT; i++)
         real(c, &f->part[i]);
 }
@@ -56,7 +65,7 @@ static void link_of_chain(cursor *c, peak_link *l)
 {
     bytes(c, &l->slot, sizeof l->slot);
     bytes(c, &l->number, sizeof l->number);
-    vector(c, &l->place);
+    place(c, &l->place);
     vector(c, &l->push);
     real(c, &l->others);
     real(c, &l->water);
@@ -88,10 +97,10 @@ static void detail(cursor *c, peak_detail *d)
         link_of_chain(c, &d->link[i]);
 }
 
-size_t peak_block_pack(const peak_detail *d, unsigned char out[PEAK_BLOCK_ROOM])
+size_t peak_block_pack(const peak_detail *d, vec2 origin, unsigned char out[PEAK_BLOCK_ROOM])
 {
     peak_detail copy = *d;
-    cursor c = {.size = PEAK_BLOCK_ROOM};
+    cursor c = {.size = PEAK_BLOCK_ROOM, .origin = origin};
     c.out = out;
     detail(&c, &copy);
     return c.at;
@@ -110,9 +119,9 @@ static bool is_sound(const peak_detail *d)
     return links == d->link_count && d->vessel >= 0 && isfinite(d->time) && isfinite(d->load) && isfinite(d->window);
 }
 
-bool peak_block_unpack(const void *data, size_t size, peak_detail *d)
+bool peak_block_unpack(const void *data, size_t size, vec2 origin, peak_detail *d)
 {
-    cursor c = {.in = data, .size = size};
+    cursor c = {.in = data, .size = size, .origin = origin};
     memset(d, 0, sizeof *d);
     detail(&c, d);
     return !c.bad && c.at == size && is_sound(d);

@@ -41,9 +41,10 @@ typedef struct peak_detail {
 
 /* The largest size of a block. */
 enum { PEAK_BLOCK_ROOM = 16384 };
-/* Numbers in the byte order of this machine, reals of the parts as f32; returns the size. */
-size_t peak_block_pack(const peak_detail *d, unsigned char out[PEAK_BLOCK_ROOM]);
+/* Numbers in the byte order of this machine, reals of the parts as f32, places from the origin (BLOCK_ORIGIN); returns
+   the size. */
+size_t peak_block_pack(const peak_detail *d, vec2 origin, unsigned char out[PEAK_BLOCK_ROOM]);
 /* false: the bytes are no such block. */
-bool peak_block_unpack(const void *data, size_t size, peak_detail *d);
+bool peak_block_unpack(const void *data, size_t size, vec2 origin, peak_detail *d);
 
 #endif

@@ -1,6 +1,9 @@
 /* What the blocks of a run's record hold: the one rule that the recorder writes by and the replay reads by.
 
-   Blocks of the record, numbers in the byte order of its head; poses are packed as io/record_pose.h says, 16 bytes:
+   Blocks of the record, numbers in the byte order of its head; poses are packed as io/record_pose.h says, 16 bytes.
+   Places (of poses, cracks and points of forces) are told from an origin near the domain, since f32 has no millimetres
+   in coordinates of a map:
+    16 origin    f64 x y [m], before all that has a place; without this block it is 0
      1 scenario  the effective scenario, text
      2 solid     i32 slot, u32 generation, i32 vertices, i32 triangles; f32 x y z per vertex (body frame);
                  i32 a b c per triangle
@@ -34,6 +37,7 @@
 #ifndef IO_RECORD_LAYOUT_H
 #define IO_RECORD_LAYOUT_H
 
+#include "base/vec.h"
 #include "io/record.h"
 
 enum {
@@ -51,7 +55,8 @@ enum {
     BLOCK_PEAK = 12,
     BLOCK_LOADS = 13,
     BLOCK_PRESSURE = 14,
-    BLOCK_FRAME = 15
+    BLOCK_FRAME = 15,
+    BLOCK_ORIGIN = 16
 };
 
 static inline bool record_is_frame(uint32_t type) { return type == BLOCK_FRAME || type == BLOCK_HALF_FRAME; }
@@ -76,5 +81,15 @@ static inline bool record_force_pushes(record_force_kind kind)
 
 /* FRAM_ERROR_INPUT for a type of block that earlier layouts had; path names the record in the message. */
 fram_status record_check_block(const char *path, uint32_t type, fram_error *error);
+
+/* The block of an origin, but for 0. */
+fram_status record_append_origin(record_writer *w, vec2 origin, fram_error *error);
+/* FRAM_ERROR_INPUT for a block of type BLOCK_ORIGIN that is none. */
+fram_status record_take_origin(const char *path, const record_block *block, vec2 *origin, fram_error *error);
+
+/* That a record is of the layout which would go on: told by its blocks up to `length`, which give its origin too.  One
+   whose blocks do not go on to there is for record_continue to refuse; one with other bytes in a block than were
+   written is told, for the run can go on, and what reads the record cannot. */
+fram_status record_check_layout(context *ctx, const char *path, uint64_t length, vec2 *origin, fram_error *error);
 
 #endif

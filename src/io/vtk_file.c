@@ -110,7 +110,8 @@ static void compose(vtk_writer *w, const vtk_data *d)
                   (size_t)d->cell_count * (size_t)f->components * sizeof *f->value);
     }
     text_add(ctx, head, "</CellData>\n<Points>\n");
-    add_array(w, "Float32", "Points", 3, d->point, (size_t)d->point_count * 3 * sizeof *d->point);
+    _Static_assert(sizeof(vec3) == 3 * sizeof(double), "points are packed");
+    add_array(w, "Float64", "Points", 3, d->point, (size_t)d->point_count * sizeof *d->point);
     text_add(ctx, head, "</Points>\n");
     add_cells(w, "Verts", d, d->kind == VTK_VERTICES);
     add_cells(w, "Polys", d, d->kind == VTK_POLYGONS);

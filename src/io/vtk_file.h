@@ -4,6 +4,7 @@
 #define IO_VTK_FILE_H
 
 #include "base/array.h"
+#include "base/vec.h"
 
 typedef ARRAY(float) float_array;
 
@@ -17,7 +18,7 @@ typedef struct vtk_field {
 typedef enum vtk_cells { VTK_VERTICES, VTK_POLYGONS } vtk_cells;
 
 typedef struct vtk_data {
-    const float *point; /* x y z each */
+    const vec3 *point; /* written as doubles: floats have no millimetres in coordinates of a map */
     int32_t point_count;
     vtk_cells kind;
     /* Points of cell i: connectivity[i ? offset[i - 1] : 0 .. offset[i]). */

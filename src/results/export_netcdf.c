@@ -45,19 +45,21 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
 
 /* ---- floes over frames ---- */
 
+/* Floats, but where one far from 0 would have no millimetres. */
 static const struct {
     const char *name, *unit, *meaning;
+    netcdf_type type;
 } columns[] = {
-    {"floe_x", "m", "centre of mass, global frame"},
-    {"floe_y", "m", "centre of mass, global frame"},
-    {"floe_z", "m", "centre of mass over still water"},
+    {"floe_x", "m", "centre of mass, global frame", NETCDF_F64},
+    {"floe_y", "m", "centre of mass, global frame", NETCDF_F64},
+    {"floe_z", "m", "centre of mass over still water", NETCDF_F32},
     {"floe_heading", "deg",
-     "yaw of the axes of the floe's outline, counter-clockwise; a piece begins with its parent's"},
-    {"floe_roll", "deg", "tilt about the floe's x axis"},
-    {"floe_pitch", "deg", "tilt about the floe's y axis"},
-    {"floe_velocity_x", "m/s", "way to the next frame over its time"},
-    {"floe_velocity_y", "m/s", "way to the next frame over its time"},
-    {"floe_contact_force", "N", "sum of the magnitudes at the floe's contacts in the step of the frame"},
+     "yaw of the axes of the floe's outline, counter-clockwise; a piece begins with its parent's", NETCDF_F32},
+    {"floe_roll", "deg", "tilt about the floe's x axis", NETCDF_F32},
+    {"floe_pitch", "deg", "tilt about the floe's y axis", NETCDF_F32},
+    {"floe_velocity_x", "m/s", "way to the next frame over its time", NETCDF_F32},
+    {"floe_velocity_y", "m/s", "way to the next frame over its time", NETCDF_F32},
+    {"floe_contact_force", "N", "sum of the magnitudes at the floe's contacts in the step of the frame", NETCDF_F32},
 };
 enum { TRACK_COLUMNS = sizeof columns / sizeof *columns };
 
@@ -69,7 +71,7 @@ typedef struct floe_tracks {
     int64_t frames;
     double_array time;
     int variable[TRACK_COLUMNS];
-    float *values; /* TRACK_COLUMNS x floes */
+    double *values; /* TRACK_COLUMNS x floes */
 } floe_tracks;
 
 static fram_status count_floes(floe_tracks *t, const char *folder, fram_error *error)
@@ -133,7 +135,7 @@ static void put_track_frame(floe_tracks *t, netcdf_file *f)
 {
     size_t count = (size_t)t->floes;
     for (size_t i = 0; i < TRACK_COLUMNS * count; i++)
-        t->values[i] = NAN;
+        t->values[i] = (double)NAN;
     for (int32_t i = 0; i < t->r.frame.poses.count; i++) {
         const replay_pose *p = &t->r.frame.poses.data[i];
         if (t->row.data[p->body] < 0)
@@ -143,7 +145,7 @@ static void put_track_frame(floe_tracks *t, netcdf_file *f)
                                              degrees(rpy.z), degrees(rpy.x), degrees(rpy.y),
                                              p->velocity.x,  p->velocity.y,  p->contact_force};
         for (size_t k = 0; k < TRACK_COLUMNS; k++)
-            t->values[k * count + (size_t)t->row.data[p->body]] = (float)value[k];
+            t->values[k * count + (size_t)t->row.data[p->body]] = value[k];
     }
     for (size_t k = 0; k < TRACK_COLUMNS; k++)
         netcdf_put_row(f, t->variable[k], (size_t)t->r.frame.number, t->values + k * count, count);
@@ -156,7 +158,8 @@ static fram_status put_frames(floe_tracks *t, netcdf_file *f, const char *folder
     fram_status status = put_constants(t, f, over[1], error);
     netcdf_put_f64(f, time, t->time.data);
     for (int k = 0; k < TRACK_COLUMNS; k++)
-        t->variable[k] = netcdf_variable(f, columns[k].name, NETCDF_F32, over, 2, columns[k].unit, columns[k].meaning);
+        t->variable[k] =
+            netcdf_variable(f, columns[k].name, columns[k].type, over, 2, columns[k].unit, columns[k].meaning);
     replay_close(&t->r);
     if (status == FRAM_OK)
         status = replay_open(t->ctx, folder, &t->r, error);

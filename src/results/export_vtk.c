@@ -16,7 +16,7 @@ static const char *const part_names[PARTS] = {"floes", "hull", "forces"};
 
 /* One data set under construction: points, cells, a column per field. */
 typedef struct sheet {
-    float_array point;
+    ARRAY(vec3) point;
     int32_array connectivity, offset;
     float_array column[FIELDS_MOST];
     vtk_field field[FIELDS_MOST];
@@ -53,10 +53,8 @@ static void sheet_free(context *ctx, sheet *s)
 
 static int32_t add_point(context *ctx, sheet *s, vec3 p)
 {
-    bool good = array_push(ctx, &s->point, (float)p.x) && array_push(ctx, &s->point, (float)p.y) &&
-                array_push(ctx, &s->point, (float)p.z);
-    s->failed = s->failed || !good;
-    return s->point.count / 3 - 1;
+    s->failed = s->failed || !array_push(ctx, &s->point, p);
+    return s->point.count - 1;
 }
 
 static void add_corner(context *ctx, sheet *s, int32_t point)
@@ -100,7 +98,7 @@ static void add_prism(vtk_export *e, const replay_body *b, const replay_pose *p)
     sheet *s = &e->part[PART_FLOES];
     polygon ring = replay_outline(&e->r, b);
     mat3 turn = quat_matrix(p->orientation);
-    int32_t first = s->point.count / 3, n = ring.count;
+    int32_t first = s->point.count, n = ring.count;
     for (int top = 0; top < 2; top++) {
         for (int32_t i = 0; i < n; i++) {
             vec3 local = vec3_make(ring.vertex[i].x, ring.vertex[i].y, (top - 0.5) * b->thickness);
@@ -143,7 +141,7 @@ static void add_hull(vtk_export *e, const replay_body *b, const replay_pose *p)
 {
     sheet *s = &e->part[PART_HULL];
     mat3 turn = quat_matrix(p->orientation);
-    int32_t first = s->point.count / 3;
+    int32_t first = s->point.count;
     for (int32_t i = 0; i < b->vertex_count; i++)
         add_point(e->ctx, s, vec3_add(p->position, mat3_mul_vec(turn, e->r.points.data[b->vertex_first + i])));
     for (int32_t i = 0; i < b->face_count; i++) {
@@ -196,7 +194,7 @@ static fram_status write_part(vtk_export *e, int part, int64_t number, fram_erro
     for (int32_t i = 0; i < s->fields; i++)
         s->field[i].value = s->column[i].data;
     vtk_data data = {.point = s->point.data,
-                     .point_count = s->point.count / 3,
+                     .point_count = s->point.count,
                      .kind = part == PART_FORCES ? VTK_VERTICES : VTK_POLYGONS,
                      .connectivity = s->connectivity.data,
                      .offset = s->offset.data,

@@ -82,12 +82,15 @@ fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, pea
     peak_detail *d = memory_array(ctx, 1, sizeof *d);
     status = d ? FRAM_OK : error_memory(error);
     bool found = true;
+    vec2 origin = {0, 0};
     while (status == FRAM_OK && found) {
         record_block block;
         status = record_next(&reader, &block, &found, error);
+        if (status == FRAM_OK && found && block.type == BLOCK_ORIGIN)
+            status = record_take_origin(path, &block, &origin, error);
         if (status != FRAM_OK || !found || block.type != BLOCK_PEAK)
             continue;
-        if (!peak_block_unpack(block.data, block.size, d))
+        if (!peak_block_unpack(block.data, block.size, origin, d))
             status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                                "a peak in this file does not fit: another version of Fram wrote it; run the scenario "
                                "again");

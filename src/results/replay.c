@@ -54,12 +54,17 @@ static vec3 take_vec3(cursor *c)
     double x = take_f32(c), y = take_f32(c), z = take_f32(c);
     return vec3_make(x, y, z);
 }
+static vec3 at_origin(const replay *r, vec3 place)
+{
+    return vec3_make(place.x + r->origin.x, place.y + r->origin.y, place.z);
+}
 /* Whether the pose is marked. */
-static bool take_pose(cursor *c, vec3 *position, quat *orientation)
+static bool take_pose(const replay *r, cursor *c, vec3 *position, quat *orientation)
 {
     unsigned char packed[RECORD_POSE_SIZE];
     take(c, packed, sizeof packed);
     record_pose_unpack(packed, position, orientation);
+    *position = at_origin(r, *position);
     return record_pose_is_marked(packed);
 }
 /* Room for `count` things of `size` bytes each is left. */
@@ -155,7 +160,7 @@ static bool read_birth(replay *r, cursor *c)
             return false;
     }
     if (!b.moves)
-        (void)take_pose(c, &b.position, &b.orientation);
+        (void)take_pose(r, c, &b.position, &b.orientation);
     b.area = polygon_area(replay_outline(r, &b));
     return c->unsound || add_body(r, &b);
 }
@@ -180,7 +185,7 @@ static bool read_fractures(replay *r, cursor *c)
         f.floe = take_i32(c);
         f.pieces = take_i32(c);
         (void)take_i32(c);
-        f.place = take_vec3(c);
+        f.place = at_origin(r, take_vec3(c));
         f.load = take_f32(c);
         f.crack_length = take_f32(c);
         f.area = take_f32(c);
@@ -197,7 +202,7 @@ static bool read_forces(replay *r, cursor *c)
     array_clear(&r->next.forces);
     for (int32_t i = 0; i < count && !c->unsound; i++) {
         int32_t kind = take_i32(c), which = take_i32(c);
-        vec3 point = take_vec3(c), force = take_vec3(c);
+        vec3 point = at_origin(r, take_vec3(c)), force = take_vec3(c);
         c->unsound = c->unsound || kind < RECORD_FORCE_ICE || kind > RECORD_FORCE_HULL;
         if (record_force_pushes((record_force_kind)kind))
             which = which >= 0 && which < r->at_slot.count ? r->at_slot.data[which] : -1;
@@ -230,7 +235,7 @@ static bool read_frame(replay *r, cursor *c, bool halves)
             replay_pose p = {.body = body, .position = b->position, .orientation = b->orientation};
             uint16_t touched = 0;
             if (moving) {
-                if (take_pose(c, &p.position, &p.orientation))
+                if (take_pose(r, c, &p.position, &p.orientation))
                     take(c, &touched, sizeof touched);
                 p.contact_force = halves ? real_from_half(touched) * 1e3 : record_force_unpack(touched);
                 found++;
@@ -264,6 +269,8 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
         if (good)
             take(&c, r->scenario, block->size);
         break;
+    case BLOCK_ORIGIN:
+        return record_take_origin(r->reader.path, block, &r->origin, error);
     case BLOCK_SOLID:
         good = read_solid(r, &c);
         break;

@@ -61,6 +61,7 @@ typedef struct replay_frame {
 typedef struct replay {
     context *ctx;
     record_reader reader;
+    vec2 origin;     /* of its places; those of this reader are global [m] */
     char *scenario;  /* text */
     int32_t vessels; /* hulls so far: a run's are recorded in the scenario's order */
     ARRAY(replay_body) bodies;

@@ -57,11 +57,11 @@ static void vector(byte_stream *s, vec3 *v)
 static void detail(byte_stream *s, peak_detail *d)
 {
     unsigned char room[PEAK_BLOCK_ROOM];
-    int32_t size = s->out ? (int32_t)peak_block_pack(d, room) : 0;
+    int32_t size = s->out ? (int32_t)peak_block_pack(d, s->watch->origin, room) : 0;
     whole(s, &size, PEAK_BLOCK_ROOM);
     bytes(s, room, (size_t)size);
     if (!s->out && goes(s))
-        s->bad = !peak_block_unpack(room, (size_t)size, d) || d->vessel >= s->watch->vessels.count;
+        s->bad = !peak_block_unpack(room, (size_t)size, s->watch->origin, d) || d->vessel >= s->watch->vessels.count;
 }
 
 static void peaks(byte_stream *s, vessel_peaks *v)
@@ -149,6 +149,7 @@ fram_status peak_state_restore(peak_watch *p, const world *w, const byte_array *
         return FRAM_OK;
     peak_watch fresh;
     peak_watch_init(p->ctx, p->time_step, p->from, &fresh);
+    fresh.origin = p->origin;
     peak_watch_free(p);
     *p = fresh;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "the peaks of the load so far do not fit the run");

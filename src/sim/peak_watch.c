@@ -263,20 +263,22 @@ fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
 
 /* ---- the file ---- */
 
-static fram_status append_peak(record_writer *file, unsigned char *room, const peak_detail *d, fram_error *error)
+static fram_status append_peak(record_writer *file, unsigned char *room, vec2 origin, const peak_detail *d,
+                               fram_error *error)
 {
-    record_part part = {room, peak_block_pack(d, room)};
+    record_part part = {room, peak_block_pack(d, origin, room)};
     return record_append(file, BLOCK_PEAK, &part, 1, error);
 }
 
-static fram_status append_vessel(record_writer *file, unsigned char *room, const vessel_peaks *v, fram_error *error)
+static fram_status append_vessel(record_writer *file, unsigned char *room, vec2 origin, const vessel_peaks *v,
+                                 fram_error *error)
 {
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < v->picker.count && status == FRAM_OK; i++)
-        status = append_peak(file, room, &v->kept[i], error);
+        status = append_peak(file, room, origin, &v->kept[i], error);
     /* Explained when it would be kept. */
     bool large = peak_picker_keeps(&v->picker);
-    return status == FRAM_OK && large ? append_peak(file, room, &v->candidate, error) : status;
+    return status == FRAM_OK && large ? append_peak(file, room, origin, &v->candidate, error) : status;
 }
 
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)
@@ -293,8 +295,10 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
     unsigned char *room = memory_array(p->ctx, PEAK_BLOCK_ROOM, 1);
     if (!room)
         status = error_memory(error);
+    if (status == FRAM_OK)
+        status = record_append_origin(&file, p->origin, error);
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
-        status = append_vessel(&file, room, &p->vessels.data[v], error);
+        status = append_vessel(&file, room, p->origin, &p->vessels.data[v], error);
     memory_free(p->ctx, room);
     fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
     status = status == FRAM_OK ? closed : status;

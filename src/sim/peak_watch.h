@@ -18,6 +18,7 @@ typedef struct vessel_peaks {
 typedef struct peak_watch {
     context *ctx;
     double time_step, from, window; /* [s] */
+    vec2 origin;                    /* of the places that are written: that of the run's record [m] */
     ARRAY(ice_share_array) ring;    /* one per step of the window, WINDOW_STEPS_MOST at most */
     int32_t next, filled;
     ARRAY(vessel_peaks) vessels;

@@ -86,16 +86,10 @@ static fram_status write_curve(pressure_map *p, fram_error *error)
 
 enum { FIELDS = 5 };
 
-static bool fill_hull(pressure_map *p, float_array *point, int32_array *link, int32_array *offset,
-                      float_array value[FIELDS])
+static bool fill_hull(pressure_map *p, int32_array *link, int32_array *offset, float_array value[FIELDS])
 {
     const hull_panels *h = &p->panels;
     bool good = true;
-    for (int32_t i = 0; i < h->corner.count && good; i++) {
-        vec3 c = h->corner.data[i];
-        good = array_push(p->ctx, point, (float)c.x) && array_push(p->ctx, point, (float)c.y) &&
-               array_push(p->ctx, point, (float)c.z);
-    }
     for (int32_t i = 0; i < h->facet.count && good; i++) {
         const panel_facet *f = &h->facet.data[i];
         double area = h->panel.data[f->panel].area;
@@ -113,16 +107,16 @@ static bool fill_hull(pressure_map *p, float_array *point, int32_array *link, in
 static fram_status write_hull(pressure_map *p, fram_error *error)
 {
     char path[PATH_ROOM];
-    float_array point = {0}, value[FIELDS] = {{0}, {0}, {0}, {0}, {0}};
+    float_array value[FIELDS] = {{0}, {0}, {0}, {0}, {0}};
     int32_array link = {0}, offset = {0};
-    bool good = fill_hull(p, &point, &link, &offset, value);
+    bool good = fill_hull(p, &link, &offset, value);
     const vtk_field fields[FIELDS] = {{"mean pressure [Pa]", 1, value[0].data},
                                       {"largest pressure [Pa]", 1, value[1].data},
                                       {"cumulative pressure [Pa s]", 1, value[2].data},
                                       {"panel", 1, value[3].data},
                                       {"panel area [m2]", 1, value[4].data}};
-    const vtk_data data = {.point = point.data,
-                           .point_count = point.count / 3,
+    const vtk_data data = {.point = p->panels.corner.data,
+                           .point_count = p->panels.corner.count,
                            .kind = VTK_POLYGONS,
                            .connectivity = link.data,
                            .offset = offset.data,
@@ -133,7 +127,6 @@ static fram_status write_hull(pressure_map *p, fram_error *error)
     fram_status status = good ? path_join(p->o->output, "hull.vtp", path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = vtk_write(p->ctx, path, &data, error);
-    array_free(p->ctx, &point);
     for (int k = 0; k < FIELDS; k++)
         array_free(p->ctx, &value[k]);
     array_free(p->ctx, &link);

@@ -15,6 +15,15 @@ int64_t interval_steps(double interval, double time_step)
     return steps < 1 ? 1 : (int64_t)steps;
 }
 
+/* The middle of a domain that is farther from 0 than it is long, in whole metres. */
+static vec2 origin_of(const scenario_domain *d)
+{
+    vec2 middle = vec2_make((d->x_min + d->x_max) / 2, (d->y_min + d->y_max) / 2);
+    double side = fmax(d->x_max - d->x_min, d->y_max - d->y_min);
+    bool far = fmax(fabs(middle.x), fabs(middle.y)) > side;
+    return far ? vec2_make(floor(middle.x), floor(middle.y)) : vec2_make(0, 0);
+}
+
 static void set_intervals(recorder *r, const scenario *s)
 {
     r->series_every = interval_steps(s->output.csv_interval, s->run.time_step);
@@ -69,6 +78,9 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
         status = path_join(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_create(ctx, path, &r->record, error);
+    r->origin = r->peaks.origin = origin_of(&s->domain);
+    if (status == FRAM_OK)
+        status = record_append_origin(&r->record, r->origin, error);
     if (status == FRAM_OK) {
         record_part part = {text, strlen(text)};
         status = record_append(&r->record, BLOCK_SCENARIO, &part, 1, error);
@@ -88,31 +100,6 @@ recorder_lengths recorder_lengths_of(const recorder *r)
     return (recorder_lengths){csv_length(&r->series), record_length(&r->record), csv_length(&r->fractures)};
 }
 
-/* That the record is of the layout which would go on: told by its blocks up to `length`.  One whose blocks do not go on
-   to there is for record_continue to refuse; one with other bytes in a block than were written is told, for the run can
-   go on, and what reads the record cannot. */
-static fram_status check_layout(context *ctx, const char *folder, uint64_t length, fram_error *error)
-{
-    char path[PATH_ROOM];
-    record_reader reader;
-    fram_status status = path_join(folder, "record.fram", path, error);
-    if (status == FRAM_OK)
-        status = record_open(ctx, path, &reader, error);
-    if (status != FRAM_OK)
-        return status;
-    record_block block = {0};
-    bool found = true;
-    while (status == FRAM_OK && found && reader.position < length) {
-        status = record_next(&reader, &block, &found, error);
-        if (status == FRAM_OK && found)
-            status = record_check_block(path, block.type, error);
-    }
-    if (status == FRAM_OK && !found)
-        record_tell_damage(&reader, "the run can go on, but pages and reports of it end there: better start it again");
-    record_reader_close(&reader);
-    return status;
-}
-
 /* All streams are sound: what stands after the checkpoint goes. */
 static fram_status cut_streams(recorder *r, const recorder_lengths *lengths, fram_error *error)
 {
@@ -128,7 +115,10 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[PATH_ROOM];
-    fram_status status = check_layout(ctx, folder, lengths->record, error);
+    fram_status status = path_join(folder, "record.fram", path, error);
+    if (status == FRAM_OK)
+        status = record_check_layout(ctx, path, lengths->record, &r->origin, error);
+    r->peaks.origin = r->origin;
     if (status == FRAM_OK)
         status = begin_series(r, s, error);
     if (status == FRAM_OK)
@@ -178,10 +168,17 @@ static void set_i32(recorder *r, int32_t at, int32_t v) { memcpy(r->block.data +
 
 static bool put_vec3(recorder *r, vec3 v) { return put_f32(r, v.x) && put_f32(r, v.y) && put_f32(r, v.z); }
 
+static vec3 from_origin(const recorder *r, vec3 place)
+{
+    return vec3_make(place.x - r->origin.x, place.y - r->origin.y, place.z);
+}
+
+static bool put_place(recorder *r, vec3 place) { return put_vec3(r, from_origin(r, place)); }
+
 static bool put_pose(recorder *r, const world *w, int32_t slot)
 {
     unsigned char packed[RECORD_POSE_SIZE];
-    record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
+    record_pose_pack(from_origin(r, w->bodies.position[slot]), w->bodies.orientation[slot], packed);
     return put(r, packed, sizeof packed);
 }
 
@@ -191,7 +188,7 @@ static bool put_touched_pose(recorder *r, const world *w, int32_t slot)
     unsigned char packed[RECORD_POSE_SIZE];
     bool here = !world_came_since_contacts(w, slot); /* else they are those of what stood there before */
     uint16_t touched = here ? record_force_pack(r->sums.data[slot].magnitude) : 0;
-    record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
+    record_pose_pack(from_origin(r, w->bodies.position[slot]), w->bodies.orientation[slot], packed);
     if (touched)
         record_pose_mark(packed);
     return put(r, packed, sizeof packed) && (!touched || put(r, &touched, sizeof touched));
@@ -300,7 +297,7 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
 
 static bool put_force(recorder *r, int32_t kind, int32_t which, vec3 point, vec3 force)
 {
-    return put_i32(r, kind) && put_i32(r, which) && put_vec3(r, point) && put_vec3(r, force);
+    return put_i32(r, kind) && put_i32(r, which) && put_place(r, point) && put_vec3(r, force);
 }
 
 static bool put_line_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
@@ -440,7 +437,7 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
         if (status != FRAM_OK)
             return status;
         good = good && put_f64(r, time) && put_i32(r, e->kind) && put_i32(r, e->floe) && put_i32(r, e->pieces) &&
-               put_i32(r, 0) && put_vec3(r, e->place) && put_f32(r, e->load) && put_f32(r, e->crack_length) &&
+               put_i32(r, 0) && put_place(r, e->place) && put_f32(r, e->load) && put_f32(r, e->crack_length) &&
                put_f32(r, e->parent_area);
     }
     return good ? append(r, BLOCK_FRACTURES, error) : error_memory(error);

@@ -17,6 +17,7 @@ typedef struct recorder {
     series_layout layout;
     csv_writer series, fractures;
     record_writer record;
+    vec2 origin;                       /* of the record's places [m] */
     int64_t series_every, frame_every; /* steps; 0: no frames */
     double time_step;                  /* [s] */
     double frames_most;                /* of the whole run, one every frame_every */

@@ -5,7 +5,7 @@
 #include "io/csv_read.h"
 #include "io/geojson.h"
 #include "io/outline_file.h"
-#include "io/record.h"
+#include "io/record_layout.h"
 #include "scratch.h"
 
 static context ctx;
@@ -121,6 +121,37 @@ START_TEST(records_are_laid_out_as_told)
 }
 END_TEST
 
+/* An origin of 0 takes no block, so that ordinary records are as they were; another one is found again. */
+START_TEST(an_origin_is_told_where_there_is_one)
+{
+    static const vec2 origins[] = {{0, 0}, {-1400000, 2000000}};
+    static const double bad[2] = {0, HUGE_VAL};
+    scratch place = scratch_make();
+    const char *path = scratch_path(&place, "a.fram");
+    record_writer w;
+    vec2 found;
+    context_init(&ctx);
+    for (int i = 0; i < 2; i++) {
+        uint64_t length;
+        assert_ok(record_create(&ctx, path, &w, &error), error);
+        assert_ok(record_append_origin(&w, origins[i], &error), error);
+        length = record_length(&w);
+        ck_assert_uint_eq(length, 24 + 40 * (uint64_t)i);
+        assert_ok(record_close(&w, &error), error);
+        assert_ok(record_check_layout(&ctx, path, length, &found, &error), error);
+        ck_assert(found.x == origins[i].x && found.y == origins[i].y);
+    }
+    for (size_t size = 8; size <= sizeof bad; size += 8) {
+        const record_part part = {bad, size};
+        assert_ok(record_create(&ctx, path, &w, &error), error);
+        assert_ok(record_append(&w, BLOCK_ORIGIN, &part, 1, &error), error);
+        assert_ok(record_close(&w, &error), error);
+        assert_fails(record_check_layout(&ctx, path, 64, &found, &error), error, FRAM_ERROR_INPUT, "origin");
+    }
+    scratch_remove(&place, "a.fram");
+}
+END_TEST
+
 /* A table of all columns: as many values as names, and a last row without its end is one that is still being written.
  */
 START_TEST(tables_of_whole_rows)
@@ -192,4 +223,4 @@ START_TEST(written_rings_are_closed)
 END_TEST
 
 TEST_MAIN("layout", written_rings_are_closed, base64_of_the_standard, base64_in_pieces, records_are_laid_out_as_told,
-          tables_of_whole_rows, thickness_is_the_features_own)
+          an_origin_is_told_where_there_is_one, tables_of_whole_rows, thickness_is_the_features_own)

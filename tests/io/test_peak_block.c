@@ -3,6 +3,8 @@
 
 #include "io/peak_block.h"
 
+static const vec2 near = {0, 0};
+
 static peak_detail sample(void)
 {
     peak_detail d = {.time = 12.345678901234, .load = 1.5e6, .window = 0.5, .vessel = 1, .bodies = 7};
@@ -23,8 +25,8 @@ START_TEST(there_and_back)
 {
     static unsigned char room[PEAK_BLOCK_ROOM];
     peak_detail d = sample(), back;
-    size_t size = peak_block_pack(&d, room);
-    ck_assert(peak_block_unpack(room, size, &back));
+    size_t size = peak_block_pack(&d, near, room);
+    ck_assert(peak_block_unpack(room, size, near, &back));
     ck_assert(back.time == d.time && back.load == d.load && back.vessel == 1 && back.bodies == 7);
     ck_assert(back.floe[0].number == 5 && back.floe[0].part[MECHANISM_FRICTION] == 0.25);
     ck_assert(back.link[2].push.z == 6 && back.link[2].inertia == 9 && back.zone[4][MECHANISM_IMPACT] == 42);
@@ -36,8 +38,25 @@ START_TEST(there_and_back)
         d.floe[i].links = i < PEAK_CHAINS ? PEAK_CHAIN_LINKS : 0;
         d.link_count += d.floe[i].links;
     }
-    size = peak_block_pack(&d, room);
-    ck_assert(size < PEAK_BLOCK_ROOM && peak_block_unpack(room, size, &back));
+    size = peak_block_pack(&d, near, room);
+    ck_assert(size < PEAK_BLOCK_ROOM && peak_block_unpack(room, size, near, &back));
+}
+END_TEST
+
+/* In coordinates of a map, where floats are a decimetre apart; what was read is written again with the same bytes. */
+START_TEST(places_far_from_zero)
+{
+    static unsigned char room[PEAK_BLOCK_ROOM], again[PEAK_BLOCK_ROOM];
+    const vec2 far = {-1400000, 2000000};
+    const vec3 point = {-1400012.34, 2000056.78, -0.5};
+    peak_detail d = sample(), back;
+    d.floe[1].point = d.link[0].place = point;
+    size_t size = peak_block_pack(&d, far, room);
+    ck_assert(peak_block_unpack(room, size, far, &back));
+    ck_assert_double_le(vec3_length(vec3_sub(back.floe[1].point, point)), 1e-5);
+    ck_assert_double_le(vec3_length(vec3_sub(back.link[0].place, point)), 1e-5);
+    ck_assert_uint_eq(peak_block_pack(&back, far, again), size);
+    ck_assert_mem_eq(again, room, size);
 }
 END_TEST
 
@@ -45,22 +64,22 @@ START_TEST(other_bytes)
 {
     static unsigned char room[PEAK_BLOCK_ROOM];
     peak_detail d = sample(), back;
-    size_t size = peak_block_pack(&d, room);
+    size_t size = peak_block_pack(&d, near, room);
     for (size_t cut = 0; cut < size; cut++)
-        ck_assert(!peak_block_unpack(room, cut, &back));
-    ck_assert(!peak_block_unpack(room, size + 1, &back));
+        ck_assert(!peak_block_unpack(room, cut, near, &back));
+    ck_assert(!peak_block_unpack(room, size + 1, near, &back));
     d.floe[0].mechanism = MECHANISM_COUNT;
-    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, near, room), near, &back));
     d = sample();
     d.floe[0].links = 4;
-    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, near, room), near, &back));
     d = sample();
     d.vessel = -1;
-    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, near, room), near, &back));
     d = sample();
     d.load = (double)NAN;
-    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, near, room), near, &back));
 }
 END_TEST
 
-TEST_MAIN("peak_block", there_and_back, other_bytes)
+TEST_MAIN("peak_block", there_and_back, places_far_from_zero, other_bytes)

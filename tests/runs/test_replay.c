@@ -3,6 +3,7 @@
 
 #include "base/transcendental.h"
 #include "io/record_pose.h"
+#include "results/peaks.h"
 #include "results/replay_moment.h"
 #include "results/replay_plan.h"
 #include "sim/run.h"
@@ -398,6 +399,82 @@ START_TEST(frames_come_rarely_enough_for_the_limit)
 }
 END_TEST
 
+/* A hull that breaks an edge and meets a floe, about a place, in one go or in two. */
+static void run_about(context *ctx, double x, double y, bool halves, char folder[PATH])
+{
+    char told[1024];
+    fram_error error = {0};
+    scenario s = {0};
+    run_result result = {0};
+    snprintf(told, sizeof told,
+             "run: {duration: 2, time_step: 0.02}\nvessel: {mode: towed, x: %.0f, y: %.0f, speed: 3, ramp: 0.5, hull: "
+             "{length: 48, beam: 12, draught: 4, freeboard: 2}}\nice: {source: floes, thickness: 0.5, breakable: true, "
+             "floes: [{length: 40, width: 40, x: %.1f, y: %.1f, fixed: true}, {length: 40, width: 20, x: %.1f, y: "
+             "%.1f}]}\ndomain: {x_min: %.0f, x_max: %.0f, y_min: %.0f, y_max: %.0f}\noutput: {frame_interval: 0.2}\n",
+             x - 26, y, x + 20.5, y + 20.5, x + 20.5, y - 11, x - 64, x + 64, y - 40, y + 44);
+    ck_assert_ptr_nonnull(mkdtemp(strcpy(folder, "/tmp/fram-replay-XXXXXX")));
+    assert_ok(scenario_parse(ctx, "scene.yaml", told, strlen(told), NULL, &s, &error), error);
+    run_options options = {.folder = folder, .until = halves ? 1 : 0};
+    assert_ok(run_start(ctx, &s, &options, &result, &error), error);
+    options.until = 0;
+    if (halves)
+        assert_ok(run_resume(ctx, &options, &result, &error), error);
+    scenario_free(ctx, &s);
+}
+
+/* Places in its record, less that: of the largest peak, of forces, of where floes broke and of bodies at the end. */
+enum { PLACES = 64 };
+static int32_t places_about(context *ctx, double x, double y, bool halves, vec3 out[PLACES], vec2 *origin)
+{
+    char folder[PATH];
+    fram_error error = {0};
+    replay r;
+    peak_list peaks;
+    int32_t count = 0;
+    bool found = true;
+    run_about(ctx, x, y, halves, folder);
+    assert_ok(peak_list_read(ctx, folder, 0, &peaks, &error), error);
+    ck_assert_int_gt(peaks.count, 0);
+    out[count++] = peaks.peak[0]->floe[0].point;
+    peak_list_free(ctx, &peaks);
+    assert_ok(replay_open(ctx, folder, &r, &error), error);
+    *origin = r.origin;
+    while (true) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        if (!found)
+            break;
+        for (int32_t i = 0; i < r.frame.forces.count && count < PLACES / 2; i++)
+            out[count++] = r.frame.forces.data[i].point;
+    }
+    for (int32_t i = 0; i < r.fractures.count && count < PLACES * 3 / 4; i++)
+        out[count++] = r.fractures.data[i].place;
+    for (int32_t i = 0; i < r.frame.poses.count && count < PLACES; i++)
+        out[count++] = r.frame.poses.data[i].position;
+    close_and_remove(&r, folder);
+    for (int32_t i = 0; i < count; i++)
+        out[i] = vec3_make(out[i].x - x, out[i].y - y, out[i].z);
+    return count;
+}
+
+/* In coordinates of a map, where floats are a decimetre apart, a run is recorded as finely as about 0. */
+START_TEST(places_are_as_fine_far_from_zero)
+{
+    static vec3 here[PLACES], there[PLACES];
+    context ctx;
+    vec2 origin;
+    context_init(&ctx);
+    int32_t count = places_about(&ctx, 0, 0, false, here, &origin);
+    ck_assert_int_gt(count, 12);
+    ck_assert(origin.x == 0 && origin.y == 0);
+    for (int halves = 0; halves < 2; halves++) {
+        ck_assert_int_eq(places_about(&ctx, -1400000, 2000000, halves == 1, there, &origin), count);
+        for (int32_t i = 0; i < count; i++)
+            ck_assert_double_le(vec3_length(vec3_sub(there[i], here[i])), 2e-3);
+        ck_assert(origin.x == -1400000 && origin.y == 2000002);
+    }
+}
+END_TEST
+
 static fram_status write_one(context *ctx, const char *folder, uint32_t type, const void *data, size_t size)
 {
     char path[PATH + 32];
@@ -490,4 +567,4 @@ END_TEST
 TEST_MAIN("replay", a_run_is_read_back, contacts_of_large_floes_are_kept_whole, contacts_of_an_earlier_layout_are_read,
           level_ice_is_known, pieces_have_an_age_and_tiles_none, a_propeller_astern_pushes_along_the_ship,
           a_moment_lies_between_its_frames, a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
-          frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
+          frames_come_rarely_enough_for_the_limit, places_are_as_fine_far_from_zero, records_that_lie_are_refused)

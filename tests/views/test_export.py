@@ -16,16 +16,19 @@ import tempfile
 
 FRAM = os.environ["FRAM"]
 READERS = ("vtkmodules", "xarray", "netCDF4", "h5py", "pandas")
+# In coordinates of a map, where floats are a decimetre apart.
 SCENE = """
 title: Export test
 run: {duration: 6, time_step: 0.02, seed: 3}
 vessel:
   mode: free
+  x: -1400000
+  y: 2000000
   hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
   mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}
   thrusters: [{x: 18}]
 ice: {concentration: 0.7, mean_floe_area: 64, thickness: 0.15, breakable: true}
-domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
+domain: {x_min: -1400064, x_max: -1399936, y_min: 1999960, y_max: 2000040, boundary: open}
 environment: {current_speed: 3, current_direction_deg: 180}
 output: {frame_interval: 0.5}
 """
@@ -217,7 +220,7 @@ const frames = record.frames.map((f, n) => {
     const { poses, contact, forces } = store.get(n);
     return { time: f.time, force: f.force, order: [...f.order], poses: [...poses], contact: [...contact], forces };
 });
-console.log(JSON.stringify({ frames, fractures: record.fractures,
+console.log(JSON.stringify({ frames, origin: record.origin, fractures: record.fractures,
     bodies: record.bodies.map((b) => ({ ...b, outline: 0, vertices: 0, triangles: 0 })) }));
 """
 
@@ -233,6 +236,7 @@ def check_viewer(data, run, rows):
     frame, row = record["frames"][11], {int(n): k for k, n in enumerate(data["floe"].values)}
     assert [f["time"] for f in record["frames"]] == list(data["frame"].values)
     at, floes = {n: v.values[11] if v.ndim == 2 else v.values for n, v in data.items()}, 0
+    origin = dict(zip("xyz", (*record["origin"], 0)))
     for place, index in enumerate(frame["order"]):
         body, (*centre, x, y, z, w) = record["bodies"][index], frame["poses"][7 * place:7 * place + 7]
         if body["material"] != "ice":
@@ -242,7 +246,7 @@ def check_viewer(data, run, rows):
                                (*centre, 1e3 * frame["contact"][place], body["area"], body["thickness"],
                                 body["area"] * body["thickness"] * body["density"], body["parent"],
                                 record["frames"][body["birth"]]["time"])):
-            close(at[f"floe_{name}"][k], value, 1e-5 * max(1, abs(value)))
+            close(at[f"floe_{name}"][k] - origin.get(name, 0), value, 1e-5 * max(1, abs(value)))
         turn = rotation([at[f"floe_{name}"][k] for name in ("heading", "roll", "pitch")])
         own = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -260,7 +264,7 @@ def check_viewer(data, run, rows):
                            ("crack", "crack_length[m]"), ("area", "floe_area[m2]")):
             close(told[name], event[head], 1e-6 * abs(event[head]))
         for axis, value in zip("xyz", told["place"]):
-            close(value, event[f"place_{axis}[m]"], 1e-5)
+            close(value, event[f"place_{axis}[m]"] - origin[axis], 1e-5)
 
 
 def check_netcdf(run, rows):

@@ -22,16 +22,19 @@ import chromium
 FRAM = os.environ["FRAM"]
 SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
 PAGE = SOURCE / "build" / "viewer" / "playback.html"
+# In coordinates of a map, where floats are a decimetre apart: the page counts from the middle of the domain.
+MIDDLE = (-1400000, 2000000)
 TOWED = """
 title: Peaks
 run: {duration: 8, time_step: 0.02, transient: 0.5}
 vessel:
   mode: towed
-  x: -20
+  x: -1400036
+  y: 2000000
   speed: 4
   hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
 ice: {mean_floe_area: 64, concentration: 0.8}
-domain: {x_min: -64, x_max: 96, y_min: -30, y_max: 30}
+domain: {x_min: -1400080, x_max: -1399920, y_min: 1999970, y_max: 2000030}
 output: {frame_interval: 0.5}
 """
 TWO = """
@@ -110,6 +113,11 @@ def check_click(browser, run):
     assert sum(abs(a - b) for a, b in zip(before, after)) > 40, f"floe {floe} is not lit: {before}, {after}"
     links = sum(max(len(f["chain"]) - 1, 0) for f in why["floes"])
     assert browser.run("fram.scene.peakArrows.shafts.count") == links + len(why["floes"])
+    ends = [line["to"] for line in browser.run("fram.peaks.lines(1e-6, 1)") if line["colour"] != "#111111"]
+    hull, points = browser.run("[...fram.camera.centre()]"), [f["point"] for f in why["floes"]]
+    assert all(math.dist(end[:2], hull[:2]) < 30 for end in ends), (hull, ends)
+    for end, point in zip(ends, points, strict=True):
+        assert all(abs(a + m - b) < 1e-9 for a, m, b in zip(end, (*MIDDLE, 0), point)), (end, point)
     assert not browser.run("fram.poses.forces.filter((f) => f.kind === 'ice').length && fram.scene.arrows.count")
     calls = browser.run("fram.scene.renderer.info.render.calls")
     assert calls <= 20, calls

@@ -21,15 +21,16 @@ from skipping import skip  # noqa: E402  (tests is no package)
 FRAM = os.environ["FRAM"]
 PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
 # Numbers of lines count within a vessel: both have a first and a second one.  Those of the other ship end far outside
-# what is drawn; hers is a turret.
+# what is drawn; hers is a turret.  All in coordinates of a map, where floats are a decimetre apart: the page counts
+# from the middle of the domain.
 SCENE = """
 title: Two moored ships
 run: {duration: 6, time_step: 0.02, seed: 3}
 vessels:
   - name: near
     mode: free
-    x: -10
-    y: 6
+    x: 2999990
+    y: -1999994
     heading_deg: 30
     hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
     mooring:
@@ -45,8 +46,8 @@ vessels:
       - {kind: tunnel, x: -18, z: -3, setting: 0.5, failure_time: 2}
   - name: far
     mode: free
-    x: 0
-    y: -70
+    x: 3000000
+    y: -2000070
     hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
     mooring:
       depth: 60
@@ -54,20 +55,20 @@ vessels:
       lines: [{count: 2, spacing_deg: 180, fairlead_distance: 5, distance: 2000, pretension: 9.0e5}]
   - name: tug
     mode: free
-    x: 40
-    y: -20
+    x: 3000040
+    y: -2000020
     heading_deg: 90
     hull: {length: 36, beam: 10, draught: 4, freeboard: 2, stem_angle_deg: 80, entrance_angle_deg: 60,
            stern_angle_deg: 30, parallel_midbody: 0.2}
     propulsion: {bollard_pull: 4.0e5, open_water_speed: 5, speed: 0.5, propellers: 2, propeller_diameter: 3}
   - name: scow
     mode: free
-    x: -45
-    y: 35
+    x: 2999955
+    y: -1999965
     hull: {form: file, file: scow.obj}
     propulsion: {bollard_pull: 5.0e4, open_water_speed: 5, speed: 0.5, propeller_diameter: 1}
 ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
-domain: {x_min: -64, x_max: 64, y_min: -110, y_max: 50, boundary: open}
+domain: {x_min: 2999936, x_max: 3000064, y_min: -2000110, y_max: -1999950, boundary: open}
 environment: {current_speed: 0.5, current_direction_deg: 180}
 output: {frame_interval: 0.5}
 """
@@ -107,7 +108,7 @@ GREEN = """((x, y, z) => {
 
 def start_of(vessel, along, direction):
     """The place of a line's upper end, seen from above, or further along it, as the vessel is put [m]."""
-    heading, x, y, centre = ((math.radians(30), -10, 6, 4), (0, 0, -70, 0))[vessel]
+    heading, x, y, centre = ((math.radians(30), -10, 36, 4), (0, 0, -40, 0))[vessel]
     angle = math.radians(direction)
     return (x + centre * math.cos(heading) + along * math.cos(angle),
             y + centre * math.sin(heading) + along * math.sin(angle))

@@ -45,14 +45,15 @@ export function floesOf(loads, peak) {
 }
 
 /** Segments of a peak, {from, to, colour}: forces on the hull, as long as `length` metres a newton, and chains from
- *  body to body. */
-export function linesOf(loads, peak, length) {
-    const out = [];
+ *  body to body; places from the origin of the record. */
+export function linesOf(loads, peak, length, [x, y]) {
+    const out = [], near = (p) => [p[0] - x, p[1] - y, p[2]];
     for (const f of peak.detail.floes) {
         const colour = loads.colour(f.mechanism);
-        out.push({ to: f.point, from: f.point.map((p, i) => p - f.force[i] * length), colour });
+        const to = near(f.point);
+        out.push({ to, from: to.map((p, i) => p - f.force[i] * length), colour });
         for (let k = 1; k < f.chain.length; k++)
-            out.push({ from: f.chain[k - 1].place, to: f.chain[k].place, colour: CHAIN });
+            out.push({ from: near(f.chain[k - 1].place), to: near(f.chain[k].place), colour: CHAIN });
     }
     return out;
 }

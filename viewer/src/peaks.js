@@ -41,7 +41,9 @@ export class PeakPanel {
     }
 
     /** Arrows of the peak: forces as long as `scale` metres a newton, and its chains. */
-    lines(scale, width) { return linesOf(this.loads, this.peak, scale).map((line) => ({ ...line, width })); }
+    lines(scale, width) {
+        return linesOf(this.loads, this.peak, scale, this.record.origin).map((line) => ({ ...line, width }));
+    }
 
     step(by) {
         const { peaks } = this.vessel, at = peaks.indexOf(this.peak);

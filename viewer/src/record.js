@@ -4,7 +4,7 @@
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
 const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10;
-const HALF_FRAME = 11, LOADS = 13, PRESSURE = 14, FRAME = 15;
+const HALF_FRAME = 11, LOADS = 13, PRESSURE = 14, FRAME = 15, ORIGIN = 16;
 const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
 const BREAKS = ['', 'split', 'bending', 'loose']; // enum fracture_kind; loose: a part of level ice
@@ -60,7 +60,8 @@ class Cursor {
     }
 }
 
-/** @returns {{scenario: string, bodies: Body[], frames: Frame[], fractures: Fracture[]}}
+/** @returns {{scenario: string, origin: number[], bodies: Body[], frames: Frame[], fractures: Fracture[]}}
+ *  All places are from the origin, [x, y] in global coordinates: what is drawn stays near 0, where floats are fine.
  *  Body: {index, slot, material, moves, birth, death (frame numbers; death is the first frame without it), number and
  *  parent of a floe, thickness, area, outline [[x, y], ...] and level (a tile of level ice) of a prism, or vertices and
  *  triangles of a solid, pose of a body that does not move}.
@@ -78,7 +79,7 @@ export function readRecord(buffer) {
 /** Reads a record that grows: whole blocks are taken as they come, the beginning of one waits for the rest. */
 export class RecordReader {
     constructor() {
-        this.record = { scenario: '', bodies: [], frames: [], fractures: [] };
+        this.record = { scenario: '', origin: [0, 0], bodies: [], frames: [], fractures: [] };
         this.state = { record: this.record, alive: new Map(), order: null };
         this.rest = new ArrayBuffer(0);
         this.headed = false;
@@ -136,6 +137,7 @@ function readBlock(state, type, c, buffer, size) {
     const { record } = state;
     switch (type) {
     case SCENARIO: record.scenario = text(buffer, c.at, size); break;
+    case ORIGIN: record.origin = [c.f64(), c.f64()]; break;
     case SOLID: addBody(state, readSolid(c)); break;
     case BIRTHS: for (let n = c.i32(); n > 0; n--) addBody(state, readPrism(c)); break;
     case DEATHS: for (let n = c.i32(); n > 0; n--) removeBody(state, c.i32()); break;

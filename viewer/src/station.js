@@ -23,7 +23,7 @@ export class Station {
         this.sizes = sizesOf(told);
         const disc = (thrust) => Math.sqrt(4 * thrust / (Math.PI * DISC_PRESSURE * this.sizes.length));
         const each = (make) => vessels.flatMap((v, i) => (v.mode === 'free' && hulls[i] ? make(v, hulls[i]) : []));
-        this.lines = each(linesOf);
+        this.lines = each((v, hull) => linesOf(v, hull, record.origin));
         this.thrusters = each((v, hull) => [...thrustersOf(v, hull, disc), ...propellersOf(v, hull, disc)]);
         this.gone = 0; // lines that parted and thrusters that failed
         const box = new THREE.Box3().setFromObject(water);
@@ -131,10 +131,10 @@ function overAll(part, scene) {
 const radians = (degrees) => degrees * Math.PI / 180;
 
 /** Anchors lie where src/vessel/mooring.c puts them: from the vessel as it is put, before it begins where its lines
- *  balance. */
-function linesOf(v, hull) {
+ *  balance; places from the origin of the record. */
+function linesOf(v, hull, origin) {
     const { mooring: m } = v, c = Math.cos(radians(v.heading_deg)), s = Math.sin(radians(v.heading_deg));
-    const centre = [v.x + c * m.x - s * m.y, v.y + s * m.x + c * m.y], out = [];
+    const centre = [v.x - origin[0] + c * m.x - s * m.y, v.y - origin[1] + s * m.x + c * m.y], out = [];
     for (const l of m.lines ?? []) {
         for (let k = 0; k < l.count; k++) {
             const angle = radians(l.direction_deg + k * l.spacing_deg), lead = [Math.cos(angle), Math.sin(angle)];
