@@ -180,12 +180,30 @@ def check_opening(browser, page):
             ("box('header').bottom <= box('#legend').top", "the legend covers the title")):
         browser.until(f"innerWidth === 420 && (() => {{ {box} return {holds}; }})()",
                       f"in a window of 420 pixels {complaint}")
+    check_whole_domain(browser, 390, 844)
     # A phone's window grows with what sticks out of its screen: the view takes the screen, also after a turn and back.
     for width, height in ((720, 420), (420, 720)):
         browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True)
         browser.until(f"innerWidth === {width} && document.getElementById('view').clientWidth === {width}",
                       f"on a phone of {width} pixels window or view are not as wide")
     browser.call("Emulation.clearDeviceMetricsOverride")
+
+
+def check_whole_domain(browser, width, height):
+    """From the top and in orbit all corners of the domain are in a window of this shape."""
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    browser.until(f"innerWidth === {width} && document.getElementById('view').clientWidth === {width}",
+                  "the view does not take the window")
+    for camera in ("top", "orbit"):
+        browser.choose("camera", camera)
+        far = browser.run("""(() => { const { camera, box } = fram.scene;
+            camera.updateMatrixWorld();
+            return [box.min.x, box.max.x].flatMap((x) => [box.min.y, box.max.y].map((y) => {
+                const p = camera.position.clone().set(x, y, 0).project(camera);
+                return Math.max(Math.abs(p.x), Math.abs(p.y)); })); })()""")
+        assert max(far) < 1.001, f"at {width} x {height} the view {camera} ends short of corners: {far}"
+        assert max(far) > 0.9, f"at {width} x {height} the view {camera} is far off: {far}"
+    browser.choose("camera", "follow")
 
 
 def check_towed(browser, run, rows):

@@ -46,7 +46,26 @@ export class Camera {
         camera.position.copy(target).add(new THREE.Vector3(...offset));
         this.controls.target.copy(target);
         this.controls.update();
+        if (mode === 'top' || mode === 'orbit') this.showWhole(room);
         this.hullAt = this.hull && this.centre();
+    }
+
+    /** Back from the target until the corners of the box are in a view of this shape. */
+    showWhole(room) {
+        const { camera, box } = this.scene, { target } = this.controls, high = Math.tan(camera.fov * Math.PI / 360);
+        camera.updateMatrixWorld();
+        const [right, up, back] = [0, 1, 2].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, k));
+        let away = camera.position.distanceTo(target);
+        for (const x of [box.min.x, box.max.x]) {
+            for (const y of [box.min.y, box.max.y]) {
+                const p = new THREE.Vector3(x, y, 0).sub(target);
+                const reach = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) * room.height / room.width);
+                away = Math.max(away, p.dot(back) + reach / high);
+            }
+        }
+        camera.position.copy(target).addScaledVector(back, away);
+        camera.far = Math.max(camera.far, 2 * away);
+        camera.updateProjectionMatrix();
     }
 
     /** After the poses have gone on: as far as the hull has from where it was at the last call. */
