@@ -204,6 +204,7 @@ def check_whole_domain(browser, width, height):
         assert max(far) < 1.001, f"at {width} x {height} the view {camera} ends short of corners: {far}"
         assert max(far) > 0.9, f"at {width} x {height} the view {camera} is far off: {far}"
     browser.choose("camera", "follow")
+    check_saved_head(browser)
 
 
 def check_towed(browser, run, rows):
@@ -538,7 +539,26 @@ def check_cameras(browser):
     assert all(abs(a - b) < 1e-3 for a, b in zip(first, browser.run(away))), "the camera does not follow"
 
 
+def check_saved_head(browser):
+    """In a picture that is saved a long title ends before the legend: the water is seen between them."""
+    seen = browser.run("""(() => { const title = document.getElementById('title'), before = title.textContent;
+        title.textContent = 'word '.repeat(50);
+        fram.draw();
+        const view = document.getElementById('view'), ratio = view.width / view.clientWidth;
+        const [out, raw] = [0, 1].map(() => document.createElement('canvas'));
+        for (const c of [out, raw]) c.getContext('2d', { willReadFrequently: true });
+        fram.film.compose(out);
+        raw.width = out.width; raw.height = out.height;
+        raw.getContext('2d').drawImage(view, 0, 0);
+        title.textContent = before;
+        const left = view.clientWidth - fram.legend.width - 12;
+        return [20, left - 6, left + 6].map((x) => [out, raw].map((c) =>
+            c.getContext('2d').getImageData(x * ratio, 30 * ratio, 1, 1).data.join())); })()""")
+    assert [a == b for a, b in seen] == [False, True, False], f"box of the title, gap, legend: {seen}"
+
+
 def check_still(browser):
+    check_saved_head(browser)
     browser.click_on("still")
     png = browser.file(".png").read_bytes()
     width, height, *_ = chromium.pixels(png)

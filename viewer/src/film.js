@@ -20,8 +20,9 @@ export class Film {
         g.setTransform(1, 0, 0, 1, 0, 0);
         g.drawImage(from, 0, 0);
         g.setTransform(ratio, 0, 0, ratio, 12 * ratio, 12 * ratio);
-        drawHeader(g, $('title').textContent, [$('clock').textContent, $('load').textContent]);
-        g.setTransform(ratio, 0, 0, ratio, from.width - (this.legend.width + 12) * ratio, 12 * ratio);
+        const beside = from.width / ratio - this.legend.width - 12; // where the legend begins
+        drawHeader(g, $('title').textContent, [$('clock').textContent, $('load').textContent], beside - 24);
+        g.setTransform(ratio, 0, 0, ratio, beside * ratio, 12 * ratio);
         this.legend.draw(g, this.view());
         return out;
     }

@@ -1,6 +1,8 @@
 // What the colours, arrows and marks mean, how long a metre is, where Y points and what time it is: drawn with one hand
 // for the page, for pictures and for videos.
 
+import { shortened, wrapped } from './text.js';
+
 const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sans-serif';
 const WIDTH = 204, EDGE = 12, LINE = 18;
 const SWATCH = 14, GAP = 12; // from a swatch to its name, and from a name to the next swatch [px]
@@ -144,17 +146,20 @@ export class Legend {
     }
 }
 
-/** Title, time and load, as a box of its own; returns its size. */
-export function drawHeader(g, title, lines) {
-    g.font = `bold 16px ${FONT}`;
-    let wide = g.measureText(title).width;
-    g.font = `13px ${FONT}`;
-    for (const line of lines) wide = Math.max(wide, g.measureText(line).width);
-    paper(g, wide + 2 * EDGE, 34 + LINE * lines.length);
-    g.font = `bold 16px ${FONT}`;
-    g.fillText(title, EDGE, 23);
-    g.font = `13px ${FONT}`;
-    lines.forEach((line, i) => g.fillText(line, EDGE, 43 + LINE * i));
+/** Title, time and load, as a box of its own that is no wider than `room`: the title is cut, the others take more
+ *  lines. */
+export function drawHeader(g, title, lines, room) {
+    const inside = room - 2 * EDGE, heading = `bold 16px ${FONT}`, plain = `13px ${FONT}`;
+    g.font = heading;
+    const name = shortened(g, title, inside), wide = [g.measureText(name).width];
+    g.font = plain;
+    const rows = lines.flatMap((line) => wrapped(g, line, () => inside)).map((row) => shortened(g, row, inside));
+    wide.push(...rows.map((row) => g.measureText(row).width));
+    paper(g, Math.max(...wide) + 2 * EDGE, 34 + LINE * rows.length);
+    g.font = heading;
+    g.fillText(name, EDGE, 23);
+    g.font = plain;
+    rows.forEach((row, i) => g.fillText(row, EDGE, 43 + LINE * i));
 }
 
 function paper(g, width, height) {

@@ -2,6 +2,7 @@
 // marks where floes broke, and a cursor that can be dragged.
 
 import { forceText, secondsText } from './legend.js';
+import { wrapped } from './text.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
 const NUMBER = 16; // from a peak's point to above its number [px]
@@ -229,14 +230,3 @@ export class Timeline {
 }
 
 const largest = (list) => list.reduce((a, b) => Math.max(a, b), 0);
-
-/** Words in lines no wider than room(number of the line) [px]. */
-function wrapped(g, text, room) {
-    const lines = [''];
-    for (const word of text.split(' ')) {
-        const last = lines.length - 1, longer = lines[last] ? `${lines[last]} ${word}` : word;
-        if (lines[last] && g.measureText(longer).width > room(last)) lines.push(word);
-        else lines[last] = longer;
-    }
-    return lines;
-}
