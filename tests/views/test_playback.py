@@ -264,6 +264,18 @@ def check_keyboard(browser):
         seen = browser.run("[document.getElementById('forces').checked, fram.playing]")
         assert seen == expected, f"space with the focus on {focused}: {seen}"
     browser.run("fram.toggle()")
+    # A list keeps the focus after its own keys, not after a pointer; Escape closes from there too.
+    browser.run("(fram.pick(fram.record.bodies.find((b) => b.number === 0)), document.getElementById('speed').focus())")
+    for code, number in (("ArrowDown", 40), ("Escape", 27)):
+        browser.call("Input.dispatchKeyEvent", type="keyDown", code=code, key=code, windowsVirtualKeyCode=number)
+        browser.call("Input.dispatchKeyEvent", type="keyUp", code=code, key=code)
+    seen = browser.run("[document.activeElement.id, fram.picked, document.getElementById('speed').value]")
+    assert seen == ["speed", None, "10"], f"after an arrow key and Escape on a list: {seen}"
+    browser.run("""(() => { const list = document.getElementById('speed');
+        list.dispatchEvent(new PointerEvent('pointerdown', { bubbles: true }));
+        list.value = '5';
+        list.dispatchEvent(new Event('change', { bubbles: true })); })()""")
+    assert browser.run("document.activeElement.id") != "speed", "a list that was used with a pointer keeps the keys"
 
 
 def check_names(browser):

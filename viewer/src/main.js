@@ -183,6 +183,11 @@ class Player {
         // Its texts may take another line; the view ends where it begins.
         new ResizeObserver(() => this.resize()).observe(document.querySelector('footer'));
         window.addEventListener('keydown', (e) => this.key(e));
+        // A list that was used with a pointer lets the keys go again; with keys it keeps them.
+        window.addEventListener('pointerdown', (e) => { this.pointed = e.target; });
+        window.addEventListener('change', ({ target }) => {
+            if (target === this.pointed && target.matches('select')) target.blur();
+        });
         const canvas = $('view');
         canvas.addEventListener('pointerdown', (e) => { this.pressed = [e.clientX, e.clientY]; });
         canvas.addEventListener('pointerup', (e) => {
@@ -194,7 +199,8 @@ class Player {
     key(e) {
         // A control that has the focus keeps the keys it works by: without a mouse there is no other way.
         const { target } = e, own = e.code === 'Space' ? 'button, input, select' : 'select';
-        if (e.ctrlKey || e.altKey || e.metaKey || target.matches?.(own)) return;
+        this.pointed = null;
+        if (e.ctrlKey || e.altKey || e.metaKey || (e.code !== 'Escape' && target.matches?.(own))) return;
         const { frames } = this.record, [before, after] = this.beside();
         if (e.code === 'Space') this.toggle();
         else if (e.code === 'ArrowRight') this.seek(frames[after].time);
