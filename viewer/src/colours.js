@@ -5,7 +5,7 @@ import { forcesOf } from './record.js';
 import { own } from './scene.js';
 
 /** Units of the ways to colour. */
-export const UNITS = {
+const UNITS = {
     plain: null,
     speed: 'speed [m/s]',
     force: 'contact force [kN]',
@@ -96,6 +96,14 @@ export class Colours {
         // A few arrows may be longer: one hard blow must not make all others vanish.
         this.arrowScale = 0.12 * wide / this.ends.pulls.value; // metres a newton
         this.arrowWidth = 0.05 * wide;
+    }
+
+    /** What the colours of a mode tell, with its unit, and their ends in it: of a force N, kN or MN as its end asks. */
+    scale(mode) {
+        const ends = [...this.ranges[mode] ?? [0, 1]], unit = UNITS[mode];
+        if (mode !== 'force' || (ends[1] >= 1 && ends[1] < 1000)) return { unit, ends };
+        const [name, per] = ends[1] < 1 ? ['N', 1000] : ['MN', 0.001];
+        return { unit: unit.replace('kN', name), ends: ends.map((end) => end * per) };
     }
 
     /** Whether ends of colours and lengths of arrows have to be found again: at twice as many frames, and when a frame

@@ -1,6 +1,6 @@
 // The page: reads the record that stands in it, and plays it.
 import { Camera } from './camera.js';
-import { Colours, RAMP, ramp, UNITS } from './colours.js';
+import { Colours, RAMP, ramp } from './colours.js';
 import { Film } from './film.js';
 import { History } from './history.js';
 import { Legend, secondsText } from './legend.js';
@@ -259,8 +259,7 @@ class Player {
     }
 
     setLegend() {
-        const mode = $('colour').value, unit = UNITS[mode], { ranges, kinds } = this.colours;
-        const ends = [...ranges[mode] ?? [0, 1]];
+        const mode = $('colour').value, { kinds } = this.colours, { unit, ends } = this.colours.scale(mode);
         if (mode === 'age') ends.reverse();
         const ice = this.record.bodies.some((b) => b.material === 'ice');
         const keys = [[ice, own({ material: 'ice' }), 'ice'], [this.hull, own({ material: 'hull' }), 'vessel']];
@@ -377,9 +376,10 @@ class Player {
         return true;
     }
 
-    /** Whole kilonewtons, of a model with as many digits as its size asks for; never "-0". */
+    /** Kilonewtons with as many digits as the largest load at the frames asks for to have three; never "-0". */
     loadText(newton) {
-        const digits = Math.min(20, Math.max(0, -Math.floor(Math.log10(this.sizes.force))));
+        const { most } = this.timeline, places = most > 0 ? 2 - Math.floor(Math.log10(most)) : 0;
+        const digits = Math.min(20, Math.max(0, places));
         return `${(Number((newton / 1000).toFixed(digits)) || 0).toFixed(digits)} kN`;
     }
 

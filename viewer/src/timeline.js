@@ -41,7 +41,7 @@ export class Timeline {
         // The loads may go on after the last frame.
         this.span = Math.max(this.frames.at(-1).time, this.vessel?.time.at(-1) ?? 0) - this.begin || 1;
         this.load = this.frames.map((f) => Math.hypot(f.force[0], f.force[1]) / 1000);
-        this.most = this.load.reduce((a, b) => Math.max(a, b), 1e-9);
+        this.most = this.load.reduce((a, b) => Math.max(a, b), 0);
         this.events = this.record.fractures.map((f) => f.time);
         this.back = null;
     }
@@ -145,7 +145,8 @@ export class Timeline {
         g.fillStyle = '#c9d6e2';
         g.beginPath();
         g.moveTo(0, h);
-        this.frames.forEach((f, i) => g.lineTo(this.x(f.time), h - 2 - this.load[i] / this.most * (h - 2 - head)));
+        const tall = (h - 2 - head) / (this.most || 1);
+        this.frames.forEach((f, i) => g.lineTo(this.x(f.time), h - 2 - this.load[i] * tall));
         g.lineTo(w, h);
         g.fill();
     }
