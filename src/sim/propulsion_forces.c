@@ -1,6 +1,7 @@
 #include "sim/propulsion_forces.h"
 
 #include "sim/feed.h"
+#include "sim/ice_loads.h"
 #include "sim/media_now.h"
 
 vec3 propulsion_damping(const vessel_model *hull, vec3 motion)
@@ -81,6 +82,7 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
         int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
         double away = away_from_place(w, i);
+        vec3 ice = last_ice_load(w, vessel).force;
         propulsion_moment moment = {w->clock.time[0],
                                     m->time_step,
                                     water,
@@ -88,7 +90,8 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
                                     propulsion_comes(m, w, i, w->clock.time[0], away),
                                     m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
                                     drag_now(m, w, vessel, water),
-                                    m->course_speed};
+                                    m->course_speed,
+                                    {ice.x, ice.y}};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);
     }

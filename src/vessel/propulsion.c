@@ -305,15 +305,27 @@ static bool tell_track(context *ctx, const pilot *p, event_table *events)
     return tell(ctx, p, EVENT_ON_TRACK, most, events);
 }
 
+/* For how long ice has held the ship under thrust: hulls, lines and walls stop one too, and are nothing to ram.  Ice
+   that lets go for a step, as it breaks, does not begin the time anew. */
+static void count_slow_time(const pilot *p, bool astern, double speed)
+{
+    propulsion_table *t = p->table;
+    int32_t row = p->row;
+    double pull = (astern ? p->s->astern : 1) * p->s->bollard_pull, push = vec2_dot(p->now->ice, p->bow);
+    if (!(fabs(speed) < p->s->beset_speed && fabs(t->thrust[row]) >= PUSHING * pull))
+        t->slow_time[row] = 0;
+    else if (astern ? push > 0 : push < 0)
+        t->slow_time[row] += p->now->dt;
+}
+
 /* Beset: backs; backed far enough, or stuck astern too: rams. */
 static bool change_phase(context *ctx, const pilot *p, event_table *events)
 {
     propulsion_table *t = p->table;
     int32_t row = p->row;
     bool astern = t->phase[row] == PROPULSION_ASTERN;
-    double speed = astern ? -p->in_ice : p->in_ice, pull = (astern ? p->s->astern : 1) * p->s->bollard_pull;
-    bool stopped = fabs(speed) < p->s->beset_speed && fabs(t->thrust[row]) >= PUSHING * pull;
-    t->slow_time[row] = stopped ? t->slow_time[row] + p->now->dt : 0;
+    double speed = astern ? -p->in_ice : p->in_ice;
+    count_slow_time(p, astern, speed);
     bool beset = t->slow_time[row] >= p->s->beset_time;
     if (astern) {
         t->backed[row] += fmax(speed, 0) * p->now->dt;

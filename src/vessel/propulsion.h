@@ -8,7 +8,8 @@
 
    The water past a hull that drifts aside or turns lifts it as a wing of low aspect (manoeuvre.h): without that a ship
    slides on sideways for minutes, and no course can be kept.  Rudders in the race of the propellers turn it (rudder.h),
-   or the thrust itself.  Knows bodies and vessels; must not know ice: where the ice drifts is told. */
+   or the thrust itself.  Knows bodies and vessels; must not know ice: where the ice drifts, and
+   how it presses, is told. */
 #ifndef VESSEL_PROPULSION_H
 #define VESSEL_PROPULSION_H
 
@@ -62,7 +63,7 @@ typedef struct propulsion_settings {
     X(off_time, double, FIELD_F64, 1, "s", "that time; 0: it has not come so near yet")                      \
     X(astray, double, FIELD_F64, 1, "m", "largest since it was told to be off its track; 0: it is on it")    \
     X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                                       \
-    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")                  \
+    X(slow_time, double, FIELD_F64, 1, "s", "slower than the beset speed, held by ice under thrust")         \
     X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                                       \
     X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                                   \
     X(rams, int64_t, FIELD_I64, 1, "1", "times that it came ahead again after backing")
@@ -93,6 +94,7 @@ typedef struct propulsion_moment {
     wrench drag;         /* of the water on the hull, without its lift, with linear damping of sway and turn: what the
                             autopilot reckons with */
     double course_speed; /* slower over the ground a ship has a heading and no course [m/s] */
+    vec2 ice;            /* force of the ice on the hull in the step before [N] */
 } propulsion_moment;
 
 /* Steer, set the thrust, and add it to the load on the hull (about its centre of mass). */

@@ -312,6 +312,55 @@ START_TEST(backs_and_rams)
 }
 END_TEST
 
+/* What counts as time in which ice holds the ship: thrust and ice along its bow, and the phase that it is in. */
+typedef struct held_case {
+    double thrust, ice; /* in bollard pulls */
+    propulsion_phase phase;
+    bool held;
+} held_case;
+
+START_TEST(ice_that_presses_against_its_way_holds_a_ship)
+{
+    static const held_case cases[] = {
+        {1, -1, PROPULSION_AHEAD, true},    {1, 0, PROPULSION_AHEAD, false},  {1, 1, PROPULSION_AHEAD, false},
+        {0.4, -1, PROPULSION_AHEAD, false}, {-1, 1, PROPULSION_ASTERN, true}, {-1, 0, PROPULSION_ASTERN, false},
+        {-1, -1, PROPULSION_ASTERN, false},
+    };
+    static const char *const turned[] = {"vessel.heading_deg=90"};
+    scene k;
+    scene_open_with(&k, SHIP, turned, 1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        propulsion_moment now = {.dt = 0.1, .ice = {0, 8e5 * cases[i].ice}, .course_speed = 0.3};
+        wrench load = {0};
+        fram_error error = {0};
+        k.w.propulsion.phase[0] = (uint8_t)cases[i].phase;
+        k.w.propulsion.thrust[0] = 8e5 * cases[i].thrust;
+        k.w.propulsion.slow_time[0] = 1;
+        assert_ok(propulsion_step(&k.ctx, &k.w.propulsion, 0, &now, &k.w.vessels, &k.w.bodies, &k.w.course, &load,
+                                  &k.w.events, &error),
+                  error);
+        double expected = cases[i].held ? 1.1 : cases[i].thrust == 0.4 ? 0 : 1;
+        ck_assert_msg(fabs(k.w.propulsion.slow_time[0] - expected) < 1e-12, "case %zu: %g s", i,
+                      k.w.propulsion.slow_time[0]);
+    }
+    scene_close(&k);
+}
+END_TEST
+
+/* A ship that leans on a wall is stopped, and not by ice. */
+START_TEST(a_wall_makes_no_ship_beset)
+{
+    static const char *const wall[] = {"domain.boundary=walls", "domain.x_max=39", "vessel.propulsion.beset_time=2"};
+    scene k;
+    scene_open_with(&k, SHIP, wall, 3);
+    scene_steps(&k, 200);
+    ck_assert(fabs(speed_of(&k)) < 0.1 && k.w.propulsion.thrust[0] > 7e5);
+    ck_assert_int_eq(k.w.propulsion.besets[0], 0);
+    ck_assert(k.w.propulsion.slow_time[0] == 0);
+    scene_close(&k);
+}
+END_TEST
+
 /* ---- what is refused ---- */
 
 START_TEST(refusals_name_their_key)
@@ -332,4 +381,5 @@ END_TEST
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
           keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
-          speed_falls_with_thickness, backs_and_rams, refusals_name_their_key)
+          speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
+          a_wall_makes_no_ship_beset, refusals_name_their_key)
