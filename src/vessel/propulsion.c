@@ -312,7 +312,8 @@ static void count_slow_time(const pilot *p, bool astern, double speed)
     propulsion_table *t = p->table;
     int32_t row = p->row;
     double pull = (astern ? p->s->astern : 1) * p->s->bollard_pull, push = vec2_dot(p->now->ice, p->bow);
-    if (!(fabs(speed) < p->s->beset_speed && fabs(t->thrust[row]) >= PUSHING * pull))
+    double thrust = astern ? -t->thrust[row] : t->thrust[row];
+    if (!(fabs(speed) < p->s->beset_speed && thrust >= PUSHING * pull))
         t->slow_time[row] = 0;
     else if (astern ? push > 0 : push < 0)
         t->slow_time[row] += p->now->dt;
