@@ -137,14 +137,17 @@ static double since_joined(double way, double joined, double length)
     return way < joined ? way - joined + length : way - joined;
 }
 
-/* Over the place where it joined, forward or back, as the foot goes from one place to the next. */
+/* Over the place where it joined, forward or back, as the foot goes from one place to the next.  A ship that goes back
+   over it with no round done, as it turns to its track, has joined farther back. */
 static void count_rounds(propulsion_table *t, int32_t row, double before, double length)
 {
     double from = since_joined(before, t->joined[row], length), to = since_joined(t->way[row], t->joined[row], length);
     if (to < from - 0.5 * length)
         t->rounds[row]++;
-    else if (to > from + 0.5 * length)
+    else if (to > from + 0.5 * length && t->rounds[row] > 0)
         t->rounds[row]--;
+    else if (to > from + 0.5 * length)
+        t->joined[row] = t->way[row];
 }
 
 /* Brings the foot of the ship on a track up to date, and its error, which counts after the transient, from when the

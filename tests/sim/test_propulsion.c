@@ -163,7 +163,8 @@ START_TEST(starts_at_a_way_point)
 }
 END_TEST
 
-/* A circle updrift of a place is gone round within a breadth; when the drift turns, so does the circle. */
+/* A circle updrift of a place is gone round within a breadth; when the drift turns, so does the circle.  A ship that
+   starts against it turns about first, which is no round less. */
 START_TEST(goes_round_its_circle)
 {
     static const char *const circle[] = {"vessel.propulsion.pattern.kind=circle",
@@ -171,16 +172,20 @@ START_TEST(goes_round_its_circle)
                                          "vessel.propulsion.pattern.width=700",
                                          "vessel.propulsion.lookahead=100",
                                          "vessel.x=300",
-                                         "vessel.propulsion.speed=4"};
+                                         "vessel.propulsion.speed=4",
+                                         "vessel.heading_deg=90"};
     scene k;
-    scene_open_with(&k, SHIP, circle, 6);
-    double worst = 0;
+    scene_open_with(&k, SHIP, circle, 7);
+    double worst = 0, joined = 0;
+    int64_t fewest = 0;
     k.m.boundary = DOMAIN_FEEDING; /* no ice: only the drift that the pattern turns with */
     k.m.drift_given = true;
     for (int i = 0; i < 24000; i++) {
         bool turned = i >= 12000;
         k.m.drift = turned ? vec2_make(0, -0.5) : vec2_make(-0.5, 0);
         scene_steps(&k, 1);
+        fewest = k.w.propulsion.rounds[0] < fewest ? k.w.propulsion.rounds[0] : fewest;
+        joined = i == 0 ? k.w.propulsion.joined[0] : joined;
         vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
         vec2 centre = turned ? (vec2){0, 600} : (vec2){600, 0};
         double off = fabs(vec2_length(vec2_sub((vec2){r.x, r.y}, centre)) - 350);
@@ -188,6 +193,8 @@ START_TEST(goes_round_its_circle)
             worst = fmax(worst, off);
     }
     ck_assert_msg(worst < 14, "%g m off the circle", worst);
+    ck_assert_int_eq(fewest, 0);
+    ck_assert_msg(joined - k.w.propulsion.joined[0] > 1, "joined at %g m, then %g", joined, k.w.propulsion.joined[0]);
     ck_assert_int_ge(k.w.propulsion.rounds[0], 1);
     scene_close(&k);
 }
