@@ -221,6 +221,16 @@ static void tell_in_lengths(const teller *t, const char *key, double value, doub
                    t->e->path, key, value, value / length, least, most);
 }
 
+static void tell_helm(const teller *t)
+{
+    const scenario_propulsion *p = &t->e->keys->propulsion;
+    if (p->steering_angle_deg == 0 && (p->waypoints.count > 0 || p->pattern.kind != PATTERN_NONE))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.steering_angle_deg: 0 steers no ship: it does not keep its %s; give an angle, 35 of "
+                   "rudders",
+                   t->e->path, p->waypoints.count > 0 ? "way points" : "pattern");
+}
+
 static void tell_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -245,6 +255,7 @@ static void tell_propulsion(const teller *t)
     if (sanity_own_hull(v) && fabs(automatic_or(p->steering_x, 0)) > STEERING_MOST * v->hull.length)
         sanity_say(t->tell, t->to, "%s.propulsion.steering_x: %.4g m is outside of a hull of %.4g m: give metres",
                    t->e->path, p->steering_x, v->hull.length);
+    tell_helm(t);
     double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
     double pressure = sanity_at_scale(t->s, 1);
     if (!is_automatic(d) && (disc > DISC_MOST * fmax(1, pressure) || disc < DISC_LEAST * fmin(1, pressure)))

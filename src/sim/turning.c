@@ -128,7 +128,8 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     t.water.current = t.water.wind = (vec3){0, 0, 0};
     t.water.profile.count = 0;
     turning_ability out = {length, length, length, 0, speed};
-    if (!(speed > 0))
+    /* Of a helm that does not move rounding alone would be followed. */
+    if (!(speed > 0 && s->steering_most > 0))
         return out;
     double sway, full = steady_rate(&t, &sway);
     t.angle = EASED * s->steering_most;
@@ -147,3 +148,5 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     out.corner = fmax(speed / eased, real_cbrt(square * square / (24 * CUT * hull->particulars.beam)));
     return out;
 }
+
+bool turning_is_found(const turning_ability *t) { return t->drift != 0; }

@@ -7,8 +7,10 @@
 #include "vessel/propulsion.h"
 
 /* Of a vessel with these settings (all but `turning` are used) at a speed ahead.  Without water, or without a helm that
-   turns the ship as it should, all distances are its length. */
+   turns the ship as it should, all distances are its length and the drift is 0. */
 turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                    double speed);
+/* Whether it was found: a hull is askew in every turn, and by which is found by halving, never to 0. */
+bool turning_is_found(const turning_ability *t);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/propulsion_forces.h"
+#include "sim/turning.h"
 
 #include <math.h>
 
@@ -132,6 +133,20 @@ static void tell_outside(const pattern_view *v, const model *m, const world *w, 
         }
 }
 
+static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const turning_ability *t)
+{
+    if (turning_is_found(t))
+        log_write(ctx, LOG_INFO,
+                  "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s; corners and loops of its "
+                  "track have %.4g m",
+                  vessel_title_of(entry).text, t->radius, t->speed,
+                  s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
+    else
+        log_write(ctx, LOG_INFO,
+                  "%s does not turn by its helm at %.3g m/s; corners and loops of its track are taken as %.4g m",
+                  vessel_title_of(entry).text, t->speed, t->corner);
+}
+
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
                   int32_t row)
 {
@@ -142,11 +157,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     const turning_ability *t = &set->turning;
     pattern_view v = {
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
-    log_write(ctx, LOG_INFO,
-              "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s; corners and loops of its track "
-              "have %.4g m",
-              vessel_title_of(entry).text, t->radius, t->speed,
-              s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
+    tell_radius(ctx, s, entry, t);
     if (v.shape.kind == PATTERN_NONE)
         return;
     if (s->domain.boundary != DOMAIN_FEEDING)
@@ -154,7 +165,8 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
                   "%s: its pattern points as its bow does at the start, whatever the current, since no ice drifts "
                   "through (domain.boundary: feeding)",
                   vessel_title_of(entry).text);
-    tell_arcs(&v);
+    if (turning_is_found(t))
+        tell_arcs(&v);
     tell_period(&v);
     tell_outside(&v, m, w, p->count - 1);
 }

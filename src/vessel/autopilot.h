@@ -17,7 +17,8 @@ typedef struct turning_ability {
                       the helm, so that some is left to correct [m] */
     double reach;  /* speed over the root of the yaw acceleration that this helm gives: the way in which a ship takes up
                       a  curvature is that times its square [m] */
-    double drift;  /* angle between heading and course in a steady turn, over its curvature [m] */
+    double drift;  /* angle between heading and course in a steady turn, over its curvature; 0: no such turn was found,
+                      and the distances are the ship's length [m] */
     double speed;  /* all that at this speed [m/s] */
 } turning_ability;
 

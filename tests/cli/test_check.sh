@@ -209,4 +209,26 @@ says "ice.file: 5 m is more than the draught" err
 grep -e '1 m thick' -e 'go before' err && fail "told of ice that there is not"
 expect 0 "$FRAM" run filed.yaml -o filed
 says "move 0.4 of its thickness past each other in a step" err
+
+# A ship that cannot steer turns on no radius, and no pattern is held against one.
+cat >helm.yaml <<'YAML'
+run: {duration: 60, time_step: 0.05}
+vessel:
+  mode: free
+  speed: 3
+  hull: {length: 60, beam: 14, draught: 5}
+  hydrodynamics: {source: estimate}
+  propulsion: {bollard_pull: 6e5, open_water_speed: 7, speed: 3, pattern: {kind: circle, distance: 300, width: 300}}
+ice: {source: none}
+domain: {x_min: -500, x_max: 1500, y_min: -600, y_max: 600, boundary: open}
+YAML
+expect 0 "$FRAM" check helm.yaml
+says "the vessel turns on a radius of" err
+grep -e 'steering_angle_deg' -e 'by its helm' err && fail "a ship that steers is told that it does not"
+expect 0 "$FRAM" check helm.yaml --set vessel.propulsion.steering_angle_deg=0
+says "the vessel does not turn by its helm at 3 m/s; corners and loops of its track are taken as 60 m" err
+says "vessel.propulsion.steering_angle_deg: 0 steers no ship: it does not keep its pattern" err
+grep -e 'on a radius' -e 'pattern.width' err && fail "a radius of a ship that does not steer is told"
+expect 0 "$FRAM" check helm.yaml --set vessel.propulsion.steering_angle_deg=0 --set vessel.propulsion.pattern.kind=none
+grep 'steers no ship' err && fail "a ship without a track is told that it does not keep it"
 finish "what cannot be is refused, what will be is told"
