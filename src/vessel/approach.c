@@ -61,7 +61,8 @@ approach_prediction approach_predict(const approach_hull *a, const approach_hull
 bool approach_book(context *ctx, approach_table *t, int32_t row, const approach_settings *settings,
                    const approach_prediction *predicted, double time, double since, event_table *events)
 {
-    bool near = predicted->gap < settings->limit, began = near && !t->close[row];
+    /* Nothing is nearer than hulls that touch: so they are told with a limit of 0. */
+    bool near = predicted->gap < settings->limit || !(predicted->gap > 0), began = near && !t->close[row];
     t->clear_time[row] = near ? 0 : t->clear_time[row] + since;
     t->nearest[row] = began ? predicted->distance : fmin(t->nearest[row], predicted->distance);
     if (began) {

@@ -124,6 +124,22 @@ START_TEST(who_keeps_clear_is_not_told)
 }
 END_TEST
 
+/* A limit of 0 is passed by hulls that are going to touch, and by no others. */
+START_TEST(a_limit_of_nothing_tells_collisions)
+{
+    static const char *const courses[][2] = {{"vessels.east.approach.limit=0", "vessels.west.y=9.9"},
+                                             {"vessels.east.approach.limit=0", "vessels.west.y=10.1"}};
+    for (int i = 0; i < 2; i++) {
+        scene k;
+        scene_open_with(&k, MEETING, courses[i], 2);
+        scene_steps(&k, 500);
+        ck_assert_int_eq(k.w.events.count, i == 0 ? 1 : 0);
+        ck_assert(i > 0 || (k.w.events.kind[0] == EVENT_APPROACH && k.w.events.value[0] == 0));
+        scene_close(&k);
+    }
+}
+END_TEST
+
 START_TEST(refusals_name_their_key)
 {
     static const char *const bad[] = {"vessels.east.approach.limit=nan", "vessels.east.approach.limit=-1",
@@ -145,4 +161,4 @@ START_TEST(refusals_name_their_key)
 END_TEST
 
 TEST_MAIN("approach", distance_and_time_are_those_of_geometry, overlap_is_zero, an_approach_begins_and_ends,
-          who_keeps_clear_is_not_told, refusals_name_their_key)
+          who_keeps_clear_is_not_told, a_limit_of_nothing_tells_collisions, refusals_name_their_key)
