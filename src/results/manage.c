@@ -272,6 +272,7 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
         manage_options same = *options;
         same.limit = run.limit;
         same.unit = run.unit;
+        same.compared = true;
         status = manage_read(ctx, options->beside, &same, &other, error);
         both = status == FRAM_OK;
     }

@@ -23,6 +23,7 @@ typedef struct manage_options {
     double depth;       /* of the windows along the drift [m]; a NaN: as much as the corridor is wide */
     double unit;        /* a metre of full size in the run, by which sizes are classed [m]; 0: by its run.scale */
     bool met;           /* keep what manage_met_ice sums up */
+    bool compared;      /* the run is the one beside: its only vessel need not have that name where it has none */
 } manage_options;
 
 typedef struct manage_summary {

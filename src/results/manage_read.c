@@ -19,9 +19,19 @@ static bool drives_itself(const scenario *s, int32_t v)
     return !is_automatic(scenario_vessel_entry(s, v).keys->propulsion.bollard_pull);
 }
 
-static fram_status choose_vessel(manage_run *m, const char *name, fram_error *error)
+/* The unit alone is mostly written without a name. */
+static bool has_no_name(const scenario *s)
+{
+    return scenario_vessel_count(s) == 1 && !*scenario_vessel_entry(s, 0).keys->name;
+}
+
+static fram_status choose_vessel(manage_run *m, const manage_options *options, fram_error *error)
 {
     const scenario *s = &m->d.s;
+    const char *name = options->compared && has_no_name(s) ? NULL : options->vessel;
+    if (options->compared && name && scenario_find_vessel(s, name) < 0)
+        return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "beside",
+                         "expected a run with the vessel that is protected, \"%.60s\", found one without it", name);
     fram_status status = scenario_choose_vessel(s, m->d.folder, name, &m->vessel, error);
     if (name || status != FRAM_OK)
         return status;
@@ -34,7 +44,7 @@ static fram_status choose_vessel(manage_run *m, const char *name, fram_error *er
     }
     if (candidates == 1)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "vessel",
+    return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, options->compared ? "beside" : "vessel",
                      "%s: name the one that is protected (the first is \"%s\")",
                      candidates == 0 ? "all vessels drive themselves" : "several vessels do not drive themselves",
                      scenario_vessel_entry(s, 0).keys->name);
@@ -378,7 +388,7 @@ void manage_free(manage_run *m)
 
 static fram_status read_all(manage_run *m, const manage_options *options, fram_error *error)
 {
-    fram_status status = choose_vessel(m, options->vessel, error);
+    fram_status status = choose_vessel(m, options, error);
     if (status != FRAM_OK)
         return status;
     int32_t others = scenario_vessel_count(&m->d.s) - 1;

@@ -130,6 +130,18 @@ expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -
 says "At its nearest, unmanaged ice was" page.html
 says "comparison run" out
 for file in page.html page.csv page-sizes.csv; do [ -s "$file" ] || fail "$file is missing"; done
+# Beside it may stand the unit alone without a name, but none that has no such vessel, or several.
+sed '/name: tender/,/propulsion:/d; s/^vessels:/vessel:/; /name: ship/d; s/^    \(mode\|hull\)/  \1/' \
+    scene.yaml >unnamed.yaml
+expect 0 "$FRAM" run unnamed.yaml -o unnamed -q
+expect 0 "$FRAM" manage both --vessel ship --beside unnamed --limit 5 --depth 20 --json -o page.html
+number "j['beside']['at_vessel']['windows']" 9
+expect 2 "$FRAM" manage both --vessel tender --beside alone -o page.html
+says "alone: --beside: expected a run with the vessel that is protected, \"tender\", found one without it" err
+expect 2 "$FRAM" manage alone --beside both -o page.html
+says "both: --beside: several vessels do not drive themselves: name the one that is protected" err
+expect 2 "$FRAM" manage unnamed --vessel ship -o page.html
+says "unnamed: --vessel: expected the name of a vessel" err
 grep -q "Ice management for ship" page.html || fail "the page has another title"
 head -1 page.csv | grep -q "at_vessel_managed\[1\],.*unmanaged_comes_in\[s\]" || fail "page.csv has other columns"
 [ "$(wc -l <page-sizes.csv)" -eq 13 ] || fail "page-sizes.csv has not a row a class"
