@@ -14,18 +14,24 @@
 
 /* ---- columns of CSV files ---- */
 
-/* Columns over a dimension, which is the column of the same name where there is one. */
-static void put_table(netcdf_file *f, const csv_table *t, const char *dimension, const char *prefix)
+/* Columns over a dimension, which is the column of the same name where there is one.  All of them are there before any
+   has values: NetCDF ends its definitions at the first value, and writes the list of a dimension's variables anew at
+   each end, which of thousands of columns makes the most of the file. */
+static bool put_table(context *ctx, netcdf_file *f, const csv_table *t, const char *dimension, const char *prefix)
 {
     int over = netcdf_dimension(f, dimension, (size_t)t->rows);
-    for (int32_t k = 0; k < t->columns.count; k++) {
+    int *variable = memory_array(ctx, (size_t)t->columns.count + 1, sizeof *variable);
+    for (int32_t k = 0; k < t->columns.count && variable; k++) {
         const csv_table_column *c = &t->columns.data[k];
         char name[COLUMN_NAME_SIZE + 16];
         snprintf(name, sizeof name, "%.15s%s", prefix, c->name);
-        int variable = netcdf_variable(f, name, NETCDF_F64, &over, 1, c->unit, "");
-        if (t->rows > 0)
-            netcdf_put_f64(f, variable, c->value.data);
+        variable[k] = netcdf_variable(f, name, NETCDF_F64, &over, 1, c->unit, "");
     }
+    for (int32_t k = 0; k < t->columns.count && variable && t->rows > 0; k++)
+        netcdf_put_f64(f, variable[k], t->columns.data[k].value.data);
+    bool good = variable != NULL;
+    memory_free(ctx, variable);
+    return good;
 }
 
 static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, const char *file, const char *dimension,
@@ -38,9 +44,10 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
         status = csv_table_read(ctx, path, &t, error);
     if (status != FRAM_OK)
         return status;
-    put_table(f, &t, dimension, prefix);
+    if (!put_table(ctx, f, &t, dimension, prefix))
+        status = error_memory(error);
     csv_table_free(ctx, &t);
-    return FRAM_OK;
+    return status;
 }
 
 /* ---- floes over frames ---- */

@@ -216,9 +216,14 @@ if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
     # A run without frames has its columns; one without a record is refused.
+    # Many columns, as of a list of vessels, take each their room and no more.
     expect 0 "$FRAM" run scene.yaml -o bare --quiet --until 0.1 --set output.frame_interval=0
+    awk '{ for (i = 1; i <= 600; i++) $0 = $0 (NR == 1 ? ",more_" i "[N]" : "," i); print }' \
+        bare/series.csv >wide.csv
+    mv wide.csv bare/series.csv
     expect 0 "$FRAM" export bare --netcdf --json
     same "$(value 'j["frames"], j["time_s"]')" "0 0" "frames of a run without"
+    [ "$(wc -c <bare/run.nc)" -lt 2500000 ] || fail "600 columns made run.nc of $(wc -c <bare/run.nc) bytes"
     grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without frames has no columns of its fractures"
     grep -q floe_thickness bare/run.nc && fail "run.nc of a run without frames has floes"
     rm bare/run.nc bare/record.fram
