@@ -16,6 +16,9 @@ enum { TURN_STEPS = 400 };
 /* Corners and loops are sailed with this part of the helm, and are so wide that a ship which takes up their curvature
    evenly, from before them to within them, cuts them by this part of its beam. */
 static const double EASED = 2.0 / 3, CUT = 0.25;
+/* No arc is tighter than this times the way in which the ship is to turn as it is told: on one that is, it has turned
+   by half a radian before its helm has answered, and a helm that is slow swings to and fro. */
+static const double FORESEEN = 2;
 
 typedef struct turning_search {
     context *ctx;
@@ -104,14 +107,16 @@ static double steady_rate(const turning_search *t, double *sway)
     return low;
 }
 
-/* Mean yaw acceleration from a straight course, with the helm put over, to half the rate of the steady turn: the ship
-   turns as fast as its sway builds up. */
+/* Mean yaw acceleration from a straight course, as the helm comes over, to half the rate of the steady turn: the ship
+   turns as fast as its steering gear and its sway let it. */
 static double yaw_acceleration(const turning_search *t, double rate)
 {
     const manoeuvring *ship = &t->s->ship;
+    turning_search now = *t;
     double step = TURN_STEP * t->hull->particulars.length / t->speed, sway = 0, r = 0, time = 0;
     for (int i = 0; i < TURN_STEPS && r < 0.5 * rate; i++, time += step) {
-        turning_forces f = forces_of(t, sway, r);
+        now.angle = fmin(t->s->steering_rate * (time + 0.5 * step), t->angle);
+        turning_forces f = forces_of(&now, sway, r);
         double turn = (f.moment - manoeuvring_lever(ship) * f.aside) / manoeuvring_inertia(ship);
         sway += step * (f.aside - ship->a26 * turn) / (ship->mass + ship->a22);
         r += step * turn;
@@ -144,8 +149,10 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     out.drift = -sway / eased;
     /* Taken up over a way w = reach^2 / R a bend is cut by w^2 / (24 R). */
     out.reach = speed / sqrt(begins);
-    double square = out.reach * out.reach;
-    out.corner = fmax(speed / eased, real_cbrt(square * square / (24 * CUT * hull->particulars.beam)));
+    double square = out.reach * out.reach, eased_radius = speed / eased;
+    double uncut = real_cbrt(square * square / (24 * CUT * hull->particulars.beam));
+    double lag = autopilot_lag(&out, length, speed, s->steering_most, s->steering_rate);
+    out.corner = fmax(fmax(eased_radius, uncut), FORESEEN * speed * lag);
     return out;
 }
 

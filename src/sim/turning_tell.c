@@ -44,7 +44,8 @@ static void tell_arcs(const pattern_view *v)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s turns on %.4g m at full helm in open "
-            "water, which leaves little helm to correct and none for ice: %.4g m or more leaves a third",
+            "water, which leaves little helm, or time to put it over, to correct, and none for ice: take %.4g m or "
+            "more",
             v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius,
             factor * t->corner);
     if (p->kind == PATTERN_SQUARE && p->width < 2 * t->corner)

@@ -21,6 +21,7 @@ vessels:
       bollard_pull: 5.0e5
       open_water_speed: 7
       rudder_area: 0
+      steering_rate_deg: 5
       speed: 4
       track_limit: 0.05
       pattern: {kind: circle, distance: 60, width: 160}
@@ -38,6 +39,9 @@ expect 0 "$FRAM" check scene.yaml
 holds "vessel breaker turns on a radius of .* m at full helm in open water at 4 m/s, in ice on a larger one" err
 grep '^warning.*pattern' err && fail "a warning without reason"
 grep 'points as its bow does' err && fail "a pattern that turns with the drift is said to stand"
+expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.steering_rate_deg=1.5
+says "pattern.width: 160 m asks for a radius of 80 m" err
+says "leaves little helm, or time to put it over, to correct" err
 expect 0 "$FRAM" check scene.yaml --set domain.boundary=open --set domain.drift_speed=auto \
     --set domain.drift_direction_deg=0
 says "vessel breaker: its pattern points as its bow does at the start, whatever the current" err

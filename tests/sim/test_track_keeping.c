@@ -23,30 +23,34 @@
     "  hydrodynamics: {source: estimate}\n"                                                               \
     "  propulsion: {bollard_pull: 2.44e6, open_water_speed: 8.7, propellers: 2" track "}\n" SEA
 static const char *const LARGE = LARGE_WITH("");
-static const char *const SMALL = "run: {duration: 9000, time_step: 0.25, scale: 30}\n"
-                                 "vessel:\n  mode: free\n"
-                                 "  hull: {form: icebreaker, length: 60, beam: 14, draught: 5, freeboard: 4,\n"
-                                 "         stem_angle_deg: 25, entrance_angle_deg: 30, flare_angle_deg: 8,\n"
-                                 "         stern_angle_deg: 30, parallel_midbody: 0.4}\n"
-                                 "  hydrodynamics: {source: estimate}\n"
-                                 "  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7, propellers: 2}\n" SEA;
+#define SMALL_WITH(helm)                                                           \
+    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"                          \
+    "vessel:\n  mode: free\n"                                                      \
+    "  hull: {form: icebreaker, length: 60, beam: 14, draught: 5, freeboard: 4,\n" \
+    "         stem_angle_deg: 25, entrance_angle_deg: 30, flare_angle_deg: 8,\n"   \
+    "         stern_angle_deg: 30, parallel_midbody: 0.4}\n"                       \
+    "  hydrodynamics: {source: estimate}\n"                                        \
+    "  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7, propellers: 2" helm "}\n" SEA
+static const char *const SMALL = SMALL_WITH("");
 
 /* That of the scenes of ice management, whose thrust turns. */
-static const char *const AZIMUTH =
-    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"
-    "vessel:\n  mode: free\n  mass: 1.0961e7\n  centre_of_gravity_z: 0\n"
-    "  hull: {form: icebreaker, length: 104, beam: 24, draught: 8, freeboard: 5, stem_angle_deg: 22,\n"
-    "         entrance_angle_deg: 35, flare_angle_deg: 8, stern_angle_deg: 35, parallel_midbody: 0.45,\n"
-    "         block_coefficient: 0.536}\n"
-    "  hydrodynamics: {source: estimate}\n"
-    "  propulsion: {bollard_pull: 2.10e6, open_water_speed: 8.75, rudder_area: 0, steering_angle_deg: 60,\n"
-    "               steering_rate_deg: 9}\n" SEA;
+#define AZIMUTH_AT(rate)                                                                                     \
+    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"                                                    \
+    "vessel:\n  mode: free\n  mass: 1.0961e7\n  centre_of_gravity_z: 0\n"                                    \
+    "  hull: {form: icebreaker, length: 104, beam: 24, draught: 8, freeboard: 5, stem_angle_deg: 22,\n"      \
+    "         entrance_angle_deg: 35, flare_angle_deg: 8, stern_angle_deg: 35, parallel_midbody: 0.45,\n"    \
+    "         block_coefficient: 0.536}\n"                                                                   \
+    "  hydrodynamics: {source: estimate}\n"                                                                  \
+    "  propulsion: {bollard_pull: 2.10e6, open_water_speed: 8.75, rudder_area: 0, steering_angle_deg: 60,\n" \
+    "               steering_rate_deg: " rate "}\n" SEA
+static const char *const AZIMUTH = AZIMUTH_AT("9");
 
 typedef struct pattern_case {
     const char *kind;
     double distance, width; /* in radii of corners */
     double speed;
     bool large;
+    const char *ship; /* NULL: as it is large or small */
 } pattern_case;
 enum { SETS = 7 };
 static const double STEP = 0.25;
@@ -64,7 +68,7 @@ static void open_case(scene *k, const pattern_case *c, double corner, const trac
     snprintf(key[4], sizeof *key, "vessel.x=%.17g", start->at.x);
     snprintf(key[5], sizeof *key, "vessel.y=%.17g", start->at.y);
     snprintf(key[6], sizeof *key, "vessel.heading_deg=%.17g", start->heading * 180 / PI);
-    scene_open_with(k, c->large ? LARGE : SMALL, sets, SETS);
+    scene_open_with(k, c->ship ? c->ship : c->large ? LARGE : SMALL, sets, SETS);
 }
 
 /* The ship where its pattern begins. */
@@ -123,12 +127,24 @@ static void check_kept(const pattern_case *c, double degrees, double current)
     scene_close(&k);
 }
 
-static const pattern_case CASES[] = {
-    {"circle", 3, 2, 4, true}, {"circle", 3, 1.6, 3, false}, {"square", 4, 5, 3, true}, {"square", 4, 4, 5, false},
-    {"line", 1, 4, 5, true},   {"line", 2, 4, 3, false},     {"across", 3, 4, 3, true}, {"across", 3, 4, 5, false},
-    {"sector", 5, 4, 4, true}, {"sector", 5, 4, 3, false}};
+static const pattern_case CASES[] = {{"circle", 3, 2, 4, true, NULL}, {"circle", 3, 1.6, 3, false, NULL},
+                                     {"square", 4, 5, 3, true, NULL}, {"square", 4, 4, 5, false, NULL},
+                                     {"line", 1, 4, 5, true, NULL},   {"line", 2, 4, 3, false, NULL},
+                                     {"across", 3, 4, 3, true, NULL}, {"across", 3, 4, 5, false, NULL},
+                                     {"sector", 5, 4, 4, true, NULL}, {"sector", 5, 4, 3, false, NULL}};
 
 static size_t case_count(void) { return getenv("FRAM_TEST_SHORT") ? 2 : sizeof CASES / sizeof *CASES; }
+
+/* Units whose thrust turns by 60 degrees within 24 s. */
+START_TEST(a_slow_helm_keeps_its_pattern)
+{
+    static const pattern_case slow[] = {
+        {"square", 4, 5, 4, false, SMALL_WITH(", rudder_area: 0, steering_angle_deg: 60, steering_rate_deg: 2.5")},
+        {"square", 4, 5, 4, true, AZIMUTH_AT("2.5")}};
+    for (size_t i = 0; i < (getenv("FRAM_TEST_SHORT") ? 1 : sizeof slow / sizeof *slow); i++)
+        check_kept(&slow[i], 0, 0);
+}
+END_TEST
 
 START_TEST(patterns_are_kept)
 {
@@ -157,7 +173,7 @@ END_TEST
 /* The circle of the ready scenes, whose drift turns by 60 degrees; it is hardly wider than the ship can turn. */
 START_TEST(the_ready_circle_is_kept)
 {
-    pattern_case ready = {"circle", 420, 300, 4, true};
+    pattern_case ready = {"circle", 420, 300, 4, true, NULL};
     const track_place start = {.at = {570, 0}, .heading = 0.5 * PI};
     scene k;
     open_case(&k, &ready, 1, &start);
@@ -250,7 +266,7 @@ static void check_seen(scene *k, double yaw)
    with damping. */
 START_TEST(turns_as_it_is_told)
 {
-    static const pattern_case any = {"circle", 3, 2, 4, true};
+    static const pattern_case any = {"circle", 3, 2, 4, true, NULL};
     static const double damping[3][2] = {{0, 0}, {0, 0}, {3e5, 4e8}};
     for (int i = 0; i < 3; i++) {
         int side = i % 2 ? 1 : -1;
@@ -391,7 +407,8 @@ static void come_back(double speed, double current, double *off)
     scene_close(&k);
 }
 
-/* Galileo: against or with a current it comes back to its leg in the time that it takes in still water. */
+/* Galileo: against or with a current it comes back to its leg in the time that it takes in still water, but for how
+   quickly its helm comes over, which it reckons with at the speed that is demanded. */
 START_TEST(a_leg_along_a_current_is_kept_as_in_still_water)
 {
     double still[MOMENTS], against[MOMENTS], with[MOMENTS];
@@ -400,7 +417,7 @@ START_TEST(a_leg_along_a_current_is_kept_as_in_still_water)
     come_back(2.5, -1, with);
     ck_assert(fabs(still[MOMENTS - 1]) < 1 && still[3] > 3);
     for (int i = 0; i < MOMENTS; i++)
-        ck_assert_msg(fabs(against[i] - still[i]) < 0.1 && fabs(with[i] - still[i]) < 0.1,
+        ck_assert_msg(fabs(against[i] - still[i]) < 0.15 && fabs(with[i] - still[i]) < 0.15,
                       "after %d s %g m in still water, %g against and %g with a current", 20 * (i + 1), still[i],
                       against[i], with[i]);
 }
@@ -560,8 +577,8 @@ START_TEST(a_model_is_steered_as_its_ship)
 }
 END_TEST
 
-TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, patterns_are_kept_in_a_current,
-          the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
+TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
+          patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
           slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
           rounds_begin_where_the_ship_joined, a_leg_along_a_current_is_kept_as_in_still_water,
           a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes,
