@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
+#include "io/chart_ticks.h"
 #include "io/image.h"
 
 #include <float.h>
@@ -23,8 +24,6 @@ void chart_colour_text(int number, char out[CHART_COLOUR_TEXT])
 
 #ifdef FRAM_HAVE_CAIRO
 
-/* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
-enum { MOST_TICKS = 50 };
 static const image_colour chart_ink = {0.2, 0.2, 0.2}, chart_grid = {0.90, 0.91, 0.92};
 static const double log_of_ten = 2.302585092994045684;
 
@@ -120,54 +119,60 @@ static void find_range(const chart *c, chart_frame *f)
 
 /* ---- axes ---- */
 
-/* What stands at the ticks of an axis: values on the axis, and how they are told. */
-typedef struct tick_row {
-    double first, step;
-    int count;
-    bool logarithmic;
-} tick_row;
+/* [pixels] What stands beside the axes: least margins, the title and its gap to the labels, and that between two labels
+   of the x axis. */
+enum {
+    MARGIN_LEFT = 86,
+    MARGIN_RIGHT = 22,
+    TITLE_ROOM = 26,
+    LABEL_GAP = 7,
+    BETWEEN_LABELS = 5,
+    PAGE_EDGE = 1,
+    TICK_SIZE = 12
+};
 
-static tick_row ticks_of(double lo, double hi, int parts, double step, bool logarithmic)
+static tick_row x_ticks(const chart_frame *f) { return tick_row_of(f->x0, f->x1, 10, f->step, f->log_x); }
+static tick_row y_ticks(const chart_frame *f) { return tick_row_of(f->y0, f->y1, 6, f->step, f->log_y); }
+
+static double width_of_tick(cairo_t *page, const tick_row *t, int i)
 {
-    if (!(step > 0))
-        step = logarithmic ? fmax(1, ceil((hi - lo) / parts)) : image_round_step(hi - lo, parts);
-    double first = ceil(lo / step - 1e-9) * step;
-    int count = (int)fmin(floor((hi - first) / step + 1e-9), MOST_TICKS) + 1;
-    return (tick_row){first, step, count, logarithmic};
+    char text[TICK_TEXT];
+    tick_text(t, i, text);
+    return image_text_width(page, TICK_SIZE, false, text);
 }
 
-static void tick_text(const tick_row *t, double at, char text[32])
+static double widest_tick(cairo_t *page, const tick_row *t)
 {
-    if (t->logarithmic && fabs(at) > 4)
-        snprintf(text, 32, "1e%.0f", at);
-    else if (t->logarithmic)
-        snprintf(text, 32, "%.6g", real_pow(10, at));
-    else
-        snprintf(text, 32, "%.6g", fabs(at) < t->step * 1e-6 ? 0.0 : at);
+    double most = 0;
+    for (int i = 0; i < t->count; i++)
+        most = fmax(most, width_of_tick(page, t, i));
+    return most;
 }
 
 static void draw_y_axis(cairo_t *page, const chart_frame *f)
 {
-    char text[32];
-    tick_row t = ticks_of(f->y0, f->y1, 6, f->step, f->log_y);
+    char text[TICK_TEXT];
+    tick_row t = y_ticks(f);
     for (int i = 0; i < t.count; i++) {
-        double y = t.first + i * t.step, py = floor(axis_to_py(f, y)) + 0.5;
+        double py = floor(axis_to_py(f, tick_at(&t, i))) + 0.5;
         image_set_colour(page, chart_grid);
         cairo_move_to(page, f->left, py);
         cairo_line_to(page, f->right, py);
         cairo_stroke(page);
         image_set_colour(page, chart_ink);
-        tick_text(&t, y, text);
-        image_text(page, f->left - 7, py + 4, 12, ALIGN_RIGHT, false, text);
+        tick_text(&t, i, text);
+        image_text(page, f->left - LABEL_GAP, py + 4, TICK_SIZE, ALIGN_RIGHT, false, text);
     }
 }
 
 static void draw_x_axis(cairo_t *page, const chart_frame *f)
 {
-    char text[32];
-    tick_row t = ticks_of(f->x0, f->x1, 10, f->step, f->log_x);
+    char text[TICK_TEXT];
+    tick_row t = x_ticks(f);
+    double apart = axis_to_px(f, t.first + t.step) - axis_to_px(f, t.first);
+    int every = apart > 0 ? (int)fmin(ceil((widest_tick(page, &t) + BETWEEN_LABELS) / apart), t.count) : 1;
     for (int i = 0; i < t.count; i++) {
-        double x = t.first + i * t.step, px = floor(axis_to_px(f, x)) + 0.5;
+        double px = floor(axis_to_px(f, tick_at(&t, i))) + 0.5;
         image_set_colour(page, chart_grid);
         cairo_move_to(page, px, f->top);
         cairo_line_to(page, px, f->bottom);
@@ -176,8 +181,10 @@ static void draw_x_axis(cairo_t *page, const chart_frame *f)
         cairo_move_to(page, px, f->bottom);
         cairo_line_to(page, px, f->bottom + 5);
         cairo_stroke(page);
-        tick_text(&t, x, text);
-        image_text(page, px, f->bottom + 19, 12, ALIGN_CENTRE, false, text);
+        if (!tick_is_told(&t, i, every))
+            continue;
+        tick_text(&t, i, text);
+        image_text(page, px, f->bottom + 19, TICK_SIZE, ALIGN_CENTRE, false, text);
     }
 }
 
@@ -378,13 +385,33 @@ static void equalise(chart_frame *f)
     f->step = image_round_step(fmax(f->x1 - f->x0, f->y1 - f->y0), 8);
 }
 
-void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)
+/* [pixels] from the edges of the page */
+typedef struct chart_margins {
+    double left, right;
+} chart_margins;
+
+static chart_frame frame_of(const chart *c, int width, int height, bool equal, chart_margins m)
 {
-    bool has_subtitle = c->subtitle[0] != '\0';
-    chart_frame f = {.left = 86, .right = width - 22, .top = has_subtitle ? 78 : 58, .bottom = height - 58};
+    chart_frame f = {.left = m.left, .right = width - m.right, .top = c->subtitle[0] ? 78 : 58, .bottom = height - 58};
     find_range(c, &f);
     if (equal)
         equalise(&f);
+    return f;
+}
+
+/* Room for the labels of this chart too: of the y axis beside its title, and of the last tick below. */
+static void widen_margins(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins *m)
+{
+    chart_frame f = frame_of(c, width, height, equal, *m);
+    tick_row y = y_ticks(&f), x = x_ticks(&f);
+    m->left = fmax(m->left, ceil(widest_tick(page, &y)) + LABEL_GAP + TITLE_ROOM);
+    double end = axis_to_px(&f, tick_at(&x, x.count - 1)) + 0.5 * width_of_tick(page, &x, x.count - 1);
+    m->right = fmax(m->right, m->right + ceil(end + PAGE_EDGE - width));
+}
+
+static void draw_within(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins m)
+{
+    chart_frame f = frame_of(c, width, height, equal, m);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
     image_text_fitted(page, f.left, 28, 17, true, f.right - f.left, c->title);
     image_text_fitted(page, f.left, 48, 12, false, f.right - f.left, c->subtitle);
@@ -400,12 +427,23 @@ void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal
     draw_legend(page, c, &f);
 }
 
+void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)
+{
+    chart_margins m = {MARGIN_LEFT, MARGIN_RIGHT};
+    widen_margins(page, c, width, height, equal, &m);
+    draw_within(page, c, width, height, equal, m);
+}
+
+/* With the same margins, so that what is of one time stands above each other. */
 static void draw_stack(cairo_t *page, const chart *charts, int32_t count, int width, int height)
 {
+    chart_margins m = {MARGIN_LEFT, MARGIN_RIGHT};
+    for (int32_t i = 0; i < count; i++)
+        widen_margins(page, &charts[i], width, height, false, &m);
     for (int32_t i = 0; i < count; i++) {
         cairo_save(page);
         cairo_translate(page, 0, (double)i * height);
-        chart_draw(page, &charts[i], width, height, false);
+        draw_within(page, &charts[i], width, height, false, m);
         cairo_restore(page);
     }
 }

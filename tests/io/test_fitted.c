@@ -1,6 +1,7 @@
 /* Texts and charts on a page: what is too long ends in dots where its room does, and bands have gaps where there is
    nothing. */
 #include "io/chart.h"
+#include "io/chart_ticks.h"
 #include "io/image.h"
 
 #include "testing.h"
@@ -108,7 +109,79 @@ START_TEST(bands_have_gaps)
 }
 END_TEST
 
-TEST_MAIN("fitted", texts_end_in_their_room, bands_have_gaps)
+/* Neighbours are told apart wherever the axis lies, and as before where six digits are enough. */
+START_TEST(ticks_have_the_digits_of_their_step)
+{
+    static const struct {
+        double lo, hi;
+        const char *first, *last;
+    } rows[] = {{10800, 10800.5, "10800", "10800.5"},
+                {10800.03, 10800.44, "10800.05", "10800.4"},
+                {-6999990, -6999989.15, "-6999990", "-6999989.2"},
+                {123456789, 123456790, "123456789", "123456790"},
+                {1e9, 1e9 + 1.1e-4, "1000000000", "1000000000.0001"},
+                {0, 1e6, "0", "1e+06"},
+                {-0.00015, 0, "-0.00014", "0"},
+                {-7e6, 0, "-7e+06", "0"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[TICK_TEXT], before[TICK_TEXT] = "";
+        const tick_row t = tick_row_of(rows[i].lo, rows[i].hi, 10, 0, false);
+        for (int k = 0; k < t.count; k++) {
+            tick_text(&t, k, text);
+            ck_assert_str_ne(text, before);
+            if (k == 0)
+                ck_assert_str_eq(text, rows[i].first);
+            strcpy(before, text);
+        }
+        ck_assert_str_eq(text, rows[i].last);
+    }
+}
+END_TEST
+
+/* Columns of an upright stripe in which a page has ink. */
+static int inked(cairo_t *page, int left, int right, int height)
+{
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    int columns = 0;
+    for (int x = left; x < right; x++) {
+        bool ink = false;
+        for (int y = 0; y < height; y++)
+            ink = ink || data[y * cairo_image_surface_get_stride(surface) + 4 * x] < 200;
+        columns += ink;
+    }
+    return columns;
+}
+
+/* Labels end before the title of their axis and before the edge of the page, and do not meet. */
+START_TEST(labels_have_their_room)
+{
+    enum { WIDE = 620, HIGH = 400, GAP = 23, LABELS = 26 };
+    const double at[2] = {10800, 10800.5}, y[2][2] = {{-6999990, -6999989.2}, {-0.00015, 0}};
+    for (int what = 0; what < 2; what++) {
+        const chart_line line = chart_line_make("", at, y[what], 2, false);
+        chart c = chart_make("", "", "time [s]", "gap [m]", &line, 1);
+        c.free_y = true;
+        cairo_t *page = NULL;
+        fram_error error;
+        ck_assert_int_eq(image_begin(WIDE, HIGH, &page, &error), FRAM_OK);
+        chart_draw(page, &c, WIDE, HIGH, false);
+        ck_assert_int_gt(inked(page, 0, GAP, HIGH), 8);
+        ck_assert_int_eq(inked(page, GAP, LABELS, HIGH), 0);
+        ck_assert_int_gt(inked(page, LABELS, 80, HIGH), 40);
+        ck_assert_int_eq(inked(page, WIDE - 1, WIDE, HIGH), 0);
+        cairo_destroy(page);
+    }
+    /* Of ticks that stand closer than their labels are wide every second one is told, zero among them. */
+    const tick_row t = tick_row_of(-3, 3, 10, 1, false);
+    for (int i = 0; i < t.count; i++)
+        ck_assert_int_eq(tick_is_told(&t, i, 2), i % 2 == 1);
+}
+END_TEST
+
+TEST_MAIN("fitted", texts_end_in_their_room, bands_have_gaps, ticks_have_the_digits_of_their_step,
+          labels_have_their_room)
 
 #else
 
