@@ -140,8 +140,13 @@ static void find_rows(pair *p)
 
 /* ---- page ---- */
 
-static fram_status overlay_chart(pair *p, const char *channel, const char *title, const char *label, double factor,
-                                 fram_error *error)
+typedef struct overlay {
+    const char *channel, *title, *label;
+    double factor;
+    bool free; /* its axis need not hold zero: far from the origin a way would not be seen */
+} overlay;
+
+static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
 {
     chart_line lines[2];
     double *scaled[2] = {NULL, NULL};
@@ -149,7 +154,7 @@ static fram_status overlay_chart(pair *p, const char *channel, const char *title
     int32_t n = 0;
     fram_status status = FRAM_OK;
     for (int k = 0; k < 2 && status == FRAM_OK; k++) {
-        const double *value = run_channel(&p->d[k], channel);
+        const double *value = run_channel(&p->d[k], o->channel);
         int32_t count = p->d[k].series.rows;
         if (!value || count == 0)
             continue;
@@ -157,12 +162,13 @@ static fram_status overlay_chart(pair *p, const char *channel, const char *title
         if (!scaled[k])
             status = error_memory(error);
         for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-            scaled[k][i] = value[i] * factor;
+            scaled[k][i] = value[i] * o->factor;
         lines[n] = chart_line_make(names[k], run_channel(&p->d[k], "time"), scaled[k], count, k == 1);
         lines[n++].colour = k + 2;
     }
     if (status == FRAM_OK && n > 0) {
-        chart c = chart_make(title, "", "time [s]", label, lines, n);
+        chart c = chart_make(o->title, "", "time [s]", o->label, lines, n);
+        c.free_y = o->free;
         status = html_chart(&p->page, &c, false, error);
     }
     memory_free(p->ctx, scaled[0]);
@@ -171,15 +177,17 @@ static fram_status overlay_chart(pair *p, const char *channel, const char *title
 }
 
 /* Of the world or the vessel, or one of each vessel of a list. */
-static fram_status overlay_charts(pair *p, const char *channel, const char *title, const char *label, double factor,
-                                  fram_error *error)
+static fram_status overlay_charts(pair *p, const overlay *o, fram_error *error)
 {
     const scenario *s;
-    fram_status status = overlay_chart(p, channel, title, label, factor, error);
+    fram_status status = overlay_chart(p, o, error);
     for (int32_t at = 0, v = 0; status == FRAM_OK && (s = next_vessel(p, at, &v)); at++) {
         char full[120];
-        snprintf(full, sizeof full, "%s, vessel %.*s", title, (int)VESSEL_NAME_MOST, scenario_vessel_name(s, v));
-        status = overlay_chart(p, vessel_channel_name(s, v, channel).text, full, label, factor, error);
+        const vessel_channel name = vessel_channel_name(s, v, o->channel);
+        overlay of_vessel = *o;
+        snprintf(full, sizeof full, "%s, vessel %.*s", o->title, (int)VESSEL_NAME_MOST, scenario_vessel_name(s, v));
+        of_vessel.channel = name.text, of_vessel.title = full;
+        status = overlay_chart(p, &of_vessel, error);
     }
     return status;
 }
@@ -205,17 +213,14 @@ static void number_table(pair *p)
 
 static fram_status compose_comparison(pair *p, fram_error *error)
 {
-    static const struct {
-        const char *channel, *title, *label;
-        double factor;
-    } charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force [kN]", 1e-3},
-                  {"ice_force_averaged_y", "Ice load along Y, averaged", "force [kN]", 1e-3},
-                  {"position_x", "Position along X", "x [m]", 1},
-                  {"position_y", "Position along Y", "y [m]", 1},
-                  {"floes", "Floes", "floes", 1},
-                  {"bendings", "Floes broken in bending", "floes so far", 1},
-                  {"line_tension_max", "Largest line tension", "tension [kN]", 1e-3},
-                  {"crushing_work", "Work of crushing", "work [kJ]", 1e-3}};
+    static const overlay charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force [kN]", 1e-3, false},
+                                     {"ice_force_averaged_y", "Ice load along Y, averaged", "force [kN]", 1e-3, false},
+                                     {"position_x", "Position along X", "x [m]", 1, true},
+                                     {"position_y", "Position along Y", "y [m]", 1, true},
+                                     {"floes", "Floes", "floes", 1, false},
+                                     {"bendings", "Floes broken in bending", "floes so far", 1, false},
+                                     {"line_tension_max", "Largest line tension", "tension [kN]", 1e-3, false},
+                                     {"crushing_work", "Work of crushing", "work [kJ]", 1e-3, false}};
     html_begin(&p->page, "Comparison of two runs", "");
     html_table_begin(&p->page, NULL, 0);
     for (int k = 0; k < 2; k++)
@@ -234,7 +239,7 @@ static fram_status compose_comparison(pair *p, fram_error *error)
     html_grid_begin(&p->page);
     fram_status status = FRAM_OK;
     for (size_t i = 0; i < sizeof charts / sizeof *charts && status == FRAM_OK; i++)
-        status = overlay_charts(p, charts[i].channel, charts[i].title, charts[i].label, charts[i].factor, error);
+        status = overlay_charts(p, &charts[i], error);
     html_grid_end(&p->page);
     html_end(&p->page);
     return status == FRAM_OK && p->page.text.failed ? error_memory(error) : status;

@@ -167,7 +167,6 @@ fram_status report_loads(report *r, fram_error *error)
                                  {"ice_force_averaged_x", "along X, averaged"},
                                  {"ice_force_averaged_y", "along Y, averaged"}};
     const report_line tilt[] = {{"roll", "roll"}, {"pitch", "pitch"}};
-    const report_line place[] = {{"position_x", "x"}, {"position_y", "y"}};
     report_vessel_section(r, "Ice load");
     html_paragraph(
         &r->page,
@@ -188,7 +187,7 @@ fram_status report_loads(report *r, fram_error *error)
     report_vessel_section(r, "Motion of the vessel");
     html_grid_begin(&r->page);
     if (status == FRAM_OK)
-        status = report_series(r, "Position", "position [m]", 1, place, 2, false, error);
+        status = report_way(r, error);
     /* Of a vessel whose motion is given they are zero but for rounding. */
     if (status == FRAM_OK && scenario_vessel_entry(&r->d.s, r->vessel).keys->mode == VESSEL_FREE)
         status = report_series(r, "Roll and pitch", "angle [deg]", 1, tilt, 2, false, error);

@@ -55,7 +55,7 @@ load_unit report_load_unit(const report *r)
 
 /* A channel of the vessel or of the world times a factor, from row `first` on; NULL without the channel, and without
    memory: then the page fails as a whole. */
-static const double *report_scaled(report *r, const char *channel, double factor, int32_t first)
+static double *report_scaled(report *r, const char *channel, double factor, int32_t first)
 {
     const double *from = run_vessel_channel(&r->d, r->vessel, channel);
     int32_t rows = r->d.series.rows - first;
@@ -91,6 +91,36 @@ fram_status report_series(report *r, const char *title, const char *y_label, dou
         return FRAM_OK;
     chart c = chart_make(title, "", "time [s]", y_label, drawn, n);
     return html_chart(&r->page, &c, wide, error);
+}
+
+/* A coordinate as a person reads it, to the millimetre, without the rounding of a zero. */
+static double told_place(double metres) { return floor(metres * 1e3 + 0.5) * 1e-3; }
+
+fram_status report_way(report *r, fram_error *error)
+{
+    static const char *const channels[2] = {"position_x", "position_y"}, *const names[2] = {"x", "y"};
+    const double *time = run_channel(&r->d, "time");
+    double *place[2], start[2];
+    chart_line lines[2];
+    char subtitle[96];
+    int32_t first = 0, rows = r->d.series.rows;
+    for (int k = 0; k < 2; k++)
+        place[k] = report_scaled(r, channels[k], 1, 0);
+    if (!time || !place[0] || !place[1])
+        return FRAM_OK;
+    while (first + 1 < rows && !(isfinite(place[0][first]) && isfinite(place[1][first])))
+        first++;
+    for (int k = 0; k < 2; k++) {
+        start[k] = place[k][first];
+        for (int32_t i = 0; i < rows; i++)
+            place[k][i] -= start[k];
+        lines[k] = chart_line_make(names[k], time, place[k], rows, false);
+        lines[k].colour = k + 2;
+    }
+    snprintf(subtitle, sizeof subtitle, "from x %.10g m, y %.10g m at %.6g s", told_place(start[0]),
+             told_place(start[1]), time[first]);
+    chart c = chart_make("Position", subtitle, "time [s]", "way from there [m]", lines, 2);
+    return html_chart(&r->page, &c, false, error);
 }
 
 void report_statistics_heads(report *r, const char *first)

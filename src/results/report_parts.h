@@ -41,6 +41,9 @@ typedef struct report_line {
 /* A chart of channels over time; those that the run does not have are left out, and with them an empty chart. */
 fram_status report_series(report *r, const char *title, const char *y_label, double factor, const report_line *lines,
                           int32_t count, bool wide, fram_error *error);
+/* A chart of the vessel's way from its first place on, which it names: beside coordinates far from the origin a motion
+   would not be seen. */
+fram_status report_way(report *r, fram_error *error);
 
 /* Statistics of a channel after the transient as a row: mean, deviation, least, greatest, significant. */
 void report_statistics_heads(report *r, const char *first);

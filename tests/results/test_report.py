@@ -277,11 +277,29 @@ def check_times(folder):
             assert late > 0.002 * start, "too little came in after the last frame for this test to tell"
 
 
+def move_series(series, x):
+    """The same run so many metres along X."""
+    head, *rows = (row.split(",") for row in series.read_text().splitlines())
+    at = head.index("position_x[m]")
+    rows = [[*row[:at], repr(float(row[at]) + x), *row[at + 1:]] for row in rows]
+    series.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
+
+
+def line_height(page, title):
+    """Of the highest line in a chart of a page [pixels]."""
+    data = re.search(rf'alt="{title}" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
+    lines = [re.findall(r"[ML] \S+ (\S+)", line) for line in
+             re.findall(r' d="(M [^"]*)"', base64.b64decode(data).decode())]
+    heights = [max(map(float, line)) - min(map(float, line)) for line in lines if len(line) > 20]
+    return max(heights, default=0)
+
+
 def check_water(folder, pictures):
     """Of no load there is no distribution, of a given motion no roll and pitch; a failure's message is told whole."""
     file, run = folder / "water.yaml", folder / "water"
     file.write_text(WATER)
     subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+    move_series(run / "series.csv", -301150)
     note = json.loads((run / "run.json").read_text())
     message = "what went wrong takes many words, " * 14 + "and the last ones say what to do"
     assert 480 < len(message) < 512
@@ -289,6 +307,11 @@ def check_water(folder, pictures):
     (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message, "told": told}, indent=2))
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
+    if pictures:
+        # The way from where it began, 1.5 or 2 m, which far from the origin is as high as a chart.
+        assert line_height(page, "Position") > 100, "no way is seen"
+        subprocess.run([FRAM, "compare", run, run, "-q", "-o", folder / "both.html"], check=True, capture_output=True)
+        assert line_height((folder / "both.html").read_text(), "Position along X") > 100, "no way is seen"
     assert message in page, page[page.index("The run failed"):][:600]
     # What is significant of a value that is held is the value.
     tables = Tables()
