@@ -272,6 +272,15 @@ static void scenario_table(report *r)
     html_table_end(&r->page);
 }
 
+/* Whether one of the events is of a vessel of a list: a single one has no name to tell. */
+static bool events_name_vessels(const run_note *n)
+{
+    for (int32_t i = 0; i < n->events.count; i++)
+        if (n->events.data[i].vessel[0])
+            return true;
+    return false;
+}
+
 /* What befell the vessels: lines, thrusters, position, besetting, approaches. */
 static void events(report *r)
 {
@@ -279,14 +288,16 @@ static void events(report *r)
     const run_note *n = &r->d.note;
     if (n->events.count == 0)
         return;
-    const char *const heads[] = {"time [s]", "vessel", "event"};
+    bool named = events_name_vessels(n);
+    const char *const heads[] = {"time [s]", named ? "vessel" : "event", "event"};
     html_section(&r->page, "Events");
-    html_table_begin(&r->page, heads, 3);
+    html_table_begin(&r->page, heads, named ? 3 : 2);
     for (int32_t i = 0; i < n->events.count && i < SHOWN; i++) {
         const run_event *e = &n->events.data[i];
         html_row_begin(&r->page);
         html_number(&r->page, e->time);
-        html_cell(&r->page, e->vessel);
+        if (named)
+            html_cell(&r->page, e->vessel);
         html_cell(&r->page, e->text);
         html_row_end(&r->page);
     }

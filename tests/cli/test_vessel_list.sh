@@ -51,7 +51,7 @@ for row in rows:
 END
 
 "$FRAM" report "$run" --quiet || fail "the report failed"
-for text in "vessel ship is going to pass at" \
+for text in "vessel ship is going to pass at" 'time \[s\]</th><th class="w">vessel</th>' \
     "Ice load, vessel icebreaker" "Station keeping, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done
