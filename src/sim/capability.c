@@ -103,21 +103,23 @@ static holding hold_at(const capability *c, const holding_case *h, double from, 
     return holding_find(h, load_at_heading, &asked);
 }
 
-/* The first speed that is not held, from below. */
-static capability_limit find_limit(const capability *c, const holding_case *h, double from)
+/* The first speed that is not held, from below; looked for no farther than up to `enough`, where that is held.
+   row: what was found at the steps of speed, NULL: not yet. */
+static capability_limit find_limit(const capability *c, const holding_case *h, double from, const holding *row,
+                                   double enough)
 {
     capability_limit limit = {.failure = -1};
     double step = c->loads.speed_step, held = 0, lost = 0;
     limit.at = hold_at(c, h, from, 0);
     if (limit.at.use > 1)
         return limit;
-    for (int32_t k = 0; k < c->loads.speeds && limit.at.use <= 1; k++) {
+    for (int32_t k = 0; k < c->loads.speeds && limit.at.use <= 1 && lost < enough; k++) {
         held = lost;
         lost = (k + 1) * step;
-        limit.at = hold_at(c, h, from, lost);
+        limit.at = row ? row[k] : hold_at(c, h, from, lost);
     }
     limit.beyond = limit.at.use <= 1;
-    for (int i = 0; i < SPEED_HALVINGS && !limit.beyond; i++) {
+    for (int i = 0; i < SPEED_HALVINGS && !limit.beyond && held < enough; i++) {
         double middle = 0.5 * (held + lost);
         holding at = hold_at(c, h, from, middle);
         if (at.use > 1) {
@@ -166,29 +168,62 @@ fram_status capability_go_on(const capability *c, fram_error *error)
     return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
 }
 
-static fram_status find_limits(world *w, holding_case *h, capability *c, fram_error *error)
+/* Lines take a search for the heading at which the vessel comes to rest, seconds a direction: asked before each one of
+   them, intact and after each failure. */
+static fram_status balance_goes_on(context *ctx, const capability *c, int32_t direction, int32_t failure,
+                                   fram_error *error)
 {
-    for (int32_t i = 0; i < c->loads.directions; i++) {
-        fram_status status = capability_go_on(c, error);
+    fram_status status = capability_go_on(c, error);
+    double each = c->failures + 1;
+    if (status == FRAM_OK)
+        status = work_continue(ctx, "balancing", direction * each + failure + 1, c->loads.directions * each, error);
+    return status;
+}
+
+static void find_intact(holding_case *h, capability *c, int32_t i)
+{
+    holding *row = c->use + i * c->loads.speeds;
+    double from = direction_of(c, i);
+    h->line_safety = c->options.line_safety;
+    for (int32_t k = 0; k < c->loads.speeds; k++)
+        row[k] = hold_at(c, h, from, (k + 1) * c->loads.speed_step);
+    c->intact[i] = find_limit(c, h, from, row, HUGE_VAL);
+}
+
+/* The first of those that hold least; of the others it is enough that they hold as much. */
+static fram_status find_damaged(context *ctx, world *w, holding_case *h, capability *c, int32_t i, fram_error *error)
+{
+    capability_limit *worst = &c->damaged[i];
+    fram_status status = FRAM_OK;
+    h->line_safety = c->options.line_safety_damaged;
+    for (int32_t f = 0; f < c->failures; f++) {
+        double enough = f == 0 || worst->beyond ? HUGE_VAL : worst->speed;
+        if (!(enough > 0))
+            break;
+        status = balance_goes_on(ctx, c, i, f, error);
         if (status != FRAM_OK)
-            return status;
-        double from = direction_of(c, i);
-        h->line_safety = c->options.line_safety;
-        c->intact[i] = find_limit(c, h, from);
-        for (int32_t k = 0; k < c->loads.speeds; k++)
-            c->use[i * c->loads.speeds + k] = hold_at(c, h, from, (k + 1) * c->loads.speed_step);
-        h->line_safety = c->options.line_safety_damaged;
-        for (int32_t f = 0; f < c->failures; f++) {
-            fail(w, &c->failure[f], true);
-            capability_limit limit = find_limit(c, h, from);
-            fail(w, &c->failure[f], false);
-            limit.failure = f;
-            bool worse = limit.speed < c->damaged[i].speed || (c->damaged[i].beyond && !limit.beyond);
-            if (f == 0 || worse)
-                c->damaged[i] = limit;
-        }
+            break;
+        fail(w, &c->failure[f], true);
+        capability_limit limit = find_limit(c, h, direction_of(c, i), NULL, enough);
+        fail(w, &c->failure[f], false);
+        limit.failure = f;
+        if (f == 0 || limit.speed < worst->speed || (worst->beyond && !limit.beyond))
+            *worst = limit;
     }
-    return FRAM_OK;
+    return status;
+}
+
+static fram_status find_limits(context *ctx, world *w, holding_case *h, capability *c, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < c->loads.directions && status == FRAM_OK; i++) {
+        status = balance_goes_on(ctx, c, i, -1, error);
+        if (status == FRAM_OK)
+            find_intact(h, c, i);
+        if (status == FRAM_OK)
+            status = find_damaged(ctx, w, h, c, i, error);
+    }
+    return status;
 }
 
 /* ---- all of it ---- */
@@ -284,7 +319,7 @@ static fram_status build_still_world(context *ctx, const scenario *s, const mode
     return build_world(ctx, &still, m, w, &report, error);
 }
 
-static fram_status sweep(const scenario *s, world *w, capability *c, fram_error *error)
+static fram_status sweep(context *ctx, const scenario *s, world *w, capability *c, fram_error *error)
 {
     int32_t body = w->vessels.body[VESSEL];
     const station_table *station = &w->stations;
@@ -301,7 +336,7 @@ static fram_status sweep(const scenario *s, world *w, capability *c, fram_error 
                       .heading_limit = station->heading_limit[VESSEL]};
     leave_out_failed(w);
     list_failures(w, c);
-    return find_limits(w, &h, c, error);
+    return find_limits(ctx, w, &h, c, error);
 }
 
 /* Floes that are drawn have water between them, and their areas add up to what is asked for to half a floe. */
@@ -364,7 +399,7 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
                                         : capability_ice_measured(ctx, s, c, error);
     }
     if (status == FRAM_OK)
-        status = sweep(s, &w, c, error);
+        status = sweep(ctx, s, &w, c, error);
     world_free(ctx, &w);
     if (status != FRAM_OK)
         capability_free(ctx, c);
