@@ -21,7 +21,7 @@ int command_manage(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    const command_files files = {.runs = {run, d.beside}, .outputs = {{"--output", d.output, "html htm"}}};
+    const command_files files = {.runs = {run, d.beside}, .outputs = {{"--output", d.output, PAGE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

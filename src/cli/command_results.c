@@ -29,7 +29,7 @@ int command_report(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    const command_files files = {.runs = {run}, .outputs = {{"--output", output, "html htm"}}};
+    const command_files files = {.runs = {run}, .outputs = {{"--output", output, PAGE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
@@ -211,7 +211,7 @@ int command_compare(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, run, 2);
     if (code >= 0)
         return code;
-    const command_files files = {.runs = {run[0], run[1]}, .outputs = {{"--output", output, "html htm"}}};
+    const command_files files = {.runs = {run[0], run[1]}, .outputs = {{"--output", output, PAGE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

@@ -71,8 +71,9 @@ int command_view(const command_row *self, int argc, char **argv)
     definition.folder = folder;
     definition.page_limit = bytes_of(page_mb);
     definition.total_limit = bytes_of(total_mb);
-    const command_files files = {
-        .inputs = {definition.viewer_page}, .runs = {folder}, .outputs = {{"--output", definition.output, "html htm"}}};
+    const command_files files = {.inputs = {definition.viewer_page},
+                                 .runs = {folder},
+                                 .outputs = {{"--output", definition.output, PAGE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

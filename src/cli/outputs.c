@@ -50,11 +50,12 @@ static bool has_ending(const char *path, const char *endings)
     return false;
 }
 
-/* Pictures and videos are of the kind that their name tells; what goes into a device has no kind.  What the name was
-   expected to be, NULL where it is. */
+/* Pictures, pages and videos are of the kind that their name tells; what goes into a device has no kind.  What the name
+   was expected to be, NULL where it is. */
 static const char *expected_name(const output_file *o)
 {
     static const char *const kinds[][2] = {{PICTURE_ENDINGS, "expected a picture's name that ends in .png or .svg"},
+                                           {PAGE_ENDINGS, "expected a page's name that ends in .html or .htm"},
                                            {VIDEO_ENDINGS, "expected a video's name that ends in .mp4"}};
     struct stat about;
     bool device = stat(o->path, &about) == 0 && !S_ISREG(about.st_mode);

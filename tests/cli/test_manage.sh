@@ -263,7 +263,7 @@ says "both/series.csv: --output: expected a file of its own, found one that the 
 expect 2 "$FRAM" manage both --vessel ship --beside alone -o alone/fractures.html
 head -1 alone/fractures.csv | grep -q '^time' || fail "a run lost its fractures"
 expect 2 "$FRAM" manage both --vessel ship -o table.csv
-says "table.csv: --output: expected the name of a page" err
+says "--output: expected a page's name that ends in .html or .htm" err
 [ ! -e table-sizes.csv ] || fail "a page that is its own table was written"
 expect 0 "$FRAM" manage --help
 says "Examples:" out

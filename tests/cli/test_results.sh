@@ -59,7 +59,7 @@ for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "h
 done
 cmp -s b.stl kept.stl || fail "a hull was written over by itself"
 [ -e thin/run.json ] || fail "a refused run took away another one's"
-for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "export run --geojson --time 1 -o"; do
+for words in "export run --netcdf -o" "export run --geojson --time 1 -o"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words b.stl
     says "--force" err
@@ -138,14 +138,25 @@ for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
 done
 [ ! -e new.pdf ] || fail "a picture of no kind was made"
 cmp -s b.stl kept.stl || fail "a file of another kind was written over"
-expect 0 "$FRAM" report run -o b.stl --force -q
-holds "<html" b.stl
+# A page's too; a device has no kind.
+for words in "report run" "compare run thin" "view run --page page.html"; do
+    for file in b.stl new.txt none; do
+        # shellcheck disable=SC2086
+        expect 2 "$FRAM" $words -o $file --force
+        says "--output: expected a page's name that ends in .html or .htm" err
+    done
+done
+[ ! -e new.txt ] || fail "a page of no kind was made"
+cmp -s b.stl kept.stl || fail "a page was written over a file of another kind"
+# Of other files a name with another ending is taken when it is asked for, or when nothing is in the file.
 : >empty
+expect 0 "$FRAM" export run --geojson --time 1 -o b.stl --force -q
+expect 0 "$FRAM" export run --geojson --time 1 -o empty -q
+holds "Feature" b.stl
 for _ in 1 2; do
     expect 0 "$FRAM" report run -o again.HTML -q
     expect 0 "$FRAM" report run -o /dev/null -q
 done
-expect 0 "$FRAM" report run -o empty -q
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300
