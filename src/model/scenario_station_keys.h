@@ -52,9 +52,9 @@
     X(forbidden_width_deg, REAL(0, 0, 179), "deg",                                                              \
       "azimuth: width of the forbidden sector, which it may turn across; 0: none")                              \
     X(cost, REAL(1, 1e-9, 1e9), "1", "weight of its thrust in the allocation")                                  \
-    X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust; auto: 6.25 W/N * sqrt(scale / 30)")               \
+    X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust, either way; auto: 6.25 W/N * sqrt(scale / 30)")   \
     X(diameter, AUTOMATIC(1e-3, 100), "m",                                                                      \
-      "of the propeller, for its wash; auto: 45 kPa * scale / 30 of thrust on its disc")                        \
+      "of the propeller, for its wash; auto: 45 kPa * scale / 30 of the largest thrust on its disc")            \
     X(failure_time, AUTOMATIC(0, 1e9), "s", "it fails then; auto: never")                                       \
     X(setting, REAL(0, -1, 1), "1", "without positioning: thrust over the largest")                             \
     X(direction_deg, REAL(0, -360, 360), "deg",                                                                 \

@@ -215,6 +215,12 @@ static void find_equilibrium(context *ctx, const vessel_entry *entry, const mode
    kilowatt is usual for unducted azimuth and tunnel thrusters.  A speed, by its unit. */
 #define POWER_PER_THRUST (1000.0 / 160)
 
+/* An azimuth pushes one way alone. */
+double thruster_largest_thrust(const scenario_thruster *t)
+{
+    return t->kind == THRUSTER_AZIMUTH ? t->thrust : fmax(t->thrust, automatic_or(t->thrust_astern, t->thrust));
+}
+
 static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_entry *entry, int32_t vessel, world *w,
                                  fram_error *error)
 {
@@ -234,7 +240,8 @@ static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_e
             .forbidden_centre = radians(t->forbidden_deg),
             .forbidden_half = radians(0.5 * t->forbidden_width_deg),
             .cost = t->cost,
-            .full_power = automatic_or(t->power, POWER_PER_THRUST * sqrt(scenario_size(s)) * t->thrust),
+            .full_power =
+                automatic_or(t->power, POWER_PER_THRUST * sqrt(scenario_size(s)) * thruster_largest_thrust(t)),
             .failure_time = automatic_or(t->failure_time, HUGE_VAL),
             .order = t->setting * (t->setting >= 0 ? t->thrust : astern),
             .order_angle = radians(t->direction_deg),

@@ -5,6 +5,8 @@
 #include "model/scenario_vessel.h"
 #include "model/world.h"
 
+/* Of both ways that it pushes [N]. */
+double thruster_largest_thrust(const scenario_thruster *t);
 /* Lines, thrusters, way points and the station of a vessel of the world that floats freely; nothing for others.  A
    moored vessel is moved to where its lines balance current and wind.  Errors name the key at fault. */
 fram_status build_station(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,

@@ -1,6 +1,7 @@
 #include "sim/build_wash.h"
 
 #include "base/transcendental.h"
+#include "sim/build_station.h"
 
 #include <math.h>
 
@@ -21,8 +22,10 @@ wash_model build_wash(const scenario *s, const scenario_vessel *keys, const vess
     double size = scenario_size(s);
     const scenario_propulsion *p = &keys->propulsion;
     wash_model out = {.active = keys->wash.active, .spread = keys->wash.spread, .reach = keys->wash.reach};
-    for (int32_t i = 0; i < keys->thrusters.count && i < WASH_THRUSTERS; i++)
-        out.thruster[i] = diameter_of(keys->thrusters.data[i].diameter, keys->thrusters.data[i].thrust, size);
+    for (int32_t i = 0; i < keys->thrusters.count && i < WASH_THRUSTERS; i++) {
+        const scenario_thruster *t = &keys->thrusters.data[i];
+        out.thruster[i] = diameter_of(t->diameter, thruster_largest_thrust(t), size);
+    }
     if (is_automatic(p->bollard_pull))
         return out;
     out.propellers = (int32_t)p->propellers;

@@ -144,6 +144,29 @@ START_TEST(transit_at_a_given_thrust)
 }
 END_TEST
 
+/* 160 N for each kilowatt at the larger thrust of the two ways, that of an azimuth alone; thrust over it to 3/2. */
+START_TEST(power_is_that_of_the_larger_thrust)
+{
+    static const char ship[] =
+        "run: {time_step: 0.1}\n"
+        "vessel:\n  mode: free\n  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}\n"
+        "  thrusters:\n"
+        "    - {kind: main, thrust: 100.0e3, thrust_astern: 200.0e3, setting: -1, time_constant: 0, speed_rate: 100}\n"
+        "    - {kind: tunnel, thrust: 100.0e3, thrust_astern: 200.0e3, setting: 1, time_constant: 0, speed_rate: 100}\n"
+        "    - {kind: main, thrust: 200.0e3, thrust_astern: 0}\n"
+        "    - {kind: azimuth, thrust: 100.0e3, thrust_astern: 200.0e3}\n"
+        "ice: {source: none}\ndomain: {boundary: open}\n";
+    scene k;
+    scene_open(&k, ship);
+    scene_steps(&k, 1);
+    assert_relative(thruster_power(&k.w.thrusters, 0), 1.25e6, 1e-12);
+    assert_relative(thruster_power(&k.w.thrusters, 1), 1.25e6 / sqrt(8), 1e-12);
+    assert_relative(k.w.thrusters.full_power[2], 1.25e6, 1e-12);
+    assert_relative(k.w.thrusters.full_power[3], 0.625e6, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
 /* Measurements are taken and orders given at their own intervals, and the noise has the deviation that is asked for. */
 START_TEST(sensors_and_controller_keep_their_own_time)
 {
@@ -311,5 +334,6 @@ END_TEST
 
 TEST_MAIN("station", heading_alone, a_moored_ship_turns_against_the_load,
           offsets_of_a_moored_ship_are_those_of_its_mooring, transit_at_a_given_thrust,
-          sensors_and_controller_keep_their_own_time, feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance,
-          a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance)
+          power_is_that_of_the_larger_thrust, sensors_and_controller_keep_their_own_time, feed_forward_of_the_ice_load,
+          forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
+          a_moored_ship_begins_in_balance)

@@ -146,17 +146,19 @@ END_TEST
 START_TEST(propellers_left_to_fram_go_with_scale)
 {
     static const char *const quarter[] = {"run.scale=7.5"};
-    static const char *const text = "run: {scale: 30}\n"
-                                    "vessel:\n  mode: free\n"
-                                    "  hull: {form: box, length: 60, beam: 14, draught: 6, freeboard: 4}\n"
-                                    "  propulsion: {bollard_pull: 4.0e5}\n"
-                                    "  thrusters: [{x: 20, thrust: 1.0e5}]\n"
-                                    "ice: {source: none}\n";
+    static const char *const text =
+        "run: {scale: 30}\n"
+        "vessel:\n  mode: free\n"
+        "  hull: {form: box, length: 60, beam: 14, draught: 6, freeboard: 4}\n"
+        "  propulsion: {bollard_pull: 4.0e5}\n"
+        "  thrusters: [{x: 20, thrust: 1.0e5}, {kind: main, thrust: 1.0e5, thrust_astern: 2.0e5}]\n"
+        "ice: {source: none}\n";
     scene k;
     scene_open_with(&k, text, quarter, 1);
     const wash_model *wash = &k.m.vessels.data[0].wash;
     assert_relative(wash->diameter, sqrt(4 * 4e5 / (PI * 45e3 / 4)), 1e-12);
     assert_relative(wash->thruster[0], sqrt(4 * 1e5 / (PI * 45e3 / 4)), 1e-12);
+    assert_relative(wash->thruster[1], sqrt(4 * 2e5 / (PI * 45e3 / 4)), 1e-12);
     assert_relative(k.w.thrusters.full_power[0], 6.25 / 2 * 1e5, 1e-12);
     scene_close(&k);
 }

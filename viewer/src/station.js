@@ -155,6 +155,11 @@ function reachOf(hull) {
         [Infinity, -Infinity]);
 }
 
+/** Of both ways that it pushes [N]; an azimuth pushes one way alone. */
+function largestThrust({ kind, thrust, thrust_astern: back }) {
+    return kind !== 'azimuth' && back > 0 ? Math.max(thrust, back) : thrust;
+}
+
 /** disc(thrust): diameter of a propeller without one of its own. */
 function thrustersOf(v, hull, disc) {
     const [stern, stem] = reachOf(hull);
@@ -162,7 +167,7 @@ function thrustersOf(v, hull, disc) {
         hull, number: i + 1, given: [t.x, t.y],
         rest: new THREE.Vector3(t.kind === 'tunnel' ? 0 : 1, t.kind === 'tunnel' ? 1 : 0, 0),
         disc: Math.max(LEAST_DISC * (stem - stern),
-            t.diameter > 0 ? t.diameter : disc(t.thrust)),
+            t.diameter > 0 ? t.diameter : disc(largestThrust(t))),
     }));
 }
 
