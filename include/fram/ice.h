@@ -69,11 +69,11 @@ FRAM_API void fram_ice_edge_default(fram_ice_edge *load, size_t size);
 
 typedef struct fram_ice_breaking {
     double characteristic_length; /* l [m] */
-    double radial_radius;         /* a of the half disk [m] */
+    double radial_radius;         /* a of the half disk, which may stand for contact_width [m] */
     double wedge_radius;          /* a of the wedges [m] */
-    double radial_stress;         /* sigma_yy: the first, radial crack opens when it meets sigma_f [Pa] */
+    double radial_stress;         /* sigma_yy: the first, radial crack opens when it meets sigma_f; 0: none [Pa] */
     double wedge_stress;          /* sigma_wedge_max: the wedges break off when it meets sigma_f [Pa] */
-    double radial_capacity;       /* P at which the radial crack opens [N] */
+    double radial_capacity;       /* P at which the radial crack opens; infinite: none, radial_radius over 3 l [N] */
     double wedge_capacity;        /* P at which the wedges break off, with the strip between them [N] */
     double breaking_radius;       /* R_bending [m] */
     double crushing_force;        /* the contact area at the crushing strength [N] */

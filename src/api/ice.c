@@ -141,6 +141,16 @@ static fram_status check_area(const fram_ice_edge *l, const edge_stress *e, fram
                 error);
 }
 
+/* The half disc that stands for a wide contact in the radial crack's stress may go beyond the table too.  Next to
+   nothing of that stress is left there: the sheet bends as a beam, whose strip breaks first. */
+static void drop_radial_crack(edge_stress *e)
+{
+    if (e->radial_radius <= WEDGE_MOST_LOAD * e->length)
+        return;
+    e->radial_stress = 0;
+    e->radial_capacity = HUGE_VAL;
+}
+
 fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error, size_t size)
 {
     fram_ice_edge taken, *load = &taken;
@@ -174,6 +184,7 @@ fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *break
     status = check_area(load, &e, error);
     if (status != FRAM_OK)
         return status;
+    drop_radial_crack(&e);
     const fram_ice_breaking full = {.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,
                                     .wedge_radius = e.wedge_radius,

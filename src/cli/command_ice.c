@@ -129,6 +129,8 @@ static void print_answers(const common_options *common, const answer_row *rows, 
     for (int i = 0; i < count; i++) {
         if (common->json)
             json_real(&j, rows[i].key, rows[i].value);
+        else if (isinf(rows[i].value))
+            printf("%-28s %-14s %-4s %s\n", rows[i].key, "none", "", rows[i].meaning);
         else
             printf("%-28s %-14.7g %-4s %s\n", rows[i].key, rows[i].value, rows[i].unit, rows[i].meaning);
     }

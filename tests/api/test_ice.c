@@ -130,6 +130,34 @@ START_TEST(wide_contacts)
 }
 END_TEST
 
+/* Along an edge loaded over 2 c no stress is left beyond c/l of about 3.5, where the table of half discs ends: the
+   plate's integral is 0.1 at 3 and 0.025 at 4. */
+START_TEST(no_radial_crack_under_very_wide_contacts)
+{
+    fram_ice_edge load;
+    fram_ice_breaking b;
+    fram_error e = {0};
+    fram_ice_edge_default(&load);
+    load.force = 1e6;
+    load.contact_area = 5;
+    load.thickness = 0.5;
+    load.contact_width = 50;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    double l = b.characteristic_length, most = 3 / 0.85 * l;
+    load.contact_width = 6 * l;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    assert_relative(b.radial_capacity, 0.5e6 * 0.25 / 0.104, 0.08);
+    load.contact_width = 2 * 0.999 * most;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    ck_assert(b.radial_stress > 0 && b.radial_capacity > b.wedge_capacity && b.radial_capacity < 3e6);
+    for (int k = 0; k < 2; k++) {
+        load.contact_width = k ? 400 : 2 * 1.001 * most;
+        assert_ok(fram_ice_break(&load, &b, &e), e);
+        ck_assert(b.radial_stress == 0 && isinf(b.radial_capacity) && b.wedge_capacity > 0 && b.wedge_stress > 0);
+    }
+}
+END_TEST
+
 START_TEST(splitting)
 {
     fram_ice_floe floe;
@@ -160,4 +188,5 @@ START_TEST(splitting)
 }
 END_TEST
 
-TEST_MAIN("api_ice", corners, wide_contacts, splitting, wedge, sheet, load_on_an_edge, wrong_loads)
+TEST_MAIN("api_ice", corners, wide_contacts, no_radial_crack_under_very_wide_contacts, splitting, wedge, sheet,
+          load_on_an_edge, wrong_loads)

@@ -38,6 +38,10 @@ near 'j["wedge_capacity"]' "$edge / 3" 1e-12 "a corner of 60 degrees"
 expect 0 "$FRAM" ice break --thin-plate --contact-area 0.2185 --contact-width 10 --json
 near 'j["wedge_capacity"]' 437e3 2e-3 "a contact of 10 m"
 near 'j["strip_length"]' '1.11072 * j["characteristic_length"]' 1e-5 "its strip"
+expect 0 "$FRAM" ice break --contact-width 400 --json
+says '"radial_capacity":null' out
+expect 0 "$FRAM" ice break --contact-width 400
+holds '^radial_capacity  *none ' out
 expect 0 "$FRAM" ice break --contact-width 10 --ice-length 1.5 --json
 near 'j["strip_capacity"]' '0.5e6 / 6 * 10 * 27 / 4 / 1.5' 1e-4 "a rigid strip"
 near 'j["strip_length"]' 0.5 1e-4 "where it breaks"
