@@ -44,6 +44,8 @@ FRAM_API fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_
 
 /* --- A load on an ice edge --- */
 
+/* Beside the strip under a contact_width stand whole wedges, as many as under a narrow load, included_angle/pi times N:
+   together they carry what they do alone, however wide the strip.  ice_length is that of the strip alone. */
 typedef struct fram_ice_edge {
     size_t size;              /* of this struct, set by fram_ice_edge_default */
     double force;             /* P, across the ice [N]; default 0 */

@@ -54,6 +54,16 @@ static int refuse_misplaced(const common_options *common, const char *what, cons
     return -1;
 }
 
+/* The same of an option that counts beside another one only; density: that of no option. */
+static int refuse_lonely(const common_options *common, const fram_ice_edge *load, double density)
+{
+    if (load->ice_length != 0 && load->contact_width == 0)
+        return answer_usage(common, "--ice-length", "is for --contact-width");
+    if (load->ice_density != density && load->rise_time == 0)
+        return answer_usage(common, "--ice-density", "is for --rise-time");
+    return -1;
+}
+
 static bool is_calculation(const char *what)
 {
     return strcmp(what, "wedge") == 0 || strcmp(what, "sheet") == 0 || strcmp(what, "break") == 0 ||
@@ -62,7 +72,7 @@ static bool is_calculation(const char *what)
 
 static int read_ice_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
 {
-    double angle = 180;
+    double angle = 180, density = w->load.ice_density;
     const option_row rows[] = {
         {"--a-over-l", NULL, OPTION_REAL, &w->a_over_l, "X",
          "wedge, sheet: radius of the load over the characteristic length"},
@@ -84,7 +94,7 @@ static int read_ice_words(const command_row *self, ice_words *w, common_options 
         {"--contact-width", NULL, OPTION_REAL, &w->load.contact_width, "W",
          "break: width of the contact along the edge [m] (0: narrow)"},
         {"--ice-length", NULL, OPTION_REAL, &w->load.ice_length, "L",
-         "break: length of the ice behind a wide contact [m] (0: semi-infinite)"},
+         "break: length of the ice behind a --contact-width [m] (0: semi-infinite)"},
         {"--rise-time", NULL, OPTION_REAL, &w->load.rise_time, "T",
          "break: time in which the load has risen evenly, with the inertia of ice and water [s] (0: at rest)"},
         {"--ice-density", NULL, OPTION_REAL, &w->load.ice_density, "RHO",
@@ -107,6 +117,8 @@ static int read_ice_words(const command_row *self, ice_words *w, common_options 
         return answer_usage(common, w->what, "is not a calculation; choose wedge, sheet, break or split");
     if (code < 0)
         code = refuse_misplaced(common, w->what, rows, ROWS, before);
+    if (code < 0)
+        code = refuse_lonely(common, &w->load, density);
     if (code < 0 && !(angle > 0 && angle <= 360))
         return answer_usage(common, "--included-angle", "expected more than 0 and at most 360 degrees");
     w->floe.thickness = w->load.thickness;

@@ -96,6 +96,11 @@ START_TEST(corners)
     ck_assert_str_eq(e.key, "included_angle");
     load.included_angle = 0;
     assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "positive");
+    /* The wedges at the ends of a strip are as many whole ones. */
+    load.included_angle = pi / 3;
+    load.contact_width = 10;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    assert_relative(b.wedge_capacity - b.strip_capacity, edge / 3, 1e-12);
 }
 END_TEST
 

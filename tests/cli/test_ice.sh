@@ -70,7 +70,7 @@ says "no larger than 3 characteristic lengths" err
 expect 0 "$FRAM" ice break --contact-area 100 --contact-width 80
 expect 2 "$FRAM" ice break --thickness 1e-300
 says "1e-06 to 100 m" err
-expect 2 "$FRAM" ice break --ice-density 1030
+expect 2 "$FRAM" ice break --rise-time 0.1 --ice-density 1030
 says "less than the density of the water" err
 
 expect 0 "$FRAM" ice split --length 75 --width 50 --json
@@ -113,6 +113,12 @@ expect 2 "$FRAM" ice sheet --a-over-l 0.1 --wedges 4
 says "--wedges: is for break" err
 expect 2 "$FRAM" ice split --thin-plate
 says "--thin-plate: is for break" err
+# Options that count beside another one.
+expect 2 "$FRAM" ice break --ice-length 1.5
+says "--ice-length: is for --contact-width" err
+expect 2 "$FRAM" ice break --contact-width 10 --ice-density 900 --json
+says "--ice-density: is for --rise-time" err
+says '"status":"usage"' out
 
 expect 2 "$FRAM" ice wedge
 says '--a-over-l' err
