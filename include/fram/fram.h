@@ -94,8 +94,8 @@ typedef struct fram_context_definition {
     fram_log_level verbosity;
     int threads;              /* >= 1, the caller's included; results never depend on it */
     const char *isa;          /* "baseline", "avx2", "avx512", or NULL for the best; results never depend on it */
-    const volatile int *stop; /* non-zero: making a world, a field or a file of a run, and reading the series of one or
-                                 of a CSV file, ends with FRAM_INTERRUPTED; may be NULL */
+    const volatile int *stop; /* non-zero: making a world, a field or a file of a run, reading the series of one or of a
+                                 CSV file, and a bootstrap of its extremes end with FRAM_INTERRUPTED; may be NULL */
     fram_work_function work;  /* NULL: silent */
     void *work_user;
     fram_parallel_function parallel; /* in place of threads of Fram's own, of which there are none then; `threads` says

@@ -303,24 +303,26 @@ static void look_at_upper(const acer_rates *r, const tail_draw *draw, int32_t dr
     out->upper_differs = (low > 0) == (high > 0);
 }
 
-bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
-                    int32_t count, double confidence, level_interval *out, acer_doubt *doubt)
+fram_status acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
+                           int32_t count, double confidence, level_interval *out, acer_doubt *doubt, fram_error *error)
 {
     ARRAY(tail_draw) tail = {0};
     double_array level = {0};
-    bool good = true;
-    for (uint32_t i = 0; good && i < ACER_REPLICATES; i++) {
+    fram_status status = FRAM_OK;
+    for (uint32_t i = 0; status == FRAM_OK && i < ACER_REPLICATES; i++) {
         tail_draw one;
-        work_tell(ctx, "drawing bootstrap samples", i, ACER_REPLICATES);
-        if (draw_tail(r, fit, i, &one))
-            good = array_push(ctx, &tail, one);
+        if (draw_tail(r, fit, i, &one) && !array_push(ctx, &tail, one))
+            status = error_memory(error);
+        else
+            status = work_continue(ctx, "drawing bootstrap samples", i + 1, ACER_REPLICATES, error);
     }
     *doubt = (acer_doubt){.fitted = (double)tail.count / ACER_REPLICATES};
-    good = good && array_resize(ctx, &level, tail.count);
-    if (good)
+    if (status == FRAM_OK && !array_resize(ctx, &level, tail.count))
+        status = error_memory(error);
+    if (status == FRAM_OK)
         look_at_upper(r, tail.data, tail.count, time, exponent[0], &level, doubt);
     level.count = tail.count;
-    for (int32_t k = 0; good && k < count; k++) {
+    for (int32_t k = 0; status == FRAM_OK && k < count; k++) {
         out[k] = (level_interval){acer_level(fit, r->step, time, exponent[k]), (double)NAN, (double)NAN};
         for (int32_t i = 0; i < tail.count; i++)
             level.data[i] = acer_level(&tail.data[i].all, r->step, time, exponent[k]);
@@ -332,5 +334,5 @@ bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, dou
     }
     array_free(ctx, &tail);
     array_free(ctx, &level);
-    return good;
+    return status;
 }

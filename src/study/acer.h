@@ -46,8 +46,8 @@ typedef struct acer_doubt {
 } acer_doubt;
 
 /* The same for several exponents, with the intervals of a bootstrap over batches (percentiles of ACER_REPLICATES draws
-   of as many batches).  false: no memory. */
-bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
-                    int32_t count, double confidence, level_interval *out, acer_doubt *doubt);
+   of as many batches).  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
+fram_status acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
+                           int32_t count, double confidence, level_interval *out, acer_doubt *doubt, fram_error *error);
 
 #endif

@@ -66,30 +66,32 @@ static double law_level(const extreme_law *law, const extreme_sample *s, double 
 }
 
 /* Percentiles of the level over samples drawn from the sample. */
-static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_request *ask, double exponent,
-                      const extreme_law *law, level_interval *out)
+static fram_status bootstrap(context *ctx, const extreme_sample *s, const extreme_request *ask, double exponent,
+                             const extreme_law *law, level_interval *out, fram_error *error)
 {
     double_array drawn = {0}, level = {0};
-    bool good = array_resize(ctx, &drawn, s->value.count);
-    for (uint32_t i = 0; good && i < BOOTSTRAP_REPLICATES; i++) {
-        work_tell(ctx, "drawing bootstrap samples", i, BOOTSTRAP_REPLICATES);
+    fram_status status = array_resize(ctx, &drawn, s->value.count) ? FRAM_OK : error_memory(error);
+    for (uint32_t i = 0; status == FRAM_OK && i < BOOTSTRAP_REPLICATES; i++) {
         random_stream random = random_begin(1, STREAM_SAMPLES, i);
         for (int32_t k = 0; k < drawn.count; k++)
             drawn.data[k] = s->value.data[(int32_t)(random_unit(&random) * s->value.count)];
         values_sort(&drawn);
         extreme_law again;
-        if (extreme_law_fit(s->kind, ask->fit, drawn.data, drawn.count, s->location, &again))
-            good = array_push(ctx, &level, law_level(&again, s, exponent));
+        if (extreme_law_fit(s->kind, ask->fit, drawn.data, drawn.count, s->location, &again) &&
+            !array_push(ctx, &level, law_level(&again, s, exponent)))
+            status = error_memory(error);
+        else
+            status = work_continue(ctx, "drawing bootstrap samples", i + 1, BOOTSTRAP_REPLICATES, error);
     }
     *out = (level_interval){law_level(law, s, exponent), (double)NAN, (double)NAN};
-    if (good && level.count > BOOTSTRAP_REPLICATES / 2) {
+    if (status == FRAM_OK && level.count > BOOTSTRAP_REPLICATES / 2) {
         values_sort(&level);
         out->low = sorted_quantile(level.data, level.count, 0.5 - 0.5 * ask->confidence);
         out->high = sorted_quantile(level.data, level.count, 0.5 + 0.5 * ask->confidence);
     }
     array_free(ctx, &drawn);
     array_free(ctx, &level);
-    return good;
+    return status;
 }
 
 /* The ends towards which the limit of the tail may lie are moved by what the fit leaves out.  The theory of that limit
@@ -112,8 +114,9 @@ static void add_penultimate(const extreme_sample *s, const extreme_law *law, dou
     i->high += fmax(fmax(shift, other), 0);
 }
 
-static bool sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask, const extreme_law *law,
-                         const gumbel_pivot *pivot, double probability, level_interval *out)
+static fram_status sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask,
+                                const extreme_law *law, const gumbel_pivot *pivot, double probability,
+                                level_interval *out, fram_error *error)
 {
     double exponent = -real_log(probability);
     profile_question q = {.law = law,
@@ -131,28 +134,29 @@ static bool sample_level(context *ctx, const extreme_sample *s, const extreme_re
         if (s->any.scale > 0)
             *out = averaged_interval(pivot, *out, &q, s->weight);
     } else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
-        return bootstrap(ctx, s, ask, exponent, law, out);
+        return bootstrap(ctx, s, ask, exponent, law, out, error);
     else
         *out = profile_interval(&q);
     add_penultimate(s, law, exponent, out);
-    return true;
+    return FRAM_OK;
 }
 
-static bool sample_levels(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out)
+static fram_status sample_levels(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out,
+                                 fram_error *error)
 {
     gumbel_pivot pivot, *exact = s->kind == LAW_GUMBEL ? &pivot : NULL;
     if (exact)
         gumbel_pivot_make(s->value.data, s->value.count, &out->law, exact);
-    bool good = sample_level(ctx, s, ask, &out->law, exact, real_exp(-1), &out->most_probable);
-    for (int i = 0; good && i < ask->levels; i++)
-        good = sample_level(ctx, s, ask, &out->law, exact, ask->probability[i], &out->level[i]);
+    fram_status status = sample_level(ctx, s, ask, &out->law, exact, real_exp(-1), &out->most_probable, error);
+    for (int i = 0; status == FRAM_OK && i < ask->levels; i++)
+        status = sample_level(ctx, s, ask, &out->law, exact, ask->probability[i], &out->level[i], error);
     out->interval = s->any.scale > 0 ? "averaged over Gumbel's and the generalized law by their weights"
                     : exact          ? "exact, conditional on the sample"
                     : ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
                     : s->jackknife    ? "profile likelihood, scaled by a jackknife over groups"
                     : s->survival > 0 ? "profile likelihood, widened by the slow limit of the tail"
                                       : "profile likelihood";
-    return good;
+    return status;
 }
 
 /* The sample at its plotting positions: of n ascending values the i-th, from 1, has i/(n + 1) of all below it (Gumbel
@@ -245,15 +249,15 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
     if (s->series && s->kind == LAW_GUMBEL && !tied)
         weigh_laws(s);
     keep_points(s, ask, out);
-    bool good = sample_levels(ctx, s, ask, out);
+    fram_status status = sample_levels(ctx, s, ask, out, error);
     if (s->kind == LAW_GUMBEL)
         extremes_doubt_gumbel(out, s->value.data, s->value.count);
     if (s->kind == LAW_WEIBULL)
         extremes_doubt_largest(out, s->value.data, s->value.count);
-    out->answered = good;
-    if (good && peaks)
+    out->answered = status == FRAM_OK;
+    if (out->answered && peaks)
         extremes_cut_low(out, ask->levels, s->location);
-    return good ? FRAM_OK : error_memory(error);
+    return status;
 }
 
 fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count, double block, extreme_method method,
@@ -424,18 +428,18 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     for (int i = 0; i < w->ask->levels; i++)
         exponent[i + 1] = -real_log(w->ask->probability[i]);
     acer_doubt doubt;
-    bool good = acer_intervals(w->ctx, rates, &out->tail, w->ask->duration, exponent, w->ask->levels + 1,
-                               w->ask->confidence, level, &doubt);
-    if (good) {
+    fram_status status = acer_intervals(w->ctx, rates, &out->tail, w->ask->duration, exponent, w->ask->levels + 1,
+                                        w->ask->confidence, level, &doubt, w->error);
+    if (status == FRAM_OK) {
         out->most_probable = level[0];
         memcpy(out->level, level + 1, (size_t)w->ask->levels * sizeof *level);
         extremes_doubt_tail(out, &doubt);
     }
     out->interval = "bootstrap over batches, percentiles";
-    out->answered = good;
-    if (good)
+    out->answered = status == FRAM_OK;
+    if (out->answered)
         extremes_cut_low(out, w->ask->levels, rates->level[0]);
-    return good ? FRAM_OK : error_memory(w->error);
+    return status;
 }
 
 static fram_status answer_rates(const series_work *w)

@@ -82,10 +82,11 @@ typedef struct extreme_result {
     int32_t stability_rows;
 } extreme_result;
 
-/* Of one or several realizations of a stationary process. */
+/* Of one or several realizations of a stationary process.  FRAM_ERROR_MEMORY; FRAM_INTERRUPTED while a bootstrap draws
+   its samples, which takes longest. */
 fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method method, const extreme_request *ask,
                                extreme_result *out, fram_error *error);
-/* Of maxima of blocks of equal length `block` [s]: gumbel or gev. */
+/* Of maxima of blocks of equal length `block` [s]: gumbel or gev.  Errors as above. */
 fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count, double block, extreme_method method,
                                const extreme_request *ask, extreme_result *out, fram_error *error);
 

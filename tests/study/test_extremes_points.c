@@ -49,6 +49,46 @@ START_TEST(lines_go_through_the_answer)
 }
 END_TEST
 
+typedef struct stopper {
+    int told, stop;
+} stopper;
+
+static void stop_at_the_third(void *user, const char *what, double done, double total)
+{
+    stopper *s = user;
+    ck_assert_str_eq(what, "drawing bootstrap samples");
+    ck_assert(done > 0 && done < total);
+    s->stop = ++s->told == 3;
+}
+
+/* Who asks to stop is heard from one sample of a bootstrap to the next. */
+START_TEST(bootstraps_are_stopped)
+{
+    static double value[VALUES];
+    draw_series(value);
+    const series_part part = {value, VALUES};
+    const series_set set = {&part, 1, 2.0};
+    const extreme_method methods[] = {EXTREME_ACER, EXTREME_UPCROSSING, EXTREME_POT};
+    for (int i = 0; i < 3; i++) {
+        stopper s = {0};
+        context ctx;
+        fram_error error = {0};
+        extreme_request ask;
+        extreme_result r;
+        context_init(&ctx);
+        ctx.work = stop_at_the_third;
+        ctx.work_user = &s;
+        ctx.stop = &s.stop;
+        extreme_request_default(&ask);
+        ask.fit = FIT_MOMENTS;
+        assert_fails(extremes_of_series(&ctx, &set, methods[i], &ask, &r, &error), error, FRAM_INTERRUPTED,
+                     "bootstrap samples");
+        ck_assert_int_eq(s.told, 3);
+        ck_assert(!r.answered);
+    }
+}
+END_TEST
+
 /* Of n values the i-th has i/(n + 1) below it; more than there is room for are thinned from below. */
 START_TEST(plotting_positions)
 {
@@ -74,4 +114,4 @@ START_TEST(plotting_positions)
 }
 END_TEST
 
-TEST_MAIN("extremes_points", lines_go_through_the_answer, plotting_positions)
+TEST_MAIN("extremes_points", lines_go_through_the_answer, bootstraps_are_stopped, plotting_positions)
