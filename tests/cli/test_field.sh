@@ -243,8 +243,9 @@ says "feature 2, polygon 1, ring 1 (20, 20): is in the way of a vessel or of ope
 expect 0 "$FRAM" field rings.yaml --set ice.bad_rings=repair
 says "left out: 2, repairs: 2" out
 says "repaired: feature 4, polygon 1, ring 1 (line 4): crosses or touches itself" out
-expect 2 "$FRAM" field rings.yaml --set ice.bad_rings=drop --set ice.open_water[0].length=90 --set ice.open_water[0].width=90
-says "left out because each is in the way of a vessel or of open water; look at where these lie, and at ice.keep_out_margin" err
+expect 2 "$FRAM" field rings.yaml --set ice.bad_rings=drop --set ice.open_water[0].length=90 \
+    --set ice.open_water[0].width=90
+says "each is in the way of a vessel or of open water; look at where these lie, and at ice.keep_out_margin" err
 
 # How large its run is, is known when its floes are made; before that they are said to be missing.
 expect 0 "$FRAM" check rings.yaml --set ice.bad_rings=drop

@@ -397,14 +397,14 @@ def check_level(browser, folder):
     scene = """
 run: {{duration: 6, time_step: 0.02}}
 vessel: {{mode: towed, x: -24, speed: 4, hull: {{length: 48, beam: 12, draught: 4, freeboard: 2}}}}
-ice: {{source: level, level: {{x_min: 0, tile_size: 16}}, thickness: 0.4, breakable: {breaks}}}
+ice: {{source: level, level: {{x_min: 0, tile_size: {size}}}, thickness: 0.4, breakable: {breaks}}}
 domain: {{x_min: -64, x_max: 64, y_min: -32, y_max: 32}}
 output: {{frame_interval: 0.25}}
 """
-    for name, breaks, fates, origin in (
-            ("breaks", "true", ["broke with a neighbour, or was cut by a hull"], "what the break of tile "),
-            ("cut", "false", ["cut by a hull by ", "or was cut by a hull"], "what is left of tile ")):
-        run, _ = make_run(folder, name, scene.format(breaks=breaks))
+    for name, breaks, size, fates, origin in (
+            ("breaks", "true", 16, ["broke with a neighbour, or was cut by a hull"], "what the break of tile "),
+            ("cut", "false", 6, ["cut by a hull by ", "or was cut by a hull"], "what is left of tile ")):
+        run, _ = make_run(folder, name, scene.format(breaks=breaks, size=size))
         browser.open(run / "playback.html")
         told = browser.run("""(() => {
             const { bodies, fractures, frames } = fram.record, broke = new Set(fractures.map((f) => f.floe));
