@@ -20,27 +20,31 @@
 
 /* Every so many steps something is done.  Where one step was told to be longer than the interval, that says it all; a
    default is nobody's wish. */
-static void tell_rounded(const teller *t, const char *key, double interval, double least_steps)
+static void tell_rounded(const teller *t, const char *key, double interval, int64_t steps, double least_steps)
 {
     double dt = t->s->run.time_step;
-    int64_t steps = interval_steps(interval, dt);
     double made = (double)steps * dt;
     if (steps == 0 || interval < least_steps * dt || !scenario_given(t->s, key))
         return;
     if (fabs(made - interval) > ROUNDED_OFF * interval)
-        sanity_say(t->tell, t->to,
-                   "%s: %.6g s is %.4g steps of run.time_step, %g s, and counts as %lld: %.6g s; give a multiple of it",
-                   key, interval, interval / dt, dt, (long long)steps, made);
+        sanity_say(t->tell, t->to, "%s: %.6g s is %.4g steps of run.time_step, %g s, and counts as %lld: %.6g s; %s",
+                   key, interval, interval / dt, dt, (long long)steps, made,
+                   interval - made > dt ? "no more are counted" : "give a multiple of it");
+}
+
+static void tell_rounded_interval(const teller *t, const char *key, double interval, double least_steps)
+{
+    tell_rounded(t, key, interval, interval_steps(interval, t->s->run.time_step), least_steps);
 }
 
 static void tell_all_rounded(const teller *t)
 {
     const scenario_output *o = &t->s->output;
-    tell_rounded(t, "output.csv_interval", o->csv_interval, SHORTEST_WINDOW);
-    tell_rounded(t, "output.frame_interval", o->frame_interval, 1);
-    tell_rounded(t, "output.checkpoint_interval", o->checkpoint_interval, 1);
-    tell_rounded(t, "output.picture_interval", o->picture_interval, 0);
-    tell_rounded(t, "output.averaging_window", o->averaging_window, SHORTEST_WINDOW);
+    tell_rounded_interval(t, "output.csv_interval", o->csv_interval, SHORTEST_WINDOW);
+    tell_rounded_interval(t, "output.frame_interval", o->frame_interval, 1);
+    tell_rounded_interval(t, "output.checkpoint_interval", o->checkpoint_interval, 1);
+    tell_rounded_interval(t, "output.picture_interval", o->picture_interval, 0);
+    tell_rounded(t, "output.averaging_window", o->averaging_window, scenario_averaging_steps(t->s), SHORTEST_WINDOW);
 }
 
 static void tell_times(const teller *t)
