@@ -29,10 +29,10 @@ static const column_rule column_rules[] = {
     {"joint", "b", 0, 0, "body"},
     {"pair", "a", 0, 0, "body"},
     {"pair", "b", 0, 0, "body"},
-    {"line", "vessel", 0, 0, "vessel"},
+    {"line", "vessel", 0, 0, "station"}, /* whose row has the loads of the vessel's lines and thrusters */
     {"line", "kind", LINE_CATENARY, LINE_TABLE, NULL},
     {"line", "points", 0, LINE_POINTS, NULL},
-    {"thruster", "vessel", 0, 0, "vessel"},
+    {"thruster", "vessel", 0, 0, "station"},
     {"thruster", "kind", THRUSTER_TUNNEL, THRUSTER_MAIN, NULL},
     {"waypoint", "vessel", 0, 0, "vessel"},
     {"station", "observer", OBSERVER_PASSIVE, OBSERVER_KALMAN, NULL},
@@ -199,6 +199,35 @@ static fram_status check_bodies(const world *w, fram_error *error)
     return FRAM_OK;
 }
 
+/* A vessel has a hull of its own, and one that is towed a carriage. */
+static fram_status check_vessels(const world *w, fram_error *error)
+{
+    const body_table *b = &w->bodies;
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        int32_t body = w->vessels.body[v], carriage = w->vessels.carriage[v];
+        bool own = body_is_alive(b, body) && b->material[body] == MATERIAL_HULL && b->owner[body] == v;
+        if (!own || b->shape[body] < 0 || w->shapes.shapes.kind[b->shape[body]] != SHAPE_SOLID)
+            return refuse("vessel", v, "body", body, error);
+        if (w->vessels.mode[v] == VESSEL_TOWED && (carriage < 0 || !body_is_alive(b, carriage)))
+            return refuse("vessel", v, "carriage", carriage, error);
+    }
+    return FRAM_OK;
+}
+
+/* The body was boxed when pairs were looked for, so that it had a shape; it may have broken since, which the next step
+   sees by its box. */
+static bool has_box(const world *w, int32_t body) { return body < w->boxes.count && w->boxes.generation[body] != 0; }
+
+static fram_status check_pairs(const world *w, fram_error *error)
+{
+    for (int32_t i = 0; i < w->pairs.count; i++) {
+        int32_t a = w->pairs.a[i], b = w->pairs.b[i];
+        if (!has_box(w, a) || !has_box(w, b))
+            return refuse("pair", i, has_box(w, a) ? "b" : "a", has_box(w, a) ? b : a, error);
+    }
+    return FRAM_OK;
+}
+
 static fram_status check_floes(const world *w, int32_t tiles, fram_error *error)
 {
     const floe_table *f = &w->floes;
@@ -270,6 +299,10 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = check_shapes(&w->shapes, error);
     if (status == FRAM_OK)
         status = check_bodies(w, error);
+    if (status == FRAM_OK)
+        status = check_vessels(w, error);
+    if (status == FRAM_OK)
+        status = check_pairs(w, error);
     if (status == FRAM_OK)
         status = check_inputs(w, error);
     if (status == FRAM_OK && w->hull_contacts.count != 0 && w->hull_contacts.count != w->vessels.count)
