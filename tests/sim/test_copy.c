@@ -1,6 +1,6 @@
 /* A world is copied with all that its next steps depend on: original and copy go the same way, each by itself, stepped
    by one model.  One that goes on with half the time step finds the loads and the instants of the controller that the
-   original has, in a window as long as that. */
+   original has, in a window as long as that, and wakes nothing that sleeps on in the original. */
 #include "scene.h"
 
 #include "sim/ice_loads.h"
@@ -87,4 +87,53 @@ START_TEST(a_copy_goes_on_with_half_the_step)
 }
 END_TEST
 
-TEST_MAIN("copy", original_and_copy_go_the_same_way, a_copy_goes_on_with_half_the_step)
+/* A current holds floes against the wall; the outermost stays awake by the hull, and pushes those that sleep. */
+static const char leaning[] =
+    "run: {time_step: 0.02, duration: 60}\n"
+    "vessel: {mode: towed, x: -19.9, speed: 0, hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 2}}\n"
+    "ice:\n  source: floes\n  thickness: 0.5\n  sleep_speed: 0.005\n  sleep_time: 5\n  floes:\n"
+    "    - {x: 14.9, length: 10, width: 10}\n"
+    "    - {x: 4.8, length: 10, width: 10}\n"
+    "    - {x: -5.3, length: 10, width: 10}\n"
+    "domain: {x_min: -60, x_max: 20, y_min: -20, y_max: 20}\n"
+    "environment: {current_speed: 0.6}\n";
+
+static int32_t asleep(const world *w)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        count += w->bodies.motion[i] == MOTION_ASLEEP;
+    return count;
+}
+
+START_TEST(half_the_step_wakes_nothing_by_itself)
+{
+    scene k;
+    world copy;
+    model fine;
+    fram_error error = {0};
+    scene_open(&k, leaning);
+    scene_steps(&k, 2000);
+    ck_assert_int_eq(asleep(&k.w), 2);
+    scenario s = k.s;
+    s.run.time_step = 0.01;
+    assert_ok(build_model(&k.ctx, &s, &fine, &error), error);
+    assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
+    assert_ok(rerun_divide_step(&k.ctx, &k.w, 2, &fine, &copy, &error), error);
+    ck_assert_int_gt(copy.memory.count, 0);
+    assert_vec3_close(copy.memory.on_lower[0], vec3_scale(k.w.memory.on_lower[0], 0.5), 0);
+    assert_bits(copy.joints.impulse[0].row[0], 0.5 * k.w.joints.impulse[0].row[0]);
+    for (int i = 0; i < 400; i++) {
+        assert_ok(world_step(&k.ctx, &fine, &copy, &error), error);
+        ck_assert_int_eq(asleep(&copy), 2);
+    }
+    scene_steps(&k, 200);
+    ck_assert_int_eq(asleep(&k.w), 2);
+    world_free(&k.ctx, &copy);
+    model_free(&k.ctx, &fine);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("copy", original_and_copy_go_the_same_way, a_copy_goes_on_with_half_the_step,
+          half_the_step_wakes_nothing_by_itself)
