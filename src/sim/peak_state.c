@@ -98,12 +98,17 @@ static void share(byte_stream *s, const world *w, ice_share *c)
     s->bad = s->bad || c->mechanism >= MECHANISM_COUNT || c->zone >= ZONE_COUNT;
 }
 
-/* The steps of the window from the oldest on; they are restored into the ring's first rows. */
+/* The rows of the window from the oldest on; they are restored into the ring's first ones. */
 static void steps(byte_stream *s, const world *w)
 {
     peak_watch *p = s->watch;
     int32_t oldest = s->out ? p->next + p->ring.count - p->filled : 0;
     whole(s, &p->filled, p->ring.count);
+    if (p->block > 1)
+        whole(s, &p->within, p->block);
+    else
+        p->within = 1;
+    s->bad = s->bad || (!s->out && p->filled > 0 && p->within == 0);
     for (int32_t k = 0; k < p->filled && goes(s); k++) {
         ice_share_array *row = &p->ring.data[(oldest + k) % p->ring.count];
         int32_t count = row->count;

@@ -13,8 +13,8 @@
 
 _Static_assert((int)PEAK_ZONES == (int)ZONE_COUNT, "a peak tells all zones");
 
-/* A longer window is explained by its last steps: contacts of so many are kept. */
-enum { WINDOW_STEPS_MOST = 1000 };
+/* Rows of contacts that are kept: a window of more steps has sums of several in each. */
+enum { WINDOW_ROWS_MOST = 1000 };
 
 void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p)
 {
@@ -29,14 +29,32 @@ void peak_watch_free(peak_watch *p)
     array_free(p->ctx, &p->vessels);
 }
 
+/* The fewest steps a row that so many rows hold a window of, wherever in the newest one it ends. */
+static int32_t block_of(int64_t steps)
+{
+    int64_t least = (steps - 1 + WINDOW_ROWS_MOST - 2) / (WINDOW_ROWS_MOST - 1);
+    return least > 1 ? (int32_t)least : 1;
+}
+
+/* The newest row may be of one step. */
+static int32_t ring_rows(int64_t steps, int32_t block)
+{
+    return steps > 0 ? (int32_t)(1 + (steps - 1 + block - 1) / block) : 0;
+}
+
+/* Steps in the ring; up to two rows' more than the window has. */
+static int64_t known_steps(const peak_watch *p)
+{
+    return p->filled > 0 ? (int64_t)(p->filled - 1) * p->block + p->within : 0;
+}
+
 bool peak_watch_begin(peak_watch *p, const world *w)
 {
     int64_t steps = load_window_length(w);
-    if (steps > WINDOW_STEPS_MOST)
-        steps = WINDOW_STEPS_MOST;
-    p->window = (double)load_window_length(w) * p->time_step;
-    if (p->vessels.count == w->vessels.count && p->ring.count == steps)
+    if (p->vessels.count == w->vessels.count && p->steps == steps)
         return true;
+    p->block = block_of(steps);
+    p->window = (double)steps * p->time_step;
     if (!array_resize(p->ctx, &p->vessels, w->vessels.count))
         return false;
     for (int32_t v = 0; v < p->vessels.count; v++) {
@@ -44,10 +62,11 @@ bool peak_watch_begin(peak_watch *p, const world *w)
         p->vessels.data[v].candidate = (peak_detail){.vessel = v}; /* none is explained before `from` */
     }
     int32_t had = p->ring.count;
-    if (!array_resize(p->ctx, &p->ring, (int32_t)steps))
+    if (!array_resize(p->ctx, &p->ring, ring_rows(steps, p->block)))
         return false;
     for (int32_t i = had; i < p->ring.count; i++)
         p->ring.data[i] = (ice_share_array){0};
+    p->steps = steps;
     return true;
 }
 
@@ -55,31 +74,94 @@ bool peak_watch_await(peak_watch *p, const world *w)
 {
     if (!peak_watch_begin(p, w))
         return false;
-    int32_t unknown = p->ring.count - p->filled;
-    if (unknown == 0 || p->filled >= w->clock.step[0])
+    int64_t unknown = p->steps - known_steps(p);
+    if (unknown <= 0 || known_steps(p) >= w->clock.step[0])
         return true;
     /* Half a step less: rounding must not move it by one. */
-    p->from = fmax(p->from, w->clock.time[0] + (unknown - 0.5) * p->time_step);
+    p->from = fmax(p->from, w->clock.time[0] + ((double)unknown - 0.5) * p->time_step);
     for (int32_t v = 0; v < p->vessels.count; v++)
         p->vessels.data[v].picker.from = p->from;
     return true;
+}
+
+/* ---- contacts of steps ---- */
+
+static vec3 share_force(const ice_share *s) { return vec3_add(s->normal, s->friction); }
+
+static bool are_summed(const ice_share *a, const ice_share *b)
+{
+    return a->body == b->body && a->floe == b->floe && a->vessel == b->vessel && a->mechanism == b->mechanism &&
+           a->zone == b->zone;
+}
+
+/* At the mean of the two places, by the sizes of their forces. */
+static void sum_share(ice_share *sum, const ice_share *s)
+{
+    double had = vec3_length(share_force(sum)), more = vec3_length(share_force(s));
+    if (had + more > 0)
+        sum->point = vec3_mad(sum->point, vec3_sub(s->point, sum->point), more / (had + more));
+    sum->normal = vec3_add(sum->normal, s->normal);
+    sum->friction = vec3_add(sum->friction, s->friction);
+}
+
+/* Looked for from the last one found on, beside which the next one mostly stands. */
+static bool add_to_row(context *ctx, ice_share_array *row, const ice_share *s, int32_t *last)
+{
+    for (int32_t k = 0; k < row->count; k++) {
+        int32_t i = (*last + k) % row->count;
+        if (are_summed(&row->data[i], s)) {
+            sum_share(&row->data[i], s);
+            *last = i;
+            return true;
+        }
+    }
+    *last = row->count;
+    return array_push(ctx, row, *s);
+}
+
+static bool sum_step(context *ctx, ice_share_array *row, const world *w)
+{
+    int32_t last = 0;
+    bool good = true;
+    for (int32_t i = 0; i < w->scratch.shares.count && good; i++)
+        good = add_to_row(ctx, row, &w->scratch.shares.data[i], &last);
+    return good;
+}
+
+static bool copy_step(context *ctx, ice_share_array *row, const world *w)
+{
+    int32_t count = w->scratch.shares.count;
+    if (!array_resize(ctx, row, count))
+        return false;
+    if (count > 0)
+        memcpy(row->data, w->scratch.shares.data, (size_t)count * sizeof *row->data);
+    return true;
+}
+
+/* The row of the step that was just done; NULL: the ring has none. */
+static ice_share_array *row_of_step(peak_watch *p)
+{
+    if (p->ring.count == 0)
+        return NULL;
+    if (p->filled == 0 || p->within >= p->block) {
+        array_clear(&p->ring.data[p->next]);
+        p->next = (p->next + 1) % p->ring.count;
+        p->filled += p->filled < p->ring.count;
+        p->within = 0;
+    }
+    p->within++;
+    return &p->ring.data[(p->next + p->ring.count - 1) % p->ring.count];
 }
 
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error)
 {
     if (!peak_watch_begin(p, w))
         return error_memory(error);
-    if (p->ring.count == 0)
+    ice_share_array *row = row_of_step(p);
+    if (!row)
         return FRAM_OK;
-    ice_share_array *row = &p->ring.data[p->next];
-    int32_t count = w->scratch.shares.count;
-    if (!array_resize(p->ctx, row, count))
-        return error_memory(error);
-    if (count > 0)
-        memcpy(row->data, w->scratch.shares.data, (size_t)count * sizeof *row->data);
-    p->next = (p->next + 1) % p->ring.count;
-    p->filled += p->filled < p->ring.count;
-    return FRAM_OK;
+    bool good = p->block > 1 ? sum_step(p->ctx, row, w) : copy_step(p->ctx, row, w);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 /* ---- sums over the window ---- */
@@ -198,6 +280,41 @@ static void add_chain(const world *w, double time_step, int32_t hull, force_chai
     }
 }
 
+/* The part of a row's shares that its last `left` steps have, which are the window's first: as much as these carry of
+   the load, so that the parts of a peak add up to it. */
+static double part_inside(const world *w, const ice_share_array *row, int64_t left, int32_t vessel, vec3 along)
+{
+    double whole = 0, inside = 0;
+    for (int32_t i = 0; i < row->count; i++)
+        whole += row->data[i].vessel == vessel ? vec3_dot(share_force(&row->data[i]), along) : 0;
+    for (int64_t i = 0; i < left; i++) /* the window's first step stands where the next one will */
+        inside += vec3_dot(w->load_window.force[load_window_row(w, w->clock.step[0] + i, vessel)], along);
+    return whole != 0 ? fmin(fmax(inside / whole, 0), 1) : 0; /* of loads both ways this may miss a row's */
+}
+
+/* From the oldest row on, each with the mean over the window. */
+static bool sum_window(const peak_watch *p, const world *w, int32_t vessel, vec3 along, body_sum_array *sums,
+                       peak_detail *d)
+{
+    int64_t known = known_steps(p), out = known > p->steps ? known - p->steps : 0;
+    int32_t last = 0;
+    for (int32_t k = 0; k < p->filled; k++) {
+        const ice_share_array *row = &p->ring.data[(p->next + p->ring.count - p->filled + k) % p->ring.count];
+        int64_t left = p->block - out;
+        double part = out == 0 ? 1 : left > 0 ? part_inside(w, row, left, vessel, along) : 0;
+        out = left > 0 ? 0 : -left;
+        for (int32_t i = 0; i < row->count && part > 0; i++) {
+            if (row->data[i].vessel != vessel)
+                continue;
+            body_sum *b = sum_of(p->ctx, sums, &row->data[i], &last);
+            if (!b)
+                return false;
+            add_share(b, &row->data[i], along, part / (double)(known < p->steps ? known : p->steps), d);
+        }
+    }
+    return true;
+}
+
 fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_detail *d, fram_error *error)
 {
     memset(d, 0, sizeof *d);
@@ -209,19 +326,7 @@ fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_det
     d->force = force;
     vec3 along = d->load > 0 ? vec3_make(force.x / d->load, force.y / d->load, 0) : vec3_make(0, 0, 0);
     body_sum_array sums = {0};
-    int32_t last = 0;
-    bool good = true;
-    for (int32_t k = 0; k < p->filled && good; k++) {
-        const ice_share_array *row = &p->ring.data[(p->next + p->ring.count - p->filled + k) % p->ring.count];
-        for (int32_t i = 0; i < row->count && good; i++) {
-            if (row->data[i].vessel != vessel)
-                continue;
-            body_sum *b = sum_of(p->ctx, &sums, &row->data[i], &last);
-            good = b != NULL;
-            if (good)
-                add_share(b, &row->data[i], along, 1.0 / p->filled, d);
-        }
-    }
+    bool good = sum_window(p, w, vessel, along, &sums, d);
     if (good)
         list_floes(&sums, d);
     array_free(p->ctx, &sums);

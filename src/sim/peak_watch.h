@@ -1,5 +1,6 @@
 /* Watches the ice load on each vessel for its largest peaks, with the contacts of the last averaging window at hand (a
-   ring of the steps), so that what carried a peak can be told when it is over.  Reads the world only. */
+   ring of its steps, or of blocks of steps where it is long), so that what carried a peak can be told when it is over.
+   Reads the world only. */
 #ifndef SIM_PEAK_WATCH_H
 #define SIM_PEAK_WATCH_H
 
@@ -19,8 +20,11 @@ typedef struct peak_watch {
     context *ctx;
     double time_step, from, window; /* [s] */
     vec2 origin;                    /* of the places that are written: that of the run's record [m] */
-    ARRAY(ice_share_array) ring;    /* one per step of the window, WINDOW_STEPS_MOST at most */
-    int32_t next, filled;
+    int64_t steps;                  /* of the window */
+    int32_t block;                  /* steps that a row of the ring tells of: 1, or their sums */
+    ARRAY(ice_share_array) ring;    /* rows that hold each step of the window, WINDOW_ROWS_MOST at most */
+    int32_t next, filled;           /* rows */
+    int32_t within;                 /* steps in the newest row */
     ARRAY(vessel_peaks) vessels;
 } peak_watch;
 

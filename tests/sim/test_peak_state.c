@@ -1,5 +1,5 @@
 /* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm.  Beside
-   a world that has come some way it tells no peak by a part of it. */
+   a world that has come some way it tells no peak by a part of it, and parts of one in a long window add up too. */
 #include "sim/peak_state.h"
 #include "sim/recording.h"
 #include "sim/scene.h"
@@ -71,6 +71,81 @@ START_TEST(what_is_restored_goes_on_as_what_was_saved)
     array_free(&k.ctx, &a);
     array_free(&k.ctx, &b);
     scene_close(&k);
+}
+END_TEST
+
+/* A step without physics: the fixed floe pushes the hull by one mechanism or another, now and then much harder. */
+static void make_step(world *w, int32_t floe)
+{
+    int64_t step = w->clock.step[0];
+    ice_share s = {.body = floe, .floe = w->floes.number[w->bodies.owner[floe]], .patch = -1};
+    s.mechanism = step / 5 % 3 == 0 ? MECHANISM_CRUSHING : MECHANISM_BENDING;
+    s.normal = vec3_make(step % 701 < 4 ? -1e6 : -1e3 * (double)(1 + step % 7), 0, 0);
+    s.friction = vec3_make(-100, 0, 300);
+    s.point = vec3_make((double)(step % 4), 0, 0);
+    ck_assert(w->scratch.shares.count >= 2);
+    w->scratch.shares.count = 2;
+    w->scratch.shares.data[0] = w->scratch.shares.data[1] = s;
+    w->load_window.force[load_window_row(w, step, 0)] = vec3_scale(vec3_add(s.normal, s.friction), 2);
+    w->clock.step[0] = step + 1;
+}
+
+/* What mechanisms come to in the window, by the steps themselves, of which the world knows the loads. */
+static double crushed(const world *w)
+{
+    double sum = 0;
+    int64_t now = w->clock.step[0], steps = load_window_length(w), first = now > steps ? now - steps : 0;
+    for (int64_t i = first; i < now; i++)
+        sum += i / 5 % 3 == 0 ? -w->load_window.force[load_window_row(w, i, 0)].x - 200 : 0;
+    return sum / (double)(now - first);
+}
+
+static void check_parts(peak_watch *p, world *w)
+{
+    peak_detail d;
+    assert_ok(peak_watch_explain(p, w, 0, &d, &e), e);
+    ck_assert_double_gt(d.load, 2200);
+    assert_relative(sum_of(&d), d.load, 1e-9);
+    assert_relative(d.mechanism[MECHANISM_CRUSHING], crushed(w), 0.01);
+    ck_assert_int_eq(d.bodies, 1);
+    assert_relative(-d.floe[0].force.x, d.load, 1e-9);
+    assert_absolute(d.floe[0].point.x, 1.5, 1);
+}
+
+/* Of 1001 steps two each make a row, of 2300 three; the window ends within one, and its state comes back there too. */
+START_TEST(parts_of_a_long_window_add_up)
+{
+    static const char *const window[] = {"output.averaging_window=20.02", "output.averaging_window=46"};
+    for (int i = 0; i < 2; i++) {
+        scene k;
+        peak_watch p, q;
+        byte_array a = {0}, b = {0};
+        scene_open_with(&k, text, &window[i], 1);
+        scene_steps(&k, 60);
+        int32_t floe = scene_floe(&k, 0);
+        k.w.clock.step[0] = 0;
+        peak_watch_init(&k.ctx, 0.02, 0, &p);
+        peak_watch_init(&k.ctx, 0.02, 0, &q);
+        for (int step = 0; step < 6000; step++) {
+            make_step(&k.w, floe);
+            assert_ok(peak_watch_keep(&p, &k.w, &e), e);
+            if (step % 101 == 100)
+                check_parts(&p, &k.w);
+        }
+        ck_assert_int_le(p.ring.count, 1000);
+        ck_assert(peak_state_save(&p, &k.w, &a));
+        assert_ok(peak_state_restore(&q, &k.w, &a, &e), e);
+        ck_assert(peak_state_save(&q, &k.w, &b));
+        same(&a, &b);
+        make_step(&k.w, floe);
+        assert_ok(peak_watch_keep(&q, &k.w, &e), e);
+        check_parts(&q, &k.w);
+        peak_watch_free(&p);
+        peak_watch_free(&q);
+        array_free(&k.ctx, &a);
+        array_free(&k.ctx, &b);
+        scene_close(&k);
+    }
 }
 END_TEST
 
@@ -165,5 +240,5 @@ START_TEST(a_recording_that_begins_late_explains_whole_peaks)
 }
 END_TEST
 
-TEST_MAIN("peak_state", what_is_restored_goes_on_as_what_was_saved, bytes_that_are_no_state_are_refused,
-          a_recording_that_begins_late_explains_whole_peaks)
+TEST_MAIN("peak_state", what_is_restored_goes_on_as_what_was_saved, parts_of_a_long_window_add_up,
+          bytes_that_are_no_state_are_refused, a_recording_that_begins_late_explains_whole_peaks)
