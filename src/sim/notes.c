@@ -116,6 +116,16 @@ static double speed_in_ice(const scenario *s, const scenario_vessel *v)
     return fmax(own_speed_in_ice(v), drift);
 }
 
+/* How far a patch as wide as the ice is thick is crushed when it bears a load [m]: from sigma (d h)^(1 + e), which with
+   e = -1 bears the same from the first touch on.  NaN then. */
+static double crushed_under(const ice_material *m, double thickness, double load)
+{
+    double sigma = m->crushing_strength, power = 1 + m->crushing_exponent;
+    if (m->crushing_exponent == 0)
+        return load / (sigma * thickness);
+    return power > 0 ? real_pow(load / sigma, 1 / power) / thickness : (double)NAN;
+}
+
 /* What breaks the ice at its edge, by the loads that fracture compares (docs/theory.md). */
 static void note_fracture(const note_taker *n, const scenario *s)
 {
@@ -128,7 +138,7 @@ static void note_fracture(const note_taker *n, const scenario *s)
     }
     /* The thinnest ice breaks after the least of crushing. */
     const ice_kind kind = n->ice.thinnest;
-    double h = kind.thickness, sigma = kind.crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
+    double h = kind.thickness, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = ice_kind_material(i, &kind);
     fracture_settings f = build_fracture_settings(s);
     for (int k = 0; k < 2; k++) {
@@ -141,8 +151,8 @@ static void note_fracture(const note_taker *n, const scenario *s)
     }
     /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
     edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0], EDGE_STRAIGHT);
-    double needed = e.wedge_capacity / (sigma * h);
-    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+    double needed = crushed_under(&m, h, e.wedge_capacity);
+    for (int32_t v = 0; v < scenario_vessel_count(s) && !isnan(needed); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
         double speed = speed_in_ice(s, entry.keys), depth = speed * s->run.time_step;
         note_fact(n, "fracture: steps of %g s are short for %s up to %.3g m/s", s->run.time_step,

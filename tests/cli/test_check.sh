@@ -210,6 +210,31 @@ grep -e '1 m thick' -e 'go before' err && fail "told of ice that there is not"
 expect 0 "$FRAM" run filed.yaml -o filed
 says "move 0.4 of its thickness past each other in a step" err
 
+# A tank and its twin sixteen times as large: with an exponent the step is as short for the one as for the other.
+cat >tank.yaml <<'YAML'
+run: {duration: 2, time_step: 0.002, scale: 1}
+vessel: {mode: towed, x: -1.5, speed: 0.4, hull: {length: 3, beam: 0.7, draught: 0.25, freeboard: 0.15}}
+ice: {thickness: 0.03, elastic_modulus: 5.0e+7, flexural_strength: 2.5e+4, crushing_strength: 2.0e+4,
+      crushing_exponent: -0.5, breakable: true, mean_floe_area: 0.2}
+domain: {x_min: -4, x_max: 5, y_min: -2, y_max: 2}
+YAML
+sed 's/0.002, scale: 1/0.008, scale: 16/; s/-1.5, speed: 0.4/-24, speed: 1.6/; s/: 3,/: 48,/; s/: 0.7,/: 11.2,/
+    s/: 0.25,/: 4,/; s/: 0.15}/: 2.4}/; s/: 0.03,/: 0.48,/; s/: 5.0e+7/: 8.0e+8/; s/: 2.5e+4/: 4.0e+5/
+    s/: 2.0e+4/: 5.12e+6/; s/area: 0.2/area: 51.2/; s/-4, x_max: 5/-64, x_max: 80/; s/-2, y_max: 2/-32, y_max: 32/' \
+    tank.yaml >ship.yaml
+short_up_to() {
+    expect 0 "$FRAM" check "$@"
+    sed -n 's/.*steps of .* s are short for the vessel up to \([0-9.e+-]*\) m.*/\1/p' err
+}
+for exponent in -0.5 0; do
+    # Without an exponent a strength goes with lambda alone.
+    strength=$([ $exponent = 0 ] && echo 3.2e5 || echo 5.12e6)
+    small=$(short_up_to tank.yaml --set ice.crushing_exponent=$exponent)
+    large=$(short_up_to ship.yaml --set ice.crushing_exponent=$exponent --set ice.crushing_strength="$strength")
+    python3 -c "assert abs($large / $small / 4 - 1) < 0.02" || fail "steps are short up to $small and $large m/s"
+done
+same "$(short_up_to tank.yaml --set ice.crushing_exponent=-1)" "" "a load that does not grow breaks ice after no way"
+
 # A ship that cannot steer turns on no radius, and no pattern is held against one.
 cat >helm.yaml <<'YAML'
 run: {duration: 60, time_step: 0.05}
