@@ -145,6 +145,19 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN])
     out[n] = '\0';
 }
 
+/* The area on which a crushing strength is judged, where its pressure goes with the area: the thickness of its ice,
+   squared [m2].  0: on any. */
+static double judged_on(const scenario_ice *i, const void *member)
+{
+    double h = member == &i->crushing_strength ? i->thickness : 0;
+    if (i->crushing_exponent == 0)
+        return 0;
+    for (int32_t k = 0; k < i->populations.count; k++)
+        if (member == &i->populations.data[k].crushing_strength)
+            h = automatic_or(i->populations.data[k].thickness, i->thickness);
+    return h * h;
+}
+
 static fram_status look_at_number(void *user, const scenario_key *key, const void *member, const char *path,
                                   fram_error *error)
 {
@@ -154,18 +167,21 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     if (is_automatic(value))
         return FRAM_OK;
     bool has_unit = *key->unit && strcmp(key->unit, "1") != 0;
-    char pattern[SANITY_PATTERN];
+    char pattern[SANITY_PATTERN], on[SANITY_ON_AREA] = "";
     sanity_pattern(path, pattern);
     if (is_angle(pattern))
         tell_radians(t, path, value);
+    double area = judged_on(&t->s->ice, member), judged = value;
+    if (area > 0)
+        judged = sanity_pressure_on(&t->s->ice, value, area, on);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
         double factor = sanity_at_scale(t->s, u->power);
         double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
-        if (strcmp(u->key, pattern) != 0 || (value >= least && value <= most) || (u->least > 0 && value == 0))
+        if (strcmp(u->key, pattern) != 0 || (judged >= least && judged <= most) || (u->least > 0 && value == 0))
             continue;
-        sanity_say(t->tell, t->to, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value, has_unit ? " " : "",
-                   has_unit ? key->unit : "", least, most, u->why, u->remedy);
+        sanity_say(t->tell, t->to, "%s: %.6g%s%s%s is outside of %.3g to %.3g, %s: %s", path, value,
+                   has_unit ? " " : "", has_unit ? key->unit : "", on, least, most, u->why, u->remedy);
     }
     return FRAM_OK;
 }

@@ -1,11 +1,13 @@
 #include "ice/feeding.h"
 #include "ice/floe.h"
+#include "ice/material.h"
 #include "sim/build_level.h"
 #include "sim/build_model.h"
 #include "sim/build_packed.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* ---- the band of an endless field ---- */
 
@@ -240,14 +242,26 @@ static void tell_level(const teller *t)
 
 /* ---- the material ---- */
 
+double sanity_pressure_on(const scenario_ice *i, double strength, double area, char words[SANITY_ON_AREA])
+{
+    const ice_material m = {.crushing_strength = strength, .crushing_exponent = i->crushing_exponent};
+    double pressure = ice_crushing_pressure(&m, area);
+    snprintf(words, SANITY_ON_AREA, " on 1 m2, %.4g Pa on the thickness squared, %.4g m2,", pressure, area);
+    return pressure;
+}
+
 static void tell_strength(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
-    if (i->crushing_strength < i->flexural_strength)
+    char on[SANITY_ON_AREA] = "";
+    double pressure = i->crushing_strength;
+    if (i->crushing_exponent != 0)
+        pressure = sanity_pressure_on(i, pressure, i->thickness * i->thickness, on);
+    if (pressure < i->flexural_strength)
         sanity_say(t->tell, t->to,
-                   "ice.crushing_strength: %.4g Pa is less than the flexural strength, %.4g Pa: ice is stronger in "
+                   "ice.crushing_strength: %.4g Pa%s is less than the flexural strength, %.4g Pa: ice is stronger in "
                    "compression than in bending; are they swapped?",
-                   i->crushing_strength, i->flexural_strength);
+                   i->crushing_strength, on, i->flexural_strength);
     bool varies = i->strength.flexural_variation > 0 || i->strength.crushing_variation > 0;
     if (varies && i->strength.correlation_length < i->thickness)
         sanity_say(t->tell, t->to,

@@ -50,6 +50,10 @@ double sanity_least_band(const scenario *s);
     "ice.populations[%d] asks for, and those that are made are larger than it says; give a smaller area, or " \
     "the run.scale (%g) by which it is found"
 
+/* The crushing pressure on an area of ice of a strength [Pa], and the words that say so after the strength. */
+enum { SANITY_ON_AREA = 80 };
+double sanity_pressure_on(const scenario_ice *i, double strength, double area, char words[SANITY_ON_AREA]);
+
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
 

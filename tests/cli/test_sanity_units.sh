@@ -50,8 +50,23 @@ all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction
     ice.strength.flexural_variation=1.5 ice.ridging_resistance=400 ice.breakable=true -- \
     "poisson_ratio: 0.03 is outside|about 0.3" \
     "crushing_exponent: 0.5|falls with the area" "ice_hull_static: 6 is|not an angle" "ice_hull_kinetic: 6 is" \
-    "crushing_strength: 4e+05 Pa is less than the flexural strength|swapped" "correlation_length: 0.01 m" \
+    "crushing_strength: 4e+05 Pa on 1 m2|is less than the flexural strength, 5e+05 Pa" "correlation_length: 0.01 m" \
     "flexural_variation: 1.5|not per cent" "ridging_resistance: 400 MN/m|R is 2 to 10"
+# A pressure that goes with the area is that on the thickness squared: 0.49 m2 here, 9 cm2 of a tank.
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e5 -- \
+    "crushing_strength: 2e+05 Pa on 1 m2, 2.857e+05 Pa on the thickness squared, 0.49 m2, is less than|swapped"
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=4e5 --
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e4 -- \
+    "crushing_strength: 20000 Pa on 1 m2, 2.857e+04 Pa on the thickness squared, 0.49 m2, is outside of 5e+04|kPa" \
+    "crushing_strength: 2e+04 Pa on 1 m2|is less than the flexural strength, 5e+05 Pa"
+cat >tank.yaml <<'YAML'
+run: {duration: 2, time_step: 0.002, scale: 1}
+vessel: {mode: towed, x: -1.5, speed: 0.4, hull: {length: 3, beam: 0.7, draught: 0.25, freeboard: 0.15}}
+ice: {thickness: 0.03, crushing_strength: 2.0e+4, crushing_exponent: -0.5, mean_floe_area: 0.2, concentration: 0.8}
+domain: {x_min: -4, x_max: 5, y_min: -2, y_max: 2}
+YAML
+all_told tank.yaml --
+all_told tank.yaml ice.crushing_strength=500 -- "is less than the flexural strength"
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
