@@ -172,7 +172,9 @@
     X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                                  \
     X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                      \
     X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                              \
-    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")             \
+    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa",                                                                  \
+      "crushing pressure; with an exponent e that on 1 m2, which goes with lambda^(1 - 2 e) in a scenario that is "    \
+      "scaled")                                                                                                        \
     X(strength, SECTION(strength), "", "scatter of both strengths over the ice, drawn by run.seed")                    \
     X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")     \
     X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                               \
@@ -180,7 +182,8 @@
       "crushing limits contacts between floes too; false: as if none could be crushed")                                \
     X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                     \
     X(ridging_resistance, REAL(0, 0, 1e3), "MN/m",                                                                     \
-      "R of the line load R h^1.25 D^-0.54 at which floes build a ridge; bounds contacts between them; 0: none")       \
+      "R of the line load R h^1.25 D^-0.54 at which floes build a ridge, which goes with lambda^1.29 in a scenario "   \
+      "that is scaled; bounds contacts between them; 0: none")                                                         \
     X(rafting_edge_angle_deg, REAL(0, 0, 85), "deg",                                                                   \
       "slope of broken edges, on which floes thin enough to bend out of the way slide over each other; bounds "        \
       "contacts between them; 0: none")                                                                                \
@@ -262,7 +265,8 @@
       "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "       \
       "splitting_factor R; toughness: fracture mechanics, by the load in the floe's plane; none: floes do not split") \
     X(splitting_factor, REAL(3, 0, 1e6), "1", "length: S_k; 1 or less produces no splitting")                         \
-    X(toughness, REAL(150e3, 1e-3, 1e12), "Pa m^0.5", "toughness: fracture toughness K_IC")                           \
+    X(toughness, REAL(150e3, 1e-3, 1e12), "Pa m^0.5",                                                                 \
+      "toughness: fracture toughness K_IC; goes with lambda^1.5 in a scenario that is scaled")                        \
     X(narrowness, REAL(4, 1, 1e6), "1",                                                                               \
       "R_size: a floe does not split into one whose box is longer than this many "                                    \
       "widths")                                                                                                       \
