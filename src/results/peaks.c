@@ -116,18 +116,22 @@ void peak_list_free(context *ctx, peak_list *list)
 
 /* ---- telling ---- */
 
+double peak_span_before(const scenario *s) { return 5 * sqrt(scenario_size(s)); }
+
 peak_breaks peak_breaks_before(const run_data *d, double time)
 {
     peak_breaks b = {.last = (double)NAN};
     const csv_table_column *when = csv_table_find(&d->fractures, "time"), *kind = csv_table_find(&d->fractures, "kind");
+    double span = peak_span_before(&d->s), slack = 1e-9 * (1 + fabs(time));
     for (int32_t i = 0; when && kind && i < d->fractures.rows; i++) {
-        double t = when->value.data[i], slack = 1e-9 * (1 + fabs(time));
-        if (t > time + slack || t < time - PEAK_BEFORE)
+        double t = when->value.data[i];
+        if (t > time + slack || t < time - span)
             continue;
         bool split = kind->value.data[i] == FRACTURE_SPLIT, bending = kind->value.data[i] == FRACTURE_BENDING;
         b.splits += split;
         b.bendings += bending;
-        b.last = split || bending ? t : b.last;
+        if (split || bending)
+            b.last = t > time - slack ? time : t;
     }
     return b;
 }
@@ -179,7 +183,7 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     if (b.splits + b.bendings > 0) {
         text_add(ctx, out, "; in all of the ice ");
         peak_tell_breaks(ctx, &b, out);
-        text_format(ctx, out, " in the %d s before", PEAK_BEFORE);
+        text_format(ctx, out, " in the %.3g s before", peak_span_before(&run->s));
     }
     text_add(ctx, out, ".");
 }

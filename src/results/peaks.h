@@ -17,13 +17,13 @@ typedef struct peak_list {
 fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, peak_list *list, fram_error *error);
 void peak_list_free(context *ctx, peak_list *list);
 
-/* How far before a peak it is told what broke [s]. */
-enum { PEAK_BEFORE = 5 };
+/* How far before a peak it is told what broke [s]: five seconds at full size, at other scales by Froude. */
+double peak_span_before(const scenario *s);
 
 /* The floes that broke in that span up to a time: how many by kind.  Parts of a sheet that came loose did not break. */
 typedef struct peak_breaks {
     int32_t splits, bendings;
-    double last; /* time of the latest; NaN without [s] */
+    double last; /* time of the latest, that time itself where both are of one step; NaN without [s] */
 } peak_breaks;
 peak_breaks peak_breaks_before(const run_data *d, double time);
 /* In words: "2 breaks in bending and 1 split". */

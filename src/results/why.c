@@ -164,14 +164,17 @@ static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text
 static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
 {
     peak_breaks b = peak_breaks_before(&y->run, d->time);
-    text_format(y->ctx, out, "\nIn the %d s before, in all of the ice: ", PEAK_BEFORE);
+    double span = peak_span_before(&y->run.s);
+    text_format(y->ctx, out, "\nIn the %.3g s before, in all of the ice: ", span);
     peak_tell_breaks(y->ctx, &b, out);
-    if (isfinite(b.last))
+    if (b.last < d->time)
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
+    else if (isfinite(b.last))
+        text_add(y->ctx, out, ", the last one in that step");
     const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
     double most = -1;
     for (int32_t i = 0; time && residual && i < y->run.series.rows; i++)
-        if (time[i] > d->time - PEAK_BEFORE && time[i] <= d->time)
+        if (time[i] > d->time - span && time[i] <= d->time)
             most = fmax(most, residual[i]);
     if (most < 0)
         text_add(y->ctx, out, "; series.csv holds no rows of that time, so the solver's residual is unknown\n");

@@ -140,12 +140,12 @@ static box2 peak_window(const peak_detail *d, double reach)
     return box;
 }
 
-void why_caption(const peak_detail *d, int32_t labels, char out[WHY_CAPTION])
+void why_caption(const peak_detail *d, double span, int32_t labels, char out[WHY_CAPTION])
 {
     snprintf(out, WHY_CAPTION,
-             "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %d s%s",
-             d->floe_count > 0 ? mechanism_text(peak_main_mechanism(d->mechanism)) : "no ice touches the vessel",
-             PEAK_BEFORE, labels > 0 ? "; discs: floes that no frame shows" : "");
+             "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %.3g s%s",
+             d->floe_count > 0 ? mechanism_text(peak_main_mechanism(d->mechanism)) : "no ice touches the vessel", span,
+             labels > 0 ? "; discs: floes that no frame shows" : "");
 }
 
 static fram_status draw_peak(const why *y, const replay *r, const replay_moment *m, const peak_detail *d, int32_t rank,
@@ -162,7 +162,8 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         most = fmax(most, part_of(d, &d->floe[i]));
         force = fmax(force, vec3_length(d->floe[i].force));
     }
-    fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, PEAK_BEFORE, &plan, error);
+    double span = peak_span_before(&y->run.s);
+    fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, span, &plan, error);
     if (status == FRAM_OK) {
         double length = force > 0 ? 0.3 * reach / force : 0;
         char title[120], caption[WHY_CAPTION];
@@ -178,7 +179,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         const char *on = scenario_vessel_name(&y->run.s, y->vessel);
         snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
                  d->load * unit.factor, unit.name, d->time);
-        why_caption(d, label_count, caption);
+        why_caption(d, span, label_count, caption);
         plan_view view = {.window = peak_window(d, reach),
                           .title = title,
                           .caption = caption,

@@ -157,6 +157,11 @@ expect 0 "$FRAM" why two --peak 1 --no-rerun --json --vessel barge
 same "$(value "j['vessel'], j['floes'][0]['floe']")" "barge 1" "the named vessel and its floe"
 expect 0 "$FRAM" why two --time 1 --vessel barge
 says "Vessel barge. " out
+# What broke is counted in the span before that five seconds of full size are.
+says "In the 5 s before" out
+expect 0 "$FRAM" run two.yaml -o tank --quiet --set run.scale=1
+expect 0 "$FRAM" why tank --peak 1 --no-rerun
+says "In the 0.913 s before" out
 expect 2 "$FRAM" why two --peak 1 --vessel 2
 says '--vessel: expected the name of a vessel, "tug", "barge"; found "2"' err
 # A picture that cannot be is told before a moment is computed again.

@@ -26,11 +26,18 @@ START_TEST(parts_that_came_loose_are_no_breaks)
 {
     static double time[] = {1, 7, 8, 9, 9.5, 12}, kind[] = {2, 1, 2, 2, 3, 2};
     csv_table_column columns[] = {{.name = "time", .value = {time, 6, 6}}, {.name = "kind", .value = {kind, 6, 6}}};
-    run_data d = {.fractures = {.columns = {columns, 2, 2}, .rows = 6}};
+    run_data d = {.s.run.scale = 30, .fractures = {.columns = {columns, 2, 2}, .rows = 6}};
     peak_breaks b = peak_breaks_before(&d, 10);
     ck_assert_int_eq(b.splits, 1);
     ck_assert_int_eq(b.bendings, 2);
     ck_assert_double_eq(b.last, 9);
+    b = peak_breaks_before(&d, nextafter(9, 0));
+    ck_assert_double_eq(b.last, nextafter(9, 0)); /* a rounding is no time before */
+    d.s.run.scale = 1.2;                          /* a 25th part of that: a fifth of the span, one second */
+    b = peak_breaks_before(&d, 9.3);
+    ck_assert_int_eq(b.splits, 0);
+    ck_assert_int_eq(b.bendings, 1);
+    d.s.run.scale = 30;
     kind[1] = kind[2] = kind[3] = 3;
     b = peak_breaks_before(&d, 10);
     ck_assert_int_eq(b.splits + b.bendings, 0);

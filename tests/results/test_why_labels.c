@@ -46,14 +46,15 @@ START_TEST(the_caption_tells_what_bears)
 {
     static peak_detail d;
     char caption[WHY_CAPTION];
-    why_caption(&d, 0, caption);
+    why_caption(&d, 5, 0, caption);
     ck_assert_msg(strncmp(caption, "no ice touches the vessel; arrows", 33) == 0, "%s", caption);
+    ck_assert_ptr_nonnull(strstr(caption, "of the last 5 s"));
     ck_assert_ptr_null(strstr(caption, "discs"));
     d.floe_count = 1;
     d.mechanism[MECHANISM_BENDING] = 10;
-    why_caption(&d, 1, caption);
+    why_caption(&d, 0.25, 1, caption);
     ck_assert_msg(strncmp(caption, "bending of ice", 14) == 0, "%s", caption);
-    ck_assert_ptr_nonnull(strstr(caption, "; discs: floes that no frame shows"));
+    ck_assert_ptr_nonnull(strstr(caption, "of the last 0.25 s; discs: floes that no frame shows"));
 }
 END_TEST
 
