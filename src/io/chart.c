@@ -112,7 +112,7 @@ static void find_range(const chart *c, chart_frame *f)
     f->x0 -= side;
     f->x1 += side;
     settle(&f->y0, &f->y1, c->log_y);
-    double pad = c->log_y ? 0 : 0.05 * (f->y1 - f->y0);
+    double pad = c->log_y ? 0 : CHART_PAD * (f->y1 - f->y0);
     f->y1 += f->y1 > 0 || c->free_y ? pad : 0;
     f->y0 -= f->y0 < 0 || c->free_y ? pad : 0;
 }

@@ -32,6 +32,10 @@ typedef struct chart {
     bool free_y;       /* the y axis need not begin at zero */
 } chart;
 
+/* How far a plain y axis goes on beyond its values, to each side of zero on which there are some, in parts of its
+   length without that. */
+#define CHART_PAD 0.05
+
 static inline chart_line chart_line_make(const char *name, const double *x, const double *y, int32_t count, bool thick)
 {
     return (chart_line){.name = name, .x = x, .y = y, .count = count, .thick = thick};

@@ -2,6 +2,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/sort.h"
+#include "io/chart.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,24 +99,33 @@ void load_distribution_free(context *ctx, load_distribution *d)
     array_free(ctx, &d->density);
 }
 
-double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, bool *cut)
+static void load_range(const double *value, int32_t count, double *low, double *high)
 {
-    double low = HUGE_VAL, high = -HUGE_VAL, largest = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (isfinite(value[i])) {
+            *low = fmin(*low, value[i]);
+            *high = fmax(*high, value[i]);
+        }
+}
+
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut)
+{
+    double low = 0, high = 0, least = 0, greatest = 0;
     for (int32_t k = 0; k < lines; k++)
-        for (int32_t i = 0; i < count; i++)
-            if (isfinite(averaged[k][i])) {
-                low = fmin(low, averaged[k][i]);
-                high = fmax(high, averaged[k][i]);
-            }
-    double margin = 0.1 * (high - low);
-    *cut = false;
-    for (int32_t i = 0; i < count; i++) {
-        if (fabs(raw[i]) > fabs(largest))
-            largest = raw[i];
-        if (!(high > low))
-            continue;
-        *cut |= raw[i] < low - margin || raw[i] > high + margin;
-        raw[i] = fmin(fmax(raw[i], low - margin), high + margin);
-    }
+        load_range(averaged[k], count, &low, &high);
+    load_range(raw, count, &least, &greatest);
+    double margin = 0.1 * (high - low), from = low - margin, to = high + margin;
+    /* The axis of what is drawn then. */
+    double bottom = fmin(low, fmax(least, from)), top = fmax(high, fmin(greatest, to));
+    double pad = CHART_PAD * (top - bottom), largest = -least >= greatest ? least : greatest;
+    bottom -= bottom < 0 ? pad : 0;
+    top += top > 0 ? pad : 0;
+    *cut = LOAD_CUT_NONE;
+    if (!(high > low) || (least >= bottom && greatest <= top))
+        return largest;
+    *cut = largest < bottom || largest > top ? LOAD_CUT_LARGEST : LOAD_CUT_SOME;
+    for (int32_t i = 0; i < count; i++)
+        if (isfinite(raw[i]))
+            raw[i] = fmin(fmax(raw[i], from), to);
     return largest;
 }

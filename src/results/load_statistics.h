@@ -15,10 +15,17 @@ typedef struct load_distribution {
     double independent;               /* values, at least 1 */
 } load_distribution;
 
-/* Spikes of single steps go as far as the averaged values do, and a tenth of their range beyond, so that an axis shows
-   those.  averaged: `lines` arrays of `count` values.  Returns the value of largest size before that, 0 without any;
-   *cut: whether one went beyond. */
-double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, bool *cut);
+/* Which values of single steps a picture does not show. */
+typedef enum load_cut {
+    LOAD_CUT_NONE = 0,
+    LOAD_CUT_SOME, /* but that of largest size */
+    LOAD_CUT_LARGEST
+} load_cut;
+
+/* Where values of single steps lie beyond the axis of a chart that shows them as far as the averaged values and zero,
+   and a tenth of that range beyond, they end there.  averaged: `lines` arrays of `count` values.  Returns the value of
+   largest size before that, 0 without any. */
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut);
 
 /* Values at equal distances `step` in time.  Without values all is empty.  false: no memory. */
 bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out);

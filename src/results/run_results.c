@@ -92,7 +92,8 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         }
         int32_t rows = column[TIMES].count;
         const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
-        bool cut;
+        static const char *const beyond[] = {"", "; some lie beyond the picture", ", beyond the picture"};
+        load_cut cut;
         double spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut);
         const chart_line lines[] = {
             chart_line_make("along the vessel, each step", column[TIMES].data, column[RAW_X].data, rows, false),
@@ -108,7 +109,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         else
             snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);
         snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g kN%s",
-                 scenario_averaging_window(s), of_mean, spike, cut ? ", beyond the picture" : "");
+                 scenario_averaging_window(s), of_mean, spike, beyond[cut]);
         chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }

@@ -113,23 +113,50 @@ START_TEST(bars_hold_their_own_values)
 }
 END_TEST
 
-/* The axis shows the averaged loads: spikes end a tenth of their range beyond, and the largest is told. */
+/* The axis shows the averaged loads: spikes beyond it end a tenth of their range from them, and the largest is told. */
 START_TEST(spikes)
 {
     double raw[4] = {0, -700, 90, 400};
     const double x[4] = {0, -100, -50, 0}, y[4] = {0, 40, 100, (double)NAN};
     const double *const averaged[] = {x, y};
-    bool cut = false;
+    load_cut cut = LOAD_CUT_NONE;
     assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -700, 0);
-    ck_assert(cut);
+    ck_assert_int_eq(cut, LOAD_CUT_LARGEST);
     assert_absolute(raw[0], 0, 0);
     assert_absolute(raw[1], -120, 1e-12);
     assert_absolute(raw[2], 90, 0);
     assert_absolute(raw[3], 120, 1e-12);
     assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -120, 1e-12);
-    ck_assert(!cut);
+    ck_assert_int_eq(cut, LOAD_CUT_NONE);
 }
 END_TEST
 
-TEST_MAIN("load statistics", spikes, bars_hold_their_own_values, a_series_is_worth_its_independent_values,
-          the_band_holds_the_truth_as_often_as_it_says, histogram_and_exceedance_count_every_value)
+/* Zero is on the axis, and the chart has a margin of its own: 5 % of -120 to 120 here. */
+START_TEST(spikes_on_the_axis)
+{
+    const double down[2] = {-100, -80}, both[2] = {-100, 100};
+    const double *const one[] = {down}, *const two[] = {both};
+    const struct {
+        const double *const *averaged;
+        double raw[2], drawn[2], largest;
+        load_cut cut;
+    } cases[] = {{one, {-100, -10}, {-100, -10}, -100, LOAD_CUT_NONE},
+                 {one, {-110, 0}, {-110, 0}, -110, LOAD_CUT_NONE},
+                 {two, {-131, 130}, {-131, 130}, -131, LOAD_CUT_NONE},
+                 {two, {-134, 130}, {-120, 120}, -134, LOAD_CUT_LARGEST},
+                 {one, {-100, 20}, {-100, 10}, -100, LOAD_CUT_SOME},
+                 {one, {-100, (double)NAN}, {-100, (double)NAN}, -100, LOAD_CUT_NONE}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double raw[2] = {cases[i].raw[0], cases[i].raw[1]};
+        load_cut cut;
+        assert_absolute(load_spikes_cut(raw, cases[i].averaged, 1, 2, &cut), cases[i].largest, 0);
+        ck_assert_msg(cut == cases[i].cut, "case %zu: %d", i, (int)cut);
+        for (int k = 0; k < 2; k++)
+            ck_assert_msg(raw[k] == cases[i].drawn[k] || isnan(cases[i].drawn[k]), "case %zu: %g", i, raw[k]);
+    }
+}
+END_TEST
+
+TEST_MAIN("load statistics", spikes, spikes_on_the_axis, bars_hold_their_own_values,
+          a_series_is_worth_its_independent_values, the_band_holds_the_truth_as_often_as_it_says,
+          histogram_and_exceedance_count_every_value)
