@@ -169,6 +169,15 @@ int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
     return snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
 }
 
+int clock_digits(double step)
+{
+    enum { FEWEST = 1, MOST = 6 };
+    int digits = FEWEST;
+    for (double unit = 0.1; digits < MOST && step > 0 && unit > step * (1 + 1e-9); unit /= 10)
+        digits++;
+    return digits;
+}
+
 double real_read(const char *text, char **end)
 {
     const char *at = text + (*text == '-'), *first = at;

@@ -17,6 +17,9 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
    1e280 take a tenth of printf's time.  Returns its length. */
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
 
+/* Digits behind the point with which times of a clock that are `step` apart are told apart [s]; one at least. */
+int clock_digits(double step);
+
 typedef enum number_fault {
     NUMBER_GOOD = 0,
     NUMBER_NOT_A_NUMBER, /* not of the form [+-]digits[.digits][e[+-]digits]; also nan, inf, hexadecimal */

@@ -31,7 +31,7 @@ static void duration_text(double seconds, char out[32])
     else if (isinf(seconds))
         snprintf(out, 32, "none in sight");
     else
-        snprintf(out, 32, seconds < 100 ? "%.0f s" : "%.0f min", seconds < 100 ? seconds : seconds / 60);
+        snprintf(out, 32, seconds < 100 ? "%.3g s" : "%.0f min", seconds < 100 ? seconds : seconds / 60);
 }
 
 /* ---- the first words ---- */
@@ -81,7 +81,9 @@ static void management_verdict(management_page *p)
         html_verdict_line(&p->html, VERDICT_CAUTION, text, advice);
     }
     if (isfinite(s->largest_time))
-        snprintf(text, sizeof text, "The largest floe that reached it was %.3g m across, at %.0f s.",
+        snprintf(text, sizeof text,
+                 s->largest_time < 100 ? "The largest floe that reached it was %.3g m across, at %.3g s."
+                                       : "The largest floe that reached it was %.3g m across, at %.0f s.",
                  s->place[MANAGE_AT].largest, s->largest_time);
     else
         snprintf(text, sizeof text, "No loose floe reached it.");

@@ -25,7 +25,7 @@ static void describe_events(context *ctx, const station_data *d, text_buffer *b)
             continue;
         char text[160];
         station_tell_event(d, i, text, sizeof text);
-        text_format(ctx, b, "t = %.1f s: %s.\n", events->time[i], text);
+        text_format(ctx, b, events->time[i] < 100 ? "t = %.3g s: %s.\n" : "t = %.1f s: %s.\n", events->time[i], text);
     }
     if (count > TOLD)
         text_format(ctx, b, "and %d more events.\n", (int)(count - TOLD));

@@ -1,5 +1,6 @@
 #include "results/video.h"
 
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/csv_read.h"
 #include "io/folder.h"
@@ -161,7 +162,8 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
     int width = v->options->width, height = v->options->height - CURVE_HEIGHT;
     char caption[128];
     fram_status status = replay_moment_at(&v->r, time, &v->moment, error);
-    snprintf(caption, sizeof caption, "t = %.1f s of %.1f s", time, v->time.data[v->time.count - 1]);
+    int digits = clock_digits(v->step);
+    snprintf(caption, sizeof caption, "t = %.*f s of %.*f s", digits, time, digits, v->time.data[v->time.count - 1]);
     if (v->options->camera != VIDEO_PLAN)
         return status == FRAM_OK ? draw_space(v, time, caption, page, error) : status;
     if (status == FRAM_OK)

@@ -37,6 +37,16 @@ START_TEST(times_have_units)
 }
 END_TEST
 
+/* Frames 0.02 s apart are not both of 0.0 s. */
+START_TEST(clocks_tell_their_steps_apart)
+{
+    static const double step[] = {60, 0.1, 1 / 30.0, 0.02, 0.01, 0.0025, 1e-12, 0};
+    static const int digits[] = {1, 1, 2, 2, 2, 3, 6, 1};
+    for (size_t i = 0; i < sizeof step / sizeof *step; i++)
+        ck_assert_msg(clock_digits(step[i]) == digits[i], "%g s: %d digits", step[i], clock_digits(step[i]));
+}
+END_TEST
+
 START_TEST(reals_print_as_the_shortest_text)
 {
     ck_assert_str_eq(text_of(0), "0");
@@ -221,6 +231,6 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", times_have_units, reals_print_as_the_shortest_text, digits_are_as_many_as_asked,
-          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
-          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", times_have_units, clocks_tell_their_steps_apart, reals_print_as_the_shortest_text,
+          digits_are_as_many_as_asked, digits_are_those_of_printf, numbers_are_read_as_by_strtod,
+          reals_of_any_bits_come_back, reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

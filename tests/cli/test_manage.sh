@@ -245,6 +245,7 @@ whole, tank = (json.load(open(name + ".json"))["run"] for name in ("whole", "tan
 assert whole["at_vessel"]["windows"] == tank["at_vessel"]["windows"] == 13, (whole, tank)
 for key in ("unmanaged_comes_in_least", "unmanaged_comes_in_median"):
     assert 0 < whole[key] < 3000 and abs(tank[key] * 150 ** 0.5 / whole[key] - 1) < 1e-4, (key, whole[key], tank[key])
+assert f"<td>{tank['unmanaged_comes_in_least']:.3g} s</td>" in open("tank/manage.html").read(), tank
 PY
 
 # What cannot be told is refused.
