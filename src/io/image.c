@@ -1,5 +1,7 @@
 #include "io/image.h"
 
+#include "base/load_unit.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,8 +33,9 @@ void image_ramp(double t, double rgb[3])
 
 void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
 {
-    bool mega = newton >= 1e6;
-    snprintf(out, IMAGE_FORCE_TEXT, "%.3g %s", newton * (mega ? 1e-6 : 1e-3), mega ? "MN" : "kN");
+    load_unit unit = newton >= 1e6 ? (load_unit){"MN", 1e-6} : kilonewtons_or_less(newton);
+    double value = newton * unit.factor;
+    snprintf(out, IMAGE_FORCE_TEXT, value < 1e3 ? "%.3g %s" : "%.0f %s", value, unit.name);
 }
 
 #ifdef FRAM_HAVE_CAIRO

@@ -1,6 +1,7 @@
 /* The page of ice management: what a client asks first, then figures, tables, charts and the plan. */
 #include "results/manage_parts.h"
 
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
@@ -128,13 +129,15 @@ static void place_table(management_page *p, const manage_summary *s, const char 
     html_table_end(&p->html);
 }
 
-static void load_row(management_page *p, const char *name, double own, double beside)
+static void load_row(management_page *p, const char *name, load_unit unit, double own, double beside)
 {
+    char head[64];
+    snprintf(head, sizeof head, "%s [%s]", name, unit.name);
     html_row_begin(&p->html);
-    html_cell(&p->html, name);
-    html_number(&p->html, own);
+    html_cell(&p->html, head);
+    html_number(&p->html, unit.factor * own);
     if (p->os) {
-        html_number(&p->html, beside);
+        html_number(&p->html, unit.factor * beside);
         html_number(&p->html, beside > 0 ? own / beside : (double)NAN);
     }
     html_row_end(&p->html);
@@ -162,11 +165,13 @@ static void load_comparison(management_page *p)
     const char *const heads[] = {"after the transient", "this run", "comparison run", "this / comparison"};
     const manage_summary none = {.limit = 0}, *a = p->s, *b = p->os ? p->os : &none;
     html_table_begin(&p->html, heads, p->os ? 4 : 2);
-    load_row(p, "mean horizontal ice load [kN]", 1e-3 * a->load_mean, 1e-3 * b->load_mean);
-    load_row(p, "largest horizontal ice load, averaged [kN]", 1e-3 * a->load_most, 1e-3 * b->load_most);
-    load_row(p, "largest offset [m]", a->offset_most, b->offset_most);
-    load_row(p, "largest line tension [kN]", 1e-3 * a->tension_most, 1e-3 * b->tension_most);
-    load_row(p, "damage-equivalent range of line tension [kN]", 1e-3 * a->tension_range, 1e-3 * b->tension_range);
+    const load_unit load = kilonewtons_or_less(fmax(a->load_most, b->load_most)), metres = {"m", 1};
+    const load_unit tension = kilonewtons_or_less(fmax(a->tension_most, b->tension_most));
+    load_row(p, "mean horizontal ice load", load, a->load_mean, b->load_mean);
+    load_row(p, "largest horizontal ice load, averaged", load, a->load_most, b->load_most);
+    load_row(p, "largest offset", metres, a->offset_most, b->offset_most);
+    load_row(p, "largest line tension", tension, a->tension_most, b->tension_most);
+    load_row(p, "damage-equivalent range of line tension", tension, a->tension_range, b->tension_range);
     html_table_end(&p->html);
     fatigue(p);
 }

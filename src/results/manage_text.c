@@ -1,6 +1,7 @@
 /* Results of ice management in a few lines, or as JSON. */
 #include "results/manage.h"
 
+#include "base/load_unit.h"
 #include "base/number_text.h"
 
 #include <math.h>
@@ -45,6 +46,23 @@ static void tell_time(context *ctx, const char *name, double least, double media
     text_add(ctx, out, "\n");
 }
 
+static void tell_loads(context *ctx, const manage_summary *a, text_buffer *out)
+{
+    load_unit load = kilonewtons_or_less(a->load_most), tension = kilonewtons_or_less(a->tension_most);
+    if (isnan(a->load_mean))
+        text_add(ctx, out, "ice load not known: the run ends before run.transient\n");
+    else
+        text_format(ctx, out, "ice load %.4g %s mean, %.4g %s at most\n", load.factor * a->load_mean, load.name,
+                    load.factor * a->load_most, load.name);
+    if (!isnan(a->offset_most))
+        text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
+    if (!isnan(a->tension_most))
+        text_format(ctx, out, "line tension %.4g %s at most\n", tension.factor * a->tension_most, tension.name);
+    if (!isnan(a->tension_range))
+        text_format(ctx, out, "fatigue of line %d: %.4g %s, damage-equivalent range of tension\n", (int)a->tension_line,
+                    tension.factor * a->tension_range, tension.name);
+}
+
 static void tell(context *ctx, const manage_summary *s, const manage_summary *beside, text_buffer *out)
 {
     const manage_summary *all[2] = {s, beside};
@@ -54,17 +72,7 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
                     "concentration", "managed", "unbroken", "mean [m]", "largest [m]");
         for (int p = 0; p < MANAGE_PLACES; p++)
             tell_place(ctx, a, p, out);
-        if (isnan(a->load_mean))
-            text_add(ctx, out, "ice load not known: the run ends before run.transient\n");
-        else
-            text_format(ctx, out, "ice load %.4g kN mean, %.4g kN at most\n", 1e-3 * a->load_mean, 1e-3 * a->load_most);
-        if (!isnan(a->offset_most))
-            text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
-        if (!isnan(a->tension_most))
-            text_format(ctx, out, "line tension %.4g kN at most\n", 1e-3 * a->tension_most);
-        if (!isnan(a->tension_range))
-            text_format(ctx, out, "fatigue of line %d: %.4g kN, damage-equivalent range of tension\n",
-                        (int)a->tension_line, 1e-3 * a->tension_range);
+        tell_loads(ctx, a, out);
     }
     text_format(ctx, out, "managed: floes of at most %.3g m", s->limit);
     if (!isnan(s->largest_time))

@@ -5,13 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 
-load_unit load_unit_for(double newton)
-{
-    if (newton >= 1e7)
-        return (load_unit){"MN", 1e-6};
-    return newton >= 1e4 ? (load_unit){"kN", 1e-3} : (load_unit){"N", 1};
-}
-
 void report_number(double value, char out[32])
 {
     double size = fabs(value);

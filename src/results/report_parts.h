@@ -2,6 +2,7 @@
 #ifndef RESULTS_REPORT_PARTS_H
 #define RESULTS_REPORT_PARTS_H
 
+#include "base/load_unit.h"
 #include "ice/fracture.h"
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
@@ -20,12 +21,6 @@ typedef struct report {
     double_array load;    /* horizontal magnitude of its averaged ice load, every row [N] */
 } report;
 
-/* A unit in which a load of this size is told: N, kN or MN. */
-typedef struct load_unit {
-    const char *name;
-    double factor;
-} load_unit;
-load_unit load_unit_for(double newton);
 /* The vessel that is reported from now on, its load. */
 fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error);
 /* How the report calls it: "the vessel" or "vessel NAME". */

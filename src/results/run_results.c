@@ -1,6 +1,7 @@
 #include "results/run_results.h"
 
 #include "base/channel_statistics.h"
+#include "base/load_unit.h"
 #include "io/chart.h"
 #include "io/csv_read.h"
 #include "io/path.h"
@@ -75,6 +76,20 @@ static void tell_without_ice(context *ctx, const scenario *s, int32_t vessel, co
                   vessel_title_of(&entry).text, column[TIMES].data[rows - 1]);
 }
 
+/* All of them, in the unit of the largest one, which is returned. */
+static load_unit scale_loads(double_array column[CHANNELS])
+{
+    double most = 0;
+    for (int k = RAW_X; k < CHANNELS; k++)
+        for (int32_t i = 0; i < column[k].count; i++)
+            most = fmax(most, fabs(column[k].data[i]));
+    load_unit unit = kilonewtons_or_less(most);
+    for (int k = RAW_X; k < CHANNELS; k++)
+        for (int32_t i = 0; i < column[k].count; i++)
+            column[k].data[i] *= unit.factor;
+    return unit;
+}
+
 static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder, fram_error *error)
 {
     char to[PATH_ROOM];
@@ -86,10 +101,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
     if (status == FRAM_OK) {
         tell_without_ice(ctx, s, vessel, folder, column);
         double mean = mean_after(&column[TIMES], &column[RAW_X], s->run.transient);
-        for (int k = RAW_X; k < CHANNELS; k++) {
-            for (int32_t i = 0; i < column[k].count; i++)
-                column[k].data[i] *= 1e-3;
-        }
+        load_unit unit = scale_loads(column);
         int32_t rows = column[TIMES].count;
         const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
         static const char *const beyond[] = {"", "; some lie beyond the picture", ", beyond the picture"};
@@ -100,17 +112,18 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
             chart_line_make("along X, averaged", column[TIMES].data, column[MEAN_X].data, rows, true),
             chart_line_make("along Y, averaged", column[TIMES].data, column[MEAN_Y].data, rows, true),
         };
-        char title[80], of_mean[96], subtitle[256];
+        char title[80], of_mean[96], subtitle[256], force[24];
+        snprintf(force, sizeof force, "force [%s]", unit.name);
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
         if (isfinite(mean))
             snprintf(of_mean, sizeof of_mean,
-                     "mean along the vessel (x forward) %.4g kN after %g s, negative: it resists", mean * 1e-3,
-                     s->run.transient);
+                     "mean along the vessel (x forward) %.4g %s after %g s, negative: it resists", mean * unit.factor,
+                     unit.name, s->run.transient);
         else
             snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);
-        snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g kN%s",
-                 scenario_averaging_window(s), of_mean, spike, beyond[cut]);
-        chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
+        snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g %s%s",
+                 scenario_averaging_window(s), of_mean, spike, unit.name, beyond[cut]);
+        chart c = chart_make(title, subtitle, "time [s]", force, lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }
     for (int k = 0; k < CHANNELS; k++)

@@ -1,6 +1,7 @@
 /* station.png: what a run says about keeping station on one page. */
 #include "results/station_parts.h"
 
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 #include "geometry/polygon.h"
 #include "io/page.h"
@@ -31,7 +32,50 @@ static void describe_events(context *ctx, const station_data *d, text_buffer *b)
         text_format(ctx, b, "and %d more events.\n", (int)(count - TOLD));
 }
 
-static void describe(context *ctx, const station_data *d, text_buffer *b)
+/* By all that the charts show. */
+typedef struct station_units {
+    load_unit load, tension, power;
+    double most_power; /* [W] */
+} station_units;
+
+static double largest_of(const double_array *values)
+{
+    double most = 0;
+    for (int32_t i = 0; i < values->count; i++)
+        most = fmax(most, fabs(values->data[i]));
+    return most;
+}
+
+static station_units find_units(const station_data *d)
+{
+    double power = largest_of(&d->column[POWER]);
+    return (station_units){kilonewtons_or_less(largest_of(&d->load)),
+                           kilonewtons_or_less(largest_of(&d->column[TENSION])), megawatts_or_less(power), power};
+}
+
+static void describe_loads(context *ctx, const station_data *d, const station_units *u, text_buffer *b)
+{
+    double transient = d->s->run.transient, energy = station_energy(d, transient);
+    channel_statistics load = station_statistics(d, &d->load, transient);
+    channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
+    channel_statistics power = station_statistics(d, &d->column[POWER], transient);
+    load_unit l = u->load, t = u->tension, p = u->power, e = gigajoules_or_less(energy, u->most_power);
+    text_format(ctx, b, "Ice load: mean %.4g %s, significant %.4g %s, peak %.4g %s.\n", load.mean * l.factor, l.name,
+                load.significant * l.factor, l.name, load.greatest * l.factor, l.name);
+    if (d->lines > 0)
+        text_format(ctx, b, "Largest line tension: mean %.4g %s, peak %.4g %s.\n", tension.mean * t.factor, t.name,
+                    tension.greatest * t.factor, t.name);
+    if (station_lines_gone(d) > 0)
+        text_format(ctx, b, "%d of %d lines parted or were let go: tensions are those of the lines that were left.\n",
+                    (int)station_lines_gone(d), (int)d->lines);
+    if (d->thrusters > 0)
+        text_format(ctx, b,
+                    "Power: mean %.4g %s, largest %.4g %s; energy %.4g %s.\nThrusters saturated %.3g %% of the time.\n",
+                    power.mean * p.factor, p.name, power.greatest * p.factor, p.name, energy * e.factor, e.name,
+                    100 * station_statistics(d, &d->column[SATURATED], transient).mean);
+}
+
+static void describe(context *ctx, const station_data *d, const station_units *u, text_buffer *b)
 {
     const scenario *s = d->s;
     double transient = s->run.transient;
@@ -40,10 +84,7 @@ static void describe(context *ctx, const station_data *d, text_buffer *b)
         describe_events(ctx, d, b);
         return;
     }
-    channel_statistics offset = station_statistics(d, &d->offset, transient),
-                       load = station_statistics(d, &d->load, transient);
-    channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
-    channel_statistics power = station_statistics(d, &d->column[POWER], transient);
+    channel_statistics offset = station_statistics(d, &d->offset, transient);
     text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient,
                 scenario_averaging_window(s));
     text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
@@ -53,19 +94,7 @@ static void describe(context *ctx, const station_data *d, text_buffer *b)
                     100 * station_exceedance(d, &d->offset, limit, transient));
     else
         text_add(ctx, b, "; no limit is set.\n");
-    text_format(ctx, b, "Ice load: mean %.4g kN, significant %.4g kN, peak %.4g kN.\n", load.mean * 1e-3,
-                load.significant * 1e-3, load.greatest * 1e-3);
-    if (d->lines > 0)
-        text_format(ctx, b, "Largest line tension: mean %.4g kN, peak %.4g kN.\n", tension.mean * 1e-3,
-                    tension.greatest * 1e-3);
-    if (station_lines_gone(d) > 0)
-        text_format(ctx, b, "%d of %d lines parted or were let go: tensions are those of the lines that were left.\n",
-                    (int)station_lines_gone(d), (int)d->lines);
-    if (d->thrusters > 0)
-        text_format(ctx, b,
-                    "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",
-                    power.mean * 1e-6, power.greatest * 1e-6, station_energy(d, transient) * 1e-9,
-                    100 * station_statistics(d, &d->column[SATURATED], transient).mean);
+    describe_loads(ctx, d, u, b);
     describe_events(ctx, d, b);
 }
 
@@ -100,8 +129,8 @@ static chart_line over_time(const station_data *d, const char *name, int32_t col
     return line;
 }
 
-static fram_status draw_station(context *ctx, const station_data *d, const char *text, const char *path,
-                                fram_error *error)
+static fram_status draw_station(context *ctx, const station_data *d, const station_units *u, const char *text,
+                                const char *path, fram_error *error)
 {
     const scenario *s = d->s;
     double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(station_limits(d)->offset_limit, 0);
@@ -134,15 +163,18 @@ static fram_status draw_station(context *ctx, const station_data *d, const char 
     const chart_line loads[2] = {over_time(d, "along X", LOAD_X, 0), over_time(d, "along Y", LOAD_Y, 1)};
     const chart_line tension = over_time(d, "largest of all lines", TENSION, 0);
     const chart_line power = over_time(d, "thruster power", POWER, 0);
+    char force[24], pull[24], watts[24];
+    snprintf(force, sizeof force, "force [%s]", u->load.name);
+    snprintf(pull, sizeof pull, "tension [%s]", u->tension.name);
+    snprintf(watts, sizeof watts, "power [%s]", u->power.name);
     const page_panel panels[5] = {
         {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 4 : 3), 20, 60, 620, 560, true},
         {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
         {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
-        {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},
+        {chart_make("Ice load", "averaged", "time [s]", force, loads, 2), 660, 580, 920, 270, false},
         d->lines > 0
-            ? (page_panel){chart_make("Line tension", "", "time [s]", "tension [kN]", &tension, 1), 660, 840, 920, 270,
-                           false}
-            : (page_panel){chart_make("Power", "", "time [s]", "power [MW]", &power, 1), 660, 840, 920, 270, false},
+            ? (page_panel){chart_make("Line tension", "", "time [s]", pull, &tension, 1), 660, 840, 920, 270, false}
+            : (page_panel){chart_make("Power", "", "time [s]", watts, &power, 1), 660, 840, 920, 270, false},
     };
     char title[SCENARIO_TEXT_SIZE + 40];
     bool named = scenario_names_vessels(s);
@@ -165,12 +197,13 @@ fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, 
     char path[PATH_ROOM];
     fram_status status = station_data_read(ctx, s, vessel, o, folder, ".png", &d, path, error);
     if (status == FRAM_OK) {
-        describe(ctx, &d, &b);
-        scale(&d.column[LOAD_X], 1e-3);
-        scale(&d.column[LOAD_Y], 1e-3);
-        scale(&d.column[TENSION], 1e-3);
-        scale(&d.column[POWER], 1e-6);
-        status = b.failed ? error_memory(error) : draw_station(ctx, &d, b.data, path, error);
+        station_units units = find_units(&d);
+        describe(ctx, &d, &units, &b);
+        scale(&d.column[LOAD_X], units.load.factor);
+        scale(&d.column[LOAD_Y], units.load.factor);
+        scale(&d.column[TENSION], units.tension.factor);
+        scale(&d.column[POWER], units.power.factor);
+        status = b.failed ? error_memory(error) : draw_station(ctx, &d, &units, b.data, path, error);
     }
     text_free(ctx, &b);
     station_data_free(ctx, &d);

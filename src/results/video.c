@@ -1,5 +1,6 @@
 #include "results/video.h"
 
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/csv_read.h"
@@ -119,8 +120,9 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     cairo_fill(page);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
     vessel_entry first = scenario_vessel_entry(&v->s, 0);
-    snprintf(text, sizeof text, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g kN",
-             vessel_title_of(&first).text, v->most * 1e-3);
+    load_unit unit = kilonewtons_or_less(v->most);
+    snprintf(text, sizeof text, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g %s",
+             vessel_title_of(&first).text, v->most * unit.factor, unit.name);
     image_text_fitted(page, left, top - 5, 12, false, right - left, text);
 }
 

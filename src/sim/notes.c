@@ -1,5 +1,6 @@
 #include "sim/notes.h"
 
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
@@ -58,8 +59,10 @@ static void note_kind(const note_taker *n, const scenario *s, const ice_kind *k)
     note_fact(n, "ice: %.4g m thick, %.4g m of it under water; characteristic length l = %.4g m", k->thickness,
               k->thickness * s->ice.density / e->water_density,
               ice_characteristic_length(&m, k->thickness, e->water_density, e->gravity));
-    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g kN per metre of width",
-              ice_crushing_pressure(&m, 1), ice_crushing_pressure(&m, k->thickness) * k->thickness * 1e-3);
+    double line = ice_crushing_pressure(&m, k->thickness) * k->thickness;
+    load_unit unit = kilonewtons_or_less(line);
+    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g %s per metre of width",
+              ice_crushing_pressure(&m, 1), line * unit.factor, unit.name);
 }
 
 static void note_ice(const note_taker *n, const scenario *s)
@@ -143,11 +146,13 @@ static void note_fracture(const note_taker *n, const scenario *s)
     fracture_settings f = build_fracture_settings(s);
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
+        double crushing = ice_crushing_pressure(&m, areas[k]) * areas[k];
+        load_unit u = kilonewtons_or_less(fmax(crushing, fmax(e.radial_capacity, e.wedge_capacity)));
         note_fact(n,
-                  "fracture: on %.3g m2 the radial crack opens at %.4g kN, %d wedges break off at %.4g kN, %.4g m from "
-                  "the load; crushing there gives %.4g kN",
-                  areas[k], e.radial_capacity * 1e-3, (int)f.wedges, e.wedge_capacity * 1e-3, e.breaking_radius,
-                  ice_crushing_pressure(&m, areas[k]) * areas[k] * 1e-3);
+                  "fracture: on %.3g m2 the radial crack opens at %.4g %s, %d wedges break off at %.4g %s, %.4g m from "
+                  "the load; crushing there gives %.4g %s",
+                  areas[k], e.radial_capacity * u.factor, u.name, (int)f.wedges, e.wedge_capacity * u.factor, u.name,
+                  e.breaking_radius, crushing * u.factor, u.name);
     }
     /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
     edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0], EDGE_STRAIGHT);

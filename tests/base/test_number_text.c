@@ -1,4 +1,5 @@
-/* base/number_text: round trips to the bit, strict reading, any locale. */
+/* base/number_text: round trips to the bit, strict reading, any locale; base/load_unit: units by size. */
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "base/random.h"
 #include "testing.h"
@@ -44,6 +45,26 @@ START_TEST(clocks_tell_their_steps_apart)
     static const int digits[] = {1, 1, 2, 2, 2, 3, 6, 1};
     for (size_t i = 0; i < sizeof step / sizeof *step; i++)
         ck_assert_msg(clock_digits(step[i]) == digits[i], "%g s: %d digits", step[i], clock_digits(step[i]));
+}
+END_TEST
+
+START_TEST(units_go_with_the_size)
+{
+    const struct {
+        load_unit unit;
+        const char *name;
+        double factor;
+    } cases[] = {{load_unit_for(9.9e3), "N", 1},           {load_unit_for(1e4), "kN", 1e-3},
+                 {load_unit_for(1e7), "MN", 1e-6},         {kilonewtons_or_less(3.351), "N", 1},
+                 {kilonewtons_or_less(1e4), "kN", 1e-3},   {kilonewtons_or_less(1e8), "kN", 1e-3},
+                 {kilonewtons_or_less(0), "kN", 1e-3},     {kilonewtons_or_less((double)NAN), "kN", 1e-3},
+                 {megawatts_or_less(5.982), "W", 1},       {megawatts_or_less(2e4), "MW", 1e-6},
+                 {gigajoules_or_less(60, 5.982), "J", 1},  {gigajoules_or_less(6e4, 5.982), "kJ", 1e-3},
+                 {gigajoules_or_less(60, 1e6), "GJ", 1e-9}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ck_assert_str_eq(cases[i].unit.name, cases[i].name);
+        ck_assert_double_eq(cases[i].unit.factor, cases[i].factor);
+    }
 }
 END_TEST
 
@@ -231,6 +252,7 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", times_have_units, clocks_tell_their_steps_apart, reals_print_as_the_shortest_text,
-          digits_are_as_many_as_asked, digits_are_those_of_printf, numbers_are_read_as_by_strtod,
-          reals_of_any_bits_come_back, reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", times_have_units, clocks_tell_their_steps_apart, units_go_with_the_size,
+          reals_print_as_the_shortest_text, digits_are_as_many_as_asked, digits_are_those_of_printf,
+          numbers_are_read_as_by_strtod, reals_of_any_bits_come_back, reals_are_read_strictly,
+          integers_are_read_strictly, locales_change_nothing)

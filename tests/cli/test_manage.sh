@@ -182,8 +182,9 @@ import csv, sys
 path = sys.argv[1] + "/series.csv"
 rows = list(csv.reader(open(path)))
 columns = [next(i for i, n in enumerate(rows[0]) if n.startswith(f"line_{k}_tension")) for k in (1, 2)]
+columns.append(next(i for i, n in enumerate(rows[0]) if n.startswith("line_tension_max")))
 for i, row in enumerate(rows[1:]):
-    for part, column in zip((0.5, 1), columns):
+    for part, column in zip((0.5, 1, 1), columns):
         row[column] = repr((1000.0 if sys.argv[1] == "full" else 500.0) * part * (i % 2))
 csv.writer(open(path, "w"), lineterminator="\n").writerows(rows)
 PY
@@ -194,6 +195,10 @@ number "j['run']['tension_range_equivalent']" "$(python3 -c 'print(1000 * (7 / 1
 number "j['run']['tension_line']" 2
 expect 0 "$FRAM" manage full --beside half
 says "fatigue of line 2" out
+# Under 10 kN all is told in newtons.
+says "line tension 1000 N at most" out
+says "<td>largest line tension [N]</td>" full/manage.html
+says "<td>mean horizontal ice load [kN]</td>" full/manage.html
 grep -q "takes 8 times the damage" full/manage.html || fail "the page does not compare the damages"
 
 # A vessel that met the sheet alone: no loose floe came.
