@@ -144,7 +144,7 @@ FRAM_API fram_status fram_manage(fram_context *context, const char *run, const f
 typedef struct fram_pressure_definition {
     size_t size;                     /* of this struct, set by fram_pressure_default */
     const char *output;              /* folder for the results; must be named */
-    double panel;                    /* 1: side of a panel [m] */
+    double panel;                    /* side of a panel [m]; NaN: 1 at full size, with run.scale/30 at others */
     const double *frames;            /* x of frames, ascending, ship coordinates [m]; in place of every `panel` */
     const double *stringers;         /* z of stringers, ascending [m] */
     int frame_count, stringer_count; /* 0: none */
@@ -156,12 +156,12 @@ typedef struct fram_pressure_definition {
 FRAM_API void fram_pressure_default(fram_pressure_definition *definition, size_t size);
 #define fram_pressure_default(definition) fram_pressure_default((definition), sizeof *(definition))
 /* Mean, largest and cumulative ice pressure by panel of the hull (panels.csv, hull.vtp, pressure.png) and the largest
-   pressure by area beside that of ISO 19906 (area.csv), and the mean force by zone and mechanism (zones.csv).  The run
-   is computed again, every step, from its nearest
-   checkpoint before `from`, so that it takes as long as the run did; its folder is not changed.  FRAM_ERROR_INPUT for
-   a folder without a run, a vessel or times that it does not have, a panel longer than the hull or so small that it is
-   cut into more than half a million pieces, lines that do not ascend; FRAM_ERROR_USAGE where a file that the run's
-   scenario names would be written over. */
+   pressure by area beside that of ISO 19906 (area.csv; of a run.scale from 10 on), and the mean force by zone and
+   mechanism (zones.csv).  The run is computed again, every step, from its nearest checkpoint before `from`, so that it
+   takes as long as the run did; its folder is not changed.  FRAM_ERROR_INPUT for a folder without a run, a vessel or
+   times that it does not have, a panel longer than the hull or so small that it is cut into more than half a million
+   pieces, lines that do not ascend; FRAM_ERROR_USAGE where a file that the run's scenario names would be written over.
+ */
 FRAM_API fram_status fram_pressure(fram_context *context, const char *run, const fram_pressure_definition *definition,
                                    fram_error *error);
 

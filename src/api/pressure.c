@@ -4,13 +4,15 @@
 #include "fram/results.h"
 #include "sim/hull_pressure.h"
 
+#include <math.h>
+
 #define PANEL_LEAST 1e-6
 #define PANEL_LONGEST 1e4
 enum { LINES_MOST = 10000 };
 
 static void fram_pressure_fill(fram_pressure_definition *definition)
 {
-    *definition = (fram_pressure_definition){.size = sizeof *definition, .panel = 1};
+    *definition = (fram_pressure_definition){.size = sizeof *definition, .panel = (double)NAN};
 }
 DEFINITION_DEFAULT(fram_pressure, fram_pressure_definition)
 
@@ -29,7 +31,7 @@ static fram_status take_pressure(const fram_pressure_definition *given, fram_pre
     if (status == FRAM_OK && (!d->output || !*d->output))
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "output", "a folder for the results must be named");
     if (status == FRAM_OK)
-        status = number_check("panel", d->panel, PANEL_LEAST, PANEL_LONGEST, error);
+        status = isnan(d->panel) ? FRAM_OK : number_check("panel", d->panel, PANEL_LEAST, PANEL_LONGEST, error);
     if (status == FRAM_OK)
         status = number_check("from", d->from, 0, TIME_MOST, error);
     if (status == FRAM_OK)

@@ -89,7 +89,7 @@ int command_pressure(const command_row *self, int argc, char **argv)
     fram_pressure_default(&d);
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.output, "DIR", "folder for the results (required)"},
-        {"--panel", NULL, OPTION_REAL, &d.panel, "M", "side of a panel [m] (1)"},
+        {"--panel", NULL, OPTION_REAL, &d.panel, "M", "side of a panel [m] (1 at full size, times run.scale/30)"},
         {"--frames", NULL, OPTION_TEXT, &frames, "LIST",
          "x of frames instead of every M: coordinates or FIRST:SPACING:LAST, separated by commas [m]"},
         {"--stringers", NULL, OPTION_TEXT, &stringers, "LIST", "z of stringers, in the same way [m]"},

@@ -189,12 +189,15 @@ static fram_status keep_inputs(pressure_map *p, fram_error *error)
 fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error)
 {
     char path[PATH_ROOM];
-    pressure_map p = {.ctx = ctx, .o = o};
+    pressure_options own = *o;
+    pressure_map p = {.ctx = ctx, .o = &own};
     fram_status status = path_join(o->folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_read(ctx, path, NULL, &p.s, error);
     if (status != FRAM_OK)
         return status;
+    if (isnan(own.rules.size))
+        own.rules.size = scenario_size(&p.s);
     status = scenario_choose_vessel(&p.s, p.o->folder, p.o->vessel, &p.vessel, error);
     if (status == FRAM_OK)
         status = find_last_time(&p, error);

@@ -8,7 +8,7 @@
 typedef struct pressure_options {
     const char *folder; /* of the run */
     const char *output; /* folder for the results, made where it is not there */
-    panel_rules rules;
+    panel_rules rules;  /* size NaN: a metre of full size */
     double from, to;    /* steps that end after `from`, up to `to`; `to` <= 0: the run's end [s] */
     const char *vessel; /* its name; NULL: the only one, or the first */
     bool force;         /* write into a folder that is not empty */

@@ -7,6 +7,7 @@
 #include "io/record_layout.h"
 #include "io/scenario_file.h"
 #include "io/vtk_file.h"
+#include "sim/build_ice.h"
 #include "sim/run_folder.h"
 
 #include <errno.h>
@@ -77,9 +78,13 @@ static fram_status write_curve(pressure_map *p, fram_error *error)
     text_add(p->ctx, &text, "columns,rows,area[m2],pressure_largest[Pa],time[s],iso_19906[Pa]\n");
     for (int k = 0; k < WINDOW_SHAPES; k++) {
         const window_most *m = &p->most[k];
-        if (m->area > 0)
-            text_format(p->ctx, &text, "%d,%d,%.12g,%.12g,%.9g,%.12g\n", (int)window_shapes[k].columns,
-                        (int)window_shapes[k].rows, m->area, m->pressure, m->time, iso_local_pressure(m->area));
+        if (!(m->area > 0))
+            continue;
+        text_format(p->ctx, &text, "%d,%d,%.12g,%.12g,%.9g,", (int)window_shapes[k].columns, (int)window_shapes[k].rows,
+                    m->area, m->pressure, m->time);
+        if (!build_is_of_tank(&p->s)) // the standard's pressures are those of the sea
+            text_format(p->ctx, &text, "%.12g", iso_local_pressure(m->area));
+        text_add(p->ctx, &text, "\n");
     }
     return write_text(p, "area.csv", &text, error);
 }

@@ -400,7 +400,7 @@ START_TEST(pressure_on_panels)
     REFUSED(fram_pressure(NULL, run, &panels, &e));
     REFUSED(fram_pressure(c, NULL, &panels, &e));
     REFUSED(fram_pressure(c, run, NULL, &e));
-    panels.panel = nan_value;
+    panels.panel = infinite;
     REFUSED(fram_pressure(c, run, &panels, &e));
     panels.panel = 0;
     REFUSED(fram_pressure(c, run, &panels, &e));

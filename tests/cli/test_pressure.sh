@@ -93,6 +93,25 @@ if built_with cairo; then
     expect 0 "$FRAM" pressure run -o coarse --panel 9 --from 2.9 --quiet
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" size map/pressure.png coarse/pressure.png || fail "coarse/pressure.png"
 fi
+# A tank has panels of a metre of full size, and no pressures of the sea beside its own.
+cat >tank.yaml <<'YAML'
+run: {duration: 0.3, time_step: 0.01, scale: 3}
+vessel:
+  {mode: prescribed, x: -2.11, speed: 0.5, hull: {form: box, length: 4, beam: 2, draught: 0.4, freeboard: 0.3}}
+domain: {boundary: open, x_min: -6, x_max: 6, y_min: -3, y_max: 3}
+ice: {source: level, thickness: 0.05, crushing_strength: 2.0e5, level: {x_min: 0}}
+output: {frame_interval: 0}
+YAML
+expect 0 "$FRAM" run tank.yaml -o tank --quiet
+expect 0 "$FRAM" pressure tank -o small --quiet
+python3 - <<'PYTHON' || fail "panels of a tank"
+from tables import table
+bow = [p for p in table("small/panels.csv") if p["side"] == "bow"]
+assert len(bow) == 20 * 7, len(bow)
+assert all(abs(p["area"] / 0.01 - 1) < 1e-6 for p in bow), bow
+curve = table("small/area.csv")
+assert curve and all(c["pressure_largest"] > 0 and c["iso_19906"] == "" for c in curve), curve
+PYTHON
 # From the start as from a checkpoint.
 mkdir moved
 mv run/checkpoint* moved/
