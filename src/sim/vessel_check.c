@@ -8,6 +8,7 @@
 #include "sim/meeting_check.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
+#include "vessel/hydrostatics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -136,22 +137,51 @@ static void warn_of_angle(context *ctx, const vessel_entry *e, const char *key, 
                   what, angle, fabs(arm));
 }
 
-static void warn_of_stability(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
+/* How the upright hull floats with its own mass, ship coordinates: at its draught, or where it moves up or down to.
+   Nothing is displaced where no mass floats, as by what the hull displaces as a whole. */
+static fram_status find_upright(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
+                                const solid *body, hull_hydrostatics *out, fram_error *error)
 {
-    const hull_hydrostatics *f = &hull->floats;
-    if (e->keys->mode != VESSEL_FREE || !s->environment.water || !(f->volume > 0))
-        return;
+    double mass = mass_of(e, hull), level = 0;
+    *out = hull->floats;
+    if (mass == hull->displaced_mass)
+        return FRAM_OK;
+    fram_status status =
+        hull_level_of(ctx, &body->surface, mass / s->environment.water_density, &level, error); /* about the centre */
+    if (status == FRAM_OK)
+        status = hull_hydrostatics_at(ctx, &body->surface, level, out, error);
+    out->centre_of_buoyancy = vec3_add(out->centre_of_buoyancy, hull->centre);
+    if (status != FRAM_ERROR_INPUT)
+        return status;
+    *out = (hull_hydrostatics){.volume = 0};
+    return FRAM_OK;
+}
+
+static void tell_stability(context *ctx, const vessel_entry *e, const vessel_model *hull, const hull_hydrostatics *f)
+{
     double lift = f->centre_of_buoyancy.z - hull->centre.z;
     double gm = f->waterplane_xx / f->volume + lift, gm_long = f->waterplane_yy / f->volume + lift;
     if (!(gm > 0) || !(gm_long > 0)) {
         log_write(ctx, LOG_WARNING,
-                  "the vessel capsizes: its %s metacentric height is %.4g m at the draught; lower "
+                  "the vessel capsizes: its %s metacentric height is %.4g m where it floats; lower "
                   "%s.centre_of_gravity_z, %.4g m, by more than that",
                   gm > 0 ? "longitudinal" : "transverse", gm > 0 ? gm_long : gm, e->path, hull->centre.z);
     } else {
         warn_of_angle(ctx, e, "centre_of_gravity_y", "heels", hull->centre.y - f->centre_of_buoyancy.y, gm);
         warn_of_angle(ctx, e, "centre_of_gravity_x", "trims", hull->centre.x - f->centre_of_buoyancy.x, gm_long);
     }
+}
+
+static fram_status warn_of_stability(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
+                                     const solid *body, fram_error *error)
+{
+    hull_hydrostatics upright;
+    if (e->keys->mode != VESSEL_FREE || !s->environment.water || !(hull->floats.volume > 0))
+        return FRAM_OK;
+    fram_status status = find_upright(ctx, s, e, hull, body, &upright, error);
+    if (status == FRAM_OK && upright.volume > 0)
+        tell_stability(ctx, e, hull, &upright);
+    return status;
 }
 
 /* Towed hulls are free to heave. */
@@ -347,7 +377,8 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
 {
     const vessel_model *hull = &m->vessels.data[row];
     fram_status status = warn_of_floes(ctx, s, e, w, row, error);
-    warn_of_stability(ctx, s, e, hull);
+    if (status == FRAM_OK)
+        status = warn_of_stability(ctx, s, e, hull, &m->solids.data[hull->solid], error);
     warn_of_mass(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
     warn_of_springs(ctx, s, e, hull, w, row);

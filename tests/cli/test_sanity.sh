@@ -131,6 +131,16 @@ grep 'no load will come' err && fail "a vessel that another one comes to is told
 expect 0 "$FRAM" check two.yaml --set vessels.barge.propulsion.bollard_pull=2e5
 grep 'no load will come' err && fail "a ship that drives itself is told to rest"
 
+# Stability, list and trim are those where the hull floats with its mass, for a box KB + BM = T / 2 + B^2 / 12 T.
+barge=(--set vessels.barge.hull.draught=3 --set vessels.barge.hull.freeboard=2)
+light=("${barge[@]}" --set vessels.barge.mass=1.5e6 --set vessels.barge.centre_of_gravity_z=6.5)
+expect 0 "$FRAM" check two.yaml "${light[@]}"
+grep 'capsizes' err && fail "a light barge is told to capsize at another draught"
+told two.yaml "vessels[1].centre_of_gravity_y: the vessel heels by about 5 degrees" "${light[@]}" \
+    --set vessels.barge.centre_of_gravity_y=0.5
+told two.yaml "its transverse metacentric height is -0.5991 m where it floats" "${barge[@]}" \
+    --set vessels.barge.mass=4.6e6 --set vessels.barge.centre_of_gravity_z=4.5
+
 # Thrusters that hold the heading alone, and no mooring that holds the rest.
 grep -v -e mooring -e depth -e lines -e count -e breaking ship.yaml >adrift.yaml
 expect 0 "$FRAM" check adrift.yaml --set vessel.positioning.active=true --set vessel.positioning.control=heading
