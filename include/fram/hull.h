@@ -98,7 +98,7 @@ typedef struct fram_hull_surface {
     double inner_volume;
     double well;    /* part of what the waterline (z = 0, or half the height) goes round that is a hole in it */
     bool open_boat; /* more than half of it: plating without a deck, and full of water */
-    bool half;      /* the file has half a hull, open along its centre plane y = 0, and was closed there on request */
+    bool half; /* the file has half a hull or a quarter, open along y = 0 or x = 0, and was closed there on request */
 } fram_hull_surface;
 FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
 #define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))

@@ -56,7 +56,7 @@ static void describe_file(fram_hull *h, const hull_file_report *r)
         .flipped = r->flipped,
         .inner_parts = r->inner_parts,
         .inner_volume = r->inner_volume,
-        .half = r->half,
+        .half = r->half != HULL_WHOLE,
         .well = r->well,
         .open_boat = r->well > OPEN_BOAT,
     };

@@ -362,8 +362,9 @@ static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, 
 static void warn_of_half(const common_options *common, const fram_hull_surface *s)
 {
     if (s->half && !common->quiet)
-        fprintf(stderr, "warning: the file has half a hull, open along its centre plane y = 0, and is closed there: "
-                        "what follows is half a ship; mirror it in the program that made the file\n");
+        fprintf(stderr,
+                "warning: the file has half a hull or a quarter, open along y = 0 or x = 0, and is closed there: "
+                "what follows is half a ship; mirror it in the program that made the file\n");
 }
 
 static void warn_of_well(const common_options *common, const fram_hull_surface *s)

@@ -73,7 +73,7 @@ static fram_status attempt_all(const hull_request *q, hull_outcome *out)
         out->error = narrow.error;
         out->half = narrow.half;
     }
-    out->report.half = status == FRAM_OK && out->half;
+    out->report.half = status == FRAM_OK ? out->half : HULL_WHOLE;
     return status;
 }
 

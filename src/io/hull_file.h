@@ -4,6 +4,7 @@
 #define IO_HULL_FILE_H
 
 #include "geometry/mesh_repair.h"
+#include "io/hull_skin.h"
 #include "io/mesh_file.h"
 
 /* What may be done to the surface.  A NaN leaves the number to Fram. */
@@ -30,7 +31,7 @@ typedef struct hull_file_report {
     int32_t flipped;     /* triangles turned on request */
     int32_t inner_parts; /* closed parts inside the hull, left out: tanks, the inner face of a plating */
     double inner_volume; /* by which the hull encloses more without them [m3] */
-    bool half;           /* it was half a hull, open along its centre plane, and was closed there on request */
+    hull_half half;      /* it was half a hull, or a quarter, and was closed there on request */
     double well;         /* part of what the waterline goes round that is a hole in it (hull_skin.h) */
 } hull_file_report;
 

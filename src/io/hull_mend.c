@@ -79,14 +79,21 @@ static const char *work_for(mesh_defect defect)
     }
 }
 
-static const char *advice_for(const hull_reading *r, mesh_defect defect)
+enum { ADVICE_ROOM = 200 };
+
+static void advise(const hull_reading *r, mesh_defect defect, char text[ADVICE_ROOM])
 {
-    if (defect != MESH_OPEN || !r->out->half)
-        return work_for(defect);
-    return r->file->format == MESH_GDF
-               ? "it is half a hull, open along its centre plane y = 0: set ISY to 1 in the third line of the file"
-               : "it is half a hull, open along its centre plane y = 0: mirror it there in the program that made the "
-                 "file";
+    static const char *const lines[] = {
+        [HULL_WHOLE] = "", [HULL_HALF_X] = "ISX", [HULL_HALF_Y] = "ISY", [HULL_QUARTER] = "ISX and ISY"};
+    const hull_half half = r->out->half;
+    if (defect != MESH_OPEN || half == HULL_WHOLE)
+        snprintf(text, ADVICE_ROOM, "%s", work_for(defect));
+    else if (r->file->format == MESH_GDF)
+        snprintf(text, ADVICE_ROOM, "it is %s: set %s to 1 in the third line of the file", hull_half_words(half),
+                 lines[half]);
+    else
+        snprintf(text, ADVICE_ROOM, "it is %s: mirror it there in the program that made the file",
+                 hull_half_words(half));
 }
 
 /* The corner of a face that is not in its edge from a to b; -1 where the face does not run along that. */
@@ -118,21 +125,32 @@ static bool find_twins(const mesh *m, const int32_t edge[2], int32_t twin[2])
     return find_twins_along(m, edge[0], edge[1], twin) || find_twins_along(m, edge[1], edge[0], twin);
 }
 
+static fram_status refuse_twins(const hull_reading *r, const int32_t twin[2])
+{
+    char one[KEY_ROOM], other[KEY_ROOM], text[128];
+    name_face(r, twin[0], one);
+    name_face(r, twin[1], other);
+    bool image = other[0] && strcmp(one, other) == 0 && (r->file->mirror_x || r->file->mirror_y);
+    snprintf(text, sizeof text, "it has the corners of %s",
+             image      ? "its own mirror image"
+             : other[0] ? other
+                        : "another triangle");
+    return refuse_face(r, twin[0], text, "leave one of the two out in the program that made the file");
+}
+
 static fram_status refuse_report(hull_reading *r, const mesh_report *report)
 {
     r->out->defect = report->defect;
     int32_t twin[2];
-    char text[256], other[KEY_ROOM];
-    if (report->defect == MESH_NOT_MANIFOLD && find_twins(&r->file->surface, report->edge, twin)) {
-        name_face(r, twin[1], other);
-        snprintf(text, sizeof text, "it has the corners of %s", other[0] ? other : "another triangle");
-        return refuse_face(r, twin[0], text, "leave one of the two out in the program that made the file");
-    }
+    char text[256], advice[ADVICE_ROOM];
+    if (report->defect == MESH_NOT_MANIFOLD && find_twins(&r->file->surface, report->edge, twin))
+        return refuse_twins(r, twin);
     if (report->open_edges > 1)
         snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
     else
         snprintf(text, sizeof text, "the %s", report->text);
-    return refuse_face(r, report->face, text, advice_for(r, report->defect));
+    advise(r, report->defect, advice);
+    return refuse_face(r, report->face, text, advice);
 }
 
 /* ---- steps ---- */
@@ -364,7 +382,7 @@ static fram_status fill_holes(hull_reading *r)
 
 static fram_status find_half(hull_reading *r)
 {
-    bool done = hull_is_half(r->ctx, &r->file->surface, r->tolerance, &r->out->half);
+    bool done = hull_find_half(r->ctx, &r->file->surface, r->tolerance, &r->out->half);
     return done ? FRAM_OK : error_memory(&r->out->error);
 }
 

@@ -22,7 +22,7 @@ typedef struct hull_outcome {
     mesh_defect defect; /* for which the surface was refused; MESH_EMPTY for any
                            other reason */
     bool one_sided;     /* it was refused because it has one side only */
-    bool half;          /* half a hull, open along its centre plane */
+    hull_half half;     /* half a hull, or a quarter */
 } hull_outcome;
 
 /* Seal cracks up to seal_width [m], fill holes where that is asked for, and the

@@ -64,34 +64,59 @@ bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside)
 
 /* ---- halves ---- */
 
-/* Open edges in the centre plane, not counting those of an open top; -1 where others are open too. */
-static int32_t count_central(const mesh *m, const mesh_adjacency *adjacency, double top, double tolerance)
+/* The planes of `may_end` in which an edge lies. */
+static int planes_of(vec3 a, vec3 b, int may_end, double tolerance)
 {
-    int32_t count = 0;
+    int x = fmax(fabs(a.x), fabs(b.x)) <= tolerance ? HULL_HALF_X : 0;
+    int y = fmax(fabs(a.y), fabs(b.y)) <= tolerance ? HULL_HALF_Y : 0;
+    return (x | y) & may_end;
+}
+
+/* The planes of `may_end` in which edges are open, not counting those of an open top; none where others are open.  An
+   edge in both planes is one of either. */
+static int find_planes(const mesh *m, const mesh_adjacency *adjacency, int may_end, double top, double tolerance)
+{
+    int found = 0;
     for (int32_t h = 0; h < adjacency->neighbour.count; h++) {
         if (adjacency->neighbour.data[h] >= 0)
             continue;
         vec3 a = m->vertex.data[m->face.data[h / 3].v[h % 3]];
         vec3 b = m->vertex.data[m->face.data[h / 3].v[(h % 3 + 1) % 3]];
-        bool at_top = fmin(a.z, b.z) >= top - tolerance, central = fmax(fabs(a.y), fabs(b.y)) <= tolerance;
-        if (!at_top && !central)
-            return -1;
-        count += central && !at_top;
+        int planes = planes_of(a, b, may_end, tolerance);
+        if (fmin(a.z, b.z) >= top - tolerance)
+            continue;
+        if (planes == 0)
+            return 0;
+        found |= planes == HULL_QUARTER ? 0 : planes;
     }
-    return count;
+    return found;
 }
 
-bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half)
+bool hull_find_half(context *ctx, const mesh *m, double tolerance, hull_half *half)
 {
     box3 box = mesh_bounds(m);
-    *half = false;
-    if (box.lo.y < -tolerance && box.hi.y > tolerance)
+    int may_end = (box.lo.x < -tolerance && box.hi.x > tolerance ? 0 : HULL_HALF_X) |
+                  (box.lo.y < -tolerance && box.hi.y > tolerance ? 0 : HULL_HALF_Y);
+    *half = HULL_WHOLE;
+    if (may_end == 0)
         return true;
     mesh_adjacency adjacency = {0};
     bool done = mesh_adjacency_build(ctx, m, &adjacency) == FRAM_OK;
-    *half = done && count_central(m, &adjacency, box.hi.z, tolerance) > 0;
+    if (done)
+        *half = (hull_half)find_planes(m, &adjacency, may_end, box.hi.z, tolerance);
     mesh_adjacency_free(ctx, &adjacency);
     return done;
+}
+
+const char *hull_half_words(hull_half half)
+{
+    static const char *const words[] = {
+        [HULL_WHOLE] = "a whole hull",
+        [HULL_HALF_X] = "half a hull, open along x = 0",
+        [HULL_HALF_Y] = "half a hull, open along its centre plane y = 0",
+        [HULL_QUARTER] = "a quarter of a hull, open along x = 0 and y = 0",
+    };
+    return words[half];
 }
 
 /* ---- wells ---- */

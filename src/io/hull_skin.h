@@ -16,9 +16,15 @@ typedef struct hull_inside {
    false: no memory. */
 bool hull_keep_outer_skin(context *ctx, mesh *m, hull_inside *inside);
 
-/* The surface is half of a ship's: all of it lies on one side of the centre plane y = 0, and it is open there, and at
-   most there and at its top.  Heights and breadths are equal to `tolerance` [m].  false: no memory. */
-bool hull_is_half(context *ctx, const mesh *m, double tolerance, bool *half);
+/* Planes of symmetry in which a surface ends, bits: half a hull, or with both a quarter of one. */
+typedef enum hull_half { HULL_WHOLE = 0, HULL_HALF_X = 1, HULL_HALF_Y = 2, HULL_QUARTER = 3 } hull_half;
+/* "half a hull, open along its centre plane y = 0" */
+const char *hull_half_words(hull_half half);
+
+/* Those of a surface that is half of a ship's, or a quarter: all of it lies on one side of each, it is open there, and
+   at most there and at its top.  HULL_WHOLE: it is none.  Heights and breadths are equal to `tolerance` [m].  false: no
+   memory. */
+bool hull_find_half(context *ctx, const mesh *m, double tolerance, hull_half *half);
 
 /* Part of what the section at the waterline goes round that is a hole in it, as a moonpool: nearly all of it where the
    surface is an open boat, plating without a deck, which is full of water.  At z = 0, or half the height where that
