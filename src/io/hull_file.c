@@ -21,6 +21,8 @@ static const double wide_seals[] = {2, 5, 10, 20};
 enum { WIDE_SEALS = sizeof wide_seals / sizeof *wide_seals };
 /* Freeboard that is tried for a remedy, as a part of the longest side. */
 #define REMEDY_FREEBOARD (1.0 / 20)
+/* Part of the longest side by which a whole hull may be off the plane that it lies about. */
+#define OFF_SYMMETRY 1e-3
 
 hull_file_options hull_file_defaults(void) { return (hull_file_options){1, (double)NAN, false, (double)NAN}; }
 
@@ -81,17 +83,35 @@ static fram_status attempt_all(const hull_request *q, hull_outcome *out)
 
 typedef struct remedy {
     hull_file_options options;
+    hull_half unmirrored; /* planes in which the file is not mirrored then */
     char words[120];
 } remedy;
 
-enum { MOST_REMEDIES = WIDE_SEALS + 4 };
+enum { MOST_REMEDIES = WIDE_SEALS + 7 };
+
+/* A file that has both sides already, and is mirrored all the same. */
+static int list_unmirrored(const hull_request *q, remedy list[MOST_REMEDIES])
+{
+    static const char *const names[] = {[HULL_HALF_X] = "ISX", [HULL_HALF_Y] = "ISY", [HULL_QUARTER] = "ISX and ISY"};
+    const int mirrored = (q->file->mirror_x ? HULL_HALF_X : 0) | (q->file->mirror_y ? HULL_HALF_Y : 0);
+    int n = 0;
+    for (int planes = HULL_HALF_X; planes <= HULL_QUARTER; planes++) {
+        if ((planes & mirrored) != planes)
+            continue;
+        list[n].options = q->options;
+        list[n].unmirrored = (hull_half)planes;
+        snprintf(list[n++].words, sizeof list->words, "the file has both halves already: set %s to 0 in its third line",
+                 names[planes]);
+    }
+    return n;
+}
 
 /* What may help, the least first. */
 static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
 {
     const hull_file_options given = q->options;
     double length = length_of(q), freeboard = REMEDY_FREEBOARD * length;
-    int n = 0;
+    int n = list_unmirrored(q, list);
     if (!isnan(given.seal_width)) {
         list[n].options = given;
         list[n].options.seal_width = (double)NAN;
@@ -126,18 +146,43 @@ static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
     return n;
 }
 
+/* Half a hull does not lie about the plane in which it is to be mirrored; half of a catamaran may be sound alone. */
+static bool lies_about(const mesh *m, hull_half planes)
+{
+    box3 box = mesh_bounds(m);
+    double most = OFF_SYMMETRY * hull_longest_side(m);
+    return (!(planes & HULL_HALF_X) || fabs(box.lo.x + box.hi.x) <= most) &&
+           (!(planes & HULL_HALF_Y) || fabs(box.lo.y + box.hi.y) <= most);
+}
+
+static fram_status try_remedy(const hull_request *q, const remedy *with, hull_outcome *trial)
+{
+    hull_request other = *q;
+    mesh_file file = {.elements = 0};
+    other.options = with->options;
+    fram_status status = FRAM_OK;
+    if (with->unmirrored != HULL_WHOLE) {
+        status = hull_unmirror(q->ctx, q->file, with->unmirrored, &file) ? FRAM_OK : FRAM_ERROR_MEMORY;
+        if (status == FRAM_OK && !lies_about(&file.surface, with->unmirrored))
+            status = FRAM_ERROR_INPUT;
+        other.file = &file;
+    }
+    if (status == FRAM_OK)
+        status = attempt_all(&other, trial);
+    mesh_free(q->ctx, &trial->surface);
+    mesh_file_free(q->ctx, &file);
+    return status;
+}
+
 /* Put the first remedy that makes the file sound in the place of the advice
  * what to do elsewhere. */
 static fram_status name_remedy(const hull_request *q, fram_error *error)
 {
-    remedy list[MOST_REMEDIES];
+    remedy list[MOST_REMEDIES] = {{.unmirrored = HULL_WHOLE}};
     hull_outcome trial = {.defect = MESH_EMPTY};
     int count = list_remedies(q, list);
     for (int i = 0; i < count; i++) {
-        hull_request other = *q;
-        other.options = list[i].options;
-        fram_status status = attempt_all(&other, &trial);
-        mesh_free(q->ctx, &trial.surface);
+        fram_status status = try_remedy(q, &list[i], &trial);
         if (status == FRAM_ERROR_MEMORY)
             return error_memory(error);
         if (status != FRAM_OK)

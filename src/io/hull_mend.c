@@ -428,6 +428,34 @@ static bool copy_file(context *ctx, const mesh_file *from, mesh_file *to)
     return true;
 }
 
+/* Which of so many images of a panel a triangle is of: bit 1 in x, bit 2 in y, as the planes. */
+static int planes_of_image(const mesh_file *f, int image) { return f->mirror_x ? image : 2 * image; }
+
+/* The images of a panel stand one after the other in the order of their planes, each as many triangles (io/gdf.c). */
+bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_file *out)
+{
+    if (!copy_file(ctx, file, out))
+        return false;
+    const int32_t images = (file->mirror_x ? 2 : 1) * (file->mirror_y ? 2 : 1), count = file->element.count;
+    int32_t kept = 0, end = 0;
+    for (int32_t first = 0; first < count; first = end) {
+        while (end < count && file->element.data[end] == file->element.data[first])
+            end++;
+        for (int32_t f = first; f < end; f++) {
+            int32_t image = images * (f - first) / (end - first);
+            if (planes_of_image(file, (int)image) & (int)planes)
+                continue;
+            out->surface.face.data[kept] = file->surface.face.data[f];
+            out->element.data[kept] = file->element.data[f];
+            out->line.data[kept++] = file->line.data[f];
+        }
+    }
+    out->surface.face.count = out->element.count = out->line.count = kept;
+    out->mirror_x = file->mirror_x && !(planes & HULL_HALF_X);
+    out->mirror_y = file->mirror_y && !(planes & HULL_HALF_Y);
+    return mesh_drop_unused_vertices(ctx, &out->surface);
+}
+
 fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out)
 {
     mesh_file file;

@@ -30,6 +30,10 @@ typedef struct hull_outcome {
    it is.  FRAM_ERROR_INPUT without advice, FRAM_ERROR_MEMORY. */
 fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out);
 
+/* A copy of a file that is not mirrored in some of the planes in which it is.  false: no memory; what `out` holds is to
+   be freed even then. */
+bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_file *out);
+
 /* [m] */
 double hull_longest_side(const mesh *m);
 /* Triangles in z = 0, which whoever reads a GDF takes for lids of the water plane, and leaves out. */

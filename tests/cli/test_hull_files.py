@@ -268,6 +268,8 @@ def refused(words, remedy=None, floats=None, close=1e-6):
 def cases():
     catamaran = join(box(-20, 20, -9, -6, -3, 2), box(-20, 20, 6, 9, -3, 2))
     fine = half_box_panels(40, 10, 3, 8, 8)
+    fore = [p for p in fine if min(c[0] for c in p) >= 0]
+    whole = fine + [[(x, -y, z) for x, y, z in reversed(p)] for p in fine]
     columns = [p for x in (-30, 30) for y in (-30, 30) for p in column_panels(x, y, 5, 20, 2000, 2)]
     cylinder = {"volume": polygon_area(96, 4) * 3, "plane": polygon_area(96, 4), "kb": 1.5}
     cone = {"volume": 4 * polygon_area(2000, 5) * 20, "plane": 4 * polygon_area(2000, 5), "kb": 10}
@@ -324,6 +326,12 @@ def cases():
         ("half.obj", "half a hull, open along its centre plane", obj(without(box(-20, 20, 0, 5, -3, 2), 2)), [],
          refused("mirror it there")),
         ("half_isy.gdf", "GDF, half of it, but ISY 0", gdf(fine, 0, 0), [], refused("set ISY to 1")),
+        ("fore_isx.gdf", "GDF, a quarter of it, but ISX 0", gdf(fore, 0, 1), [], refused("set ISX to 1")),
+        ("quarter.gdf", "GDF, a quarter of it, but ISX and ISY 0", gdf(fore, 0, 0), [],
+         refused("set ISX and ISY to 1")),
+        ("both_isy.gdf", "GDF, both sides of it, but ISY 1", gdf(whole, 0, 1), [], refused("set ISY to 0")),
+        ("both_isx.gdf", "GDF, half of it, both ends, but ISX 1", gdf(half_box_panels(40, 10, 3, 1, 1), 1, 1), [],
+         refused("its own mirror image; the file has both halves already: set ISX to 0")),
         ("inside_out.stl", "all triangles turned", stl_binary(turned(BOX)), [], refused("repair", ["--repair"],
          BOX_FLOATS)),
         ("one_turned.obj", "one face turned", obj((BOX[0], [BOX[1][0][::-1]] + BOX[1][1:])), [],
