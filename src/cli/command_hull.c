@@ -379,6 +379,12 @@ static void warn_of_well(const common_options *common, const fram_hull_surface *
 /* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
 #define LONGEST 500.0
 
+static void warn_of_freeboard(const common_options *common, const hull_words *w, const fram_hull_surface *s)
+{
+    if (w->path && !isnan(w->file.freeboard) && !(s->topsides > 0) && !common->quiet)
+        fprintf(stderr, "warning: --freeboard: no level open top: without effect\n");
+}
+
 static void warn_of_size(const common_options *common, const hull_words *w, const fram_hull_floating *f)
 {
     if (w->path && f->length_waterline > LONGEST && !common->quiet)
@@ -442,6 +448,7 @@ int command_hull(const command_row *self, int argc, char **argv)
         if (common.json) {
             print_hull_json(&w, &surface, &floating, &pieces);
         } else {
+        warn_of_freeboard(&common, &w, &surface);
             print_surface(&w, &surface);
             print_floating(&floating);
             printf("  convex pieces: %d, within %.4g m of the surface (%.4g m were allowed)\n", pieces.count,

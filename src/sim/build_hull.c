@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/hull_file.h"
+#include "model/scenario_schema.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -45,6 +46,13 @@ static fram_status name_hull_key(const scenario *s, const vessel_entry *entry, f
     snprintf(error->key, sizeof error->key, "hull%s%.90s%s", length ? "." : "", member, angle ? "_deg" : "");
     vessel_name_error(s, entry, error);
     return status;
+}
+
+/* Every hull has a freeboard: it is one that was given where it is not the usual one. */
+static bool is_freeboard_given(const scenario *s, const scenario_hull *keys)
+{
+    const scenario_section *hull = scenario_key_find("vessel", "hull")->section;
+    return keys->freeboard != key_default(&hull->keys[section_find(hull, "freeboard")], s->run.scale);
 }
 
 static void report_file(context *ctx, const hull_file_report *r)
@@ -172,6 +180,8 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
     fram_status status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK) {
         report_file(ctx, &report);
+        if (!(report.freeboard > 0) && is_freeboard_given(s, keys))
+            log_write(ctx, LOG_WARNING, "hull.freeboard: the hull's file has no level open top: without effect");
         double distance = keys->piece_distance;
         status = hull_cut(ctx, &h->surface, &distance, (int32_t)keys->most_pieces, &h->pieces, &h->concavity, error);
     }

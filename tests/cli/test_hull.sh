@@ -20,6 +20,8 @@ near 'j["volume_m3"], j["level_m"]' "1000, -0.5" "the box at 2.5 m"
 expect 0 "$FRAM" hull box.stl --mass 1025e3 --kg 1 --json
 same "$(value 'abs(j["level_m"] + 0.5) < 1e-12, abs(j["heel_deg"]) < 1e-9, j["kg_m"], j["stable"]')" \
     "True True 1 True" "the box of 1025 t"
+expect 0 "$FRAM" hull box.stl --freeboard 3
+says "warning: --freeboard: no level open top: without effect" err
 expect 0 "$FRAM" hull box.stl
 says "displaced volume" out
 says "closed, 12 triangles, 8 vertices" out

@@ -200,5 +200,8 @@ expect 2 "$FRAM" check catamaran.yaml --set vessels.tug.y=8
 says "vessels[1].x: the hull lies in that of vessel cat at the start, by 30 m2 as seen from above" err
 expect 0 "$FRAM" check catamaran.yaml --set "ice.floes[0].y=10"
 says "ice.floes[0]: 20 m2 of the floe at (10, 10) m lie inside the hull of vessel cat" err
+grep 'no level open top' err && fail "a freeboard that nobody gave is told of"
+expect 0 "$FRAM" check catamaran.yaml --set vessels.cat.hull.freeboard=3
+says "warning: hull.freeboard: the hull's file has no level open top: without effect" err
 
 finish "vessels of a list go by name"
