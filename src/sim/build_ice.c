@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 ice_material build_ice_material(const scenario *s)
 {
@@ -28,23 +27,20 @@ double build_ice_elevation(const scenario *s, double thickness)
     return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
 }
 
-/* Plan points of one triangle, or of its part below still water. */
-static bool add_triangle(context *ctx, const vec3 corner[3], bool below_water, vec2_array *points)
+/* Plan points of the part of one triangle in a slab. */
+static bool add_triangle(context *ctx, const vec3 corner[3], build_slab slab, vec2_array *points)
 {
-    vec3 part[4];
-    int count = 3;
-    if (below_water)
-        count = triangle_clip_below(corner, 0, part);
-    else
-        memcpy(part, corner, 3 * sizeof *part);
+    vec3 low[4], part[5];
+    int count = triangle_clip_below(corner, slab.high, low);
+    count = facet_clip(low, count, vec3_make(0, 0, -1), -slab.low, part);
     bool good = true;
     for (int i = 0; i < count && good; i++)
         good = array_push(ctx, points, vec2_make(part[i].x, part[i].y));
     return good;
 }
 
-fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
-                            fram_error *error)
+static fram_status footprint_in(context *ctx, const world *w, int32_t body, build_slab slab, vec2_array *out,
+                                fram_error *error)
 {
     const mesh *m = &shape_solid(&w->shapes, w->bodies.shape[body])->surface;
     vec2_array points = {0};
@@ -53,18 +49,24 @@ fram_status build_footprint(context *ctx, const world *w, int32_t body, bool bel
         vec3 corner[3];
         for (int k = 0; k < 3; k++)
             corner[k] = body_to_global(&w->bodies, body, m->vertex.data[m->face.data[i].v[k]]);
-        good = add_triangle(ctx, corner, below_water, &points);
+        good = add_triangle(ctx, corner, slab, &points);
     }
     good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, out);
     array_free(ctx, &points);
     return good ? FRAM_OK : error_memory(error);
 }
 
+fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
+                            fram_error *error)
+{
+    return footprint_in(ctx, w, body, below_water ? (build_slab){-HUGE_VAL, 0} : build_slab_all(), out, error);
+}
+
 /* Part of a footprint that its pieces must leave open for them to be told apart. */
 #define OPEN_PART 0.01
 
-/* Plan points of a convex piece of a hull, or of its part below still water. */
-static bool add_hull_piece(context *ctx, const world *w, int32_t body, const polyhedron *p, bool below_water,
+/* Plan points of the part of a convex piece of a hull in a slab. */
+static bool add_hull_piece(context *ctx, const world *w, int32_t body, const polyhedron *p, build_slab slab,
                            vec2_array *points)
 {
     bool good = true;
@@ -74,50 +76,54 @@ static bool add_hull_piece(context *ctx, const world *w, int32_t body, const pol
             vec3 corner[3] = {p->vertex.data[loop[0]], p->vertex.data[loop[k - 1]], p->vertex.data[loop[k]]};
             for (int i = 0; i < 3; i++)
                 corner[i] = body_to_global(&w->bodies, body, corner[i]);
-            good = add_triangle(ctx, corner, below_water, points);
+            good = add_triangle(ctx, corner, slab, points);
         }
     }
     return good;
 }
 
-/* Plan outlines of all convex pieces, and the area of all together. */
-static bool add_pieces(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out, double *area)
+/* Plan outlines of all convex pieces, those one above the other too. */
+static bool add_pieces(context *ctx, const world *w, int32_t body, build_slab slab, polygon_list *out)
 {
     const polyhedron_array *pieces = &shape_solid(&w->shapes, w->bodies.shape[body])->pieces;
     vec2_array points = {0}, outline = {0};
     bool good = true;
-    *area = 0;
     for (int32_t i = 0; good && i < pieces->count; i++) {
         points.count = 0;
-        good = add_hull_piece(ctx, w, body, &pieces->data[i], below_water, &points) &&
+        good = add_hull_piece(ctx, w, body, &pieces->data[i], slab, &points) &&
                polygon_convex_hull(ctx, (polygon){points.data, points.count}, &outline);
-        if (!good || outline.count < 3)
-            continue;
         polygon part = {outline.data, outline.count};
-        *area += polygon_area(part);
-        good = polygon_list_push(ctx, out, part);
+        if (good && part.count >= 3 && overlay_is_valid(w->scratch.plane, part, NULL, NULL))
+            good = polygon_list_push(ctx, out, part);
     }
     array_free(ctx, &points);
     array_free(ctx, &outline);
     return good;
 }
 
-fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out,
+fram_status build_plan(context *ctx, const world *w, int32_t body, build_slab slab, polygon_list *out,
                        fram_error *error)
 {
     vec2_array footprint = {0};
-    polygon_list parts = {0};
-    double area = 0;
-    fram_status status = build_footprint(ctx, w, body, below_water, &footprint, error);
+    polygon_list parts = {0}, together = {0};
+    fram_error unused;
+    fram_status status = footprint_in(ctx, w, body, slab, &footprint, error);
     polygon whole = {footprint.data, footprint.count};
-    bool good = status == FRAM_OK && add_pieces(ctx, w, body, below_water, &parts, &area);
-    bool apart = good && whole.count >= 3 && area < (1 - OPEN_PART) * polygon_area(whole);
-    for (int32_t i = 0; good && apart && i < polygon_list_count(&parts); i++)
-        good = polygon_list_push(ctx, out, polygon_list_get(&parts, i));
-    if (good && !apart)
+    if (status == FRAM_OK && whole.count >= 3 && !add_pieces(ctx, w, body, slab, &parts))
+        status = error_memory(error);
+    /* Where no union is found, the outline alone is right, if larger. */
+    if (status == FRAM_OK && polygon_list_count(&parts) > 1 &&
+        overlay_union(w->scratch.plane, &parts, &together, &unused) == FRAM_ERROR_MEMORY)
+        status = error_memory(error);
+    double area = build_plan_area(&together);
+    bool apart = area > 0 && area < (1 - OPEN_PART) * polygon_area(whole), good = status == FRAM_OK;
+    for (int32_t i = 0; good && apart && i < polygon_list_count(&together); i++)
+        good = polygon_list_push(ctx, out, polygon_list_get(&together, i));
+    if (good && !apart && whole.count >= 3)
         good = polygon_list_push(ctx, out, whole);
     array_free(ctx, &footprint);
     polygon_list_free(ctx, &parts);
+    polygon_list_free(ctx, &together);
     return status == FRAM_OK && !good ? error_memory(error) : status;
 }
 

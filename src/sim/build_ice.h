@@ -7,6 +7,8 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
+#include <math.h>
+
 /* Adds the scenario's floes to a world whose vessel is in place (its footprint stays clear). */
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error);
 
@@ -22,11 +24,19 @@ static inline bool build_is_of_tank(const scenario *s) { return s->run.scale < 1
    and of its part below still water. */
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error);
-/* The same as convex outlines that are hardly larger: those of the hull's convex pieces, where the footprint holds open
-   water between them, as of a catamaran; else the footprint alone.  Added to `out`. */
-fram_status build_plan(context *ctx, const world *w, int32_t body, bool below_water, polygon_list *out,
+
+/* Heights between which a body is looked at, global [m]. */
+typedef struct build_slab {
+    double low, high;
+} build_slab;
+static inline build_slab build_slab_all(void) { return (build_slab){-HUGE_VAL, HUGE_VAL}; }
+
+/* Outlines apart from each other that are hardly larger than what of the body is in a slab: those of the hull's convex
+   pieces together, hollow where they are, where its convex outline holds open water, as of a catamaran or between the
+   columns of a semi-submersible; else that outline alone.  None where nothing is in the slab.  Added to `out`. */
+fram_status build_plan(context *ctx, const world *w, int32_t body, build_slab slab, polygon_list *out,
                        fram_error *error);
-/* Area of all outlines of a plan together, and what they have in common with a convex outline [m2]. */
+/* Area of all outlines of a plan together, and what they have in common with an outline [m2]. */
 double build_plan_area(const polygon_list *plan);
 double build_plan_overlap(const polygon_list *plan, polygon outline);
 

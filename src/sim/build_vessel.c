@@ -145,10 +145,10 @@ static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const
     polygon_list own = {0}, other = {0};
     fram_status status = FRAM_OK;
     if (row > 0)
-        status = build_plan(ctx, w, w->vessels.body[row], false, &own, error);
+        status = build_plan(ctx, w, w->vessels.body[row], build_slab_all(), &own, error);
     for (int32_t v = 0; v < row && status == FRAM_OK; v++) {
         polygon_list_clear(&other);
-        status = build_plan(ctx, w, w->vessels.body[v], false, &other, error);
+        status = build_plan(ctx, w, w->vessels.body[v], build_slab_all(), &other, error);
         double common = status == FRAM_OK ? plans_overlap(&own, &other) : 0;
         if (common > TOUCHING * fmin(build_plan_area(&own), build_plan_area(&other)))
             status = vessel_fault(s, entry, "x", error,

@@ -48,12 +48,16 @@ static bool add_prism_plan(context *ctx, plan_store *p, const world *w, int32_t 
     return good;
 }
 
+/* Height of the waterline over the hull's size: rounding would miss what stands in one of no height. */
+#define WATERLINE_PART 1e-6
+
 static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t body, fram_error *error)
 {
-    for (int below = 0; below < 2; below++) {
+    const double high = WATERLINE_PART * w->shapes.shapes.radius[w->bodies.shape[body]];
+    for (int wet = 0; wet < 2; wet++) {
         polygon_list plan = {0};
-        fram_status status = build_plan(ctx, w, body, below == 1, &plan, error);
-        plan_shape shape = {.style = below ? PLAN_WATERLINE : PLAN_DECK, .height = HUGE_VAL};
+        fram_status status = build_plan(ctx, w, body, wet ? (build_slab){-high, high} : build_slab_all(), &plan, error);
+        plan_shape shape = {.style = wet ? PLAN_WATERLINE : PLAN_DECK, .height = HUGE_VAL};
         bool good = status == FRAM_OK;
         for (int32_t k = 0; good && k < polygon_list_count(&plan); k++) {
             polygon outline = polygon_list_get(&plan, k);

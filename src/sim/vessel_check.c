@@ -348,18 +348,31 @@ static int32_t floe_outline(const scenario_floe *f, vec2 out[FLOE_SIDES_MOST])
     return n;
 }
 
+/* What of a hull is as high as ice of a thickness that floats. */
+static fram_status plan_in_ice(context *ctx, const scenario *s, const world *w, int32_t row, double thickness,
+                               polygon_list *out, fram_error *error)
+{
+    double middle = build_ice_elevation(s, thickness);
+    polygon_list_clear(out);
+    return build_plan(ctx, w, w->vessels.body[row], (build_slab){middle - 0.5 * thickness, middle + 0.5 * thickness},
+                      out, error);
+}
+
 static fram_status warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row,
                                  fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
     polygon_list hull = {0};
+    double looked_at = 0; /* thickness [m] */
     fram_status status = FRAM_OK;
-    if (ice->source == ICE_FLOES)
-        status = build_plan(ctx, w, w->vessels.body[row], false, &hull, error);
-    for (int32_t i = 0; i < ice->floes.count && status == FRAM_OK; i++) {
+    for (int32_t i = 0; i < ice->floes.count && ice->source == ICE_FLOES && status == FRAM_OK; i++) {
         const scenario_floe *f = &ice->floes.data[i];
+        double thickness = automatic_or(f->thickness, ice->thickness);
         vec2 corner[FLOE_SIDES_MOST];
         polygon floe = {corner, floe_outline(f, corner)};
+        if (thickness != looked_at)
+            status = plan_in_ice(ctx, s, w, row, thickness, &hull, error);
+        looked_at = thickness;
         double common = build_plan_overlap(&hull, floe), least = fmin(build_plan_area(&hull), polygon_area(floe));
         if (is_automatic(f->elevation) && common > INSIDE * least)
             log_write(

@@ -87,8 +87,8 @@ all_told level.yaml ice.smallest_floe_area=9 -- \
     "smallest_floe_area: 9 m2 is 0.88 of the pieces that break off|wedges of about 10.2 m2|take 1 m2 or less"
 all_told level.yaml ice.smallest_floe_area=2.5 --
 all_told level.yaml output.frame_interval=0 --
-all_told floes.yaml "ice.floes[0].x=20" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \
-    "ice.floes[0]: 280.5 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
+all_told floes.yaml "ice.floes[0].x=19" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \
+    "ice.floes[0]: 211.1 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
 all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
     "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
 sed 's/{x: 50,[^}]*}/&, {x: 55, length: 20, width: 20}/' floes.yaml >heap.yaml

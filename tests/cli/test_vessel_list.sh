@@ -204,4 +204,34 @@ grep 'no level open top' err && fail "a freeboard that nobody gave is told of"
 expect 0 "$FRAM" check catamaran.yaml --set vessels.cat.hull.freeboard=3
 says "warning: hull.freeboard: the hull's file has no level open top: without effect" err
 
+# A semi-submersible, two pontoons 4 m under water with two columns each: between the columns there is water, and what
+# stands one above the other counts once.
+python3 - <<'END'
+profile = [(-20, -10), (20, -10), (20, 2), (10, 2), (10, -4), (-10, -4), (-10, 2), (-20, 2)]
+with open("catamaran.obj", "w") as file:
+    file.writelines("v %g %g %g\n" % (x, y, z) for y in (-12, -4, 4, 12) for x, z in profile)
+    for first in (1, 17):
+        starboard, port = [range(first + k, first + k + 8) for k in (0, 8)]
+        faces = [starboard, port[::-1]] + [(port[i - 1], port[i], starboard[i], starboard[i - 1]) for i in range(8)]
+        file.writelines("f %s\n" % " ".join(map(str, f)) for f in faces)
+END
+sed -i -e 's/\[{x: 10,.*/[{x: -6}, {y: 8, length: 8}, {x: 15, y: 8, length: 4, width: 4}]}/' \
+    -e 's/x: -10, hull/x: 5, hull/' catamaran.yaml
+expect 0 "$FRAM" run catamaran.yaml -o semi
+same "$(grep -c '^warning.*lie inside' err)" 1 "floes that are told to be in a hull: $(cat err)"
+says "ice.floes[2]: 16 m2 of the floe at (15, 8) m lie inside the hull of vessel cat" err
+python3 - <<'END' || fail "the picture does not show the water between the columns"
+import os
+import pathlib
+import sys
+
+sys.path.insert(0, os.environ["FRAM_SOURCE"] + "/tests/views")
+import chromium
+
+_, _, channels, rows = chromium.pixels(pathlib.Path("semi/plan.png").read_bytes())
+at = lambda x, y: tuple(rows[564 - 10 * y][channels * (514 + 10 * x):][:3])
+water, pontoon, column = at(0, 14), at(8, 6), at(18, 6)
+assert at(-14, 0) == water and len({water, pontoon, column}) == 3, (at(-14, 0), water, pontoon, column)
+END
+
 finish "vessels of a list go by name"
