@@ -263,11 +263,18 @@ static fram_status check_corners(const hull_particulars *p, fram_error *error)
 static fram_status check_room(const hull_particulars *p, fram_error *error)
 {
     double longest = longest_ends(p), shortest = shortest_ends(p), parallel = p->parallel_midbody;
+    /* What of the rest makes room: the least entrance is that of its angle, and upright ends leave nearly all. */
+    bool angle = !isnan(p->entrance_angle) && hull_cotangent(p->entrance_angle) > LEAST_ENTRANCE;
+    bool rakes = shortest < 1 - LEAST_SHIP_PARALLEL;
     if (longest < shortest)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "length",
                          "no parallel body is left: the rakes of stem and stern take %.3g of the length at the keel, "
-                         "entrance and run at least %.3g; enlarge length, stem_angle or stern_angle",
-                         1 - longest - LEAST_SHIP_PARALLEL, shortest);
+                         "entrance and run at least %.3g; enlarge length%s%s",
+                         1 - longest - LEAST_SHIP_PARALLEL, shortest,
+                         !rakes  ? ""
+                         : angle ? ", stem_angle, stern_angle"
+                                 : ", stem_angle or stern_angle",
+                         angle ? " or entrance_angle" : "");
     if (isnan(parallel) || (1 - parallel >= shortest && 1 - parallel <= longest))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
