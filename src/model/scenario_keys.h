@@ -86,9 +86,11 @@
     X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy")     \
     X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")                  \
     X(centre_of_gravity_z, AUTOMATIC(-1e4, 1e4), "m", "above the design waterline; auto: in it")                     \
-    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                       \
+    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m",                                                                      \
+      "radius of gyration about x; auto: 0.35 beam, at most what the other two allow")                               \
     X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                    \
-    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                      \
+    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m",                                                                       \
+      "radius of gyration about z; auto: 0.25 of the longer of length and beam")                                     \
     X(fender_stiffness, AUTOMATIC(1, 1e15), "N/m",                                                                   \
       "where another vessel or a wall meets it: force per depth at which it yields and stays so; auto: rigid")       \
     X(hull, SECTION(hull), "", "the form of the hull")                                                               \

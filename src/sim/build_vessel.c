@@ -8,14 +8,15 @@
 #include "vessel/path.h"
 
 /* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
-   ships. */
+   ships; of what is wider than long yaw goes by the beam, and roll is no more than any body has with the other two. */
 static const double GYRATION_ROLL = 0.35, GYRATION_LENGTH = 0.25;
 
 vec3 build_gyration(const scenario_vessel *v, const hull_particulars *p)
 {
-    return vec3_make(automatic_or(v->gyration_roll, GYRATION_ROLL * p->beam),
-                     automatic_or(v->gyration_pitch, GYRATION_LENGTH * p->length),
-                     automatic_or(v->gyration_yaw, GYRATION_LENGTH * p->length));
+    double pitch = automatic_or(v->gyration_pitch, GYRATION_LENGTH * p->length);
+    double yaw = automatic_or(v->gyration_yaw, GYRATION_LENGTH * fmax(p->length, p->beam));
+    double roll = fmin(GYRATION_ROLL * p->beam, sqrt(pitch * pitch + yaw * yaw));
+    return vec3_make(automatic_or(v->gyration_roll, roll), pitch, yaw);
 }
 
 /* Where the path begins, and the velocity of its first step. */

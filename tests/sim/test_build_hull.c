@@ -2,6 +2,7 @@
  */
 #include "io/scenario_file.h"
 #include "sim/build_hull.h"
+#include "sim/build_vessel.h"
 #include "testing.h"
 #include <stdio.h>
 #include <unistd.h>
@@ -189,4 +190,20 @@ START_TEST(particulars)
 }
 END_TEST
 
-TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, particulars)
+/* Radii that are not given are those of a body, of a barge that is wider than long too. */
+START_TEST(radii_of_gyration)
+{
+    const scenario_vessel v = {.gyration_roll = NAN, .gyration_pitch = NAN, .gyration_yaw = NAN};
+    const double beams[] = {10, 20, 30, 90};
+    for (size_t i = 0; i < sizeof beams / sizeof *beams; i++) {
+        const hull_particulars p = {.length = 20, .beam = beams[i]};
+        vec3 k = build_gyration(&v, &p);
+        ck_assert(k.x * k.x <= (k.y * k.y + k.z * k.z) * (1 + 1e-12));
+        ck_assert(k.y * k.y <= (k.x * k.x + k.z * k.z) * (1 + 1e-12));
+        ck_assert(k.z * k.z <= (k.x * k.x + k.y * k.y) * (1 + 1e-12));
+        ck_assert(k.y == 5 && (beams[i] > 20 || (k.x == 0.35 * beams[i] && k.z == 5)));
+    }
+}
+END_TEST
+
+TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, particulars, radii_of_gyration)
