@@ -247,6 +247,11 @@ static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *
     double volume = status == FRAM_OK ? c->mass / c->water_density : 0;
     if (status == FRAM_OK && !isnan(c->mass))
         status = hull_level_of(ctx, &h->surface, volume, &a->level, error);
+    double depth = h->about.hi[2] - h->about.lo[2];
+    if (status == FRAM_OK && c->draught >= depth)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
+                         "the water at a draught of %g m does not cut the hull, which is %g m deep; give a smaller one",
+                         c->draught, depth);
     hull_hydrostatics upright;
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, a->level, &upright, error);
@@ -380,20 +385,23 @@ static void add_row(view_table *t, const char *name, double value, const char *u
     t->count++;
 }
 
+/* 0 for what is that of something of so large a size but for rounding. */
+static double but_rounding(double value, double size) { return fabs(value) < 1e-9 * size ? 0 : value; }
+
 static void fill_table(view_table *t, const hull_stability *s, const hull_attitude *a, double density)
 {
     add_row(t, "Length overall", s->length_overall, "m");
     add_row(t, "Length of the waterline", s->length_waterline, "m");
     add_row(t, "Breadth of the waterline", s->breadth_waterline, "m");
     add_row(t, "Draught amidships", s->draught, "m");
-    add_row(t, "Heel, to starboard", degrees(a->heel), "deg");
-    add_row(t, "Trim, by the bow", degrees(a->trim), "deg");
+    add_row(t, "Heel, to starboard", but_rounding(degrees(a->heel), 1), "deg");
+    add_row(t, "Trim, by the bow", but_rounding(degrees(a->trim), 1), "deg");
     add_row(t, "Displaced volume", s->at.volume, "m\302\263");
     add_row(t, "Displacement", s->at.volume * density / 1000, "t");
-    add_row(t, "Centre of buoyancy B, x", s->centre_of_buoyancy.x, "m");
+    add_row(t, "Centre of buoyancy B, x", but_rounding(s->centre_of_buoyancy.x, s->length_overall), "m");
     add_row(t, "KB", s->kb, "m");
     add_row(t, "Water plane", s->at.waterplane_area, "m\302\262");
-    add_row(t, "Centre of flotation F, x", s->centre_of_flotation.x, "m");
+    add_row(t, "Centre of flotation F, x", but_rounding(s->centre_of_flotation.x, s->length_overall), "m");
     add_row(t, "Wetted surface", s->at.wetted_area, "m\302\262");
     add_row(t, "KG", s->kg, "m");
     add_row(t, "BM transverse", s->bm_transverse, "m");

@@ -200,13 +200,16 @@ static int decimals_for(double size)
     return count;
 }
 
+/* 0, and not what rounding leaves of it [deg]. */
+static double told_angle(double angle) { return fabs(angle / DEGREE) < 1e-9 ? 0 : angle / DEGREE; }
+
 static void print_floating(const fram_hull_floating *f)
 {
     /* Of lengths, volumes, areas, and second moments of area. */
     int l = decimals_for(f->length_overall), v = decimals_for(f->volume), a = decimals_for(f->waterplane_area);
     int m = f->second_moment_transverse < 1 ? decimals_for(f->second_moment_transverse) : 1;
-    printf("\nFloating at z = %.6g m, heel %.4g deg, trim %.4g deg by the bow%s\n", f->level, f->heel / DEGREE,
-           f->trim / DEGREE, f->stable ? "" : " (UNSTABLE)");
+    printf("\nFloating at z = %.6g m, heel %.4g deg, trim %.4g deg by the bow%s\n", f->level, told_angle(f->heel),
+           told_angle(f->trim), f->stable ? "" : " (UNSTABLE)");
     printf("  displaced volume        %14.*f m3    displacement %.*f t\n", v, f->volume, decimals_for(f->mass / 1000),
            f->mass / 1000);
     printf("  enclosed volume         %14.*f m3\n", decimals_for(f->enclosed_volume), f->enclosed_volume);
@@ -376,14 +379,14 @@ static void warn_of_well(const common_options *common, const fram_hull_surface *
                 100 * s->well);
 }
 
-/* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
-#define LONGEST 500.0
-
 static void warn_of_freeboard(const common_options *common, const hull_words *w, const fram_hull_surface *s)
 {
     if (w->path && !isnan(w->file.freeboard) && !(s->topsides > 0) && !common->quiet)
         fprintf(stderr, "warning: --freeboard: no level open top: without effect\n");
 }
+
+/* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
+#define LONGEST 500.0
 
 static void warn_of_size(const common_options *common, const hull_words *w, const fram_hull_floating *f)
 {
@@ -445,10 +448,10 @@ int command_hull(const command_row *self, int argc, char **argv)
         warn_of_size(&common, &w, &floating);
         warn_of_half(&common, &surface);
         warn_of_well(&common, &surface);
+        warn_of_freeboard(&common, &w, &surface);
         if (common.json) {
             print_hull_json(&w, &surface, &floating, &pieces);
         } else {
-        warn_of_freeboard(&common, &w, &surface);
             print_surface(&w, &surface);
             print_floating(&floating);
             printf("  convex pieces: %d, within %.4g m of the surface (%.4g m were allowed)\n", pieces.count,

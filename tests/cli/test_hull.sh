@@ -20,6 +20,8 @@ near 'j["volume_m3"], j["level_m"]' "1000, -0.5" "the box at 2.5 m"
 expect 0 "$FRAM" hull box.stl --mass 1025e3 --kg 1 --json
 same "$(value 'abs(j["level_m"] + 0.5) < 1e-12, abs(j["heel_deg"]) < 1e-9, j["kg_m"], j["stable"]')" \
     "True True 1 True" "the box of 1025 t"
+expect 0 "$FRAM" hull box.stl --mass 1025e3 --kg 1 --tcg 5e-11
+says "heel 0 deg, trim 0 deg" out
 expect 0 "$FRAM" hull box.stl --freeboard 3
 says "warning: --freeboard: no level open top: without effect" err
 expect 0 "$FRAM" hull box.stl
@@ -258,7 +260,7 @@ expect 2 "$FRAM" hull ship.obj --draught 3 --mass 1e6
 says "give one of them" err
 expect 2 "$FRAM" hull ship.obj more.obj
 expect 2 "$FRAM" hull ship.obj --draught 100
-says "does not cut the hull" err
+says "does not cut the hull, which is 11 m deep; give a smaller one" err
 expect 2 "$FRAM" hull ship.obj --mass 1e12
 says "encloses" err
 expect 2 "$FRAM" hull ship.obj --pieces 0
