@@ -49,10 +49,11 @@ bool polyhedron_contains(const polyhedron *p, vec3 point, double margin);
    or along a side of a notch there, whichever leaves the hulls of the parts least to enclose in excess, until no piece
    is deeper than `tolerance` [m], there are `most` of them, or no plane helps.  Depth is the distance of the mesh,
    where the hull of its piece covers it, to the surface of the union of the hulls; concavity gets the largest that
-   remains.  So the union is nowhere more than that outside the mesh; inside it stays a few hundredths of the tolerance
-   at most, which saves half of the faces.  Bodies that do not hang together are pieces of their own even beyond `most`;
-   cavities are filled. What out held is dropped (it must be initialised); it is empty on failure. FRAM_ERROR_INPUT:
-   open mesh, or without volume; FRAM_ERROR_MEMORY. */
+   remains.  So no place of the mesh is deeper than that in the union, but a hole right through that is shallower than
+   twice the tolerance is filled, and its lids may be farther from the mesh; inside it stays a few hundredths of the
+   tolerance at most, which saves half of the faces.  Bodies that do not hang together are pieces of their own even
+   beyond `most`; cavities are filled. What out held is dropped (it must be initialised); it is empty on failure.
+   FRAM_ERROR_INPUT: open mesh, or without volume; FRAM_ERROR_MEMORY. */
 fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
                                double *concavity, fram_error *error);
 
