@@ -76,8 +76,8 @@ head, body = file.split(b'<AppendedData encoding="raw">\n_', 1)
 def array(name, kind):
     at = int(re.findall(rb'Name="' + name + rb'"[^>]*offset="(\d+)"', head)[-1]) # of vertices first, of faces last
     _, size, _, packed = struct.unpack_from("<4Q", body, at)
-    return struct.unpack(f"<{size // 4}{kind}", zlib.decompress(body[at + 32:at + 32 + packed]))
-vessel, points = array(b"vessel", "f"), array(b"Points", "f")
+    return struct.unpack(f"<{size // struct.calcsize(kind)}{kind}", zlib.decompress(body[at + 32:at + 32 + packed]))
+vessel, points = array(b"vessel", "f"), array(b"Points", "d")
 corners = array(b"connectivity", "i")
 assert sorted(set(vessel)) == [1, 2, 3] and len(vessel) * 3 == len(corners), set(vessel)
 for number, outline in enumerate(names.values(), 1): # of t = 1 s, the frame's time
