@@ -110,7 +110,7 @@ static void tell_vessel_propulsion(const teller *t)
 #define STIFFNESS_MOST 2000.0
 /* Horizontal distance to the anchor over the depth; a line that hangs straighter down holds nothing. */
 #define SCOPE_LEAST 0.05
-/* Length of line that the breaking load carries [m]: 5 km of chain, 15 km of wire. */
+/* Length of line that the breaking load carries at full size [m]: 5 km of chain, 15 km of wire. */
 #define OWN_WEIGHT 1e3
 /* Freeboards to which fairleads go up, and draughts to which they go down: chains leave the bottom of a turret. */
 #define MOST_HEIGHT 2.0
@@ -143,7 +143,8 @@ static void tell_line(const teller *t, int32_t i)
     if (l->count > 1 && fabs(l->spacing_deg) < 1e-9)
         sanity_say(t->tell, t->to, "%s.mooring.lines[%d].spacing_deg: %d lines lie one upon another at 0 degrees apart",
                    t->e->path, (int)i, (int)l->count);
-    if (l->kind == LINE_CATENARY && automatic_or(l->breaking_load, HUGE_VAL) < OWN_WEIGHT * l->weight)
+    double own_weight = OWN_WEIGHT * fmin(1, sanity_at_scale(t->s, 1)) * l->weight;
+    if (l->kind == LINE_CATENARY && automatic_or(l->breaking_load, HUGE_VAL) < own_weight)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].weight: a line of %.4g N/m parts under %.3g m of itself: give N/m", t->e->path,
                    (int)i, l->weight, l->breaking_load / l->weight);

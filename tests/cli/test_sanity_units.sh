@@ -147,6 +147,10 @@ all_told ship.yaml "vessel.mooring.lines[0].release_time=0.1" "vessel.mooring.li
     "mooring.z: fairleads 50 m above" "hull.freeboard: 0.1 m is outside" "centre_of_gravity_z: 0.5 m is above the deck"
 all_told ship.yaml "vessel.mooring.lines[0].weight=5000" "vessel.mooring.lines[0].breaking_load=4e6" -- \
     "lines[0].weight: a line of 5000 N/m parts under 800 m of itself"
+# A line of a model of 1:30 carries as many metres of itself as are 30 times as long at full size.
+expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set "vessel.mooring.lines[0].weight=5000" \
+    --set "vessel.mooring.lines[0].breaking_load=1e6"
+grep 'of itself' err && fail "the line of a model is told"
 all_told towed.yaml vessel.hull.draught=0.5 vessel.speed=0.001 vessel.course_deg=120 vessel.x=500 \
     vessel.current_coefficients.frontal_area=0.01 -- "hull.draught: 0.5 m is 0.0357 of the beam" \
     "ice.thickness: 0.7 m is more than the draught" "vessel.speed: the vessel moves 0.06 m in the run" \
