@@ -22,6 +22,7 @@ typedef struct note_taker {
     text_buffer *out;  /* NULL: the log */
     const world *made; /* NULL: none */
     ice_range ice;
+    const model *model; /* the same */
 } note_taker;
 
 enum { NOTE_SIZE = 400 };
@@ -246,19 +247,19 @@ static void take_notes(const note_taker *n, const scenario *s)
         note_vessel(n, s, &entry);
         note_channel(n, s, &entry);
     }
-    sanity_tell(s, n->made, tell_warning, n);
+    sanity_tell(s, (sanity_built){n->model, n->made}, tell_warning, n);
     if (s->run.solver.baumgarte)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");
 }
 
-void scenario_notes_made(context *ctx, const scenario *s, const world *made, text_buffer *out)
+void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out)
 {
-    take_notes(&(note_taker){ctx, out, made, ice_range_made(&s->ice, made)}, s);
+    take_notes(&(note_taker){ctx, out, made, ice_range_made(&s->ice, made), m}, s);
 }
 
-void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenario_notes_made(ctx, s, NULL, out); }
+void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenario_notes_made(ctx, s, NULL, NULL, out); }
 
-void scenario_log_warnings(context *ctx, const scenario *s, const world *made)
+void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made)
 {
-    scenario_notes_made(ctx, s, made, NULL);
+    scenario_notes_made(ctx, s, m, made, NULL);
 }

@@ -3,14 +3,16 @@
 #define SIM_NOTES_H
 
 #include "io/text_buffer.h"
+#include "model/model.h"
 #include "model/scenario.h"
 #include "model/world.h"
 
 /* A line each, those of warnings begin with "warning: ". */
 void scenario_notes(context *ctx, const scenario *s, text_buffer *out);
-/* The same, by what was made of it where keys do not tell that.  made: its world before the first step; NULL: none. */
-void scenario_notes_made(context *ctx, const scenario *s, const world *made, text_buffer *out);
+/* The same, by what was made of it where keys do not tell that.  m, made: its model, and its world before the first
+   step; NULL: none. */
+void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out);
 /* The warnings alone, to the log. */
-void scenario_log_warnings(context *ctx, const scenario *s, const world *made);
+void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made);
 
 #endif

@@ -445,9 +445,10 @@ static void tell_vessel_station(const teller *t, const vessel_entry *e)
                    e->path);
 }
 
-void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const void *to)
+void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, const void *to)
 {
-    teller t = {s, tell, to, NULL, made};
+    const world *made = built.made;
+    teller t = {s, tell, to, NULL, made, built.model};
     (void)scenario_walk(s, look_at_number, &t, NULL);
     tell_heave(&t);
     tell_ice_shape(&t);
@@ -463,7 +464,7 @@ void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const
         tell_domain(&t, &e, sanity_start(s, i, made));
         tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
-        sanity_tell_vessel(s, i, made, tell, to);
+        sanity_tell_vessel(s, i, built, tell, to);
         sanity_tell_control(s, &e, tell, to);
     }
 }

@@ -3,6 +3,7 @@
 #ifndef SIM_SANITY_H
 #define SIM_SANITY_H
 
+#include "model/model.h"
 #include "model/scenario_vessel.h"
 #include "model/world.h"
 
@@ -13,10 +14,15 @@ typedef void (*sanity_teller)(const void *to, const char *text);
 /* One sentence, as printf makes it; what goes beyond SANITY_SENTENCE bytes is cut off. */
 enum { SANITY_SENTENCE = 380 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* From the keys, nothing is built; made: the world that was, before its first step, which knows more; NULL: none. */
-void sanity_tell(const scenario *s, const world *made, sanity_teller tell, const void *to);
+/* What was built of a scenario and knows more than its keys: NULL where there is none. */
+typedef struct sanity_built {
+    const model *model; /* currents of files, sizes of hulls */
+    const world *made;  /* before its first step */
+} sanity_built;
+/* From the keys and from what was built; nothing is built here. */
+void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, const void *to);
 /* What of a vessel's gear does not belong together or to its hull.  sanity_tell asks. */
-void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sanity_teller tell, const void *to);
+void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
 /* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */

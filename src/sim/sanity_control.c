@@ -297,7 +297,7 @@ static void tell_station(const teller *t)
 
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, e, NULL};
+    const teller t = {s, tell, to, e, NULL, NULL};
     tell_positioning(&t);
     for (int32_t i = 0; i < e->keys->thrusters.count; i++)
         tell_thruster(&t, i);

@@ -293,7 +293,7 @@ static void tell_floes(const teller *t)
 
 void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, NULL, made};
+    const teller t = {s, tell, to, NULL, made, NULL};
     if (s->ice.source == ICE_NONE)
         return;
     tell_thresholds(&t);

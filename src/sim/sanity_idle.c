@@ -107,7 +107,7 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
 
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to)
 {
-    teller t = {s, tell, to, NULL, NULL};
+    teller t = {s, tell, to, NULL, NULL, NULL};
     idle_group group = {.t = &t};
     (void)scenario_walk(s, look_at_key, &group, NULL);
     tell_group(&group);

@@ -12,6 +12,7 @@ typedef struct teller {
     const void *to;
     const vessel_entry *e; /* NULL where no vessel is looked at */
     const world *made;     /* NULL: none, or not asked */
+    const model *model;    /* the same */
 } teller;
 
 enum { SANITY_PATTERN = 96 };

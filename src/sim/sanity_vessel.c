@@ -1,5 +1,6 @@
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
+#include "vessel/plane_motion.h"
 
 #include <math.h>
 
@@ -346,15 +347,29 @@ vec3 sanity_start(const scenario *s, int32_t vessel, const world *made)
     return vec3_make(at.x, at.y, degrees(quat_roll_pitch_yaw(made->bodies.orientation[body]).z));
 }
 
+/* The current that the hull as a whole meets at the start, towards port at that heading [m/s]; 0 where a file has it
+   that nobody has read. */
+static double current_aside(const teller *t, int32_t vessel, double heading)
+{
+    const scenario_environment *n = &t->s->environment;
+    if (t->model) {
+        const media begins = media_at(&t->model->media, &t->model->history, 0);
+        const vec3 met = media_hull_current(&begins, t->model->vessels.data[vessel].hydrodynamics.depth);
+        return plane_to_vessel(heading, met).y;
+    }
+    bool unread = n->current_file[0] != '\0' || n->current_profile_file[0] != '\0';
+    return unread ? 0 : n->current_speed * real_sin(radians(n->current_direction_deg) - heading);
+}
+
 /* A vessel kept on station in a beam current with the drag of a hull that goes ahead: where it is known how it lies. */
-static void tell_current_across(const teller *t, double heading_deg)
+static void tell_current_across(const teller *t, int32_t vessel)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_environment *n = &t->s->environment;
     bool kept = v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->positioning.active) &&
                 (t->made || !vessel_begins_at_equilibrium(v));
-    double across = n->current_speed * fabs(real_sin((n->current_direction_deg - heading_deg) * (PI / 180)));
-    if (!kept || n->current_file[0] != '\0' || !sanity_drags_as_ahead(t->s, v, across))
+    double across = fabs(current_aside(t, vessel, radians(sanity_start(t->s, vessel, t->made).z)));
+    if (!kept || !sanity_drags_as_ahead(t->s, v, across))
         return;
     sanity_say(
         t->tell, t->to,
@@ -375,10 +390,10 @@ static void tell_flows(const teller *t)
     tell_area(t, "wind_coefficients.lateral_area", v->wind_coefficients.lateral_area, h->length * h->freeboard);
 }
 
-void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sanity_teller tell, const void *to)
+void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to)
 {
     const vessel_entry entry = scenario_vessel_entry(s, vessel), *e = &entry;
-    const teller t = {s, tell, to, e, made};
+    const teller t = {s, tell, to, e, built.made, built.model};
     tell_inertia(&t);
     tell_thrusters(&t);
     tell_vessel_propulsion(&t);
@@ -387,6 +402,6 @@ void sanity_tell_vessel(const scenario *s, int32_t vessel, const world *made, sa
     tell_fairleads(&t);
     tell_motion(&t);
     tell_dry(&t);
-    tell_current_across(&t, sanity_start(s, vessel, made).z);
+    tell_current_across(&t, vessel);
     tell_flows(&t);
 }

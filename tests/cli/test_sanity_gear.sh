@@ -69,6 +69,18 @@ for way in "$across=160" "$across=120 --set environment.hull_drag.water_form=1" 
     expect 0 "$FRAM" check ship.yaml --set $way $as_put
     grep 'comes across' err && fail "told of $way"
 done
+# Those of files where they are read, as they begin and at half the draught.
+printf 'time,x,y\n0,0,-0.4\n600,0,0\n' >aside.csv
+printf 'depth,x,y\n0,0,0\n3,0,0.5\n' >below.csv
+printf 'depth,x,y\n0,0,0.5\n3,0,0.1\n' >above.csv
+bare="--build --set ice.source=none --set domain.boundary=open --set environment"
+# shellcheck disable=SC2086
+told ship.yaml "vessel: a current of 0.4 m/s comes across the hull" $bare.current_file=aside.csv $as_put
+# shellcheck disable=SC2086
+told ship.yaml "vessel: a current of 0.5 m/s comes across the hull" $bare.current_profile_file=below.csv $as_put
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check ship.yaml $bare.current_profile_file=above.csv $as_put
+grep 'comes across' err && fail "told of a current at the surface alone"
 # Tables whose angles are counted from ahead, or whose cy is to starboard.
 flow() {
     local rows="[{angle_deg: 0, cx: $2}, {angle_deg: 90, cy: $3}, {angle_deg: 180, cx: $4}]"
