@@ -27,7 +27,11 @@ static bool has_thrusters(const holding_case *c)
 static bool balances(const holding_case *c, vec3 demand, vec3 *missed)
 {
     bool reached;
-    *missed = thruster_allocate(c->thrusters, c->vessel, 0.5 * c->length, demand, &reached);
+    double lever = 0.5 * c->length;
+    if (c->heading_alone)
+        *missed = vec3_make(0, 0, thruster_allocate_turn(c->thrusters, c->vessel, lever, demand.z, &reached));
+    else
+        *missed = thruster_allocate(c->thrusters, c->vessel, lever, demand, &reached);
     return reached;
 }
 
@@ -165,6 +169,8 @@ holding holding_find(const holding_case *c, steady_load load, const void *user)
     if (thrusters)
         balances(c, demand, &missed);
     rest_load rest = {c, load, user, vec3_sub(demand, missed), 0};
+    if (thrusters && c->heading_alone) /* what force comes with the moment is for the lines */
+        rest.thrust = thruster_ordered_effect(c->thrusters, c->vessel);
     holding out = hold_by_lines(c, &rest, sqrt(steady.x * steady.x + steady.y * steady.y));
     /* Beyond what they can give, the thrusters are not at fault: the mooring is there. */
     out.thruster_use = thrusters ? fmin(use, 1) : 0;

@@ -24,7 +24,7 @@ typedef struct holding_case {
     vec3 position; /* of the centre of mass, where the vessel shall be, global [m] */
     double heading;
     vec3 watched;                       /* the point whose offset counts, body frame [m] */
-    bool heading_alone;                 /* thrusters give no force, only moment */
+    bool heading_alone;                 /* thrusters hold the heading; what force they give with it the mooring bears */
     bool heading_given;                 /* the mooring does not turn the vessel (a turret): it lies at `heading` */
     double line_safety;                 /* a line may carry its breaking load over this */
     double offset_limit, heading_limit; /* [m], [rad]; infinity: none */
@@ -39,8 +39,8 @@ typedef struct holding {
 } holding;
 
 /* load: force [N] and yaw moment about the centre of mass [N m], global frame, for a heading [rad].
-   thruster_use is 1 over the largest multiple of the load that the thrusters balance, each within its limits and
-   allowed sectors; its number that of the thruster which is nearest to its limit then. */
+   thruster_use is 1 over the largest multiple of the load, or of its moment alone, that the thrusters balance, each
+   within its limits and allowed sectors; its number that of the thruster which is nearest to its limit then. */
 holding holding_find(const holding_case *c, steady_load load, const void *user);
 
 /* "thruster", "line", ... */

@@ -218,7 +218,11 @@ static void control(station_table *s, int32_t row, const station_moment *now, ve
     s->demand[row] = pid_step(&s->gains[row], e->place, e->velocity, r->place, r->velocity, feed,
                               s->saturated[row] != 0, &s->integral[row], dt);
     bool reached;
-    s->missed[row] = thruster_allocate(thrusters, row, s->lever[row], s->demand[row], &reached);
+    if (station_is_of_heading_alone(s, row)) /* and the forces that come with a moment */
+        s->missed[row] =
+            vec3_make(0, 0, thruster_allocate_turn(thrusters, row, s->lever[row], s->demand[row].z, &reached));
+    else
+        s->missed[row] = thruster_allocate(thrusters, row, s->lever[row], s->demand[row], &reached);
     s->saturated[row] = !reached;
 }
 

@@ -116,6 +116,7 @@ typedef struct thruster_search {
     int count, left; /* of the parts; solutions still looked at */
     double lever;
     vec3 tau;
+    bool turn_alone; /* forces do not count */
     thruster_mode mode[ALLOCATION_MOST / 2], best_mode[ALLOCATION_MOST / 2];
     vec2 best[ALLOCATION_MOST / 2]; /* thrusts along and across the middles of their sets */
     double cost;                    /* of the best */
@@ -133,6 +134,8 @@ static vec3 effect_along(const thruster_table *t, int32_t row, double angle)
     double c = real_cos(angle), s = real_sin(angle);
     return vec3_make(c, s, t->place[row].x * s - t->place[row].y * c);
 }
+
+static vec3 counted(vec3 effect, bool turn_alone) { return turn_alone ? vec3_make(0, 0, effect.z) : effect; }
 
 static int gather_parts(const thruster_table *t, int32_t vessel, thruster_part *parts)
 {
@@ -270,8 +273,11 @@ static void look_further(thruster_search *s)
     vec2 thrust[ALLOCATION_MOST / 2];
     vec3 miss;
     bool reached;
-    for (int k = 0; k < s->count; k++)
+    for (int k = 0; k < s->count; k++) {
         sets[k] = set_of(s->t, s->parts[k].row, s->mode[k]);
+        sets[k].along = counted(sets[k].along, s->turn_alone);
+        sets[k].across = counted(sets[k].across, s->turn_alone);
+    }
     double cost = allocation_solve_sets(sets, s->count, s->lever, s->tau, thrust, &miss, &reached);
     s->left--;
     bool better = reached == s->reached ? cost < s->cost * (1 - CHEAPER) : reached;
@@ -314,7 +320,7 @@ static void give_order(thruster_table *t, int32_t row, thruster_mode mode, vec2 
 
 static double length_over(vec3 tau, double lever) { return vec3_length(vec3_make(tau.x, tau.y, tau.z / lever)); }
 
-vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau, bool *reached)
+static vec3 allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau, bool turn_alone, bool *reached)
 {
     thruster_part parts[ALLOCATION_MOST / 2] = {0};
     allocation_column columns[ALLOCATION_MOST] = {0};
@@ -323,7 +329,10 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
     if (!(length_over(tau, lever) <= DEMAND_MOST))
         return tau;
     int count = gather_parts(t, vessel, parts);
-    vec3 miss = allocation_solve(columns, columns_of(t, parts, count, columns), lever, tau, u, reached);
+    int columns_count = columns_of(t, parts, count, columns);
+    for (int i = 0; i < columns_count; i++)
+        columns[i].effect = counted(columns[i].effect, turn_alone);
+    vec3 miss = allocation_solve(columns, columns_count, lever, tau, u, reached);
     /* A little may be missed within reach, by the price of a miss alone. */
     bool settled = *reached || length_over(miss, lever) >= ALLOCATION_NEAR * length_over(tau, lever);
     if (settled && all_fit(t, parts, count, u)) {
@@ -334,11 +343,22 @@ vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau
         return miss;
     }
     thruster_search s = {.t = t, .parts = parts, .count = count, .left = SOLUTIONS_MOST, .lever = lever, .tau = tau};
+    s.turn_alone = turn_alone;
     look_further(&s);
     for (int k = 0; k < count; k++)
         give_order(t, parts[k].row, s.best_mode[k], s.best[k]);
     *reached = s.reached;
     return s.miss;
+}
+
+vec3 thruster_allocate(thruster_table *t, int32_t vessel, double lever, vec3 tau, bool *reached)
+{
+    return allocate(t, vessel, lever, tau, false, reached);
+}
+
+double thruster_allocate_turn(thruster_table *t, int32_t vessel, double lever, double moment, bool *reached)
+{
+    return allocate(t, vessel, lever, vec3_make(0, 0, moment), true, reached).z;
 }
 
 /* ---- motion ---- */
@@ -410,5 +430,14 @@ vec3 thruster_effect(const thruster_table *t, int32_t vessel)
     for (int32_t i = 0; i < t->count; i++)
         if (t->vessel[i] == vessel && !t->failed[i])
             sum = vec3_mad(sum, effect_along(t, i, thruster_push_angle(t, i)), t->thrust[i]);
+    return sum;
+}
+
+vec3 thruster_ordered_effect(const thruster_table *t, int32_t vessel)
+{
+    vec3 sum = {0};
+    for (int32_t i = 0; i < t->count; i++)
+        if (t->vessel[i] == vessel && !t->failed[i])
+            sum = vec3_mad(sum, effect_along(t, i, t->order_angle[i]), t->order[i]);
     return sum;
 }

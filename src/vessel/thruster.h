@@ -67,6 +67,9 @@ double thruster_power(const thruster_table *thrusters, int32_t row);
    Returns what is missed; *reached as allocation_solve.  A demand that is no number, or has 100 digits, leaves the
    orders as they are and is not reached. */
 vec3 thruster_allocate(thruster_table *thrusters, int32_t vessel, double lever, vec3 tau, bool *reached);
+/* The same for a yaw moment [N m] where others bear what force comes with it, as the lines of a mooring do: forces
+   count neither as missed nor as reached.  Returns the moment that is missed. */
+double thruster_allocate_turn(thruster_table *thrusters, int32_t vessel, double lever, double moment, bool *reached);
 
 /* One step: failures that are due (an event each), shafts and angles follow their orders, thrusts are added to
    loads[body] and to sum[vessel]. */
@@ -75,5 +78,7 @@ fram_status thruster_step(context *ctx, thruster_table *thrusters, const vessel_
                           event_table *events, fram_error *error);
 /* Force and moment (surge, sway, yaw) that the thrusters of a vessel give now, vessel frame. */
 vec3 thruster_effect(const thruster_table *thrusters, int32_t vessel);
+/* The same that they are ordered to give. */
+vec3 thruster_ordered_effect(const thruster_table *thrusters, int32_t vessel);
 
 #endif

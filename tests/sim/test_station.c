@@ -248,13 +248,17 @@ static const char assisted[] =
     "  positioning:\n    active: true\n    feed_forward: observed\n    noise_position: 0\n    noise_heading_deg: 0\n"
     "ice: {source: none}\ndomain: {boundary: open}\n";
 
-/* Offset, heading deviation, and force and moment of the thrusters after five minutes of a steady push. */
-static void push_assisted(const char *control, vec3 *offset, wrench *thrust)
+/* Offset, heading deviation, and force and moment of the thrusters after five minutes of a steady push.  forward: place
+   of the forward thruster [m]. */
+static void push_assisted(const char *control, double forward, vec3 *offset, wrench *thrust)
 {
     scene k;
     fram_error error = {0};
     vec3 sum = {0, 0, 0};
-    scene_open_with(&k, assisted, (const char *const[]){control}, 1);
+    char place[48];
+    snprintf(place, sizeof place, "vessel.thrusters[0].x=%g", forward);
+    scene_open_with(&k, assisted, (const char *const[]){control, place}, 2);
+    bool heading_alone = station_is_of_heading_alone(&k.w.stations, 0);
     for (int i = 0; i < 3000; i++) {
         const wrench push = {{-10e3, 20e3, 0}, {0, 0, 2e6}};
         assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
@@ -265,6 +269,11 @@ static void push_assisted(const char *control, vec3 *offset, wrench *thrust)
     }
     *offset = vec3_make(sum.x / 2800, sum.y / 2800, k.w.stations.offset[0].z);
     *thrust = k.w.stations.thruster_load[0];
+    if (heading_alone) {
+        const vec3 demand = k.w.stations.demand[0];
+        ck_assert(demand.x == 0 && demand.y == 0 && demand.z != 0);
+        ck_assert_msg(k.w.stations.saturated[0] == 0, "the moment is not reached");
+    }
     scene_close(&k);
 }
 
@@ -274,9 +283,9 @@ START_TEST(heading_alone)
 {
     vec3 free, turned, placed;
     wrench none, couple, all;
-    push_assisted("vessel.positioning.active=false", &free, &none);
-    push_assisted("vessel.positioning.control=heading", &turned, &couple);
-    push_assisted("vessel.positioning.control=all", &placed, &all);
+    push_assisted("vessel.positioning.active=false", 30, &free, &none);
+    push_assisted("vessel.positioning.control=heading", 30, &turned, &couple);
+    push_assisted("vessel.positioning.control=all", 30, &placed, &all);
     ck_assert_msg(fabs(degrees(free.z)) > 20, "without thrusters it turns by %g degrees only", degrees(free.z));
     assert_absolute(degrees(turned.z), 0, 0.5);
     assert_relative(couple.moment.z, -2e6, 0.02);
@@ -287,6 +296,20 @@ START_TEST(heading_alone)
     double stiffness = 2 * 2.0e4 * along * along + 2 * 2.0e5 / way * (2 - along * along);
     assert_relative(sqrt(turned.x * turned.x + turned.y * turned.y), sqrt(5) * 10e3 / stiffness, 0.2);
     ck_assert(fabs(placed.y) < 0.3 * fabs(turned.y) && fabs(all.force.y) > 10e3);
+}
+END_TEST
+
+/* Thrusters astern alone turn the ship by pushing aside, which the lines hold as they hold the rest. */
+START_TEST(heading_alone_from_one_end)
+{
+    vec3 offset;
+    wrench thrust;
+    push_assisted("vessel.positioning.control=heading", -26, &offset, &thrust);
+    assert_absolute(degrees(offset.z), 0, 0.5);
+    /* Both push alike, by their levers: with 2 MN m over 26 and 30 m, squared, in all. */
+    double aside = 2e6 * (26 + 30) / (26 * 26 + 30 * 30);
+    assert_relative(thrust.force.y, aside, 0.1);
+    ck_assert_msg(offset.y > 1.5, "%g m aside, as if the thrust did not reach the lines", offset.y);
 }
 END_TEST
 
@@ -332,7 +355,7 @@ START_TEST(offsets_of_a_moored_ship_are_those_of_its_mooring)
 }
 END_TEST
 
-TEST_MAIN("station", heading_alone, a_moored_ship_turns_against_the_load,
+TEST_MAIN("station", heading_alone, heading_alone_from_one_end, a_moored_ship_turns_against_the_load,
           offsets_of_a_moored_ship_are_those_of_its_mooring, transit_at_a_given_thrust,
           power_is_that_of_the_larger_thrust, sensors_and_controller_keep_their_own_time, feed_forward_of_the_ice_load,
           forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,

@@ -173,4 +173,33 @@ START_TEST(turned_by_the_load_alone)
 }
 END_TEST
 
-TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, turned_by_the_load_alone)
+/* Thrusters that hold the heading alone, wherever they are: the moment is reached, and the lines hold what comes with
+   it. */
+START_TEST(a_moment_alone)
+{
+    static const double places[][2] = {{-30, -30}, {-30, -20}, {-30, 30}, {-30, 20}};
+    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+        held h;
+        hold_begin(&h);
+        double stiffness = 5e4, a = places[k][0], b = places[k][1];
+        add_springs(&h, 4, stiffness, 1e7);
+        add_thruster(&h, supply_tunnel(a));
+        add_thruster(&h, supply_tunnel(b));
+        h.c.heading_alone = h.c.heading_given = true;
+        double most = h.b.thrusters.ahead[0];
+        vec3 load = {0, 0, 10 * most};
+        holding at = holding_find(&h.c, steady, &load);
+        assert_relative(at.thruster_use, 10 / (fabs(a) + fabs(b)), 1e-3);
+        /* The least squares of thrusts go by their levers. */
+        double aside = 10 * most * fabs(a + b) / (a * a + b * b);
+        assert_absolute(at.offset, aside / (2 * stiffness + 2 * 4e5 / 600), 5e-3);
+        assert_absolute(at.turn, 0, 1e-2);
+        load = vec3_make(1e5, 2e4, 0);
+        at = holding_find(&h.c, steady, &load);
+        ck_assert_msg(at.thruster_use < 1e-3, "%g of the thrust is used by no moment", at.thruster_use);
+        hold_end(&h);
+    }
+}
+END_TEST
+
+TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone)
