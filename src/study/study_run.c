@@ -375,14 +375,16 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
 
 /* ---- all ---- */
 
-/* Whether two runs and more, with seeds of their own, came out the same: chance had no part in them. */
+/* Whether two runs and more, with seeds of their own, came out the same: chance had no part in what acted on them. */
 static bool all_alike(const condition_rows *of)
 {
     const run_row *row = of->rows.data;
     bool alike = of->rows.count > 1;
-    for (int32_t i = 0; i < of->rows.count && alike; i++)
-        alike = !row[i].failed && row[i].figure[ROW_load_mean] > 0 &&
-                memcmp(row[i].figure, row[0].figure, sizeof row[0].figure) == 0;
+    for (int32_t i = 0; i < of->rows.count && alike; i++) {
+        const double *f = row[i].figure;
+        bool acted = f[ROW_load_mean] > 0 || f[ROW_offset_largest] > 0 || f[ROW_line_tension_largest] > 0;
+        alike = !row[i].failed && acted && memcmp(f, row[0].figure, sizeof row[0].figure) == 0;
+    }
     return alike;
 }
 

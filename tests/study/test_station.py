@@ -217,6 +217,12 @@ class StationTest(StudyTest):
         self.refused("keep: {record_of_worst: 1, by: line_tension_largest}\n", "study.yaml:2: by", "mooring")
         self.fram("check", self.write("keep: {record_of_worst: 1, by: thruster_power_mean}\n"))
 
+    def test_seeds_that_draw_nothing_are_told_where_no_ice_comes(self):
+        (self.at / "base.yaml").write_text(re.sub("ice: .*", "ice: {source: none}", MOORED))
+        study = self.write("seeds: 2\nset: {run.duration: 1.2}\n")
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], check=True, capture_output=True, text=True)
+        self.assertIn("all runs came out the same, since run.seed draws nothing", done.stderr)
+
     def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
                                            MOORED[MOORED.index("ice:"):])
