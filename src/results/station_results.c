@@ -14,7 +14,9 @@ bool station_has_results(const scenario *s, int32_t vessel)
     if (vessel >= scenario_vessel_count(s))
         return false;
     const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
-    return v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0 || v->positioning.active);
+    bool required = !is_automatic(v->station.offset_limit) || !is_automatic(v->station.heading_limit_deg);
+    return v->mode == VESSEL_FREE &&
+           (v->mooring.lines.count > 0 || v->thrusters.count > 0 || v->positioning.active || required);
 }
 
 void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,

@@ -15,7 +15,7 @@ enum { ENVELOPE_DIRECTIONS = 36 };
 void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,
                      double out[ENVELOPE_DIRECTIONS]);
 
-/* True when the scenario has something that keeps the vessel on station. */
+/* True when the scenario has something that keeps the vessel on station, or requires that it stays there. */
 bool station_has_results(const scenario *s, int32_t vessel);
 fram_status station_results_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
                                   const char *folder, fram_error *error);

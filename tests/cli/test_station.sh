@@ -133,6 +133,25 @@ for command in extremes fatigue; do
 done
 expect 0 "$FRAM" compare none none -o none.html -q
 
+# What is required of a vessel that nothing holds is judged as well.
+cat >adrift.yaml <<'END'
+run: {duration: 4, time_step: 0.1}
+vessel: {mode: free, hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}, station: {offset_limit: 1}}
+ice: {source: none}
+domain: {boundary: open}
+END
+expect 0 "$FRAM" run adrift.yaml -o adrift --set vessel.speed=1
+says "position lost" err
+python3 - adrift <<'END' || fail "station.json of a vessel that nothing holds"
+import json, sys
+j = json.load(open(sys.argv[1] + "/station.json"))
+assert j["offset_m"]["limit"] == 1 and j["offset_m"]["exceedance"] > 0.5 and not j["lines"] and not j["thrusters"]
+END
+expect 0 "$FRAM" report adrift -q
+says "did not hold its station" adrift/report.html
+expect 0 "$FRAM" run adrift.yaml -o free -q --set vessel.station.offset_limit=auto
+[ -e free/station.json ] && fail "a vessel of which nothing is required has a station"
+
 # As many lines and thrusters as a scenario may have, to the last result; one line more is refused before the run.
 {
     echo 'run: {duration: 2, time_step: 0.1}'

@@ -229,6 +229,10 @@ class StationTest(StudyTest):
         self.fram(self.write("seeds: 2\n"), "-o", self.at / "out")
         self.assertNotIn("<h2>Station", self.page("out"))
         self.assertFalse((self.at / "out" / "station.csv").exists())
+        # One that nothing holds, and that has limits all the same, has not kept them.
+        limits = "vessel.station.offset_limit: 2, run.duration: 2.4"
+        self.fram(self.write(f"seeds: 1\nset: {{vessel.mode: free, {limits}}}\n"), "-o", self.at / "adrift")
+        self.assertEqual([r["kept"] for r in self.rows("adrift", "station.csv")], ["0"])
 
 
 if __name__ == "__main__":
