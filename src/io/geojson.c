@@ -433,12 +433,29 @@ static void add_property(context *ctx, text_buffer *b, const geojson_property *p
     }
 }
 
-fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines,
+/* Of feature `row`: its outline, or what stands in its place. */
+static void add_geometry(context *ctx, text_buffer *b, const polygon_list *outlines, geojson_parts parts, int32_t row)
+{
+    int32_t found = 0, features = polygon_list_count(outlines) - parts.count;
+    for (int32_t k = 0; k < parts.count; k++) {
+        if (parts.feature[k] != row)
+            continue;
+        text_add(ctx, b, found++ > 0 ? "]],[[" : "{\"type\":\"MultiPolygon\",\"coordinates\":[[[");
+        add_ring(ctx, b, polygon_list_get(outlines, features + k));
+    }
+    if (found == 0) {
+        text_add(ctx, b, "{\"type\":\"Polygon\",\"coordinates\":[[");
+        add_ring(ctx, b, polygon_list_get(outlines, row));
+    }
+    text_add(ctx, b, found > 0 ? "]]]}" : "]]}");
+}
+
+fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines, geojson_parts parts,
                                      const geojson_property *properties, int32_t property_count, double time,
                                      fram_error *error)
 {
     text_buffer b = {0};
-    int32_t count = polygon_list_count(outlines);
+    int32_t count = polygon_list_count(outlines) - parts.count;
     text_add(ctx, &b, "{\"type\":\"FeatureCollection\",");
     if (!isnan(time)) {
         text_add(ctx, &b, "\"time\":");
@@ -450,9 +467,9 @@ fram_status geojson_write_properties(context *ctx, const char *path, const polyg
         text_format(ctx, &b, "{\"type\":\"Feature\",\"properties\":{\"id\":%d", (int)i);
         for (int32_t k = 0; k < property_count; k++)
             add_property(ctx, &b, &properties[k], i);
-        text_add(ctx, &b, "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[");
-        add_ring(ctx, &b, polygon_list_get(outlines, i));
-        text_add(ctx, &b, i + 1 < count ? "]]}},\n" : "]]}}\n");
+        text_add(ctx, &b, "},\"geometry\":");
+        add_geometry(ctx, &b, outlines, parts, i);
+        text_add(ctx, &b, i + 1 < count ? "},\n" : "}\n");
     }
     text_add(ctx, &b, "]}\n");
     fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
@@ -464,5 +481,6 @@ fram_status geojson_write(context *ctx, const char *path, const polygon_list *ou
                           fram_error *error)
 {
     const geojson_property property = {.name = "thickness", .value = thickness};
-    return geojson_write_properties(ctx, path, outlines, &property, thickness ? 1 : 0, NAN, error);
+    return geojson_write_properties(ctx, path, outlines, (geojson_parts){NULL, 0}, &property, thickness ? 1 : 0, NAN,
+                                    error);
 }

@@ -36,8 +36,14 @@ typedef struct geojson_property {
     const double *value;
     const char *const *text;
 } geojson_property;
+/* The last `count` outlines are no features but parts of some, in whose place they make a MultiPolygon: the first of
+   them of feature[0]. */
+typedef struct geojson_parts {
+    const int32_t *feature;
+    int32_t count;
+} geojson_parts;
 /* The same with any properties, and a member "time" of the collection when time is not NaN [s]. */
-fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines,
+fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines, geojson_parts parts,
                                      const geojson_property *properties, int32_t property_count, double time,
                                      fram_error *error);
 

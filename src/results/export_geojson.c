@@ -99,7 +99,9 @@ fram_status export_geojson(context *ctx, const char *folder, const char *output,
         for (int k = 0; k < PLAN_COLUMNS; k++)
             property[k + 2] = (geojson_property){.name = column_names[k], .value = c.value[k].data};
         report->time = m.time;
-        status = geojson_write_properties(ctx, report->path, &m.outlines, property, PLAN_COLUMNS + 2, m.time, error);
+        geojson_parts parts = {m.part_of.data, m.part_of.count};
+        status =
+            geojson_write_properties(ctx, report->path, &m.outlines, parts, property, PLAN_COLUMNS + 2, m.time, error);
     }
     for (int k = 0; k < PLAN_COLUMNS; k++)
         array_free(ctx, &c.value[k]);

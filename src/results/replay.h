@@ -7,6 +7,9 @@
 #include "geometry/polygon.h"
 #include "io/record_layout.h"
 
+/* Whether the plan of a solid that lies upright leaves a part of its convex outline open (results/replay_parts.h). */
+typedef enum replay_openness { OPENNESS_UNKNOWN = 0, OPENNESS_CLOSED, OPENNESS_OPEN } replay_openness;
+
 /* A body of the record.  Bodies are listed by birth and stay listed when they are gone. */
 typedef struct replay_body {
     int32_t slot;
@@ -20,6 +23,7 @@ typedef struct replay_body {
     int32_t vessel;                     /* row in the scenario of a hull's vessel; -1: no hull */
     int32_t vertex_first, vertex_count; /* prism: in replay.outlines; solid: in replay.points */
     int32_t face_first, face_count;     /* solid: triangles in replay.faces */
+    replay_openness openness;           /* solid */
     int64_t born, died;                 /* number of the first frame with it, and of the first without */
     double birth;                       /* time of that first frame [s] */
     vec3 position;                      /* of a body that does not move */

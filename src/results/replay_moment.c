@@ -1,5 +1,7 @@
 #include "results/replay_moment.h"
 
+#include "results/replay_parts.h"
+
 /* Positions on a straight line; quaternions on the shorter way, normalised. */
 static void blend(replay_pose *p, const replay_pose *later, double part)
 {
@@ -35,11 +37,34 @@ static bool add_outline(replay *r, const replay_pose *p, replay_moment *out)
     return good;
 }
 
+static fram_status add_parts(replay *r, replay_moment *out, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t row = 0; row < out->poses.count && status == FRAM_OK; row++) {
+        int32_t before = polygon_list_count(&out->outlines);
+        status = replay_parts_add(r, &out->poses.data[row], &out->outlines, error);
+        for (int32_t n = polygon_list_count(&out->outlines) - before; n > 0 && status == FRAM_OK; n--)
+            status = array_push(r->ctx, &out->part_of, row) ? FRAM_OK : error_memory(error);
+    }
+    return status;
+}
+
+int32_t replay_moment_row(const replay_moment *m, int32_t outline)
+{
+    if (outline >= m->poses.count)
+        return m->part_of.data[outline - m->poses.count];
+    for (int32_t k = 0; k < m->part_of.count; k++)
+        if (m->part_of.data[k] == outline)
+            return -1;
+    return outline;
+}
+
 static fram_status find_plan(replay *r, double part, replay_moment *out, fram_error *error)
 {
     out->time = r->frame.time + (r->has_next ? part * (r->next.time - r->frame.time) : 0);
     polygon_list_clear(&out->outlines);
     array_clear(&out->poses);
+    array_clear(&out->part_of);
     for (int32_t i = 0; i < r->frame.poses.count; i++) {
         replay_pose p = r->frame.poses.data[i];
         int32_t later = p.body < r->next_row.count && r->has_next ? r->next_row.data[p.body] : -1;
@@ -48,7 +73,7 @@ static fram_status find_plan(replay *r, double part, replay_moment *out, fram_er
         if (!add_outline(r, &p, out))
             return error_memory(error);
     }
-    return FRAM_OK;
+    return add_parts(r, out, error);
 }
 
 fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error) { return find_plan(r, 0, out, error); }
@@ -83,4 +108,5 @@ void replay_moment_free(context *ctx, replay_moment *m)
 {
     polygon_list_free(ctx, &m->outlines);
     array_free(ctx, &m->poses);
+    array_free(ctx, &m->part_of);
 }

@@ -5,11 +5,12 @@
 #include "results/replay.h"
 
 /* Outlines in global plan coordinates; row i of all arrays belongs to outline i.  Prisms as their plan, solids as the
-   convex hull of theirs. */
+   convex hull of theirs.  Behind them stand the parts of solids that leave water open within that. */
 typedef struct replay_moment {
     double time; /* [s] */
     polygon_list outlines;
     ARRAY(replay_pose) poses;
+    int32_array part_of; /* outline poses.count + k is a part of the solid in row part_of[k] */
 } replay_moment;
 
 /* Go to the last frame whose time is not after `time` and find the plan then; the replay goes forwards only.
@@ -20,6 +21,8 @@ fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_er
 fram_status replay_moment_until(replay *r, double time, replay_moment *out, fram_error *error);
 /* The plan of the current frame. */
 fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error);
+/* The row of an outline; -1 where parts stand for it. */
+int32_t replay_moment_row(const replay_moment *m, int32_t outline);
 void replay_moment_free(context *ctx, replay_moment *m);
 
 #endif

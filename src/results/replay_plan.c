@@ -37,12 +37,15 @@ double plan_colour_value(plan_colour colour, const replay_body *b, const replay_
     }
 }
 
-static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan_colour colour, double lo, double hi,
-                      replay_plan *out)
+static bool add_shape(const replay *r, const replay_moment *m, int32_t outline, plan_colour colour, double lo,
+                      double hi, replay_plan *out)
 {
+    int32_t row = replay_moment_row(m, outline);
+    if (row < 0)
+        return true;
     const replay_pose *p = &m->poses.data[row];
     const replay_body *b = &r->bodies.data[p->body];
-    plan_shape shape = {.outline = polygon_list_get(&m->outlines, row)};
+    plan_shape shape = {.outline = polygon_list_get(&m->outlines, outline)};
     shape.style = b->solid                       ? PLAN_DECK
                   : b->material == MATERIAL_WALL ? PLAN_WALL
                   : b->material == MATERIAL_HULL ? PLAN_DECK
@@ -57,11 +60,17 @@ static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan
     shape.has_value = value == value;
     if (shape.has_value)
         shape.value = (float)(hi > lo ? fmin(fmax((value - lo) / (hi - lo), 0), 1) : 0);
-    if (b->solid && !out->has_vessel) {
-        out->has_vessel = true;
+    return array_push(r->ctx, &out->shapes, shape);
+}
+
+static void find_vessel(const replay *r, const replay_moment *m, replay_plan *out)
+{
+    out->has_vessel = false;
+    for (int32_t i = 0; i < m->poses.count && !out->has_vessel; i++) {
+        const replay_pose *p = &m->poses.data[i];
+        out->has_vessel = r->bodies.data[p->body].solid;
         out->vessel = vec2_make(p->position.x, p->position.y);
     }
-    return array_push(r->ctx, &out->shapes, shape);
 }
 
 /* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. */
@@ -81,8 +90,8 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     array_clear(&out->shapes);
     array_clear(&out->arrows);
     array_clear(&out->marks);
-    out->has_vessel = false;
-    for (int32_t i = 0; i < m->poses.count && good; i++)
+    find_vessel(r, m, out);
+    for (int32_t i = 0; i < polygon_list_count(&m->outlines) && good; i++)
         good = add_shape(r, m, i, colour, lo, hi, out);
     plan_shapes_sort(out->shapes.data, out->shapes.count);
     for (int32_t i = 0; arrow > 0 && i < r->frame.forces.count && good; i++)

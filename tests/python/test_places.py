@@ -17,15 +17,16 @@ from test_same_run import without_wall_times
 
 import fram
 
-def box(length, beam, draught, freeboard):
-    """A box as STL text."""
+def box(length, beam, draught, freeboard, at=(0,)):
+    """A box as STL text, or one at each of these y."""
     x, y, corners = length / 2, beam / 2, []
-    for z in (-draught, freeboard):
-        corners += [(-x, -y, z), (x, -y, z), (x, y, z), (-x, y, z)]
+    for middle in at:
+        for z in (-draught, freeboard):
+            corners += [(-x, middle - y, z), (x, middle - y, z), (x, middle + y, z), (-x, middle + y, z)]
     faces = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7), (0, 1, 5), (0, 5, 4), (1, 2, 6), (1, 6, 5), (2, 3, 7),
              (2, 7, 6), (3, 0, 4), (3, 4, 7))
-    facets = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % corners[i] for i in face) +
-              "endloop\nendfacet\n" for face in faces)
+    facets = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % corners[first + i] for i in face) +
+              "endloop\nendfacet\n" for first in range(0, len(corners), 8) for face in faces)
     return "solid box\n" + "".join(facets) + "endsolid box\n"
 
 
@@ -71,7 +72,7 @@ class WorkingFolder(InTwoFolders):
         self.assertEqual(list(self.there.iterdir()), [])
 
     def test_a_scenario_keeps_its_files(self):
-        (self.here / "ship.stl").write_text(box(48, 12, 4, 2))
+        (self.here / "ship.stl").write_text(box(48, 4, 4, 2, (-6, 6)))
         (self.there / "ship.stl").write_text(box(20, 6, 2, 1))  # another one of the same name
         text = TOWED.replace("{length: 48, beam: 12, draught: 4, freeboard: 2}", "{form: file, file: ship.stl}")
         (self.here / "scene.yaml").write_text(text)
@@ -82,7 +83,10 @@ class WorkingFolder(InTwoFolders):
         hashes |= {scenario.world().hash for scenario in scenarios}
         self.assertEqual(len(hashes), 1)
         os.unlink("ship.stl")
-        scenarios[0].run("run")
+        floes = scenarios[0].run("run").floes(0)
+        # A hull of two parts has an outline for each.
+        sides = [sorted(set(f.outline[:, 1].round(3))) for f in floes if f.properties["kind"] == "vessel"]
+        self.assertEqual(sides, [[-8, -4], [4, 8]])
         for scenario in scenarios:
             self.assertEqual(scenario.files["vessel.hull.file"].replace("here/../", ""), str(self.here / "ship.stl"))
 

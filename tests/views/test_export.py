@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+import chromium
+
 FRAM = os.environ["FRAM"]
 READERS = ("vtkmodules", "xarray", "netCDF4", "h5py", "pandas")
 # In coordinates of a map, where floats are a decimetre apart.
@@ -329,6 +331,52 @@ def check_geojson(run, rows):
     return "json"
 
 
+CATAMARAN = """
+run: {duration: 0.04, time_step: 0.02}
+vessels:
+  - {name: cat, mode: prescribed, x: -1400000, y: 700, heading_deg: 90, hull: {form: file, file: cat.obj}}
+  - {name: ship, mode: prescribed, x: -1399950, y: 700, hull: {form: box, length: 20, beam: 8, draught: 3}}
+ice: {source: floes, floes: [{x: -1400000, y: 740, length: 6, width: 6}]}
+domain: {x_min: -1400050, x_max: -1399900, y_min: 650, y_max: 750, boundary: open}
+output: {frame_interval: 0.02}
+"""
+
+
+def pontoon(y, first):
+    """Of 40 by 4 m, as an OBJ file has it whose vertices begin with the first."""
+    corners = [f"v {x} {y + dy} {z}" for z in (-3, 2) for dy in (-2, 2) for x in (-20, 20)]
+    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    return "\n".join([*corners, *("f " + " ".join(str(first + k) for k in face) for face in faces), ""])
+
+
+def check_open_hull(folder):
+    """Water between the hulls of a catamaran is no hull, in files and in pictures."""
+    (folder / "cat.obj").write_text(pontoon(-8, 1) + pontoon(8, 9))
+    (folder / "cat.yaml").write_text(CATAMARAN)
+    run = folder / "cat"
+    fram("run", folder / "cat.yaml", "-o", run, "-q")
+    fram("export", run, "--geojson", "--time", 0.02, "-q")
+    told = json.loads((run / "field-0.02.geojson").read_text())["features"]
+    assert [(f["properties"]["kind"], f["geometry"]["type"]) for f in told] == [
+        ("vessel", "MultiPolygon"), ("vessel", "Polygon"), ("floe", "Polygon")], told
+    assert [f["properties"]["id"] for f in told] == [0, 1, 2] and told[0]["properties"]["name"] == "cat"
+    (one, *none), (two, *none_either) = told[0]["geometry"]["coordinates"]
+    assert not none and not none_either and one[0] == one[-1]
+    for ring, x in zip((one, two), (-1400008, -1399992)):
+        sides = [[f(p[k] for p in ring) for f in (min, max)] for k in (0, 1)]
+        for found, wanted in zip(sides, ((x - 2, x + 2), (680, 720))):
+            close(found[0], wanted[0], 0.01)
+            close(found[1], wanted[1], 0.01)
+    said = json.loads(fram("field", run / "field-0.02.geojson", "--json"))
+    assert said["floes"] == 1, said
+    if "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout:
+        fram("video", run, "--pictures", "--camera", "plan", "--fps", 1, "--width", 320, "--height", 360, "-q")
+        width, height, channels, rows = chromium.pixels((run / "video" / "frame-000000.png").read_bytes())
+        red = [[row[channels * x] > 1.6 * row[channels * x + 1] for x in range(width)] for row in rows]
+        parts = [sum(a and not b for a, b in zip(row, row[1:])) for row in red]
+        assert parts.count(3) > 5 and parts.count(2) > 2 * parts.count(3), parts  # two hulls, and the ship in some rows
+
+
 def main():
     use_system_python()
     missing = [name for name in READERS if not have(name)]
@@ -342,6 +390,7 @@ def main():
         rows = rows_of(run / "series.csv")
         assert all(math.isfinite(v) for row in rows for v in row.values())
         done = [check_geojson(run, rows)]
+        check_open_hull(pathlib.Path(folder))
         if have("vtkmodules"):
             done.append(check_vtk(run, rows))
             check_restart(pathlib.Path(folder), run)

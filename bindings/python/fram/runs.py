@@ -25,7 +25,8 @@ except Exception:  # noqa: BLE001: also one that was built for another numpy
 
 @dataclass(frozen=True)
 class Floe:
-    """A floe, wall or vessel seen from above: outline [m] and what the record tells of it."""
+    """A floe, wall or vessel, or one of the hulls of a catamaran, seen from above: outline [m] and what the record
+    tells of it."""
 
     outline: np.ndarray
     properties: Mapping[str, Any]
@@ -221,7 +222,8 @@ class Run:
         return sorted(found, key=lambda event: event.get("time_s", 0))
 
     def floes(self, time: float) -> list[Floe]:
-        """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation."""
+        """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation; a hull that
+        leaves water open between its parts has one for each, with the same properties."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "field.geojson")
             error = new_error()
@@ -229,8 +231,11 @@ class Run:
                                                          float(time), ffi.NULL, error, 0), error)
             with open(path, encoding="utf-8") as file:
                 features = json.load(file)["features"]
-        return [Floe(np.array(f["geometry"]["coordinates"][0][:-1]), f["properties"]) for f in features
-                if f["geometry"]["type"] == "Polygon"]
+        found = []
+        for f in features:
+            parts, many = f["geometry"]["coordinates"], f["geometry"]["type"] == "MultiPolygon"
+            found += [Floe(np.array(part[0][:-1]), f["properties"]) for part in (parts if many else [parts])]
+        return found
 
     def report(self, output: Union[str, os.PathLike, None] = None) -> str:
         """Write the run's HTML report; its path.
