@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
+#include "io/chart_legend.h"
 #include "io/chart_ticks.h"
 #include "io/image.h"
 
@@ -9,22 +10,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Colour-blind safe (Okabe and Ito 2008). */
-static const double line_colours[][3] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
-                                         {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00},
-                                         {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
-enum { LINE_COLOURS = sizeof line_colours / sizeof *line_colours };
-
-void chart_colour_text(int number, char out[CHART_COLOUR_TEXT])
-{
-    const double *c = line_colours[(number - 1) % LINE_COLOURS];
-    snprintf(out, CHART_COLOUR_TEXT, "#%02x%02x%02x", (unsigned)(255 * c[0] + 0.5), (unsigned)(255 * c[1] + 0.5),
-             (unsigned)(255 * c[2] + 0.5));
-}
-
 #ifdef FRAM_HAVE_CAIRO
 
-static const image_colour chart_ink = {0.2, 0.2, 0.2}, chart_grid = {0.90, 0.91, 0.92};
+static const image_colour chart_grid = {0.90, 0.91, 0.92};
 static const double log_of_ten = 2.302585092994045684;
 
 typedef struct chart_frame {
@@ -159,7 +147,7 @@ static void draw_y_axis(cairo_t *page, const chart_frame *f)
         cairo_move_to(page, f->left, py);
         cairo_line_to(page, f->right, py);
         cairo_stroke(page);
-        image_set_colour(page, chart_ink);
+        image_set_colour(page, CHART_INK);
         tick_text(&t, i, text);
         image_text(page, f->left - LABEL_GAP, py + 4, TICK_SIZE, ALIGN_RIGHT, false, text);
     }
@@ -177,7 +165,7 @@ static void draw_x_axis(cairo_t *page, const chart_frame *f)
         cairo_move_to(page, px, f->top);
         cairo_line_to(page, px, f->bottom);
         cairo_stroke(page);
-        image_set_colour(page, chart_ink);
+        image_set_colour(page, CHART_INK);
         cairo_move_to(page, px, f->bottom);
         cairo_line_to(page, px, f->bottom + 5);
         cairo_stroke(page);
@@ -198,7 +186,7 @@ static void draw_axes(cairo_t *page, const chart *c, const chart_frame *f)
     cairo_line_to(page, floor(f->left) + 0.5, floor(f->bottom) + 0.5);
     cairo_line_to(page, f->right, floor(f->bottom) + 0.5);
     cairo_stroke(page);
-    image_set_colour(page, chart_ink);
+    image_set_colour(page, CHART_INK);
     image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
     cairo_save(page);
     cairo_translate(page, 18, (f->top + f->bottom) / 2);
@@ -271,8 +259,6 @@ static double bound_py(const chart_frame *f, double y)
     return at == at ? axis_to_py(f, at) : f->bottom;
 }
 
-#define BAND_OPACITY 0.18
-
 /* Rows without a value (NaN) part it; one that stands alone is as wide [pixels]. */
 #define LONE_BAND 6.0
 
@@ -295,7 +281,7 @@ static void draw_band(cairo_t *page, const chart_frame *f, const chart_line *lin
         }
         cairo_close_path(page);
     }
-    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, line->solid ? 1 : BAND_OPACITY);
+    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, line->solid ? 1 : CHART_BAND_OPACITY);
     cairo_fill(page);
 }
 
@@ -322,18 +308,15 @@ static void draw_points(cairo_t *page, const chart_frame *f, const chart_line *l
     cairo_fill(page);
 }
 
-static image_colour colour_of(const chart_line *line, int32_t place)
+static void draw_one(cairo_t *page, const chart_frame *f, const chart_line *line, int32_t place, bool track)
 {
-    const double *c = line_colours[(line->colour > 0 ? line->colour - 1 : place) % LINE_COLOURS];
-    return (image_colour){c[0], c[1], c[2]};
-}
-
-static void draw_one(cairo_t *page, const chart_frame *f, const chart_line *line, image_colour colour, bool track)
-{
+    image_colour colour = chart_colour_of(line, place);
     image_set_colour(page, colour);
     switch (line->style) {
     case CHART_LINE:
+        chart_set_dashes(page, line, place);
         (track ? draw_track : draw_line)(page, f, line);
+        cairo_set_dash(page, NULL, 0, 0);
         draw_lone(page, f, line);
         break;
     case CHART_BAND:
@@ -345,31 +328,6 @@ static void draw_one(cairo_t *page, const chart_frame *f, const chart_line *line
     case CHART_POINTS:
         draw_points(page, f, line);
         break;
-    }
-}
-
-static void draw_legend(cairo_t *page, const chart *c, const chart_frame *f)
-{
-    double x = f->right;
-    for (int32_t k = c->line_count - 1; k >= 0; k--) {
-        if (!c->lines[k].name[0])
-            continue;
-        x -= image_text_width(page, 12, false, c->lines[k].name);
-        image_set_colour(page, chart_ink);
-        image_text(page, x, f->top - 8, 12, ALIGN_LEFT, false, c->lines[k].name);
-        bool band = c->lines[k].style == CHART_BAND;
-        image_colour colour = colour_of(&c->lines[k], k);
-        cairo_set_source_rgba(page, colour.r, colour.g, colour.b, band && !c->lines[k].solid ? BAND_OPACITY : 1);
-        if (c->lines[k].style == CHART_POINTS) {
-            cairo_arc(page, x - 16, f->top - 12, 3.5, 0, 2 * PI);
-            cairo_fill(page);
-        } else {
-            cairo_set_line_width(page, band ? 10 : 3);
-            cairo_move_to(page, x - 26, f->top - 12);
-            cairo_line_to(page, x - 6, f->top - 12);
-            cairo_stroke(page);
-        }
-        x -= 44;
     }
 }
 
@@ -390,9 +348,10 @@ typedef struct chart_margins {
     double left, right;
 } chart_margins;
 
-static chart_frame frame_of(const chart *c, int width, int height, bool equal, chart_margins m)
+static chart_frame frame_of(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins m)
 {
     chart_frame f = {.left = m.left, .right = width - m.right, .top = c->subtitle[0] ? 78 : 58, .bottom = height - 58};
+    f.top += chart_legend_more(page, c, f.right - f.left, f.bottom - f.top);
     find_range(c, &f);
     if (equal)
         equalise(&f);
@@ -402,7 +361,7 @@ static chart_frame frame_of(const chart *c, int width, int height, bool equal, c
 /* Room for the labels of this chart too: of the y axis beside its title, and of the last tick below. */
 static void widen_margins(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins *m)
 {
-    chart_frame f = frame_of(c, width, height, equal, *m);
+    chart_frame f = frame_of(page, c, width, height, equal, *m);
     tick_row y = y_ticks(&f), x = x_ticks(&f);
     m->left = fmax(m->left, ceil(widest_tick(page, &y)) + LABEL_GAP + TITLE_ROOM);
     double end = axis_to_px(&f, tick_at(&x, x.count - 1)) + 0.5 * width_of_tick(page, &x, x.count - 1);
@@ -411,7 +370,7 @@ static void widen_margins(cairo_t *page, const chart *c, int width, int height, 
 
 static void draw_within(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins m)
 {
-    chart_frame f = frame_of(c, width, height, equal, m);
+    chart_frame f = frame_of(page, c, width, height, equal, m);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
     image_text_fitted(page, f.left, 28, 17, true, f.right - f.left, c->title);
     image_text_fitted(page, f.left, 48, 12, false, f.right - f.left, c->subtitle);
@@ -422,9 +381,9 @@ static void draw_within(cairo_t *page, const chart *c, int width, int height, bo
     cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
     cairo_set_antialias(page, CAIRO_ANTIALIAS_FAST);
     for (int32_t k = 0; k < c->line_count; k++)
-        draw_one(page, &f, &c->lines[k], colour_of(&c->lines[k], k), equal);
+        draw_one(page, &f, &c->lines[k], k, equal);
     cairo_restore(page);
-    draw_legend(page, c, &f);
+    chart_draw_legend(page, c, f.left, f.right, f.top);
 }
 
 void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)

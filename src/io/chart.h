@@ -19,7 +19,7 @@ typedef struct chart_line {
     chart_style style;
     const double *y2; /* of a band */
     bool solid;       /* a band that hides what is behind it */
-    int colour;       /* number in the palette, from 1; 0: by the place in the list */
+    int colour;       /* number in the palette, from 1, beyond it dashed; 0: by the place in the list */
 } chart_line;
 
 typedef struct chart {
@@ -51,6 +51,7 @@ static inline chart chart_make(const char *title, const char *subtitle, const ch
                    .line_count = count};
 }
 
+enum { CHART_COLOURS = 8 };
 /* Of a number in the palette, as pages write it: "#99b3cc". */
 enum { CHART_COLOUR_TEXT = 8 };
 void chart_colour_text(int number, char out[CHART_COLOUR_TEXT]);

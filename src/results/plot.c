@@ -46,6 +46,10 @@ static void choose_rows(plot *p, double from, double to, int32_t rows)
     p->rows = end - p->first;
 }
 
+/* Of the n-th line of a panel, from 0.  The palette's first is for backgrounds, so it comes last; then all come again,
+   dashed. */
+static int line_colour(int32_t n) { return 1 + (n + 1) % CHART_COLOURS + n / CHART_COLOURS * CHART_COLOURS; }
+
 static fram_status add_channel(plot *p, const run_data *d, const char *name, fram_error *error)
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
@@ -53,7 +57,7 @@ static fram_status add_channel(plot *p, const run_data *d, const char *name, fra
         return run_refuse_channel(d, name, NULL, error);
     panel *at = panel_of(p, c->unit);
     chart_line line = chart_line_make(c->name, p->time + p->first, c->value.data + p->first, p->rows, true);
-    line.colour = at->count + 2; /* the palette's first is for backgrounds */
+    line.colour = line_colour(at->count);
     at->lines[at->count++] = line;
     return FRAM_OK;
 }

@@ -180,8 +180,49 @@ START_TEST(labels_have_their_room)
 }
 END_TEST
 
+/* Whether a page has ink between two columns and two rows. */
+static bool has_ink(cairo_t *page, int left, int right, int top, int bottom)
+{
+    bool found = false;
+    for (int x = left; x < right; x++)
+        found = found || is_marked(page, x, top, bottom);
+    return found;
+}
+
+/* Names that are wider than the plot together stand in rows above it, and a colour that comes again is dashed. */
+START_TEST(legends_have_their_room)
+{
+    enum { WIDE = 620, HIGH = 400, LINES = 10, ROW = 16, SIGNS = 50 };
+    static const double x[2] = {0, 1}, y[LINES][2] = {{10, 10}, {9, 9}, {8, 8}, {7, 7}, {6, 6},
+                                                      {5, 5},   {4, 4}, {3, 3}, {2, 2}, {1, 1}};
+    chart_line lines[LINES];
+    for (int k = 0; k < LINES; k++)
+        lines[k] = chart_line_make("a long name of a line", x, y[k], 2, true);
+    for (int count = 2; count <= LINES; count += LINES - 2) {
+        const chart c = chart_make("", "", "", "", lines, count);
+        /* Three of them fit side by side. */
+        int more = (count + 2) / 3 - 1, top = 58 + more * ROW;
+        cairo_t *page = NULL;
+        fram_error error;
+        ck_assert_int_eq(image_begin(WIDE, HIGH, &page, &error), FRAM_OK);
+        chart_draw(page, &c, WIDE, HIGH, false);
+        for (int row = 0; row <= more; row++)
+            ck_assert_msg(has_ink(page, 300, WIDE, SIGNS + row * ROW - 8, SIGNS + row * ROW), "row %d of %d", row,
+                          count);
+        ck_assert(!has_ink(page, 0, 86, 30, top - 4));
+        /* Both ends of the first line, ten of 10.5 up, and where the second one of its colour has its first gap. */
+        double up = (HIGH - 58 - top) / 10.5;
+        int first = (int)(HIGH - 58 - 10 * up), ninth = (int)(HIGH - 58 - 2 * up);
+        ck_assert(is_marked(page, 95, first - 2, first + 2));
+        if (count == LINES)
+            ck_assert(is_marked(page, 90, ninth - 2, ninth + 2) && !is_marked(page, 95, ninth - 2, ninth + 2));
+        cairo_destroy(page);
+    }
+}
+END_TEST
+
 TEST_MAIN("fitted", texts_end_in_their_room, bands_have_gaps, ticks_have_the_digits_of_their_step,
-          labels_have_their_room)
+          labels_have_their_room, legends_have_their_room)
 
 #else
 
