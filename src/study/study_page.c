@@ -1,5 +1,6 @@
 /* study.html: what a study says, for people: conditions with intervals, charts, seeds, the worst runs. */
 #include "base/number_text.h"
+#include "base/sort.h"
 #include "io/atomic_file.h"
 #include "model/mechanism.h"
 #include "study/key_names.h"
@@ -87,13 +88,47 @@ static void number_at(double value, int decimals, char out[HTML_NUMBER_SIZE])
     snprintf(out, HTML_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, rounded_at(value, decimals));
 }
 
-void page_key_text(const char *value, char out[PAGE_KEY_SIZE])
+/* Digits that tell the numbers of a key apart, whichever of them are shortened.  Rounding keeps an order, so that
+   neighbours in it are enough to look at. */
+static int digits_for_key(study_page *p, int32_t key)
 {
+    enum { LEAST = 4, MOST = 17 };
+    const study *s = p->f->s;
+    double *value = memory_array(p->f->ctx, (size_t)s->conditions + 1, sizeof *value);
+    int32_t count = 0;
+    int digits = LEAST;
+    for (int32_t c = 0; value && c < s->conditions; c++)
+        count += study_series_number(study_value(s, c, key), &value[count]);
+    if (value)
+        numbers_sort(value, count);
+    p->page.text.failed = !value || p->page.text.failed;
+    for (int32_t i = 1; i < count; i++) {
+        for (char text[2][PAGE_KEY_SIZE]; digits < MOST && value[i] > value[i - 1]; digits++) {
+            snprintf(text[0], PAGE_KEY_SIZE, "%.*g", digits, value[i - 1]);
+            snprintf(text[1], PAGE_KEY_SIZE, "%.*g", digits, value[i]);
+            if (strcmp(text[0], text[1]) != 0)
+                break;
+        }
+    }
+    memory_free(p->f->ctx, value);
+    return digits;
+}
+
+void page_key_text(study_page *p, int32_t condition, int32_t key, char out[PAGE_KEY_SIZE])
+{
+    const char *value = study_value(p->f->s, condition, key);
     double number;
-    if (study_series_number(value, &number) && strlen(value) > 6)
-        snprintf(out, PAGE_KEY_SIZE, "%.4g", number);
-    else
-        snprintf(out, PAGE_KEY_SIZE, "%s", value);
+    while (p->key_digits.count <= key && !p->page.text.failed) {
+        int digits = digits_for_key(p, p->key_digits.count);
+        p->page.text.failed = !array_push(p->f->ctx, &p->key_digits, digits) || p->page.text.failed;
+    }
+    snprintf(out, PAGE_KEY_SIZE, "%s", value);
+    if (p->page.text.failed || strlen(value) <= 6 || !study_series_number(value, &number))
+        return;
+    char brief[PAGE_KEY_SIZE];
+    snprintf(brief, sizeof brief, "%.*g", p->key_digits.data[key], number);
+    if (strlen(brief) < strlen(value))
+        snprintf(out, PAGE_KEY_SIZE, "%s", brief);
 }
 
 static bool has_figure(study_page *p, const page_figure *figure)
@@ -147,7 +182,7 @@ void page_row_begin(study_page *p, int32_t condition)
     snprintf(text, sizeof text, "%d", (int)condition + 1);
     html_cell(&p->page, text);
     for (int32_t k = 0; k < p->f->s->keys.count && k < HEADS_MOST / 2; k++) {
-        page_key_text(study_value(p->f->s, condition, k), text);
+        page_key_text(p, condition, k, text);
         html_cell(&p->page, text);
     }
 }
@@ -450,6 +485,7 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, p.page.text.data, (size_t)p.page.text.count, error);
     text_free(f->ctx, &path);
+    array_free(f->ctx, &p.key_digits);
     html_free(&p.page);
     return status;
 }

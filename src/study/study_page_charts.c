@@ -35,8 +35,9 @@ static void groups_free(study_charts *w)
     }
 }
 
-void page_group_name(const study *s, const study_series *of, int32_t group, bool brief, char out[PAGE_GROUP_SIZE])
+void page_group_name(study_page *p, const study_series *of, int32_t group, bool brief, char out[PAGE_GROUP_SIZE])
 {
+    const study *s = p->f->s;
     size_t used = 0;
     out[0] = '\0';
     for (int32_t k = 0; k < s->keys.count && used < PAGE_GROUP_SIZE; k++) {
@@ -44,7 +45,7 @@ void page_group_name(const study *s, const study_series *of, int32_t group, bool
         const char *key = s->keys.data[k], *unit = key_unit(key), *dot = brief ? strrchr(key, '.') : NULL;
         if (k == of->key || !study_series_is_group_key(s, of, k))
             continue;
-        page_key_text(study_value(s, group * of->length, k), value);
+        page_key_text(p, group * of->length, k, value);
         used += (size_t)snprintf(out + used, PAGE_GROUP_SIZE - used, "%s%s %s%s%s", used > 0 ? ", " : "",
                                  dot ? dot + 1 : key, value, *unit ? " " : "", unit);
     }
@@ -55,7 +56,7 @@ static void name_group(study_charts *w, int32_t g)
     char *name = w->group[g].name;
     name[0] = '\0';
     if (w->is_series)
-        page_group_name(w->p->f->s, &w->series, g, true, name);
+        page_group_name(w->p, &w->series, g, true, name);
     if (!name[0])
         snprintf(name, PAGE_GROUP_SIZE, "mean over seeds");
 }

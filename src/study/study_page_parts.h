@@ -20,6 +20,7 @@ typedef struct study_page {
     const study_folder *f;
     const condition_rows *conditions;
     html_page page;
+    int32_array key_digits; /* of the keys that were asked for */
 } study_page;
 
 /* The figure as the page has it, or as in summary.csv. */
@@ -51,9 +52,10 @@ void page_interval_text(seed_interval i, char out[PAGE_INTERVAL_SIZE]);
 
 /* Rounded to three significant digits. */
 double page_three_digits(double value);
-/* A value of a key, a number to four significant digits. */
+/* The value of a key: as it was written, or in fewer digits, at least four, that still tell it from the key's other
+   values. */
 enum { PAGE_KEY_SIZE = 48 };
-void page_key_text(const char *value, char out[PAGE_KEY_SIZE]);
+void page_key_text(study_page *p, int32_t condition, int32_t key, char out[PAGE_KEY_SIZE]);
 
 /* Maps of a grid over two keys: rows by the first, columns by the second, conditions row by row. */
 enum { HEAT_SIDE = 12, PAGE_HEAT_MOST = HEAT_SIDE * HEAT_SIDE };
@@ -74,7 +76,7 @@ void page_add_heats(study_page *p, const bool *has);
 /* What tells a group of a series from the others: "ice.thickness 0.6 m", brief "thickness 0.6 m"; "" where there is one
    group. */
 enum { PAGE_GROUP_SIZE = 96 };
-void page_group_name(const study *s, const study_series *of, int32_t group, bool brief, char out[PAGE_GROUP_SIZE]);
+void page_group_name(study_page *p, const study_series *of, int32_t group, bool brief, char out[PAGE_GROUP_SIZE]);
 
 /* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
    it (study/study_series.h). */

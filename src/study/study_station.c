@@ -226,8 +226,8 @@ static void add_ends(study_page *p, const station_counts *counts)
         int32_t kept = kept_length(&series, g, false, counts), last = kept > 0 ? kept - 1 : 0;
         int32_t above = kept > 0 ? 0 : kept_length(&series, g, true, counts);
         last = above > 0 ? series.length - above : last;
-        page_group_name(s, &series, g, false, group);
-        page_key_text(study_value(s, g * series.length + last, series.key), value);
+        page_group_name(p, &series, g, false, group);
+        page_key_text(p, g * series.length + last, series.key, value);
         const char *unit = key_unit(s->keys.data[series.key]);
         html_paragraph(&p->page, "%s%s %s %s %s%s%s%s.", group, *group ? ": station" : "Station",
                        kept > 0    ? "was kept in all runs up to"

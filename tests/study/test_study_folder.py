@@ -106,6 +106,17 @@ class Folders(StudyTest):
         self.assertEqual((told["conditions"], told["different"], told["runs_most"]), (3, 2, 2))
         self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 2)
 
+    def test_pages_tell_conditions_apart(self):
+        """Values are shortened as far as those of their key stay different, but into nothing longer."""
+        study = self.write("keep: summary\nset: {run.duration: 0.1, run.transient: 0, ice.source: none,"
+                           " domain.x_min: -1400064, domain.x_max: -1399936}\nvary:\n  list:\n"
+                           "    - {vessel.x: -1400010, vessel.speed: 2.00000123456, vessel.hull.beam: 12.3456789}\n"
+                           "    - {vessel.x: -1400000, vessel.speed: 2.00000223456, vessel.hull.beam: 12.5}\n")
+        self.fram(study, "-o", self.at / "out")
+        page = (self.at / "out" / "study.html").read_text()
+        for row in (("-1400010", "2.000001", "12.35"), ("-1400000", "2.000002", "12.5")):
+            self.assertIn("".join(f"<td>{value}</td>" for value in row), page)
+
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
         path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
