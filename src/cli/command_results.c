@@ -134,10 +134,15 @@ int command_plot(const command_row *self, int argc, char **argv)
 /* What is less is rounding, in whatever unit the table has: a place of 4e-17 m is 0. */
 #define NUMBER_LEAST 1e-12
 
+/* Lengths from here on are places far from the origin, of which six digits would not tell the decimetre [m]. */
+#define FAR_LENGTH 1e5
+
 /* A dash where a run has no such number. */
-static void print_number(double x, int digits)
+static void print_number(double x, const char *unit, int digits)
 {
-    if (isfinite(x))
+    if (isfinite(x) && fabs(x) >= FAR_LENGTH && strcmp(unit, "m") == 0)
+        printf(" %14.1f", x);
+    else if (isfinite(x))
         printf(" %14.*g", digits, fabs(x) < NUMBER_LEAST ? 0 : x);
     else
         printf(" %14s", "-");
@@ -164,9 +169,9 @@ static void print_compared(const fram_comparison *c)
         const fram_comparison_row *row = &c->rows[i];
         compared_name(row, name);
         printf("%-*s", width, name);
-        print_number(row->a, 6);
-        print_number(row->b, 6);
-        print_number(row->b - row->a, 4);
+        print_number(row->a, row->unit, 6);
+        print_number(row->b, row->unit, 6);
+        print_number(row->b - row->a, row->unit, 4);
         putchar('\n');
     }
     printf("scenarios: %s; final states: %s\n",

@@ -208,15 +208,30 @@ void html_number_text(double value, char out[HTML_NUMBER_SIZE])
         snprintf(out, HTML_NUMBER_SIZE, "%.4g", value);
 }
 
-void html_number(html_page *p, double value)
+static void number_cell(html_page *p, const char *text)
 {
-    char text[HTML_NUMBER_SIZE];
-    html_number_text(value, text);
     head_of_number(p);
     p->column++;
     add(p, "<td class=\"n\">");
     add(p, text);
     add(p, "</td>");
+}
+
+void html_number(html_page *p, double value)
+{
+    char text[HTML_NUMBER_SIZE];
+    html_number_text(value, text);
+    number_cell(p, text);
+}
+
+void html_place(html_page *p, double value)
+{
+    char text[HTML_NUMBER_SIZE];
+    if (fabs(value) >= 1000)
+        snprintf(text, sizeof text, "%.1f", value);
+    else
+        html_number_text(value, text);
+    number_cell(p, text);
 }
 
 void html_row_end(html_page *p)

@@ -43,6 +43,8 @@ void html_row_begin(html_page *p);
 void html_cell(html_page *p, const char *text);
 /* To four significant digits; a NaN is a dash. */
 void html_number(html_page *p, double value);
+/* A coordinate [m]: to decimetres, however far from the origin. */
+void html_place(html_page *p, double value);
 void html_row_end(html_page *p);
 void html_table_end(html_page *p);
 /* Two cells: a name and a text. */

@@ -17,12 +17,12 @@ typedef struct pair {
     compare_result *result;
 } pair;
 
-static void add_row(pair *p, const char *name, const char *unit, const double value[2])
+static void add_row(pair *p, const char *name, const char *unit, bool is_place, const double value[2])
 {
     if (p->result->count == COMPARE_ROWS_MOST || (value[0] != value[0] && value[1] != value[1]))
         return;
     compare_row *row = &p->result->row[p->result->count++];
-    *row = (compare_row){.a = value[0], .b = value[1]};
+    *row = (compare_row){.a = value[0], .b = value[1], .is_place = is_place};
     snprintf(row->name, sizeof row->name, "%s", name);
     snprintf(row->unit, sizeof row->unit, "%s", unit);
 }
@@ -91,7 +91,7 @@ static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
     if (strcmp(rows[i].unit, "deg") == 0)
         value[1] = turned_next_to(value[0], value[1]);
     snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
-    add_row(p, name, rows[i].unit, value);
+    add_row(p, name, rows[i].unit, strncmp(rows[i].channel, "position_", 9) == 0, value);
 }
 
 static int32_t named_vessels(const scenario *s) { return scenario_names_vessels(s) ? scenario_vessel_count(s) : 0; }
@@ -126,7 +126,7 @@ static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
     const scenario *s;
-    add_row(p, "simulated time", "s", time);
+    add_row(p, "simulated time", "s", false, time);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         find_row(p, i, rows[i].channel, "");
         for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
@@ -202,10 +202,10 @@ static void number_table(pair *p)
         snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
         html_row_begin(&p->page);
         html_cell(&p->page, name);
-        html_number(&p->page, row->a);
-        html_number(&p->page, row->b);
+        (row->is_place ? html_place : html_number)(&p->page, row->a);
+        (row->is_place ? html_place : html_number)(&p->page, row->b);
         html_number(&p->page, row->b - row->a);
-        html_number(&p->page, row->a != 0 ? row->b / row->a : (double)NAN);
+        html_number(&p->page, row->a != 0 && !row->is_place ? row->b / row->a : (double)NAN);
         html_row_end(&p->page);
     }
     html_table_end(&p->page);

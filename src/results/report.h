@@ -15,7 +15,8 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
 /* One quantity of two runs. */
 typedef struct compare_row {
     char name[COLUMN_NAME_SIZE], unit[UNIT_SIZE];
-    double a, b; /* a NaN: the run does not have it */
+    double a, b;   /* a NaN: the run does not have it */
+    bool is_place; /* a coordinate, of which parts of another say nothing */
 } compare_row;
 enum { COMPARE_ROWS_MOST = 1280 }; /* of runs that share none of their vessels */
 typedef struct compare_result {

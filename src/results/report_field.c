@@ -205,8 +205,8 @@ static void event_table_of(report *r, load_unit unit)
         html_cell(&r->page, broken_names[broken_kind(r, i)]);
         html_number(&r->page, cell(r, "time", i));
         html_number(&r->page, cell(r, "floe", i));
-        html_number(&r->page, cell(r, "place_x", i));
-        html_number(&r->page, cell(r, "place_y", i));
+        html_place(&r->page, cell(r, "place_x", i));
+        html_place(&r->page, cell(r, "place_y", i));
         html_number(&r->page, cell(r, "load", i) * unit.factor);
         html_number(&r->page, cell(r, "crack_length", i));
         html_number(&r->page, cell(r, "floe_area", i));

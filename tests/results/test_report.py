@@ -277,10 +277,10 @@ def check_times(folder):
             assert late > 0.002 * start, "too little came in after the last frame for this test to tell"
 
 
-def move_series(series, x):
+def move_series(series, x, column="position_x[m]"):
     """The same run so many metres along X."""
     head, *rows = (row.split(",") for row in series.read_text().splitlines())
-    at = head.index("position_x[m]")
+    at = head.index(column)
     rows = [[*row[:at], repr(float(row[at]) + x), *row[at + 1:]] for row in rows]
     series.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
 
@@ -299,7 +299,7 @@ def check_water(folder, pictures):
     file, run = folder / "water.yaml", folder / "water"
     file.write_text(WATER)
     subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
-    move_series(run / "series.csv", -301150)
+    move_series(run / "series.csv", -1301150)
     note = json.loads((run / "run.json").read_text())
     message = "what went wrong takes many words, " * 14 + "and the last ones say what to do"
     assert 480 < len(message) < 512
@@ -310,8 +310,16 @@ def check_water(folder, pictures):
     if pictures:
         # The way from where it began, 1.5 or 2 m, which far from the origin is as high as a chart.
         assert line_height(page, "Position") > 100, "no way is seen"
-        subprocess.run([FRAM, "compare", run, run, "-q", "-o", folder / "both.html"], check=True, capture_output=True)
+        said = subprocess.run([FRAM, "compare", run, run, "-q", "-o", folder / "both.html"], check=True,
+                              capture_output=True, text=True).stdout
+        both = Tables()
+        both.feed((folder / "both.html").read_text())
         assert line_height((folder / "both.html").read_text(), "Position along X") > 100, "no way is seen"
+        # Far from the origin a place has its decimetres, and is no part of another.
+        with open(run / "series.csv", newline="") as table:
+            x = f"{float(list(csv.DictReader(table))[-1]['position_x[m]']):.1f}"
+        assert both.rows["x at the end [m]"] == [x, x, "0", "\u2013"], both.rows["x at the end [m]"]
+        assert re.search(rf"x at the end \[m\] +{x} +{x} +0\n", said) and x.startswith("-13011"), said
     assert message in page, page[page.index("The run failed"):][:600]
     # What is significant of a value that is held is the value.
     tables = Tables()
@@ -330,10 +338,12 @@ def check_loose(folder):
     file, run = folder / "loose.yaml", folder / "loose"
     file.write_text(LOOSE)
     subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+    move_series(run / "fractures.csv", -1400000, "place_x[m]")
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
     with open(run / "fractures.csv", newline="") as file:
-        kinds = [row["kind[1]"] for row in csv.DictReader(file)]
+        kinds, places = zip(*((row["kind[1]"], float(row["place_x[m]"])) for row in csv.DictReader(file)))
+    assert all(f'<td class="n">{x:.1f}</td>' in page for x in places[:25]), "places far from the origin"
     bent = kinds.count("2")
     assert kinds.count("3") == 1 and bent > 0 and len(kinds) == bent + 1, kinds
     assert f"broke: {bent} in bending, 0 by splitting." in page and "1 part of the sheet came loose" in page
