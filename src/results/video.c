@@ -33,7 +33,9 @@ typedef struct video {
     double most;             /* load [N] */
     double step;             /* between pictures [s] */
     int64_t count;           /* of pictures */
-    box2 extent;             /* of the first frame's bodies but walls [m] */
+    box2 extent;             /* of the places of the first frame's bodies but walls [m] */
+    box2 whole;              /* of all its bodies [m] */
+    double top;              /* of those, over still water [m] */
     replay r;
     replay_moment moment;
     replay_plan plan;
@@ -54,6 +56,26 @@ static void find_extent(video *v)
     v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
 }
 
+static void find_whole(video *v)
+{
+    const replay *r = &v->r;
+    v->whole = v->extent;
+    v->top = 0;
+    for (int32_t i = 0; i < r->frame.poses.count; i++) {
+        const replay_pose *p = &r->frame.poses.data[i];
+        const replay_body *b = &r->bodies.data[p->body];
+        mat3 turn = quat_matrix(p->orientation);
+        for (int32_t k = b->vertex_first; k < b->vertex_first + b->vertex_count; k++) {
+            vec3 local = b->solid ? r->points.data[k]
+                                  : vec3_make(r->outlines.data[k].x, r->outlines.data[k].y, b->thickness / 2);
+            vec3 g = vec3_add(p->position, mat3_mul_vec(turn, local));
+            v->whole.lo = vec2_make(fmin(v->whole.lo.x, g.x), fmin(v->whole.lo.y, g.y));
+            v->whole.hi = vec2_make(fmax(v->whole.hi.x, g.x), fmax(v->whole.hi.y, g.y));
+            v->top = fmax(v->top, g.z);
+        }
+    }
+}
+
 /* Of an arrow of the strongest forces but a few, over the width of what is seen. */
 #define ARROW_LENGTH 0.12
 
@@ -70,8 +92,10 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
         if (status != FRAM_OK || !found)
             break;
         const replay_frame *f = &v->r.frame;
-        if (v->time.count == 0)
+        if (v->time.count == 0) {
             find_extent(v);
+            find_whole(v);
+        }
         double load = sqrt(f->ice_force.x * f->ice_force.x + f->ice_force.y * f->ice_force.y);
         bool good = array_push(v->ctx, &v->time, f->time) && array_push(v->ctx, &v->load, load);
         v->most = fmax(v->most, load);
@@ -141,6 +165,8 @@ static fram_status draw_space(const video *v, double time, const char *caption, 
     int width = v->options->width, height = v->options->height;
     const video_scene scene = {.camera = v->options->camera,
                                .extent = v->extent,
+                               .whole = v->whole,
+                               .top = v->top,
                                .colour = v->options->colour,
                                .lo = v->lo,
                                .hi = v->hi,

@@ -40,12 +40,39 @@ static vec3 target_of(const video_scene *s, const replay *r, const replay_moment
     return vec3_make((s->extent.lo.x + s->extent.hi.x) / 2, (s->extent.lo.y + s->extent.hi.y) / 2, 0);
 }
 
-static solid_camera camera_of(const video_scene *s, const replay *r, const replay_moment *m)
+/* Half a picture's height over that of what is in it: nothing touches the edge. */
+#define BORDER 1.03
+
+/* Back from the target until all of the field is in a picture that is so many times as high as wide: as the playback
+   page does. */
+static void show_whole(const video_scene *s, double upright, solid_camera *c)
+{
+    vec3 ahead = vec3_unit(vec3_sub(c->target, c->eye)), right = vec3_unit(vec3_cross(ahead, vec3_make(0, 0, 1)));
+    vec3 up = vec3_cross(right, ahead);
+    double away = vec3_length(vec3_sub(c->target, c->eye));
+    for (int i = 0; i < 8; i++) {
+        vec3 corner =
+            vec3_make(i & 1 ? s->whole.hi.x : s->whole.lo.x, i & 2 ? s->whole.hi.y : s->whole.lo.y, i & 4 ? s->top : 0);
+        vec3 p = vec3_sub(corner, c->target);
+        double reach = fmax(fabs(vec3_dot(p, up)), fabs(vec3_dot(p, right)) * upright);
+        away = fmax(away, BORDER * 2 * c->zoom * reach - vec3_dot(p, ahead));
+    }
+    c->eye = vec3_mad(c->target, ahead, -away);
+}
+
+/* upright: height of the picture over its width. */
+static solid_camera camera_of(const video_scene *s, const replay *r, const replay_moment *m, double upright)
 {
     double wide = fmax(s->extent.hi.x - s->extent.lo.x, s->extent.hi.y - s->extent.lo.y);
     solid_camera c = {.target = target_of(s, r, m), .zoom = 1.374};
-    vec3 away = s->camera == VIDEO_FOLLOW ? vec3_make(-0.28, -0.3, 0.2) : vec3_make(-0.55, -0.75, 0.6);
-    c.eye = vec3_mad(c.target, away, wide);
+    if (s->camera == VIDEO_FOLLOW) {
+        /* A ship is seen whole, however small the field is beside it. */
+        double near = fmax(wide, 3.5 * replay_hull_size(r, 0).x) * fmax(1, upright);
+        c.eye = vec3_mad(c.target, vec3_make(-0.28, -0.3, 0.2), near);
+        return c;
+    }
+    c.eye = vec3_mad(c.target, vec3_make(-0.55, -0.75, 0.6), wide);
+    show_whole(s, upright, &c);
     return c;
 }
 
@@ -186,7 +213,9 @@ static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_cam
                              double y)
 {
     double metres = vec3_length(vec3_sub(c->target, c->eye)) / v->focal * SOLID_FINE;
-    double length = image_round_step(220 * metres, 2), px = length / metres;
+    /* The force stands beside it, which in a narrow picture takes half of it. */
+    double most = fmin(220, 0.35 * v->width / SOLID_FINE);
+    double length = image_round_step(most * metres, 2), px = length / metres;
     char text[64], force[IMAGE_FORCE_TEXT];
     image_force_text(arrow > 0 ? length / arrow : 0, force);
     snprintf(text, sizeof text, arrow > 0 ? "%g m, as an arrow %s" : "%g m", length, force);
@@ -253,9 +282,9 @@ static void draw_under(cairo_t *page, const video_scene *s, const solid_view *v,
 fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r, const replay_moment *m, cairo_t *page,
                              int width, int height, fram_error *error)
 {
-    solid_camera camera = camera_of(s, r, m);
     solid_view v;
     int h = height - ABOVE - BELOW - (lines_under(width) - 1) * LINE;
+    solid_camera camera = camera_of(s, r, m, (double)h / width);
     fram_status status = solid_view_begin(ctx, &camera, width, h, sky, &v, error);
     if (status != FRAM_OK)
         return status;

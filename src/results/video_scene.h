@@ -17,7 +17,9 @@ const char *video_camera_name(video_camera camera);
 
 typedef struct video_scene {
     video_camera camera;
-    box2 extent; /* of the field [m] */
+    box2 extent; /* of the field: bodies' places but those of walls [m] */
+    box2 whole;  /* of all that there is, whole [m] */
+    double top;  /* of that, over still water [m] */
     plan_colour colour;
     double lo, hi;    /* what the ends of the colours stand for */
     double arrow;     /* [m/N]; 0: none */

@@ -57,5 +57,15 @@ def hulls(files):
     assert max(red) > 1000 and max(red) - min(red) < 0.01 * max(red), red
 
 
+def whole(folders):
+    """The field ends before the sides of the picture, where only water is, and so do the words under it."""
+    for folder in folders:
+        width, height, at = read(folder + "/frame-000000.png")
+        rows = range(60, height - 210)
+        bright = [sum(at(x, y)[0] > 100 for y in rows) for x in range(width)]
+        assert max(bright[0], bright[1], bright[-1], bright[-2]) == 0 and max(bright) > 9, (folder, bright)
+        assert all(min(at(width - x, y)) > 200 for x in (1, 2, 3) for y in range(height - 200, height - 180)), folder
+
+
 if __name__ == "__main__":
-    {"scales": scales, "wet": wet, "size": size, "hulls": hulls}[sys.argv[1]](sys.argv[2:])
+    {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole}[sys.argv[1]](sys.argv[2:])

@@ -401,6 +401,8 @@ PY
         done
     done
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" scales {orbit,plan}-* || fail "texts cover each other"
+    expect 0 "$FRAM" video run --pictures --fps 1 --speed 3 --width 320 --height 700 -o upright
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" whole upright || fail "a picture cuts the field off"
     expect 2 "$FRAM" video run -o no/such/run.mp4
     says "cannot open for writing" err
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
