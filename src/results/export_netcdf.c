@@ -109,6 +109,8 @@ static fram_status put_constants(floe_tracks *t, netcdf_file *f, int floe, fram_
     enum { THICKNESS, AREA, MASS, BIRTH, REALS };
     static const char *const names[REALS] = {"floe_thickness", "floe_area", "floe_mass", "floe_birth"};
     static const char *const units[REALS] = {"m", "m2", "kg", "s"};
+    static const char *const meanings[REALS] = {
+        [BIRTH] = "time of the break that made the floe; of one that no break made, of its first frame"};
     size_t count = (size_t)t->floes;
     double *real = memory_array(t->ctx, count + 1, REALS * sizeof *real);
     int32_t *whole = memory_array(t->ctx, count + 1, 2 * sizeof *whole);
@@ -127,7 +129,8 @@ static fram_status put_constants(floe_tracks *t, netcdf_file *f, int floe, fram_
     }
     if (status == FRAM_OK && count > 0) {
         for (int k = 0; k < REALS; k++)
-            netcdf_put_f64(f, netcdf_variable(f, names[k], NETCDF_F64, &floe, 1, units[k], ""),
+            netcdf_put_f64(f,
+                           netcdf_variable(f, names[k], NETCDF_F64, &floe, 1, units[k], meanings[k] ? meanings[k] : ""),
                            real + (size_t)k * count);
         netcdf_put_i32(f, netcdf_variable(f, "floe", NETCDF_I32, &floe, 1, "", "running number of the floe"), whole);
         netcdf_put_i32(f, netcdf_variable(f, "floe_parent", NETCDF_I32, &floe, 1, "", "floe it broke from, -1: none"),

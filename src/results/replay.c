@@ -213,6 +213,20 @@ static bool read_forces(replay *r, cursor *c)
     return true;
 }
 
+/* A piece is as old as the break that made it, which the blocks since the frame before tell; numbers of floes are used
+   once. */
+static double birth_of(const replay *r, const replay_body *b, const replay_frame *f)
+{
+    for (int32_t i = r->fractures.count - 1; i >= 0 && f->number > 0 && b->parent >= 0; i--) {
+        const replay_fracture *broke = &r->fractures.data[i];
+        if (!(broke->time > r->frame.time))
+            break;
+        if (broke->floe == b->parent)
+            return fmin(broke->time, f->time);
+    }
+    return f->time;
+}
+
 /* Poses come by ascending slot of the bodies that move; those that stand still are added.  halves: contact forces are
    those of an earlier layout. */
 static bool read_frame(replay *r, cursor *c, bool halves)
@@ -241,7 +255,7 @@ static bool read_frame(replay *r, cursor *c, bool halves)
                 found++;
             }
             if (b->born == f->number)
-                b->birth = f->time;
+                b->birth = birth_of(r, b, f);
             if (!array_push(r->ctx, &f->poses, p))
                 return false;
         }

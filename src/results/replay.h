@@ -25,7 +25,7 @@ typedef struct replay_body {
     int32_t face_first, face_count;     /* solid: triangles in replay.faces */
     replay_openness openness;           /* solid */
     int64_t born, died;                 /* number of the first frame with it, and of the first without */
-    double birth;                       /* time of that first frame [s] */
+    double birth;                       /* of a piece the time of the break, otherwise of that first frame [s] */
     vec3 position;                      /* of a body that does not move */
     quat orientation;
     vec3 velocity; /* last one known, see replay_pose */

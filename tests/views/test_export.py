@@ -244,11 +244,12 @@ def check_viewer(data, run, rows):
         if body["material"] != "ice":
             continue
         k, floes = row[body["number"]], floes + 1
-        for name, value in zip(("x", "y", "z", "contact_force", "area", "thickness", "mass", "parent", "birth"),
+        for name, value in zip(("x", "y", "z", "contact_force", "area", "thickness", "mass", "parent"),
                                (*centre, 1e3 * frame["contact"][place], body["area"], body["thickness"],
-                                body["area"] * body["thickness"] * body["density"], body["parent"],
-                                record["frames"][body["birth"]]["time"])):
+                                body["area"] * body["thickness"] * body["density"], body["parent"])):
             close(at[f"floe_{name}"][k] - origin.get(name, 0), value, 1e-5 * max(1, abs(value)))
+        # The page tells floes from their first frame on.
+        assert 0 <= record["frames"][body["birth"]]["time"] - at["floe_birth"][k] < 0.5
         turn = rotation([at[f"floe_{name}"][k] for name in ("heading", "roll", "pitch")])
         own = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -284,6 +285,14 @@ def check_netcdf(run, rows):
                     name, unit = head[:-1].split("[")
                     column = data[prefix + name]
                     assert column.attrs["units"] == unit and list(column.values) == [r[head] for r in table], head
+            birth, between = dict(zip(data["floe"].values, data["floe_birth"].values)), 0
+            assert "break" in data["floe_birth"].attrs["long_name"]
+            for event in breaks:
+                first, time = int(event["first_piece[1]"]), event["time[s]"]
+                for number in range(first, first + int(event["pieces[1]"])):
+                    close(birth.get(number, time), time, 1e-9)
+                    between += number in birth and abs(time / 0.5 - round(time / 0.5)) > 1e-6
+            assert between > 0, "no floe broke between two frames"
             late = data["position_x"].sel(time=4.0, method="nearest")
             close(float(late), rows[199]["position_x[m]"], 0)
             assert int(data["floe_x"].isel(frame=-1).notnull().sum()) == rows[-1]["floes[1]"]
