@@ -308,8 +308,9 @@ static bool tell_track(context *ctx, const pilot *p, event_table *events)
     return tell(ctx, p, EVENT_ON_TRACK, most, events);
 }
 
-/* For how long ice has held the ship under thrust: hulls, lines and walls stop one too, and are nothing to ram.  Ice
-   that lets go for a step, as it breaks, does not begin the time anew. */
+/* For how long ice has held the ship under thrust: hulls, lines and walls stop one too, and are nothing to ram.  Astern
+   all of them count, since a ship that cannot go farther back comes again.  Ice that lets go for a step, as it breaks,
+   does not begin the time anew. */
 static void count_slow_time(const pilot *p, bool astern, double speed)
 {
     propulsion_table *t = p->table;
@@ -318,11 +319,11 @@ static void count_slow_time(const pilot *p, bool astern, double speed)
     double thrust = astern ? -t->thrust[row] : t->thrust[row];
     if (!(fabs(speed) < p->s->beset_speed && thrust >= PUSHING * pull))
         t->slow_time[row] = 0;
-    else if (astern ? push > 0 : push < 0)
+    else if (astern || push < 0)
         t->slow_time[row] += p->now->dt;
 }
 
-/* Beset: backs; backed far enough, or stuck astern too: rams. */
+/* Beset: backs; backed far enough, or stopped astern by whatever it is: rams. */
 static bool change_phase(context *ctx, const pilot *p, event_table *events)
 {
     propulsion_table *t = p->table;

@@ -63,7 +63,7 @@ typedef struct propulsion_settings {
     X(off_time, double, FIELD_F64, 1, "s", "that time; 0: it has not come so near yet")                      \
     X(astray, double, FIELD_F64, 1, "m", "largest since it was told to be off its track; 0: it is on it")    \
     X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                                       \
-    X(slow_time, double, FIELD_F64, 1, "s", "slower than the beset speed, held by ice under thrust")         \
+    X(slow_time, double, FIELD_F64, 1, "s", "slower than the beset speed under thrust; ahead, held by ice")  \
     X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                                       \
     X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                                   \
     X(rams, int64_t, FIELD_I64, 1, "1", "times that it came ahead again after backing")

@@ -319,7 +319,8 @@ START_TEST(backs_and_rams)
 }
 END_TEST
 
-/* What counts as time in which ice holds the ship: thrust and ice along its bow, and the phase that it is in. */
+/* What counts as time in which the ship is held, astern by whatever it is: thrust and ice along its bow, and the phase
+   that it is in. */
 typedef struct held_case {
     double thrust, ice; /* in bollard pulls */
     propulsion_phase phase;
@@ -329,9 +330,9 @@ typedef struct held_case {
 START_TEST(ice_that_presses_against_its_way_holds_a_ship)
 {
     static const held_case cases[] = {
-        {1, -1, PROPULSION_AHEAD, 1.1}, {1, 0, PROPULSION_AHEAD, 1},     {1, 1, PROPULSION_AHEAD, 1},
-        {0.4, -1, PROPULSION_AHEAD, 0}, {-1, 1, PROPULSION_ASTERN, 1.1}, {-1, 0, PROPULSION_ASTERN, 1},
-        {-1, -1, PROPULSION_ASTERN, 1}, {-1, -1, PROPULSION_AHEAD, 0},   {1, 1, PROPULSION_ASTERN, 0}, /* brakes */
+        {1, -1, PROPULSION_AHEAD, 1.1},   {1, 0, PROPULSION_AHEAD, 1},     {1, 1, PROPULSION_AHEAD, 1},
+        {0.4, -1, PROPULSION_AHEAD, 0},   {-1, 1, PROPULSION_ASTERN, 1.1}, {-1, 0, PROPULSION_ASTERN, 1.1},
+        {-1, -1, PROPULSION_ASTERN, 1.1}, {-1, -1, PROPULSION_AHEAD, 0},   {1, 1, PROPULSION_ASTERN, 0}, /* brakes */
     };
     static const char *const turned[] = {"vessel.heading_deg=90"};
     scene k;
@@ -353,16 +354,22 @@ START_TEST(ice_that_presses_against_its_way_holds_a_ship)
 }
 END_TEST
 
-/* A ship that leans on a wall is stopped, and not by ice. */
+/* A ship that leans on a wall is stopped, and not by ice; one that backs into it comes again. */
 START_TEST(a_wall_makes_no_ship_beset)
 {
-    static const char *const wall[] = {"domain.boundary=walls", "domain.x_max=39", "vessel.propulsion.beset_time=2"};
+    static const char *const wall[] = {"domain.boundary=walls", "domain.x_max=39", "vessel.propulsion.beset_time=2",
+                                       "domain.x_min=-39"};
     scene k;
-    scene_open_with(&k, SHIP, wall, 3);
+    scene_open_with(&k, SHIP, wall, 4);
     scene_steps(&k, 200);
     ck_assert(fabs(speed_of(&k)) < 0.1 && k.w.propulsion.thrust[0] > 7e5);
     ck_assert_int_eq(k.w.propulsion.besets[0], 0);
     ck_assert(k.w.propulsion.slow_time[0] == 0);
+    k.w.propulsion.phase[0] = PROPULSION_ASTERN; /* as if ice ahead had stopped it */
+    for (int i = 0; i < 800 && k.w.propulsion.rams[0] == 0; i++)
+        scene_steps(&k, 1);
+    ck_assert_int_eq(k.w.propulsion.rams[0], 1);
+    ck_assert(k.w.propulsion.backed[0] < 20 && k.w.propulsion.phase[0] == PROPULSION_AHEAD);
     scene_close(&k);
 }
 END_TEST
