@@ -344,8 +344,7 @@
       "meets more slows down by its mass; 0: a floe with nothing behind it; auto: it drifts whatever it meets")  \
     X(mass, AUTOMATIC(1, 1e18), "kg",                                                                            \
       "feeding, with a line_load: all that slows down together; auto: of the sheet between its edges where "     \
-      "all four are given, else of its ice in the domain at the start, or of a domain full of it where none is " \
-      "there yet; less its openings")                                                                            \
+      "all four are given, less its openings, else of a domain full of ice")                                     \
     X(openings, LIST(opening, 100), "", "open water in the sheet at the start: channels, leads, basins")
 
 #define SCENARIO_OPENING_KEYS(X)                           \

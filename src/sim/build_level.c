@@ -219,34 +219,35 @@ static box2 box_common(box2 a, box2 b)
 double build_ice_in_domain(const scenario *s)
 {
     box2 domain = fed_window(s), extent = sheet_extent(s), part = box_common(extent, domain);
-    double area = box_area(part);
-    for (int32_t i = 0; i < s->ice.level.openings.count && area > 0; i++) {
+    bool there = box_area(part) > 0;
+    double area = there ? box_area(part) : fmin(box_area(domain), box_area(extent));
+    for (int32_t i = 0; there && i < s->ice.level.openings.count; i++) {
         vec2 corner[4];
         opening_corners(&s->ice.level.openings.data[i], corner);
         area -= area_inside((polygon){corner, 4}, part);
     }
-    return (area > 0 ? area : fmin(box_area(domain), box_area(extent))) * s->ice.thickness * s->ice.density;
+    return fmax(area, 0) * s->ice.thickness * s->ice.density;
 }
 
-/* Area of a floe with four edges; of a sheet that lacks one, the ice of it in the domain, or, where none is there yet,
-   that of a domain full of it. */
+/* Area of a floe with four edges, less its openings; of a sheet that lacks one, that of a domain full of ice: more of
+   it comes in, and the first contact would throw back a strip that is in the domain at the start. */
 static fram_status find_sheet_area(context *ctx, const scenario *s, box2 extent, const polygon_list *openings,
                                    double *area, fram_error *error)
 {
-    bool floe = isfinite(box_area(extent));
-    box2 domain = fed_window(s), part = floe ? extent : box_common(extent, domain);
-    *area = box_area(part);
+    *area = box_area(extent);
+    if (!isfinite(*area)) {
+        *area = box_area(fed_window(s));
+        return FRAM_OK;
+    }
     if (*area > 0 && polygon_list_count(openings) > 0) {
-        fram_status status = ice_area(ctx, part, openings, area, error);
+        fram_status status = ice_area(ctx, extent, openings, area, error);
         if (status != FRAM_OK)
             return status;
     }
-    if (floe && !(*area > 0))
+    if (!(*area > 0))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
                          "nothing is left of the sheet of %.4g m by %.4g m beside its openings",
                          extent.hi.x - extent.lo.x, extent.hi.y - extent.lo.y);
-    if (!(*area > 0))
-        *area = box_area(domain);
     return FRAM_OK;
 }
 

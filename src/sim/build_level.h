@@ -13,7 +13,7 @@ tile_grid build_tiles(const scenario *s);
 /* What is fixed of level ice that drifts; out stays as it is without. */
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error);
 /* Mass of a drifting sheet's ice in the domain at the start, of a domain full of it, or of all of it if that is less,
-   where none is there yet [kg]; less where openings overlap one another. */
+   where none is there yet [kg]; less where openings overlap one another, and never under 0. */
 double build_ice_in_domain(const scenario *s);
 /* Level ice that drifts: its tiles in the window at the start, at rest. */
 fram_status build_drifting(context *ctx, const scenario *s, const model *m, world *w, field_report *report,

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "sim/build_level.h"
 #include "sim/controls.h"
 
 #include <stdio.h>
@@ -334,9 +335,9 @@ START_TEST(basins_have_no_mass)
 }
 END_TEST
 
-/* A sheet without four edges has the mass of its ice in the domain at the start, however large its tiles are, and a
-   domain's full where none is there yet, and so does the concentration that is told; one that is given is kept, and
-   what breaks off takes none of it along, since more comes in. */
+/* A sheet without four edges has the mass of a domain full of ice, however large its tiles are and however little of it
+   is there at the start, since more comes in; the concentration that is told is what is there.  A mass that is given is
+   kept, and what breaks off takes none of it along. */
 START_TEST(tiles_do_not_weigh_on_a_sheet)
 {
     static const char text[] =
@@ -346,17 +347,18 @@ START_TEST(tiles_do_not_weigh_on_a_sheet)
         "domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40, boundary: feeding, drift_speed: 0.8,\n"
         "         drift_direction_deg: 180}\n";
     static const char *const size[] = {"ice.level.tile_size=8", "ice.level.tile_size=auto", "ice.level.tile_size=100"};
-    double mass = (45.0 * 80 - 10 * 30) * 0.8 * 920;
+    double mass = 120.0 * 80 * 0.8 * 920, ice = (45.0 * 80 - 10 * 30) * 0.8 * 920;
     for (int i = 0; i < 3; i++) {
         scene k;
         scene_open_with(&k, text, &size[i], 1);
         assert_relative(k.w.drift.mass[0], mass, 1e-9);
-        ck_assert_double_gt(k.w.drift.ice[0], mass);
+        ck_assert_double_gt(k.w.drift.ice[0], ice);
+        assert_relative(build_ice_in_domain(&k.s), ice, 1e-9);
         world again;
         field_report report;
         fram_error error = {0};
         assert_ok(build_world(&k.ctx, &k.s, &k.m, &again, &report, &error), error);
-        assert_relative(report.concentration, mass / (120.0 * 80 * 0.8 * 920), 1e-9);
+        assert_relative(report.concentration, ice / mass, 1e-9);
         world_free(&k.ctx, &again);
         scene_close(&k);
         const char *const light[] = {size[i], "ice.level.mass=1e6"};
@@ -367,10 +369,14 @@ START_TEST(tiles_do_not_weigh_on_a_sheet)
         assert_absolute(k.w.drift.broken[0], 5e5, 1);
         assert_absolute(k.w.drift.mass[0], 1e6, 0);
         scene_close(&k);
-        const char *const outside[] = {size[i], "ice.level.x_min=70"};
-        scene_open_with(&k, text, outside, 2);
-        assert_relative(k.w.drift.mass[0], 120.0 * 80 * 0.8 * 920, 1e-9);
-        scene_close(&k);
+        for (int outside = 0; outside < 2; outside++) {
+            const char *const edge[] = {size[i], outside ? "ice.level.x_min=70" : "ice.level.x_min=59.9"};
+            scene_open_with(&k, text, edge, 2);
+            assert_relative(k.w.drift.mass[0], mass, 1e-9);
+            k.s.ice.level.openings.data[0].length = k.s.ice.level.openings.data[0].width = 400;
+            assert_absolute(build_ice_in_domain(&k.s), outside ? mass : 0, 1e-3);
+            scene_close(&k);
+        }
     }
 }
 END_TEST
