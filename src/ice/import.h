@@ -103,8 +103,9 @@ typedef struct import_measure {
     double overlap_area;                /* of all pairs together [m2] */
     double largest_overlap;             /* the largest common area of a pair [m2] */
     int32_t overlap_pair[2];            /* of it; -1, -1: none */
-    /* The largest width of a part that a pair has in common: the shorter side of the box around it, or of the rectangle
-       of its area and perimeter where that is less, as of one that goes round a corner [m]. */
+    /* The largest width of a part that a pair has in common: the shorter side of the box around the widest of its
+       convex pieces, or of the rectangle of its area and perimeter (no wider than the box around it) where that is more
+       [m]. */
     double overlap_width;
     /* Floes by diameter of the circle of equal area: bin i holds up to edge[i+1], edge[i] excluded (but for the first).
      */

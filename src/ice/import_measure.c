@@ -5,11 +5,39 @@
 
 #include <math.h>
 
-/* The shorter side of the box around it or, where it is bent, of the rectangle of its area and perimeter. */
-static double part_width(polygon p, double side)
+/* The shorter side of the box around it. */
+static fram_status box_width(context *ctx, polygon p, double *width, fram_error *error)
+{
+    oriented_box box;
+    if (polygon_oriented_box(ctx, p, &box) != FRAM_OK)
+        return error_memory(error);
+    *width = box.sides[1];
+    return FRAM_OK;
+}
+
+/* The shorter side of the rectangle of its area and perimeter. */
+static double strip_width(polygon p)
 {
     double area = polygon_area(p), perimeter = polygon_perimeter(p);
-    return fmin(side, 4 * area / (perimeter + sqrt(fmax(0, perimeter * perimeter - 16 * area))));
+    return 4 * area / (perimeter + sqrt(fmax(0, perimeter * perimeter - 16 * area)));
+}
+
+/* That of the widest of its convex pieces, as of a tooth on a sliver that goes round a corner; of all of it where that
+   is more: pieces of one with hollow sides are narrow. */
+static fram_status part_width(context *ctx, overlay *o, polygon p, double *width, fram_error *error)
+{
+    polygon_list pieces = {0};
+    fram_status status = box_width(ctx, p, width, error);
+    *width = fmin(*width, strip_width(p));
+    if (status == FRAM_OK)
+        status = overlay_convex_pieces(o, p, 0, p.count, &pieces, NULL, error);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&pieces); i++) {
+        double piece = 0;
+        status = box_width(ctx, polygon_list_get(&pieces, i), &piece, error);
+        *width = fmax(*width, piece);
+    }
+    polygon_list_free(ctx, &pieces);
+    return status;
 }
 
 /* The largest width of the parts that two outlines have in common. */
@@ -18,13 +46,9 @@ static fram_status common_width(context *ctx, overlay *o, polygon a, polygon b, 
     polygon_list common = {0};
     fram_status status = overlay_intersection(o, a, b, &common, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&common); i++) {
-        oriented_box box;
-        polygon part = polygon_list_get(&common, i);
-        status = polygon_oriented_box(ctx, part, &box);
-        if (status == FRAM_OK)
-            *width = fmax(*width, part_width(part, box.sides[1]));
-        else
-            error_memory(error);
+        double part = 0;
+        status = part_width(ctx, o, polygon_list_get(&common, i), &part, error);
+        *width = fmax(*width, part);
     }
     polygon_list_free(ctx, &common);
     return status;

@@ -435,6 +435,39 @@ START_TEST(a_bent_overlap_is_as_wide_as_its_strip)
 }
 END_TEST
 
+static double overlap_width_of(const char *text)
+{
+    rig *r = rig_make();
+    import_options o = options_of(IMPORT_REFUSE);
+    import_measure m;
+    assert_ok(parse(r, text), r->error);
+    assert_ok(import(r, &o), r->error);
+    assert_ok(import_field_measure(&r->ctx, r->plane, NULL, &r->field.outlines, &m, &r->error), r->error);
+    rig_free(r);
+    return m.overlap_width;
+}
+
+/* 1 mm along 100 m is as wide as the tooth of 2 by 2 m in it; a floe of 20 by 20 m inside another one, of which hollow
+   sides of many corners leave 18 m, is not cut to ribbons: its rectangle is 14.6 by 25.5 m. */
+START_TEST(an_overlap_is_as_wide_as_its_widest_part)
+{
+    double tooth = overlap_width_of(COLLECTION(FEATURE("[[0,0],[100,0],[100,10],[0,10],[0,0]]") "," FEATURE(
+        "[[0,-10],[100,-10],[100,0.001],[51,0.001],[51,2],[49,2],[49,0.001],[0,0.001],[0,-10]]")));
+    ck_assert_msg(tooth > 1.99 && tooth < 2.001, "%g m", tooth);
+    char ring[2000], text[3000];
+    int n = 0;
+    for (int i = 0; i < 43; i++) { /* along below, back above, and closed */
+        int k = i % 42, x = k < 21 ? k : 41 - k;
+        double y = 1 - (x - 10) * (x - 10) / 100.0;
+        n += snprintf(ring + n, sizeof ring - (size_t)n, "%s[%d,%g]", i > 0 ? "," : "[", x, k < 21 ? y : 20 - y);
+    }
+    snprintf(text, sizeof text, COLLECTION(FEATURE("[[-9,-9],[40,-9],[40,40],[-9,40],[-9,-9]]") "," FEATURE("%s]")),
+             ring);
+    double hollow = overlap_width_of(text);
+    ck_assert_msg(hollow > 14 && hollow < 15, "%g m", hollow);
+}
+END_TEST
+
 /* What a cut leaves beside the smaller floe: a tip of 18 m2 is a floe however large the one that it was of, 5 m2 of
    0.05 m by 100 are a sliver. */
 START_TEST(a_sliver_is_thin_not_small)
@@ -619,6 +652,7 @@ int main(void)
     tcase_add_test(cases, overlaps_are_measured_and_cut);
     tcase_add_test(cases, a_sliver_is_thin_not_small);
     tcase_add_test(cases, a_bent_overlap_is_as_wide_as_its_strip);
+    tcase_add_test(cases, an_overlap_is_as_wide_as_its_widest_part);
     tcase_add_test(cases, simplified_within_the_tolerance);
     tcase_add_test(cases, what_is_written_reads_back_to_the_bit);
     tcase_add_test(cases, limits_and_files);
