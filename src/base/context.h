@@ -63,6 +63,14 @@ static inline bool stop_is_asked(const volatile int *stop)
     return stop && __atomic_load_n(stop, __ATOMIC_RELAXED) != 0;
 }
 
+/* A copy for what has to be done though somebody asks to stop: nobody does in it. */
+static inline context context_unstopped(const context *ctx)
+{
+    context own = *ctx;
+    own.stop = NULL;
+    return own;
+}
+
 /* Asked again and again by what may take longer than a second and is no time step, from the caller's thread: tells how
    far it is; FRAM_INTERRUPTED when the stop flag is set. */
 fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error);

@@ -265,13 +265,14 @@ void live_view_begin(live_view *v)
 
 static bool is_looked_at(live_view *v) { return clock_wall() - atomic_load(&v->asked) < ABSENT; }
 
-/* Loads by mechanism and the explained peaks, as a page from disk has them, for whoever looks on; without them when
-   they cannot be read, of a run that failed for one. */
+/* Loads by mechanism and the explained peaks, as a page from disk has them, for whoever looks on, of a run that was
+   asked to stop too; without them when they cannot be read, of a run that failed for one. */
 static void explain_loads(live_view *v)
 {
+    context own = context_unstopped(v->ctx);
     if (atomic_load(&v->begun) && is_looked_at(v) &&
-        playback_explain(v->ctx, v->folder, NULL, &v->loads, NULL) != FRAM_OK)
-        text_free(v->ctx, &v->loads);
+        playback_explain(&own, v->folder, NULL, &v->loads, NULL) != FRAM_OK)
+        text_free(&own, &v->loads);
 }
 
 void live_view_end(live_view *v)

@@ -143,11 +143,8 @@ static void begin_row(run_row *out)
 /* What has ended is kept, also when the context is asked to stop. */
 static fram_status read_ended(context *ctx, const char *folder, run_data *out, fram_error *error)
 {
-    const volatile int *stop = ctx->stop;
-    ctx->stop = NULL;
-    fram_status status = run_data_read(ctx, folder, false, out, error);
-    ctx->stop = stop;
-    return status;
+    context own = context_unstopped(ctx);
+    return run_data_read(&own, folder, false, out, error);
 }
 
 /* A scenario without a vessel has a row too: of its ice. */

@@ -6,6 +6,7 @@ Skipped (77) without libmicrohttpd or the viewer's page.
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -32,13 +33,16 @@ def fetch(address):
         return answer.headers, answer.read()
 
 
-def follow(address):
-    """The whole record, as a page gets it; and in how many pieces."""
+def follow(address, enough=float("inf"), stop=None):
+    """The whole record, as a page gets it; and in how many pieces.  stop: called when there are enough bytes."""
     record, pieces = b"", 0
     while True:
         headers, piece = fetch(f"{address}record?from={len(record)}")
         record += piece
         pieces += piece != b""
+        if stop and len(record) >= enough:
+            stop()
+            stop = None
         if headers["Fram-Run"] == "ended":
             return record, pieces
         time.sleep(0.02)
@@ -96,6 +100,12 @@ def check(folder):
     seen, _, answer = watch("resume", folder / "run", "--json", "--live")
     record = record_of(seen, folder / "run")
     assert record == (folder / "plain/record.fram").read_bytes()
+    # Who looks on at a run that is interrupted gets its loads and peaks too.
+    run, address = start("run", scene, "-o", folder / "cut", "--quiet", "--live", "--set", "run.duration=400")
+    seen, _ = follow(address, 0.6 * len(record), lambda: run.send_signal(signal.SIGINT))
+    run.communicate(timeout=120)
+    assert run.returncode == 130, run.returncode
+    record_of(seen, folder / "cut")
     print(f"the record of {len(record)} bytes came in {pieces} pieces")
 
 
