@@ -28,15 +28,18 @@ fram_status record_take_origin(const char *path, const record_block *block, vec2
     return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the origin of its places is none");
 }
 
-fram_status record_check_layout(context *ctx, const char *path, uint64_t length, vec2 *origin, fram_error *error)
+fram_status record_check_layout(context *ctx, const char *path, uint64_t length, vec2 *origin, bool *lost,
+                                fram_error *error)
 {
     record_reader reader;
+    *lost = false;
     fram_status status = record_open(ctx, path, &reader, error);
     if (status != FRAM_OK)
         return status;
     record_block block = {0};
     bool found = true;
     *origin = vec2_make(0, 0);
+    const uint64_t first = reader.position;
     while (status == FRAM_OK && found && reader.position < length) {
         status = record_next(&reader, &block, &found, error);
         if (status == FRAM_OK && found)
@@ -44,6 +47,7 @@ fram_status record_check_layout(context *ctx, const char *path, uint64_t length,
         if (status == FRAM_OK && found && block.type == BLOCK_ORIGIN)
             status = record_take_origin(path, &block, origin, error);
     }
+    *lost = status == FRAM_OK && !found && reader.position == first;
     if (status == FRAM_OK && !found)
         record_tell_damage(&reader, "the run can go on, but pages and reports of it end there: better start it again");
     record_reader_close(&reader);

@@ -3,7 +3,7 @@
    Blocks of the record, numbers in the byte order of its head; poses are packed as io/record_pose.h says, 16 bytes.
    Places (of poses, cracks and points of forces) are told from an origin near the domain, since f32 has no millimetres
    in coordinates of a map:
-    16 origin    f64 x y [m], before all that has a place; without this block it is 0
+    16 origin    f64 x y [m], the first block; without it the origin is 0
      1 scenario  the effective scenario, text
      2 solid     i32 slot, u32 generation, i32 vertices, i32 triangles; f32 x y z per vertex (body frame);
                  i32 a b c per triangle
@@ -89,7 +89,9 @@ fram_status record_take_origin(const char *path, const record_block *block, vec2
 
 /* That a record is of the layout which would go on: told by its blocks up to `length`, which give its origin too.  One
    whose blocks do not go on to there is for record_continue to refuse; one with other bytes in a block than were
-   written is told, for the run can go on, and what reads the record cannot. */
-fram_status record_check_layout(context *ctx, const char *path, uint64_t length, vec2 *origin, fram_error *error);
+   written is told, for the run can go on, and what reads the record cannot.  lost: the first block is such a one, where
+   the recorder writes an origin, so that none was read and there may be one all the same. */
+fram_status record_check_layout(context *ctx, const char *path, uint64_t length, vec2 *origin, bool *lost,
+                                fram_error *error);
 
 #endif

@@ -115,9 +115,13 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[PATH_ROOM];
+    bool lost = false;
     fram_status status = path_join(folder, "record.fram", path, error);
     if (status == FRAM_OK)
-        status = record_check_layout(ctx, path, lengths->record, &r->origin, error);
+        status = record_check_layout(ctx, path, lengths->record, &r->origin, &lost, error);
+    /* The peaks of the checkpoint are told from the origin that the record began with. */
+    if (lost)
+        r->origin = origin_of(&s->domain);
     r->peaks.origin = r->origin;
     if (status == FRAM_OK)
         status = begin_series(r, s, error);

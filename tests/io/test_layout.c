@@ -130,6 +130,7 @@ START_TEST(an_origin_is_told_where_there_is_one)
     const char *path = scratch_path(&place, "a.fram");
     record_writer w;
     vec2 found;
+    bool lost;
     context_init(&ctx);
     for (int i = 0; i < 2; i++) {
         uint64_t length;
@@ -138,15 +139,30 @@ START_TEST(an_origin_is_told_where_there_is_one)
         length = record_length(&w);
         ck_assert_uint_eq(length, 24 + 40 * (uint64_t)i);
         assert_ok(record_close(&w, &error), error);
-        assert_ok(record_check_layout(&ctx, path, length, &found, &error), error);
-        ck_assert(found.x == origins[i].x && found.y == origins[i].y);
+        assert_ok(record_check_layout(&ctx, path, length, &found, &lost, &error), error);
+        ck_assert(found.x == origins[i].x && found.y == origins[i].y && !lost);
+    }
+    /* Damage in that block hides it, damage behind it hides nothing. */
+    for (int block = 0; block < 2; block++) {
+        const record_part part = {&origins[1], sizeof origins[1]};
+        assert_ok(record_create(&ctx, path, &w, &error), error);
+        assert_ok(record_append_origin(&w, origins[1], &error), error);
+        assert_ok(record_append(&w, BLOCK_SCENARIO, &part, 1, &error), error);
+        assert_ok(record_close(&w, &error), error);
+        size_t size;
+        char *data = scratch_read(path, &size);
+        data[24 + 40 * block + 24] ^= 1;
+        scratch_write(path, data, size);
+        free(data);
+        assert_ok(record_check_layout(&ctx, path, 24 + 2 * 40, &found, &lost, &error), error);
+        ck_assert(lost == (block == 0) && found.x == block * origins[1].x);
     }
     for (size_t size = 8; size <= sizeof bad; size += 8) {
         const record_part part = {bad, size};
         assert_ok(record_create(&ctx, path, &w, &error), error);
         assert_ok(record_append(&w, BLOCK_ORIGIN, &part, 1, &error), error);
         assert_ok(record_close(&w, &error), error);
-        assert_fails(record_check_layout(&ctx, path, 64, &found, &error), error, FRAM_ERROR_INPUT, "origin");
+        assert_fails(record_check_layout(&ctx, path, 64, &found, &lost, &error), error, FRAM_ERROR_INPUT, "origin");
     }
     scratch_remove(&place, "a.fram");
 }

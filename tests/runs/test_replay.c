@@ -399,8 +399,22 @@ START_TEST(frames_come_rarely_enough_for_the_limit)
 }
 END_TEST
 
-/* A hull that breaks an edge and meets a floe, about a place, in one go or in two. */
-static void run_about(context *ctx, double x, double y, bool halves, char folder[PATH])
+/* In one go, in two, and in two with damage between them in the first block of the record. */
+typedef enum how { WHOLE, HALVES, DAMAGED, HOWS } how;
+
+static void damage_record(const char *folder)
+{
+    char path[PATH + 32];
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    FILE *file = fopen(path, "r+b");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_eq(fseek(file, 24 + 24, SEEK_SET), 0);
+    ck_assert_int_eq(fputc('x', file), 'x');
+    ck_assert_int_eq(fclose(file), 0);
+}
+
+/* A hull that breaks an edge and meets a floe, about a place. */
+static void run_about(context *ctx, double x, double y, how made, char folder[PATH])
 {
     char told[1024];
     fram_error error = {0};
@@ -414,29 +428,22 @@ static void run_about(context *ctx, double x, double y, bool halves, char folder
              x - 26, y, x + 20.5, y + 20.5, x + 20.5, y - 11, x - 64, x + 64, y - 40, y + 44);
     ck_assert_ptr_nonnull(mkdtemp(strcpy(folder, "/tmp/fram-replay-XXXXXX")));
     assert_ok(scenario_parse(ctx, "scene.yaml", told, strlen(told), NULL, &s, &error), error);
-    run_options options = {.folder = folder, .until = halves ? 1 : 0};
+    run_options options = {.folder = folder, .until = made == WHOLE ? 0 : 1};
     assert_ok(run_start(ctx, &s, &options, &result, &error), error);
     options.until = 0;
-    if (halves)
+    if (made == DAMAGED)
+        damage_record(folder);
+    if (made != WHOLE)
         assert_ok(run_resume(ctx, &options, &result, &error), error);
     scenario_free(ctx, &s);
 }
 
-/* Places in its record, less that: of the largest peak, of forces, of where floes broke and of bodies at the end. */
 enum { PLACES = 64 };
-static int32_t places_about(context *ctx, double x, double y, bool halves, vec3 out[PLACES], vec2 *origin)
+static int32_t add_replayed(context *ctx, const char *folder, int32_t count, vec3 out[PLACES], vec2 *origin)
 {
-    char folder[PATH];
     fram_error error = {0};
     replay r;
-    peak_list peaks;
-    int32_t count = 0;
     bool found = true;
-    run_about(ctx, x, y, halves, folder);
-    assert_ok(peak_list_read(ctx, folder, 0, &peaks, &error), error);
-    ck_assert_int_gt(peaks.count, 0);
-    out[count++] = peaks.peak[0]->floe[0].point;
-    peak_list_free(ctx, &peaks);
     assert_ok(replay_open(ctx, folder, &r, &error), error);
     *origin = r.origin;
     while (true) {
@@ -450,7 +457,27 @@ static int32_t places_about(context *ctx, double x, double y, bool halves, vec3 
         out[count++] = r.fractures.data[i].place;
     for (int32_t i = 0; i < r.frame.poses.count && count < PLACES; i++)
         out[count++] = r.frame.poses.data[i].position;
-    close_and_remove(&r, folder);
+    replay_close(&r);
+    return count;
+}
+
+/* Places in its record, less that: of its peaks, which are all that damage leaves, of forces, of where floes broke and
+   of bodies at the end. */
+static int32_t places_about(context *ctx, double x, double y, how made, vec3 out[PLACES], vec2 *origin)
+{
+    char folder[PATH];
+    fram_error error = {0};
+    peak_list peaks;
+    int32_t count = 0;
+    run_about(ctx, x, y, made, folder);
+    assert_ok(peak_list_read(ctx, folder, 0, &peaks, &error), error);
+    ck_assert_int_gt(peaks.count, 0);
+    for (int32_t i = 0; i < peaks.count && count < PLACES / 4; i++)
+        out[count++] = peaks.peak[i]->floe[0].point;
+    peak_list_free(ctx, &peaks);
+    if (made != DAMAGED)
+        count = add_replayed(ctx, folder, count, out, origin);
+    remove_folder(folder);
     for (int32_t i = 0; i < count; i++)
         out[i] = vec3_make(out[i].x - x, out[i].y - y, out[i].z);
     return count;
@@ -463,14 +490,15 @@ START_TEST(places_are_as_fine_far_from_zero)
     context ctx;
     vec2 origin;
     context_init(&ctx);
-    int32_t count = places_about(&ctx, 0, 0, false, here, &origin);
+    int32_t count = places_about(&ctx, 0, 0, WHOLE, here, &origin);
     ck_assert_int_gt(count, 12);
     ck_assert(origin.x == 0 && origin.y == 0);
-    for (int halves = 0; halves < 2; halves++) {
-        ck_assert_int_eq(places_about(&ctx, -1400000, 2000000, halves == 1, there, &origin), count);
-        for (int32_t i = 0; i < count; i++)
+    for (how made = WHOLE; made < HOWS; made++) {
+        int32_t readable = places_about(&ctx, -1400000, 2000000, made, there, &origin);
+        ck_assert(made == DAMAGED ? readable > 0 : readable == count);
+        for (int32_t i = 0; i < readable; i++)
             ck_assert_double_le(vec3_length(vec3_sub(there[i], here[i])), 2e-3);
-        ck_assert(origin.x == -1400000 && origin.y == 2000002);
+        ck_assert(made == DAMAGED || (origin.x == -1400000 && origin.y == 2000002));
     }
 }
 END_TEST
