@@ -29,6 +29,9 @@ static fram_status choose_vessel(manage_run *m, const manage_options *options, f
 {
     const scenario *s = &m->d.s;
     const char *name = options->compared && has_no_name(s) ? NULL : options->vessel;
+    if (options->compared && scenario_vessel_count(s) == 0)
+        return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "beside",
+                         "expected a run with the vessel that is protected, found one without any vessel");
     if (options->compared && name && scenario_find_vessel(s, name) < 0)
         return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "beside",
                          "expected a run with the vessel that is protected, \"%.60s\", found one without it", name);

@@ -140,6 +140,9 @@ expect 2 "$FRAM" manage both --vessel tender --beside alone -o page.html
 says "alone: --beside: expected a run with the vessel that is protected, \"tender\", found one without it" err
 expect 2 "$FRAM" manage alone --beside both -o page.html
 says "both: --beside: several vessels do not drive themselves: name the one that is protected" err
+expect 0 "$FRAM" run unnamed.yaml -o dry -q --set vessel.present=false --set run.duration=1
+expect 2 "$FRAM" manage alone --beside dry -o page.html
+says "dry: --beside: expected a run with the vessel that is protected, found one without any vessel" err
 expect 2 "$FRAM" manage unnamed --vessel ship -o page.html
 says "unnamed: --vessel: expected the name of a vessel" err
 grep -q "Ice management for ship" page.html || fail "the page has another title"
