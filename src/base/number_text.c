@@ -178,6 +178,17 @@ int clock_digits(double step)
     return digits;
 }
 
+coordinate_text coordinate_text_of(double metres)
+{
+    enum { NEAR_ZERO = 5 };
+    coordinate_text out;
+    int digits = NEAR_ZERO;
+    for (double size = 1e4; fabs(metres) >= size && digits < FAST_DIGITS; size *= 10)
+        digits++;
+    real_to_digits(metres, digits, out.text);
+    return out;
+}
+
 double real_read(const char *text, char **end)
 {
     const char *at = text + (*text == '-'), *first = at;

@@ -20,6 +20,13 @@ int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
 /* Digits behind the point with which times of a clock that are `step` apart are told apart [s]; one at least. */
 int clock_digits(double step);
 
+/* A coordinate [m] for people: five digits near 0, to the decimetre where that is more, as on a map: "12.346",
+   "-1400000", "2000000.3". */
+typedef struct coordinate_text {
+    char text[NUMBER_TEXT_SIZE];
+} coordinate_text;
+coordinate_text coordinate_text_of(double metres);
+
 typedef enum number_fault {
     NUMBER_GOOD = 0,
     NUMBER_NOT_A_NUMBER, /* not of the form [+-]digits[.digits][e[+-]digits]; also nan, inf, hexadecimal */

@@ -108,27 +108,17 @@ static void name_floe(int32_t number, char out[24])
         snprintf(out, 24, "no floe");
 }
 
-/* As short as it is near 0, to a decimetre where it is far. */
-static void coordinate_text(double x, char out[32])
-{
-    if (fabs(x) < 1e4)
-        snprintf(out, 32, "%.4g", x);
-    else
-        snprintf(out, 32, "%.1f", x);
-}
-
 static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
 {
     text_format(ctx, out, "\n%d %s touched the vessel in the window; the largest contributions:\n", (int)d->bodies,
                 d->bodies == 1 ? "body" : "bodies");
     for (int32_t i = 0; i < d->floe_count && i < 10; i++) {
         const peak_floe *f = &d->floe[i];
-        char name[24], x[32], y[32];
+        char name[24];
         name_floe(f->number, name);
-        coordinate_text(f->point.x, x);
-        coordinate_text(f->point.y, y);
         text_format(ctx, out, "  %5.0f %%  %-12s %9.4g %s at (%s, %s, %.3g) m, %s, mostly %s\n",
-                    percent(sum_of(f->part), d), name, vec3_length(f->force) * unit.factor, unit.name, x, y, f->point.z,
+                    percent(sum_of(f->part), d), name, vec3_length(f->force) * unit.factor, unit.name,
+                    coordinate_text_of(f->point.x).text, coordinate_text_of(f->point.y).text, f->point.z,
                     peak_zone_name(f->zone), mechanism_text((ice_mechanism)f->mechanism));
     }
 }

@@ -1,5 +1,6 @@
 #include "sim/build_vessel.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/build_ice.h"
 #include "sim/build_propulsion.h"
@@ -116,9 +117,10 @@ static fram_status check_clear_of_walls(context *ctx, const scenario *s, const v
     if (inside_x && inside_y)
         return FRAM_OK;
     return vessel_fault(s, entry, inside_x ? "y" : "x", error,
-                        "the hull covers x from %.5g to %.5g m, y from %.5g to %.5g m, and so reaches into the walls "
+                        "the hull covers x from %s to %s m, y from %s to %s m, and so reaches into the walls "
                         "of the domain: move it or the walls, or choose domain.boundary: open",
-                        hull.lo.x, hull.hi.x, hull.lo.y, hull.hi.y);
+                        coordinate_text_of(hull.lo.x).text, coordinate_text_of(hull.hi.x).text,
+                        coordinate_text_of(hull.lo.y).text, coordinate_text_of(hull.hi.y).text);
 }
 
 static vessel_title title_of_row(const scenario *s, int32_t row)

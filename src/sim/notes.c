@@ -1,6 +1,7 @@
 #include "sim/notes.h"
 
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
@@ -212,8 +213,9 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
     if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && !inside)
-        note_warning(n, "%s %s the domain before the end, at (%.4g, %.4g) m", title.text,
-                     v->mode == VESSEL_FREE ? "can leave" : "leaves", x, y);
+        note_warning(n, "%s %s the domain before the end, at (%s, %s) m", title.text,
+                     v->mode == VESSEL_FREE ? "can leave" : "leaves", coordinate_text_of(x).text,
+                     coordinate_text_of(y).text);
 }
 
 static void tell_warning(const void *to, const char *text) { note_warning(to, "%s", text); }

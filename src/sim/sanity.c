@@ -1,3 +1,4 @@
+#include "base/number_text.h"
 #include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
 
@@ -318,9 +319,9 @@ static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
             band > 0 ? " with the band" : "", room, e->path, reach, reach - room);
     if (edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam))
         sanity_say(t->tell, t->to,
-                   "%s.x: (%.5g, %.5g) m lies outside of the domain, %.4g m from its edge: there is no "
+                   "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no "
                    "ice",
-                   e->path, v->x, v->y, -edge);
+                   e->path, coordinate_text_of(v->x).text, coordinate_text_of(v->y).text, -edge);
     double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
     if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
         sanity_say(t->tell, t->to, "domain: %.4g m is less than two beams of %s, so that its edges carry the load",

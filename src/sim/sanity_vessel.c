@@ -1,3 +1,4 @@
+#include "base/number_text.h"
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
 #include "vessel/plane_motion.h"
@@ -97,8 +98,8 @@ static void tell_vessel_propulsion(const teller *t)
         if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
             continue;
         sanity_say(t->tell, t->to,
-                   "%s.propulsion.waypoints[%d]: (%.5g, %.5g) m lies outside of the domain, where there is no ice",
-                   t->e->path, (int)i, w->x, w->y);
+                   "%s.propulsion.waypoints[%d]: (%s, %s) m lies outside of the domain, where there is no ice",
+                   t->e->path, (int)i, coordinate_text_of(w->x).text, coordinate_text_of(w->y).text);
         return;
     }
 }
@@ -231,8 +232,8 @@ static bool tell_leg(const teller *t, int32_t i)
             t->e->path, (int)i, from->heading_deg, to->heading_deg, turn);
     if (!(time > 0) || speed <= most)
         return turn > fastest;
-    sanity_say(t->tell, t->to, "%s.path[%d]: (%.5g, %.5g) m is reached with %.4g m/s: give seconds and metres",
-               t->e->path, (int)i, to->x, to->y, speed);
+    sanity_say(t->tell, t->to, "%s.path[%d]: (%s, %s) m is reached with %.4g m/s: give seconds and metres", t->e->path,
+               (int)i, coordinate_text_of(to->x).text, coordinate_text_of(to->y).text, speed);
     return true;
 }
 
@@ -248,8 +249,8 @@ static void tell_path_outside(const teller *t)
         if (inside || p->time > t->s->run.duration)
             continue;
         sanity_say(t->tell, t->to,
-                   "%s.path[%d]: (%.5g, %.5g) m, at t = %.4g s, lies outside of the domain, where there is no ice",
-                   t->e->path, (int)i, p->x, p->y, p->time);
+                   "%s.path[%d]: (%s, %s) m, at t = %.4g s, lies outside of the domain, where there is no ice",
+                   t->e->path, (int)i, coordinate_text_of(p->x).text, coordinate_text_of(p->y).text, p->time);
         return;
     }
 }
@@ -286,8 +287,8 @@ static void tell_motion(const teller *t)
         const scenario_waypoint *w = &p->waypoints.data[i];
         if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
             continue;
-        sanity_say(t->tell, t->to, "%s.positioning.waypoints[%d]: (%.5g, %.5g) m lies outside of the domain",
-                   t->e->path, (int)i, w->x, w->y);
+        sanity_say(t->tell, t->to, "%s.positioning.waypoints[%d]: (%s, %s) m lies outside of the domain", t->e->path,
+                   (int)i, coordinate_text_of(w->x).text, coordinate_text_of(w->y).text);
         return;
     }
 }

@@ -1,6 +1,7 @@
 #include "sim/step.h"
 
 #include "base/lent_threads.h"
+#include "base/number_text.h"
 #include "base/pool.h"
 #include "model/world_invariants.h"
 #include "sim/approach_watch.h"
@@ -355,9 +356,9 @@ static fram_status refuse_state(const world *w, int32_t body, const char *what, 
                        : b->material[body] == MATERIAL_HULL ? "vessel"
                                                             : "wall or carriage";
     return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
-                     "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m %s; %s",
-                     (long long)w->clock.step[0], w->clock.time[0], (int)body, kind, b->mass[body], r.x, r.y, r.z, what,
-                     remedy_of(w, body));
+                     "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%s, %s, %g) m %s; %s",
+                     (long long)w->clock.step[0], w->clock.time[0], (int)body, kind, b->mass[body],
+                     coordinate_text_of(r.x).text, coordinate_text_of(r.y).text, r.z, what, remedy_of(w, body));
 }
 
 static fram_status tell_state(const model *m, const world *w, int32_t body, double reach, fram_error *error)

@@ -1,5 +1,6 @@
 #include "sim/turning_tell.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/propulsion_forces.h"
 #include "sim/turning.h"
@@ -105,9 +106,10 @@ static bool place_is_inside(const pattern_view *v, double time, vec2 at)
     if (at.x >= d->x_min && at.x <= d->x_max && at.y >= d->y_min && at.y <= d->y_max)
         return true;
     log_write(v->ctx, LOG_WARNING,
-              "%s.propulsion.pattern: at %.4g s it leads to (%.4g, %.4g) m, outside of the domain, where there is "
+              "%s.propulsion.pattern: at %.4g s it leads to (%s, %s) m, outside of the domain, where there is "
               "no ice: enlarge the domain, or take a smaller or nearer pattern (loops have a radius of %.4g m)",
-              v->entry->path, time, tidy(at.x), tidy(at.y), v->set->turning.corner);
+              v->entry->path, time, coordinate_text_of(tidy(at.x)).text, coordinate_text_of(tidy(at.y)).text,
+              v->set->turning.corner);
     return false;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/vessel_check.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "geometry/polygon.h"
 #include "model/scenario_schema.h"
@@ -375,11 +376,11 @@ static fram_status warn_of_floes(context *ctx, const scenario *s, const vessel_e
         looked_at = thickness;
         double common = build_plan_overlap(&hull, floe), least = fmin(build_plan_area(&hull), polygon_area(floe));
         if (is_automatic(f->elevation) && common > INSIDE * least)
-            log_write(
-                ctx, LOG_WARNING,
-                "ice.floes[%d]: %.4g m2 of the floe at (%.5g, %.5g) m lie inside the hull of %s at the start: move "
-                "one of them",
-                (int)i, common, f->x, f->y, vessel_title_of(e).text);
+            log_write(ctx, LOG_WARNING,
+                      "ice.floes[%d]: %.4g m2 of the floe at (%s, %s) m lie inside the hull of %s at the start: move "
+                      "one of them",
+                      (int)i, common, coordinate_text_of(f->x).text, coordinate_text_of(f->y).text,
+                      vessel_title_of(e).text);
     }
     polygon_list_free(ctx, &hull);
     return status;

@@ -1,5 +1,6 @@
 #include "sim/wall_check.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/events_tell.h"
 #include "vessel/plane_motion.h"
@@ -167,8 +168,8 @@ static void warn_of_path(context *ctx, const scenario *s, const vessel_entry *e,
             continue;
         log_write(
             ctx, LOG_WARNING,
-            "%s.path[%d]: the hull reaches a wall of the domain at t = %.4g s, on its way to (%.5g, %.5g) m" DRIVEN_ON,
-            e->path, (int)i, time, to->x, to->y);
+            "%s.path[%d]: the hull reaches a wall of the domain at t = %.4g s, on its way to (%s, %s) m" DRIVEN_ON,
+            e->path, (int)i, time, coordinate_text_of(to->x).text, coordinate_text_of(to->y).text);
         return;
     }
 }
@@ -187,8 +188,8 @@ static bool told_of_place(context *ctx, const scenario *s, const vessel_entry *e
     const scenario_domain *d = &s->domain;
     bool clear = is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, place, reach);
     if (!clear)
-        log_write(ctx, LOG_WARNING, "%s.%s[%d]: at (%.5g, %.5g) m the hull stands in a wall of the domain", e->path,
-                  list->key, (int)i, place.x, place.y);
+        log_write(ctx, LOG_WARNING, "%s.%s[%d]: at (%s, %s) m the hull stands in a wall of the domain", e->path,
+                  list->key, (int)i, coordinate_text_of(place.x).text, coordinate_text_of(place.y).text);
     return !clear;
 }
 
@@ -327,9 +328,10 @@ static void outside_remind(context *ctx, const scenario *s, const model *m, cons
             at.x >= m->domain.lo.x && at.x <= m->domain.hi.x && at.y >= m->domain.lo.y && at.y <= m->domain.hi.y;
         if (!inside)
             log_write(ctx, LOG_WARNING,
-                      "%s%s lies outside of the domain in the end, at (%.5g, %.5g) m, where there is no ice: means "
+                      "%s%s lies outside of the domain in the end, at (%s, %s) m, where there is no ice: means "
                       "hold its time there too",
-                      name[0] ? "vessel " : "the vessel", name, at.x, at.y);
+                      name[0] ? "vessel " : "the vessel", name, coordinate_text_of(at.x).text,
+                      coordinate_text_of(at.y).text);
     }
 }
 

@@ -96,6 +96,25 @@ START_TEST(digits_are_as_many_as_asked)
 }
 END_TEST
 
+START_TEST(coordinates_show_their_decimetre)
+{
+    static const struct {
+        double metres;
+        const char *text;
+    } cases[] = {{0, "0"},
+                 {-90, "-90"},
+                 {12.3456, "12.346"},
+                 {9876.54, "9876.5"},
+                 {-12345.67, "-12345.7"},
+                 {-1400000, "-1400000"},
+                 {2000000.26, "2000000.3"},
+                 {999999.96, "1000000"},
+                 {-1e300, "-1e+300"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        ck_assert_str_eq(coordinate_text_of(cases[i].metres).text, cases[i].text);
+}
+END_TEST
+
 /* The fast way and printf's, digit for digit. */
 static void assert_like_printf(double value, int digits)
 {
@@ -253,6 +272,6 @@ START_TEST(locales_change_nothing)
 END_TEST
 
 TEST_MAIN("number_text", times_have_units, clocks_tell_their_steps_apart, units_go_with_the_size,
-          reals_print_as_the_shortest_text, digits_are_as_many_as_asked, digits_are_those_of_printf,
-          numbers_are_read_as_by_strtod, reals_of_any_bits_come_back, reals_are_read_strictly,
-          integers_are_read_strictly, locales_change_nothing)
+          reals_print_as_the_shortest_text, digits_are_as_many_as_asked, coordinates_show_their_decimetre,
+          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
+          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

@@ -141,6 +141,9 @@ told "vessel: moves 0.03 m in a step, 75 m in the run, towards 180 deg ←, bow 
 grep -q 'leaves the domain' err && fail "a vessel that has not come to the edge is told to leave"
 expect 0 "$FRAM" check tow.yaml --set domain.x_min=-80
 told "the vessel leaves the domain before the end, at (-90, "
+expect 0 "$FRAM" check tow.yaml --set vessel.x=-1400000 --set vessel.y=2000000.5 --set domain.x_min=-1400080 \
+    --set domain.x_max=-1399900 --set domain.y_min=1999900 --set domain.y_max=2000100
+told "the vessel leaves the domain before the end, at (-1400090, 2000000.5) m"
 
 # On a path the bow is that of its first point.
 path='path: [{time: 0, heading_deg: 90}, {time: 60, y: 30, heading_deg: 90}]'
