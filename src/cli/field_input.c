@@ -25,6 +25,18 @@ static int next_mark(FILE *file)
     return c;
 }
 
+/* The first one of a file, below comments of YAML. */
+static int first_mark(FILE *file)
+{
+    int c = next_mark(file);
+    while (c == '#') {
+        while (c != '\n' && c != EOF)
+            c = getc(file);
+        c = next_mark(file);
+    }
+    return c;
+}
+
 /* The rest of a text in quotes, cut to the room. */
 static void read_quoted(FILE *file, char text[GEOJSON_NAME_ROOM])
 {
@@ -62,9 +74,9 @@ static bool is_json_scenario(const char *path)
     FILE *file = fopen(path, "rb");
     if (!file)
         return false;
-    int first = next_mark(file);
+    int first = first_mark(file);
     if (first == 0xef && getc(file) == 0xbb && getc(file) == 0xbf) /* a byte order mark */
-        first = next_mark(file);
+        first = first_mark(file);
     bool scenario = first == '{' && lacks_geojson_members(file);
     fclose(file);
     return scenario;

@@ -200,6 +200,9 @@ echo '{"name": "\"type", "bbox": [{"run": 1}],
     "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]], "type": "Polygon"}' >"x}.json"
 expect 0 "$FRAM" field scenario.json --set ice.thickness=0.5 --json
 same "$(value 'j["rings"], j["floes"], "made" in j')" "1 1 True" "a scenario in JSON"
+{ printf '# of {"type"\n\n  # ice\n'; cat scenario.json; } >told.json
+expect 0 "$FRAM" field told.json --json
+same "$(value '"made" in j')" True "a scenario in JSON below comments"
 expect 0 "$FRAM" field "x}.json" --json
 same "$(value '"made" in j')" False "GeoJSON that begins with members of others"
 expect 2 "$FRAM" field packed.yaml --window 1,2,3
