@@ -249,9 +249,10 @@ static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *
         status = hull_level_of(ctx, &h->surface, volume, &a->level, error);
     double depth = h->about.hi[2] - h->about.lo[2];
     if (status == FRAM_OK && c->draught >= depth)
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
-                         "the water at a draught of %g m does not cut the hull, which is %g m deep; give a smaller one",
-                         c->draught, depth);
+        status =
+            error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
+                      "the water at a draught of %g m does not cut the hull, which is %g m deep; give a smaller one",
+                      c->draught, depth);
     hull_hydrostatics upright;
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, a->level, &upright, error);

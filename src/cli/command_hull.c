@@ -367,7 +367,7 @@ static void warn_of_half(const common_options *common, const fram_hull_surface *
     if (s->half && !common->quiet)
         fprintf(stderr,
                 "warning: the file has half a hull or a quarter, open along y = 0 or x = 0, and is closed there: "
-                "what follows is half a ship; mirror it in the program that made the file\n");
+                "what follows is half a ship, unless that is its end; mirror it in the program that made the file\n");
 }
 
 static void warn_of_well(const common_options *common, const fram_hull_surface *s)

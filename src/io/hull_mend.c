@@ -86,14 +86,16 @@ static void advise(const hull_reading *r, mesh_defect defect, char text[ADVICE_R
     static const char *const lines[] = {
         [HULL_WHOLE] = "", [HULL_HALF_X] = "ISX", [HULL_HALF_Y] = "ISY", [HULL_QUARTER] = "ISX and ISY"};
     const hull_half half = r->out->half;
+    /* Meshes that are counted from a perpendicular have an open transom there. */
+    const char *or_end = half == HULL_HALF_X ? ", or have it repaired (repair) if that is its end" : "";
     if (defect != MESH_OPEN || half == HULL_WHOLE)
         snprintf(text, ADVICE_ROOM, "%s", work_for(defect));
     else if (r->file->format == MESH_GDF)
-        snprintf(text, ADVICE_ROOM, "it is %s: set %s to 1 in the third line of the file", hull_half_words(half),
-                 lines[half]);
+        snprintf(text, ADVICE_ROOM, "it is %s: set %s to 1 in the third line of the file%s", hull_half_words(half),
+                 lines[half], or_end);
     else
-        snprintf(text, ADVICE_ROOM, "it is %s: mirror it there in the program that made the file",
-                 hull_half_words(half));
+        snprintf(text, ADVICE_ROOM, "it is %s: mirror it there in the program that made the file%s",
+                 hull_half_words(half), or_end);
 }
 
 /* The corner of a face that is not in its edge from a to b; -1 where the face does not run along that. */

@@ -112,7 +112,7 @@ const char *hull_half_words(hull_half half)
 {
     static const char *const words[] = {
         [HULL_WHOLE] = "a whole hull",
-        [HULL_HALF_X] = "half a hull, open along x = 0",
+        [HULL_HALF_X] = "half a hull, or one without its end, open along x = 0",
         [HULL_HALF_Y] = "half a hull, open along its centre plane y = 0",
         [HULL_QUARTER] = "a quarter of a hull, open along x = 0 and y = 0",
     };

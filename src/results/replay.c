@@ -409,6 +409,7 @@ void replay_close(replay *r)
     array_free(r->ctx, &r->outlines);
     array_free(r->ctx, &r->points);
     array_free(r->ctx, &r->faces);
+    polygon_list_free(r->ctx, &r->parts);
     array_free(r->ctx, &r->fractures);
     array_free(r->ctx, &r->at_slot);
     array_free(r->ctx, &r->next_row);

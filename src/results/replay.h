@@ -7,9 +7,6 @@
 #include "geometry/polygon.h"
 #include "io/record_layout.h"
 
-/* Whether the plan of a solid that lies upright leaves a part of its convex outline open (results/replay_parts.h). */
-typedef enum replay_openness { OPENNESS_UNKNOWN = 0, OPENNESS_CLOSED, OPENNESS_OPEN } replay_openness;
-
 /* A body of the record.  Bodies are listed by birth and stay listed when they are gone. */
 typedef struct replay_body {
     int32_t slot;
@@ -23,7 +20,8 @@ typedef struct replay_body {
     int32_t vessel;                     /* row in the scenario of a hull's vessel; -1: no hull */
     int32_t vertex_first, vertex_count; /* prism: in replay.outlines; solid: in replay.points */
     int32_t face_first, face_count;     /* solid: triangles in replay.faces */
-    replay_openness openness;           /* solid */
+    bool looked_at;                     /* solid: whether its parts were looked for (results/replay_parts.h) */
+    int32_t part_first, part_count;     /* solid that is open: rings in replay.parts */
     int64_t born, died;                 /* number of the first frame with it, and of the first without */
     double birth;                       /* of a piece the time of the break, otherwise of that first frame [s] */
     vec3 position;                      /* of a body that does not move */
@@ -72,6 +70,7 @@ typedef struct replay {
     vec2_array outlines;
     ARRAY(vec3) points;
     int32_array faces;
+    polygon_list parts;               /* of solids that are open, upright and about their centres of mass */
     ARRAY(replay_fracture) fractures; /* all up to the next frame */
     replay_frame frame;               /* the current one */
     /* Inside: */

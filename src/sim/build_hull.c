@@ -71,7 +71,8 @@ static void report_file(context *ctx, const hull_file_report *r)
         log_write(ctx, LOG_INFO, "it is repaired: %d holes of %.3g m2 filled, %d triangles turned", (int)r->holes,
                   r->hole_area, (int)r->flipped);
     if (r->half)
-        log_write(ctx, LOG_WARNING, "the hull's file has %s, and is closed there: mirror it", hull_half_words(r->half));
+        log_write(ctx, LOG_WARNING, "the hull's file has %s, and is closed there: mirror it if it is half",
+                  hull_half_words(r->half));
     if (r->well > OPEN_BOAT)
         log_write(ctx, LOG_WARNING,
                   "the hull's waterline goes round a hole of %.0f %% of its area: an open boat is full of water; give "

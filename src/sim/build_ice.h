@@ -31,9 +31,10 @@ typedef struct build_slab {
 } build_slab;
 static inline build_slab build_slab_all(void) { return (build_slab){-HUGE_VAL, HUGE_VAL}; }
 
-/* Outlines apart from each other that are hardly larger than what of the body is in a slab: those of the hull's convex
-   pieces together, hollow where they are, where its convex outline holds open water, as of a catamaran or between the
-   columns of a semi-submersible; else that outline alone.  None where nothing is in the slab.  Added to `out`. */
+/* Outlines that do not cover each other and are hardly larger than what of the body is in a slab: those of the hull's
+   convex pieces together, cut along seams where they go round a hole, where its convex outline holds open water, as of
+   a catamaran or between the columns of a semi-submersible; else that outline alone.  None where nothing is in the
+   slab.  Added to `out`. */
 fram_status build_plan(context *ctx, const world *w, int32_t body, build_slab slab, polygon_list *out,
                        fram_error *error);
 /* Area of all outlines of a plan together, and what they have in common with an outline [m2]. */

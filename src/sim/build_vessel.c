@@ -9,13 +9,16 @@
 #include "vessel/path.h"
 
 /* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
-   ships; of what is wider than long yaw goes by the beam, and roll is no more than any body has with the other two. */
+   ships; of what is wider than long yaw goes by the beam.  Roll and yaw are no more than any body has with the others.
+ */
 static const double GYRATION_ROLL = 0.35, GYRATION_LENGTH = 0.25;
 
 vec3 build_gyration(const scenario_vessel *v, const hull_particulars *p)
 {
     double pitch = automatic_or(v->gyration_pitch, GYRATION_LENGTH * p->length);
-    double yaw = automatic_or(v->gyration_yaw, GYRATION_LENGTH * fmax(p->length, p->beam));
+    double usual = GYRATION_LENGTH * fmax(p->length, p->beam);
+    double given = automatic_or(v->gyration_roll, HUGE_VAL);
+    double yaw = automatic_or(v->gyration_yaw, fmin(usual, sqrt(given * given + pitch * pitch)));
     double roll = fmin(GYRATION_ROLL * p->beam, sqrt(pitch * pitch + yaw * yaw));
     return vec3_make(automatic_or(v->gyration_roll, roll), pitch, yaw);
 }

@@ -30,7 +30,9 @@ static void tell_inertia(const teller *t)
         return;
     tell_gyration(t, "gyration_roll", v->gyration_roll, "beam", v->hull.beam, ROLL_LEAST, ROLL_MOST);
     tell_gyration(t, "gyration_pitch", v->gyration_pitch, "length", v->hull.length, YAW_LEAST, YAW_MOST);
-    tell_gyration(t, "gyration_yaw", v->gyration_yaw, "length", v->hull.length, YAW_LEAST, YAW_MOST);
+    bool wide = v->hull.beam > v->hull.length;
+    tell_gyration(t, "gyration_yaw", v->gyration_yaw, wide ? "beam" : "length", fmax(v->hull.length, v->hull.beam),
+                  YAW_LEAST, YAW_MOST);
 }
 
 /* ---- what stands on it ---- */

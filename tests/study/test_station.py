@@ -221,7 +221,7 @@ class StationTest(StudyTest):
         (self.at / "base.yaml").write_text(re.sub("ice: .*", "ice: {source: none}", MOORED))
         study = self.write("seeds: 2\nset: {run.duration: 1.2}\n")
         done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], check=True, capture_output=True, text=True)
-        self.assertIn("all runs came out the same, since run.seed draws nothing", done.stderr)
+        self.assertIn("all runs came out the same, since nothing that run.seed draws acted", done.stderr)
 
     def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
