@@ -395,9 +395,9 @@ static void tell_alike(const study_work *w, const condition_rows *rows)
         alike += all_alike(&rows[c]);
     if (alike > 0)
         log_write(w->ctx, LOG_WARNING,
-                  "%d of %d conditions: all runs came out the same, since nothing that run.seed draws acted in them: one "
-                  "says all, and an interval of 0 says nothing of chance (ice.strength, or ice that is drawn, varies "
-                  "with the seed)",
+                  "%d of %d conditions: all runs came out the same, since nothing that run.seed draws acted in them: "
+                  "one says all, and an interval of 0 says nothing of chance (ice.strength, or ice that is drawn, "
+                  "varies with the seed)",
                   (int)alike, (int)w->s->conditions);
 }
 
