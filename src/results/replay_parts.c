@@ -154,7 +154,7 @@ static fram_status unite(solid_plan *s, int32_t first, int32_t count, polygon_li
 }
 
 /* Looks at a solid once: what it covers is kept where it is open; nothing where GEOS finds no union that is right. */
-static fram_status find_parts(replay *r, replay_body *b, fram_error *error)
+static fram_status find_open_parts(replay *r, replay_body *b, fram_error *error)
 {
     solid_plan s = {.ctx = r->ctx, .plane = overlay_create(r->ctx), .error = error};
     int32_t before = polygon_list_count(&r->parts);
@@ -174,7 +174,7 @@ static fram_status find_parts(replay *r, replay_body *b, fram_error *error)
 fram_status replay_parts_add(replay *r, const replay_pose *p, polygon_list *out, fram_error *error)
 {
     replay_body *b = &r->bodies.data[p->body];
-    fram_status status = b->solid && !b->looked_at ? find_parts(r, b, error) : FRAM_OK;
+    fram_status status = b->solid && !b->looked_at ? find_open_parts(r, b, error) : FRAM_OK;
     double heading = quat_roll_pitch_yaw(p->orientation).z;
     vec2 along = {real_cos(heading), real_sin(heading)};
     vec2_array ring = {0};
