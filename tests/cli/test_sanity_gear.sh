@@ -183,6 +183,8 @@ told ship.yaml "thrusters[0].failure_time: 3600 s is after the end" --set "vesse
 told ship.yaml "thrusters[0]: (300, 0) m is outside of a hull" --set "vessel.thrusters[0].x=300"
 told ship.yaml "thrusters[1].diameter: 28 m|draught" --set "vessel.thrusters[1].diameter=28"
 told ship.yaml "gyration_roll: 0.35 m is 0.0184 of the beam|metres" --set vessel.gyration_roll=0.35
+told drive.yaml "gyration_yaw: 0.5 m is 0.0333 of the beam" --set vessel.hull.length=12 --set vessel.hull.form=box \
+    --set vessel.hull.beam=15 --set vessel.gyration_yaw=0.5
 told ship.yaml "fender_stiffness: 50 N/m|not kN/m" --set vessel.fender_stiffness=50
 told ship.yaml "ice.crushing_strength: 2000 Pa|not kPa or MPa" --set ice.crushing_strength=2000
 told ship.yaml "centre_of_gravity_z, 12 m" --set vessel.centre_of_gravity_z=12

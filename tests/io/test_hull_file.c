@@ -171,7 +171,9 @@ START_TEST(half)
         const char *faces, *words;
         hull_half half;
     } cases[] = {{"f 4 1 5 8\n", "open along its centre plane y = 0: mirror it", HULL_HALF_Y},
-                 {"f 1 2 6 5\n", "open along x = 0: mirror it", HULL_HALF_X},
+                 {"f 1 2 6 5\n",
+                  "open along x = 0: mirror it there in the program that made the file, or have it repaired (repair)",
+                  HULL_HALF_X},
                  {"", "a quarter of a hull, open along x = 0 and y = 0: mirror it", HULL_QUARTER}};
     for (int i = 0; i < 6; i++) {
         const int deck = i % 2, c = i / 2;

@@ -203,6 +203,13 @@ START_TEST(radii_of_gyration)
         ck_assert(k.z * k.z <= (k.x * k.x + k.y * k.y) * (1 + 1e-12));
         ck_assert(k.y == 5 && (beams[i] > 20 || (k.x == 0.35 * beams[i] && k.z == 5)));
     }
+    /* Beside one that is given too. */
+    const hull_particulars wide = {.length = 20, .beam = 30};
+    for (int i = 1; i < 8; i++) {
+        const scenario_vessel given = {.gyration_roll = i, .gyration_pitch = NAN, .gyration_yaw = NAN};
+        vec3 k = build_gyration(&given, &wide);
+        ck_assert(k.x == i && k.z <= 7.5 && k.z * k.z <= (k.x * k.x + k.y * k.y) * (1 + 1e-12));
+    }
 }
 END_TEST
 

@@ -51,6 +51,16 @@ START_TEST(original_and_copy_go_the_same_way)
 }
 END_TEST
 
+static void copy_with_half_the_step(scene *k, model *fine, world *copy)
+{
+    fram_error error = {0};
+    scenario s = k->s;
+    s.run.time_step = 0.01;
+    assert_ok(build_model(&k->ctx, &s, fine, &error), error);
+    assert_ok(world_copy(&k->ctx, &k->w, copy, &error), error);
+    assert_ok(rerun_divide_step(&k->ctx, &k->w, 2, fine, copy, &error), error);
+}
+
 /* 60 steps of 0.02 s are 120 of 0.01; the controller measures each 0.5 s, next at 1.5 s. */
 START_TEST(a_copy_goes_on_with_half_the_step)
 {
@@ -60,11 +70,7 @@ START_TEST(a_copy_goes_on_with_half_the_step)
     fram_error error = {0};
     scene_open(&k, moored_in_ice);
     scene_steps(&k, 60);
-    scenario s = k.s;
-    s.run.time_step = 0.01;
-    assert_ok(build_model(&k.ctx, &s, &fine, &error), error);
-    assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
-    assert_ok(rerun_divide_step(&k.ctx, &k.w, 2, &fine, &copy, &error), error);
+    copy_with_half_the_step(&k, &fine, &copy);
     ck_assert_int_eq(copy.clock.step[0], 120);
     ck_assert_int_eq(load_window_length(&k.w), 13);
     ck_assert_int_eq(load_window_length(&copy), 26);
@@ -115,11 +121,7 @@ START_TEST(half_the_step_wakes_nothing_by_itself)
     scene_open(&k, leaning);
     scene_steps(&k, 2000);
     ck_assert_int_eq(asleep(&k.w), 2);
-    scenario s = k.s;
-    s.run.time_step = 0.01;
-    assert_ok(build_model(&k.ctx, &s, &fine, &error), error);
-    assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
-    assert_ok(rerun_divide_step(&k.ctx, &k.w, 2, &fine, &copy, &error), error);
+    copy_with_half_the_step(&k, &fine, &copy);
     ck_assert_int_gt(copy.memory.count, 0);
     assert_vec3_close(copy.memory.on_lower[0], vec3_scale(k.w.memory.on_lower[0], 0.5), 0);
     assert_bits(copy.joints.impulse[0].row[0], 0.5 * k.w.joints.impulse[0].row[0]);

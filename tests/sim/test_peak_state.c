@@ -35,19 +35,27 @@ static double sum_of(const peak_detail *d)
     return sum;
 }
 
+/* Another watch takes up what one was saved as, and is saved as the same. */
+static void restore_as_saved(scene *k, peak_watch *p, peak_watch *q)
+{
+    byte_array a = {0}, b = {0};
+    ck_assert(peak_state_save(p, &k->w, &a));
+    assert_ok(peak_state_restore(q, &k->w, &a, &e), e);
+    ck_assert(peak_state_save(q, &k->w, &b));
+    same(&a, &b);
+    array_free(&k->ctx, &a);
+    array_free(&k->ctx, &b);
+}
+
 START_TEST(what_is_restored_goes_on_as_what_was_saved)
 {
     scene k;
     peak_watch p, q;
-    byte_array a = {0}, b = {0};
     scene_open(&k, text);
     peak_watch_init(&k.ctx, 0.02, 0, &p);
     peak_watch_init(&k.ctx, 0.02, 0, &q);
     run(&k, &p, 90);
-    ck_assert(peak_state_save(&p, &k.w, &a));
-    assert_ok(peak_state_restore(&q, &k.w, &a, &e), e);
-    ck_assert(peak_state_save(&q, &k.w, &b));
-    same(&a, &b);
+    restore_as_saved(&k, &p, &q);
     int32_t contacts = 0;
     for (int32_t i = 0; i < q.ring.count; i++)
         contacts += q.ring.data[i].count;
@@ -68,8 +76,6 @@ START_TEST(what_is_restored_goes_on_as_what_was_saved)
     ck_assert_int_eq(p.vessels.data[0].picker.count, q.vessels.data[0].picker.count);
     peak_watch_free(&p);
     peak_watch_free(&q);
-    array_free(&k.ctx, &a);
-    array_free(&k.ctx, &b);
     scene_close(&k);
 }
 END_TEST
@@ -119,7 +125,6 @@ START_TEST(parts_of_a_long_window_add_up)
     for (int i = 0; i < 2; i++) {
         scene k;
         peak_watch p, q;
-        byte_array a = {0}, b = {0};
         scene_open_with(&k, text, &window[i], 1);
         scene_steps(&k, 60);
         int32_t floe = scene_floe(&k, 0);
@@ -133,17 +138,12 @@ START_TEST(parts_of_a_long_window_add_up)
                 check_parts(&p, &k.w);
         }
         ck_assert_int_le(p.ring.count, 1000);
-        ck_assert(peak_state_save(&p, &k.w, &a));
-        assert_ok(peak_state_restore(&q, &k.w, &a, &e), e);
-        ck_assert(peak_state_save(&q, &k.w, &b));
-        same(&a, &b);
+        restore_as_saved(&k, &p, &q);
         make_step(&k.w, floe);
         assert_ok(peak_watch_keep(&q, &k.w, &e), e);
         check_parts(&q, &k.w);
         peak_watch_free(&p);
         peak_watch_free(&q);
-        array_free(&k.ctx, &a);
-        array_free(&k.ctx, &b);
         scene_close(&k);
     }
 }
