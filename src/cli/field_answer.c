@@ -38,7 +38,7 @@ static int coordinate_decimals(const fram_field_summary *s)
 }
 
 /* Without zeros at the end. */
-static const char *coordinate_text(double value, int decimals, char text[COORDINATE_SIZE])
+static const char *box_text(double value, int decimals, char text[COORDINATE_SIZE])
 {
     if (!(fabs(value) <= COORDINATE_FIXED)) {
         snprintf(text, COORDINATE_SIZE, "%.9g", value);
@@ -56,9 +56,9 @@ static void print_box(const fram_field_summary *s)
 {
     char text[4][COORDINATE_SIZE];
     int decimals = coordinate_decimals(s);
-    printf("  x from %s to %s m, y from %s to %s m\n", coordinate_text(s->lo[0], decimals, text[0]),
-           coordinate_text(s->hi[0], decimals, text[1]), coordinate_text(s->lo[1], decimals, text[2]),
-           coordinate_text(s->hi[1], decimals, text[3]));
+    printf("  x from %s to %s m, y from %s to %s m\n", box_text(s->lo[0], decimals, text[0]),
+           box_text(s->hi[0], decimals, text[1]), box_text(s->lo[1], decimals, text[2]),
+           box_text(s->hi[1], decimals, text[3]));
 }
 
 static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
