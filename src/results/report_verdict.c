@@ -246,6 +246,26 @@ static void judge_station(verdict *v)
     judge_thrusters(v);
 }
 
+/* No part of the ice load: another hull, or a wall, met the vessel, the transient included. */
+static void judge_hulls(verdict *v)
+{
+    const report *r = v->r;
+    const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, "hull_contact_force_x"),
+                 *y = run_vessel_channel(&r->d, r->vessel, "hull_contact_force_y");
+    double largest = 0, first = HUGE_VAL, at = 0;
+    for (int32_t i = 0; time && x && y && i < r->d.series.rows; i++) {
+        double size = sqrt(x[i] * x[i] + y[i] * y[i]);
+        first = size > 0 ? fmin(first, time[i]) : first;
+        at = size > largest ? time[i] : at;
+        largest = fmax(largest, size);
+    }
+    char name[48], load[40];
+    if (largest > 0)
+        find(v, VERDICT_NOTE, "It is no part of the ice load: hull_contact_force_* of the series.",
+             "%sanother hull or a wall touched it, first at %.6g s: largest horizontal force %s, at %.6g s.",
+             whose(r, name), first, force(largest, load), at);
+}
+
 /* ---- loads, and how sure they are ---- */
 
 static void judge_transient(verdict *v)
@@ -458,6 +478,8 @@ fram_status report_verdict(report *r, fram_error *error)
         status = report_choose_vessel(r, i, error);
         if (status == FRAM_OK)
             judge_station(&v);
+        if (status == FRAM_OK)
+            judge_hulls(&v);
         if (status == FRAM_OK && r->d.s.ice.source != ICE_NONE)
             status = judge_load(&v, error);
         if (status == FRAM_OK)

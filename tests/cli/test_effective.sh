@@ -194,13 +194,23 @@ same "$(grep -c 'the hull runs into a wall of the domain' err)" 1 "walls are tol
 expect 0 "$FRAM" report hit --quiet
 says "The vessel ran into a wall of the domain at" hit/report.html
 python3 - <<'PY' || fail "the run does not name the wall"
-import json, re
+import csv, json, math, re
 at = [e["time_s"] for e in json.load(open("hit/run.json"))["events"] if e["kind"] == "wall"]
 # It begins at 3 m/s and never exceeds 4: 55 to 60 m take 13.7 to 20 s.
 assert len(at) == 1 and 13.7 < at[0] < 20, at
+# The report tells the load that is none of the ice, as the series has it.
+told = re.search(r"nother hull or a wall touched it, first at ([\d.]+) s: largest horizontal force ([\d.]+) (\wN), at "
+                 r"([\d.]+) s", open("hit/report.html").read())
+rows = list(csv.DictReader(open("hit/series.csv")))
+force = [math.hypot(*(float(r[f"hull_contact_force_{a}[N]"]) for a in "xy")) for r in rows]
+first = next(float(r["time[s]"]) for r, f in zip(rows, force) if f > 0)
+newton = float(told[2]) * {"kN": 1e3, "MN": 1e6}[told[3]]
+assert abs(float(told[1]) - first) < 1e-3 and abs(newton / max(force) - 1) < 0.01, (told[0], first, max(force))
+assert abs(float(told[4]) - float(rows[force.index(max(force))]["time[s]"])) < 1e-3, told[0]
 PY
 expect 0 "$FRAM" run wall.yaml -o clear --quiet --set run.duration=10
 expect 0 "$FRAM" report clear --quiet
+grep -q 'a wall touched it' clear/report.html && fail "a ship that met nothing is said to have been touched"
 grep -q 'a wall of the domain at' clear/report.html && fail "a ship that is clear is said to be at a wall"
 
 # Motion that is given goes on through a wall: said before with the time, by whatever way it is given, when it happens,
