@@ -19,6 +19,17 @@ for target in $installed; do
     esac
 done
 
+echo "the static library waits for what makes its objects"
+# Targets that are waited for stand behind two bars.  Instrumented builds join no objects.
+rules=$FRAM_BUILD/build.ninja
+if [ -f "$rules" ]; then
+    waits=$(sed -n 's/^build libfram\.a:.*||//p' "$rules")
+    makers=$(sed -n 's/^build fram_joined\.o //p' "$rules" | grep -o '[a-z0-9_]*\.dir' | sort -u || true)
+    for maker in ${makers//.dir/}; do
+        [[ " $waits " = *" $maker "* ]] || fail "libfram.a does not wait for $maker"
+    done
+fi
+
 version=$(sed -n 's/.*FRAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)/\2/p' "$FRAM_SOURCE/include/fram/version.h" |
     paste -sd.)
 prefix=$scratch/prefix
