@@ -38,7 +38,7 @@ OPEN = re.compile(r"[<>{}|,]|NNNN|\bNAME\b|[A-Z]{4,}\b(?!\.md)")
 
 
 def own_files():
-    listing = subprocess.run([ROOT / "tools/sources.sh"], capture_output=True, text=True, check=True)
+    listing = subprocess.run([ROOT / "tools/sources.sh"], stdout=subprocess.PIPE, text=True, check=True)
     return [pathlib.Path(name) for name in listing.stdout.splitlines()]
 
 

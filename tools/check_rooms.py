@@ -74,7 +74,7 @@ COMMENT_OR_TEXT = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[
 
 
 def own_files():
-    listing = subprocess.run([ROOT / "tools" / "sources.sh"], capture_output=True, text=True, check=True)
+    listing = subprocess.run([ROOT / "tools" / "sources.sh"], stdout=subprocess.PIPE, text=True, check=True)
     return [ROOT / name for name in listing.stdout.splitlines()]
 
 

@@ -10,7 +10,7 @@ jobs=${JOBS:-2}
 version=$(sed -n 's/.*FRAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)/\2/p' include/fram/version.h | paste -sd.)
 packages=build/packages
 # One time for all files, so that the same sources give the same packages.
-SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || date +%s)
+SOURCE_DATE_EPOCH=$(git --git-dir=.git log -1 --format=%ct 2>/dev/null || date +%s)
 # debhelper gives programs a home of their own, where ccache knows nothing.
 CCACHE_DIR=${CCACHE_DIR:-$HOME/.cache/ccache}
 export SOURCE_DATE_EPOCH CCACHE_DIR JOBS=$jobs

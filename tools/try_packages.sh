@@ -124,7 +124,7 @@ done
     echo "# Packages in empty roots"
     echo
     cat <<END
-Written by \`make test-packages\` on $(date -u +%F), Fram $(git log -1 --format=%h): an empty Debian 12
+Written by \`make test-packages\` on $(date -u +%F), Fram $(git --git-dir=.git log -1 --format=%h): an empty Debian 12
 (\`debootstrap --variant=minbase\`) for the Debian packages and another for the archive. Times are in seconds, with
 downloads, on a machine of $(nproc) cores with other work. The demo had the state hash of the tree itself in both,
 \`$tree\`, and the pictures of the second root have letters, though it has no fonts.

@@ -41,7 +41,8 @@ RUNGS = {
 def revision():
     """The commit; with "+" where what decides a result is not as committed."""
     def git(*words):
-        return subprocess.run(["git", "-C", str(ladder.ROOT), *words], capture_output=True, text=True).stdout.strip()
+        command = ["git", "-C", str(ladder.ROOT), "--git-dir=.git", *words]
+        return subprocess.run(command, capture_output=True, text=True).stdout.strip()
 
     changed = git("status", "--porcelain", "-uno", "--", "src", "include", "scenes", "validation", "CMakeLists.txt")
     return git("rev-parse", "--short", "HEAD") + ("+" if changed else "") or "no version control"

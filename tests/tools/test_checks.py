@@ -2,6 +2,7 @@
 """The checkers of tools/ find what they are for: each breach is planted in a small house and must be named."""
 
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -11,6 +12,8 @@ import tempfile
 import unittest
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+# A hook of git tells its children which tree is meant.
+NO_GIT = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
 
 
 class House(unittest.TestCase):
@@ -210,6 +213,38 @@ class House(unittest.TestCase):
         found = tidy.commands(self.root / "build/release")
         self.assertEqual([entry["command"] for entry in found],
                          [f"cc -Wall -Wshadow -O2 -o some.o -c {self.root}/src/base/file{i}.c" for i in range(2)])
+
+    def sources(self, *patterns):
+        """What sources.sh says in vendor/fram of the house."""
+        return subprocess.run(["tools/sources.sh", *patterns], cwd=self.root / "vendor/fram", env=NO_GIT,
+                              capture_output=True, text=True)
+
+    @unittest.skipUnless(shutil.which("git"), "git is not here")
+    def test_sources_in_a_tree_of_others(self):
+        own = ["README.md", "src/ice/floe.c", "tools/sources.sh"]
+        for name in own[:2] + ["build/release/a.c", "src/ice/floe.o", "tools/__pycache__/a.pyc", "out/a.c"]:
+            self.plant("vendor/fram/" + name, "text\n")
+        (self.root / "vendor/fram/tools/sources.sh").write_bytes((TOOLS / "sources.sh").read_bytes())
+        (self.root / "vendor/fram/tools/sources.sh").chmod(0o755)
+        subprocess.run(["git", "init", "-q"], cwd=self.root, env=NO_GIT, check=True)
+        for ignored in ("", "vendor/\n"):
+            self.plant(".gitignore", ignored)
+            self.assertEqual(self.sources().stdout.splitlines(), own)
+            self.assertEqual(self.sources("*.c", "*.md").stdout.splitlines(), own[:2])
+        done = self.sources("*.none")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("vendor/fram fits *.none", done.stderr)
+        subprocess.run(["git", "init", "-q"], cwd=self.root / "vendor/fram", env=NO_GIT, check=True)
+        self.plant("vendor/fram/.gitignore", "*.c\n*.o\n__pycache__/\nbuild/\nout/\n")
+        self.assertEqual(self.sources().stdout.splitlines(), [".gitignore", "README.md", "tools/sources.sh"])
+
+    def test_git_is_asked_of_this_tree_alone(self):
+        for path in (self.root / "tools").rglob("*.*"):
+            # What it makes a clone of is the tree that git knows.
+            if path.suffix in (".sh", ".py") and path.name != "fresh_machine.sh":
+                for line in path.read_text(encoding="utf-8").splitlines():
+                    if re.search(r'\bgit (-\S+ )*(log|ls-files|rev-parse)\b|"git",', line):
+                        self.assertIn("--git-dir=.git", line, path.name)
 
     def test_libm_in_the_objects(self):
         self.assertEqual(self.objects("#include <math.h>\ndouble f(double x) { return floor(x); }\n"), "")

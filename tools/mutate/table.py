@@ -17,8 +17,8 @@ those of the others. `mutants.csv` beside this page has each fault with the test
 
 
 def code(root):
-    done = subprocess.run(["git", "-C", str(root), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
-                          check=False)
+    words = ["git", "-C", str(root), "--git-dir=.git", "rev-parse", "--short", "HEAD"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
     return done.stdout.strip()
 
 

@@ -36,7 +36,7 @@ class Workplace:
 
     def prepare(self):
         """Bring the copy to the state of the checkout; files that are equal keep their time, so little is built."""
-        listing = subprocess.run([self.source / "tools/sources.sh"], capture_output=True, text=True, check=True)
+        listing = subprocess.run([self.source / "tools/sources.sh"], stdout=subprocess.PIPE, text=True, check=True)
         names = set(listing.stdout.splitlines())
         for name in names:
             self.bring(name)

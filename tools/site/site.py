@@ -31,7 +31,7 @@ MENU_DEPTH = {"docs/decisions": "Decisions", "docs/validation": "Validation", "b
 
 
 def own_pages():
-    listing = subprocess.run([ROOT / "tools/sources.sh", "*.md"], capture_output=True, text=True, check=True)
+    listing = subprocess.run([ROOT / "tools/sources.sh", "*.md"], stdout=subprocess.PIPE, text=True, check=True)
     return [name for name in listing.stdout.splitlines() if not LEFT_OUT.match(name)]
 
 

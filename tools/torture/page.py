@@ -29,8 +29,8 @@ def version(fram):
 
 
 def code(root):
-    done = subprocess.run(["git", "-C", str(root), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
-                          check=False)
+    words = ["git", "-C", str(root), "--git-dir=.git", "rev-parse", "--short", "HEAD"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
     return done.stdout.strip() or "unknown"
 
 
