@@ -425,7 +425,7 @@ START_TEST(channels_are_the_columns_of_the_series)
         fram_channel c;
         assert_ok(fram_world_channel(w, i, &c, &e), e);
         ck_assert(c.index == i && fram_world_find_channel(w, c.name) == i);
-        ck_assert_msg(c.meaning[0] != '\0', "%s has no meaning", c.name);
+        ck_assert_msg(c.meaning[0] != '\0', "%s has no meaning: add it in src/api/channels.c", c.name);
         snprintf(head + strlen(head), sizeof head - strlen(head), "%s%s[%s]", i ? "," : "", c.name, c.unit);
     }
     strcat(head, "\n");
