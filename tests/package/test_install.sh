@@ -100,6 +100,17 @@ for kind in shared static; do
     [ "$("$scratch/build/consumer_$kind")" = "$version" ] || fail "the $kind consumer of find_package failed"
 done
 
+echo "find_package says what it misses"
+# What pkg-config answered before is asked anew, in an empty folder.
+if PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=$scratch/none cmake -U '__pkg_config*' -DFRAM_COMPONENTS='static;shared' \
+    "$scratch/build" >"$scratch/cmake.log" 2>&1; then
+    fail "components that are not there were found"
+fi
+told=$(tr -s ' \n' ' ' <"$scratch/cmake.log")
+for words in "was not found: geos, libfyaml, libpng, zlib, nettle" 'no component shared, only "static"'; do
+    [[ $told = *"$words"* ]] || fail "find_package does not say \"$words\": $(cat "$scratch/cmake.log")"
+done
+
 echo "DESTDIR"
 DESTDIR=$scratch/stage cmake --install "$FRAM_BUILD" --prefix /usr >"$scratch/install.log"
 [ -x "$scratch/stage/usr/bin/fram" ] || [ -z "${FRAM:-}" ] || fail "no command in the staged package"
