@@ -64,7 +64,7 @@ test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chro
 	@cd build/release && $(CTEST) -L '^views$$'
 
 test-kill: build ## kill -9 a run at FRAM_KILLS (50) random moments and resume it
-	@FRAM=$(CURDIR)/build/release/fram FRAM_KILLS=$${FRAM_KILLS:-50} $(PYTHON) tests/sim/test_kill.py
+	@FRAM="$(CURDIR)/build/release/fram" FRAM_KILLS=$${FRAM_KILLS:-50} $(PYTHON) tests/sim/test_kill.py
 
 CYCLES ?= 10000
 test-cycles: build/release/build.ninja ## CYCLES (10,000) random saves, loads, copies and steps of two worlds (minutes)

@@ -275,6 +275,10 @@ class Commands(unittest.TestCase):
                 ran += 1
         self.assertGreater(ran, 4)
 
+    def test_folders_may_have_spaces_in_their_names(self):
+        for line in (TOOLS.parent / "Makefile").read_text().splitlines():
+            self.assertNotIn("$(CURDIR)", re.sub(r'"[^"]*"', "", line))
+
 
 if __name__ == "__main__":
     unittest.main()
