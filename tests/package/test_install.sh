@@ -111,6 +111,16 @@ for words in "was not found: geos, libfyaml, libpng, zlib, nettle" 'no component
     [[ $told = *"$words"* ]] || fail "find_package does not say \"$words\": $(cat "$scratch/cmake.log")"
 done
 
+echo "part of another project"
+mkdir "$scratch/parent"
+echo "cmake_minimum_required(VERSION 3.22)
+project(parent NONE)
+add_subdirectory(\"$FRAM_SOURCE\" fram)" >"$scratch/parent/CMakeLists.txt"
+if cmake -S "$scratch/parent" -B "$scratch/parent/build" >"$scratch/cmake.log" 2>&1; then
+    fail "Fram was taken as part of another project"
+fi
+grep -qF 'find_package(Fram)' "$scratch/cmake.log" || fail "it is not told what to do: $(cat "$scratch/cmake.log")"
+
 echo "DESTDIR"
 DESTDIR=$scratch/stage cmake --install "$FRAM_BUILD" --prefix /usr >"$scratch/install.log"
 [ -x "$scratch/stage/usr/bin/fram" ] || [ -z "${FRAM:-}" ] || fail "no command in the staged package"
