@@ -56,6 +56,11 @@ static inline bool body_is_free(const body_table *b, int32_t slot)
 {
     return b->motion[slot] == MOTION_DYNAMIC || b->motion[slot] == MOTION_ASLEEP;
 }
+/* Ice that something holds: fixed, or of a sheet.  A floe of a field's band is driven and floats as any other. */
+static inline bool body_is_held(const body_table *b, int32_t slot)
+{
+    return b->motion[slot] == MOTION_STATIC || b->motion[slot] == MOTION_CARRIED;
+}
 
 /* The first slot of first..end-1 whose body moves or may move in a step (dynamic, prescribed or carried), `end`
    without. What does not is passed over many slots at a time, so that ice at rest costs a walk over bodies next to

@@ -23,7 +23,7 @@ static double share_of_friction(const crushing_job *j, const crushing_pair *p, c
 bool crushing_edge_gives(const crushing_job *j, const crushing_pair *p, const patch_component *c)
 {
     return j->settings->edges.gives && j->floes->breakable[p->floe] && !j->settings->top_plane_area &&
-           !body_is_free(j->bodies, p->floe_body) && j->bodies->material[p->surface_body] == MATERIAL_HULL &&
+           body_is_held(j->bodies, p->floe_body) && j->bodies->material[p->surface_body] == MATERIAL_HULL &&
            fabs(c->area.z) > CLOSED_PATCH * c->surface && share_of_friction(j, p, c) > 0;
 }
 

@@ -18,7 +18,7 @@ static int32_t edge_body(const body_table *bodies, const floe_table *floes, cons
         body_is_free(bodies, c->a) == body_is_free(bodies, c->b))
         return -1;
     int32_t held = body_is_free(bodies, c->a) ? c->b : c->a, floe = bodies->owner[held];
-    return floe >= 0 && floes->breakable[floe] ? held : -1;
+    return floe >= 0 && body_is_held(bodies, held) && floes->breakable[floe] ? held : -1;
 }
 
 /* Where the contacts [first, end) of a pair load the edge of a body, and what they carried. */
@@ -174,10 +174,10 @@ static int32_t support_of(const edge_job *j, const crushing_patch *p)
     return edge_support_nearest(j->supports, j->bodies, p->surface_body, p->centre, reach);
 }
 
-/* Whether a patch has a support: breakable ice that does not move freely, under a hull. */
+/* Whether a patch has a support: breakable ice that is held, under a hull. */
 static bool has_support(const edge_job *j, const crushing_patch *p)
 {
-    return j->supports && !body_is_free(j->bodies, p->floe_body) && j->floes->breakable[p->floe] &&
+    return j->supports && body_is_held(j->bodies, p->floe_body) && j->floes->breakable[p->floe] &&
            j->bodies->material[p->surface_body] == MATERIAL_HULL;
 }
 

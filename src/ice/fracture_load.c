@@ -254,7 +254,7 @@ static const double LEAST_CORNER = 0.125;
 /* Whether a piece presses too little on held ice to be looked at.  width: of N wedges, N b0. */
 static bool is_slight(const fracture_job *j, const fracture_load *l, double width)
 {
-    return !body_is_free(j->state->bodies, l->body) && j->state->bodies->material[l->surface] == MATERIAL_ICE &&
+    return body_is_held(j->state->bodies, l->body) && j->state->bodies->material[l->surface] == MATERIAL_ICE &&
            ice_needed(l, l->force, width) < LEAST_CORNER;
 }
 
@@ -266,7 +266,7 @@ static bool surely_holds(const fracture_job *j, fracture_load *l, double width)
     static const double SURELY = 0.99;
     if (!may_fail(j->settings, l))
         return true;
-    if (l->tile || !body_is_free(j->state->bodies, l->body))
+    if (l->tile || body_is_held(j->state->bodies, l->body))
         return false;
     return radial_holds(l) && ice_needed(l, l->force + l->near, width) < SURELY * fracture_least_ice(j, l);
 }
@@ -458,7 +458,7 @@ static int compare_loads(const void *a, const void *b)
 static bool bears_load(const fracture_job *j, int32_t body, uint8_t other)
 {
     const fracture_settings *f = j->settings;
-    return other != MATERIAL_ICE || f->under_ice_contacts || (f->under_pieces && !body_is_free(j->state->bodies, body));
+    return other != MATERIAL_ICE || f->under_ice_contacts || (f->under_pieces && body_is_held(j->state->bodies, body));
 }
 
 fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches)

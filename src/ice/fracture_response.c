@@ -21,7 +21,7 @@ double fracture_response_time(const fracture_settings *settings, const ice_mater
 /* A load that floes feel later than it acts: sheets and fixed floes do not (docs/decisions/0176). */
 static bool responds(const fracture_job *j, const fracture_load *l)
 {
-    return !l->tile && body_is_free(j->state->bodies, l->body);
+    return !l->tile && !body_is_held(j->state->bodies, l->body);
 }
 
 static int compare_pairs(const void *a, const void *b)

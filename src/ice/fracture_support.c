@@ -32,7 +32,7 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
         return true;
     for (int32_t i = 0; i < w->all.count; i++) {
         const fracture_load *l = &w->all.data[i];
-        bool held = !body_is_free(bodies, l->body) && bodies->material[l->surface] == MATERIAL_HULL;
+        bool held = body_is_held(bodies, l->body) && bodies->material[l->surface] == MATERIAL_HULL;
         const crushing_patch *patch = &patches->data[l->patch];
         load_part p = {.held = held,
                        .patch = l->patch,

@@ -306,8 +306,7 @@ static bool is_steep(const fracture_job *j, const crushing_patch *p)
 static bool may_trim(const fracture_job *j, const crushing_patch *p)
 {
     const fracture_state *s = j->state;
-    motion kind = (motion)s->bodies->motion[p->floe_body];
-    bool held = kind == MOTION_STATIC || kind == MOTION_CARRIED;
+    bool held = body_is_held(s->bodies, p->floe_body);
     bool goes = held ? j->settings->crush_trims : j->settings->crush_notches && floats(j, p) && is_steep(j, p);
     return goes && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
            s->shapes->shapes.kind[s->bodies->shape[p->surface_body]] == SHAPE_SOLID &&

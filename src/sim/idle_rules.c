@@ -33,11 +33,11 @@ static bool has_only_breakable(const idle_question *q) { return ice_all_breaks(&
 static bool cuts_top_plane(const idle_question *q) { return q->s->ice.top_plane_area; }
 static bool has_rigid_edges(const idle_question *q) { return !q->s->ice.fracture.edge_compliance; }
 static bool bends_no_edge(const idle_question *q) { return !q->s->ice.fracture.edge_elastic; }
-/* All ice moves freely: an endless field holds that of its band. */
+/* All ice floats freely. */
 static bool holds_no_ice(const idle_question *q)
 {
     const scenario_ice *i = &q->s->ice;
-    bool held = i->source == ICE_LEVEL || q->s->domain.boundary == DOMAIN_FEEDING;
+    bool held = i->source == ICE_LEVEL;
     for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
         held = held || i->floes.data[k].fixed;
     return !held;

@@ -168,7 +168,18 @@ same "$(hash_of afloat.yaml "${keys[@]}")" "$before" "state of ice that floats"
 for key in ice.crush_trims "ice.fracture.edge_compliance and 4 more" ice.fracture.under_pieces; do
     told afloat.yaml "$key: without effect, since there is neither level ice nor a fixed floe" "${keys[@]}"
 done
-silent afloat.yaml --set domain.boundary=feeding --set domain.band=12 --set ice.fracture.edge_elastic=false
+# So does what the band of an endless field drives, with nothing but floes to break it.
+printf 'time[s],x[m/s],y[m/s]\n0,2,0\n4,-1,2\n8,-2,-2\n12,2,1\n' >turn.csv
+cat >fed.yaml <<'YAML'
+run: {duration: 12, time_step: 0.05, seed: 5}
+vessel: {present: false}
+ice: {concentration: 0.85, mean_floe_area: 60, thickness: 0.2, size_deviation: 0.8, breakable: true}
+domain: {x_min: -40, x_max: 40, y_min: -25, y_max: 25, boundary: feeding, drift_file: turn.csv}
+YAML
+before=$(hash_of fed.yaml)
+same "$(wc -l <of_it/fractures.csv)" 1 "lines of breaks without a vessel"
+same "$(hash_of fed.yaml "${keys[@]}")" "$before" "state of a band that floats"
+told fed.yaml "ice.fracture.under_pieces: without effect, since there is neither" --set ice.fracture.under_pieces=false
 
 # Of populations and listed floes each by itself.
 cat >packed.yaml <<'YAML'
