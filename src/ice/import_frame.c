@@ -12,6 +12,8 @@
    [deg]. */
 #define LATITUDE_LEAST 37
 #define FLOE_MOST 0.5
+/* Of the floes of a field so many tell what its coordinates are: an ice chart has a few vast ones, too. */
+#define PLAIN_LEAST 0.9
 #define HALF_TURN 180.0 /* [deg] */
 
 static polygon all_vertices(const import_rings *r) { return (polygon){r->rings.vertex.data, r->rings.vertex.count}; }
@@ -31,42 +33,59 @@ static fram_status fault(const import_rings *r, const import_options *o, int32_t
 /* Longitudes of one field differ by half a turn at most: those behind the date line are taken a turn on. */
 static double near(double longitude, double to) { return longitude - 360 * floor((longitude - to) / 360 + 0.5); }
 
+/* Longitude and latitude of a vertex; swapped: latitude stands first. */
+static vec2 position_of(vec2 vertex, bool swapped) { return swapped ? vec2_make(vertex.y, vertex.x) : vertex; }
+
 /* Around vertices in degrees. */
-static box2 box_of(polygon p)
+static box2 box_of(polygon p, bool swapped)
 {
-    double first = p.vertex[0].x;
-    box2 box = {p.vertex[0], p.vertex[0]};
+    vec2 first = position_of(p.vertex[0], swapped);
+    box2 box = {first, first};
     for (int32_t i = 1; i < p.count; i++) {
-        double x = near(p.vertex[i].x, first), y = p.vertex[i].y;
-        box.lo = vec2_make(fmin(box.lo.x, x), fmin(box.lo.y, y));
-        box.hi = vec2_make(fmax(box.hi.x, x), fmax(box.hi.y, y));
+        vec2 v = position_of(p.vertex[i], swapped);
+        v.x = near(v.x, first.x);
+        box.lo = vec2_make(fmin(box.lo.x, v.x), fmin(box.lo.y, v.y));
+        box.hi = vec2_make(fmax(box.hi.x, v.x), fmax(box.hi.y, v.y));
     }
     return box;
 }
 
-static bool on_earth(polygon p)
+static bool on_earth(polygon p, bool swapped)
 {
-    for (int32_t i = 0; i < p.count; i++)
-        if (!(fabs(p.vertex[i].x) <= 360 && fabs(p.vertex[i].y) <= 90))
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 v = position_of(p.vertex[i], swapped);
+        if (!(fabs(v.x) <= 360 && fabs(v.y) <= 90))
             return false;
+    }
     return true;
 }
 
-static bool look_like_degrees(const import_rings *r)
+static bool is_plain_floe(polygon p, bool swapped)
 {
+    box2 box = box_of(p, swapped);
+    bool icy = box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST;
+    double narrow = real_cos(radians(0.5 * (box.lo.y + box.hi.y))); /* degrees of longitude, over those of latitude */
+    double size = narrow * (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
+    return icy && size <= FLOE_MOST * FLOE_MOST;
+}
+
+static bool look_like_degrees(const import_rings *r, bool swapped)
+{
+    int32_t rings = 0, plain = 0;
     for (int32_t i = 0; i < r->place.count; i++) {
         polygon p = polygon_list_get(&r->rings, i);
         if (p.count == 0)
             continue;
-        box2 box = box_of(p);
-        bool icy = box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST;
-        double narrow =
-            real_cos(radians(0.5 * (box.lo.y + box.hi.y))); /* degrees of longitude, over those of latitude */
-        double size = narrow * (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
-        if (!on_earth(p) || !icy || size > FLOE_MOST * FLOE_MOST)
-            return false;
+        rings++;
+        plain += is_plain_floe(p, swapped);
     }
-    return r->rings.vertex.count > 0;
+    return rings > 0 && plain >= PLAIN_LEAST * rings && on_earth(all_vertices(r), swapped);
+}
+
+/* Latitude first: told only by what can be no latitude. */
+static bool look_swapped(const import_rings *r)
+{
+    return !on_earth(all_vertices(r), false) && on_earth(all_vertices(r), true);
 }
 
 /* Round everything in its place. */
@@ -88,14 +107,17 @@ static fram_status project(const import_rings *r, const import_options *o, impor
         return error_set(error, FRAM_ERROR_INPUT, o->name, 0, NULL,
                          "coordinates in degrees have no scale: expected a scale of 1, found %g", o->scale);
     for (int32_t i = 0; i < r->place.count; i++) {
-        if (!on_earth(polygon_list_get(&r->rings, i)))
+        if (!on_earth(polygon_list_get(&r->rings, i), false))
             return fault(r, o, i, error,
-                         "expected longitudes from -360 to 360 and latitudes from -90 to 90 degrees, for the "
-                         "coordinates are to be degrees");
+                         look_swapped(r)
+                             ? "expected longitudes from -360 to 360 first, and latitudes from -90 to 90 degrees "
+                               "second, for the coordinates are to be degrees: are they swapped?"
+                             : "expected longitudes from -360 to 360 and latitudes from -90 to 90 degrees, for the "
+                               "coordinates are to be degrees");
     }
     if (r->rings.vertex.count == 0)
         return FRAM_OK;
-    box2 box = box_of(all_vertices(r));
+    box2 box = box_of(all_vertices(r), false);
     out->projection = stereographic_make(ELLIPSOID_WGS84, vec2_scale(vec2_add(box.lo, box.hi), 0.5), 1);
     for (int32_t i = 0; i < r->place.count; i++) {
         polygon p = polygon_list_get(&r->rings, i);
@@ -113,10 +135,11 @@ static fram_status project(const import_rings *r, const import_options *o, impor
     return FRAM_OK;
 }
 
-static fram_status refuse_degrees(const import_rings *r, const import_options *o, fram_error *error)
+static fram_status refuse_degrees(const import_rings *r, const import_options *o, bool swapped, fram_error *error)
 {
-    char what[320];
-    snprintf(what, sizeof what, "the coordinates look like degrees of longitude and latitude, and %s%s%s",
+    char what[400];
+    snprintf(what, sizeof what, "the coordinates look like degrees of %s, and %s%s%s",
+             swapped ? "latitude and longitude, which are swapped (longitude comes first)" : "longitude and latitude",
              o->as_it_is ? "only lengths are taken here: project them before, as \"fram field\" does"
                          : "lengths are expected: have them projected as degrees, or give the scale that makes metres "
                            "of them",
@@ -129,8 +152,9 @@ fram_status import_frame_make(const import_rings *r, const import_options *o, im
     *out = (import_frame){.degrees = o->degrees, .scale = o->scale, .shift = o->offset};
     if (o->degrees)
         return project(r, o, out, error);
-    if (!o->lengths && o->scale == 1 && look_like_degrees(r))
-        return refuse_degrees(r, o, error);
+    bool in_question = !o->lengths && o->scale == 1, swapped = in_question && look_swapped(r);
+    if (in_question && look_like_degrees(r, swapped))
+        return refuse_degrees(r, o, swapped, error);
     if (o->centre && r->rings.vertex.count > 0) {
         box2 box = polygon_bounds(all_vertices(r));
         out->shift = vec2_sub(o->offset, vec2_scale(vec2_add(box.lo, box.hi), 0.5 * o->scale));

@@ -411,6 +411,26 @@ says "look like degrees" err
 sed 's/119.51/121.7/g; s/37.11/37.46/g; s/37\([.0-9]*\)\]/80\1]/g' bohai.geojson >arctic.geojson
 expect 2 "$FRAM" field arctic.geojson
 says "look like degrees" err
+# Nine floes in ten tell: a vast one among them; latitude first, which a longitude beyond 90 tells.
+python3 - <<'END'
+import json
+
+def square(x, y, d):
+    return [[x, y], [x + d, y], [x + d, y + d], [x, y + d], [x, y]]
+
+floes = [square(-156.8 + 0.02 * i, 70.3, 0.01) for i in range(11)]
+for name, rings in {"vast": floes + [square(-154, 70.3, 2)], "vaster": floes[:8] + [square(-154, 70.3, 2)],
+                    "swapped": [[[y, x] for x, y in ring] for ring in floes]}.items():
+    json.dump({"type": "MultiPolygon", "coordinates": [[ring] for ring in rings]}, open(name + ".geojson", "w"))
+END
+expect 2 "$FRAM" field vast.geojson
+says "look like degrees of longitude and latitude, and lengths" err
+expect 0 "$FRAM" field vaster.geojson
+expect 2 "$FRAM" field swapped.geojson
+says "look like degrees of latitude and longitude, which are swapped (longitude comes first), and lengths" err
+expect 2 "$FRAM" field swapped.geojson --degrees
+says "expected longitudes from -360 to 360 first, and latitudes" err
+expect 0 "$FRAM" field swapped.geojson --scale 1
 # Floes of half a metre at 60 m of a tank: metres where that is said, of zones and floes of a scenario by its scale.
 cat >tank.geojson <<'END'
 {"type": "MultiPolygon", "coordinates": [[[[0, 60], [0.5, 60], [0.5, 60.5], [0, 60.5], [0, 60]]],
