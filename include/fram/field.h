@@ -98,6 +98,7 @@ typedef struct fram_field_note {
     int line;                   /* of the file */
     bool dropped;               /* left out, or this piece of it; otherwise mended */
     const char *reason;         /* "crosses or touches itself" */
+    bool outside;               /* left out as outside of the window or domain */
 } fram_field_note;
 /* Number of notes; up to `room` of them are copied to notes, which may be NULL with room 0. */
 FRAM_API int fram_field_notes(const fram_field *field, fram_field_note *notes, int room, size_t size);

@@ -165,8 +165,13 @@ int(fram_field_notes)(const fram_field *f, fram_field_note *notes, int room, siz
     for (int32_t i = 0; notes && i < f->floes.notes.count && i < room; i++) {
         const import_note *note = &f->floes.notes.data[i];
         const import_place *place = &f->source.place.data[note->ring];
-        const fram_field_note full = {place->feature, place->polygon, place->ring,
-                                      place->line,    note->dropped,  import_event_text(note->event)};
+        const fram_field_note full = {.feature = place->feature,
+                                      .polygon = place->polygon,
+                                      .ring = place->ring,
+                                      .line = place->line,
+                                      .dropped = note->dropped,
+                                      .reason = import_event_text(note->event),
+                                      .outside = note->event == IMPORT_NOTE_OUTSIDE};
         result_give(result_row(notes, size, i), size, &full);
     }
     return f->floes.notes.count;

@@ -128,11 +128,24 @@ static void print_making(const fram_field *field)
                m.area_change, m.vertex_changes);
 }
 
-static void print_notes(const fram_field_note *notes, int count)
+/* How many are shown with those that were before. */
+static int print_notes_of(const fram_field_note *notes, int count, bool outside, int shown)
 {
-    for (int i = 0; i < count && i < NOTES_SHOWN; i++)
+    for (int i = 0; i < count && shown < NOTES_SHOWN; i++) {
+        if (notes[i].outside != outside)
+            continue;
         printf("    %s: feature %d, polygon %d, ring %d (line %d): %s\n", notes[i].dropped ? "left out" : "repaired",
                notes[i].feature, notes[i].polygon, notes[i].ring, notes[i].line, notes[i].reason);
+        shown++;
+    }
+    return shown;
+}
+
+/* Most of a large file may lie outside of a small domain: what happened inside of it comes first. */
+static void print_notes(const fram_field_note *notes, int count)
+{
+    int shown = print_notes_of(notes, count, false, 0);
+    print_notes_of(notes, count, true, shown);
     if (count > NOTES_SHOWN)
         printf("    and %d more; --json lists all\n", count - NOTES_SHOWN);
 }

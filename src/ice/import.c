@@ -275,7 +275,7 @@ static fram_status import_ring(importing *m)
 /* ---- all rings ---- */
 
 /* What most rings and pieces were left out for, and how many: 0 where all were mended to nothing.  A hole is never why
-   no floe is left. */
+   no floe is left, and what lies outside is not where ice in the domain is only in the way of something. */
 static import_event commonest_loss(const import_field *field, int32_t *most)
 {
     int32_t count[IMPORT_EVENT_COUNT] = {0};
@@ -287,6 +287,10 @@ static import_event commonest_loss(const import_field *field, int32_t *most)
             event = n->event;
             *most = count[event];
         }
+    }
+    if (event == IMPORT_NOTE_OUTSIDE && count[IMPORT_NOTE_KEPT_OUT] > 0) {
+        event = IMPORT_NOTE_KEPT_OUT;
+        *most = count[event];
     }
     return event;
 }

@@ -336,6 +336,22 @@ none_left "left of 1 rings: 1 of them or of their pieces were left out because e
 none_left "4 of them or of their pieces were left out because each is under the smallest area" once.geojson \
     --smallest 1000
 none_left "each is outside the domain; look at scale, offset and domain" once.geojson --crop 900,0,999,9
+# A floe as wide as the domain, with its vessel in it, and thirteen beside: those come last, and are no reason.
+python3 - <<'END' >wide.wkt
+for x in list(range(900, 1550, 50)) + [-50]:
+    d = 100 if x < 0 else 40
+    print(f"POLYGON (({x} -50, {x + d} -50, {x + d} 50, {x} 50, {x} -50))")
+END
+cat >wide.yaml <<'END'
+vessel: {hull: {length: 20, beam: 6, draught: 2, freeboard: 2}}
+ice: {source: file, file: wide.wkt}
+domain: {x_min: -40, x_max: 40, y_min: -40, y_max: 40}
+END
+none_left "of 14 rings: 1 of them or of their pieces were left out because each is in the way of a vessel" wide.yaml
+echo 'POLYGON ((20 20, 30 20, 30 30, 20 30, 20 20))' >>wide.wkt
+expect 0 "$FRAM" field wide.yaml
+says "left out: feature 14, polygon 1, ring 1 (line 14): is in the way" out
+same "$(grep -c "left out: feature" out)" 12 "notes that are shown"
 echo '{"type": "Feature", "properties": {"kind": "wall"}, "geometry": null}' >walls.geojson
 echo 'POLYGON ((0 0, 5 0, 5 5, 5 0, 0 0))' >spike.wkt
 none_left "left of 1 rings: none winds round an area" spike.wkt --bad repair
