@@ -87,7 +87,11 @@ static fram_status note_fault(importing *m, import_event event, bool can_mend, v
     if (bad != IMPORT_REFUSE)
         return add_note(m, event, !*mended, at);
     char what[200];
-    if (m->options->as_it_is)
+    /* A repair fills holes, also those that islands are in open water. */
+    if (m->options->as_it_is && event == IMPORT_NOTE_HOLE)
+        snprintf(what, sizeof what, "%s; cut its polygon in two that have none, for a repair would fill it",
+                 import_event_text(event));
+    else if (m->options->as_it_is)
         snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" does with --bad repair and -o",
                  import_event_text(event));
     else

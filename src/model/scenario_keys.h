@@ -216,7 +216,9 @@
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")        \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                      \
     X(open_water, LIST(opening, 100), "", "voronoi, file, packed: zones without ice at the start")                     \
-    X(open_water_file, PATH(""), "", "as open_water, polygons of any shape from a file as ice.file, in metres")        \
+    X(open_water_file, PATH(""), "",                                                                                   \
+      "as open_water, polygons of any shape from a file as ice.file, in metres; one round an island is cut in two, "   \
+      "for it must have no hole")                                                                                      \
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                   \
     X(fracture, SECTION(fracture), "", "how breakable floes break")                                                    \
     X(populations, LIST(population, 16), "",                                                                           \
