@@ -134,26 +134,49 @@ static fram_status read_point(outline_walk *w)
     return outline_ring_add(w, p);
 }
 
+/* The outline at work has come back to its first position. */
+static bool is_closed(const outline_walk *w)
+{
+    int32_t count = w->out->rings.vertex.count - w->first;
+    const vec2 *v = w->out->rings.vertex.data + w->first;
+    return count > 3 && v[0].x == v[count - 1].x && v[0].y == v[count - 1].y;
+}
+
+/* behind: the walk at the first row after one that closed the outline, if its line is not 0.  One that is closed again
+   in the end touches itself there; other rows are the next outline, which nothing divides from it. */
+static fram_status end_points(outline_walk *w, outline_walk *behind)
+{
+    if (w->place.ring == 0)
+        return FRAM_OK;
+    if (behind->line > 0 && !is_closed(w))
+        return outline_refuse(behind, "the row before closes its outline: outlines are divided by a blank line");
+    behind->line = 0;
+    return outline_ring_end(w, true);
+}
+
 static fram_status outline_read_points(outline_walk *w)
 {
     fram_status status = FRAM_OK;
+    outline_walk behind = {.line = 0};
     for (; status == FRAM_OK && w->at < w->end; outline_skip_line(w)) {
         outline_skip_blanks(w);
         if (w->at < w->end && *w->at == '#')
             continue;
         if (at_line_end(w) || *w->at == '>') {
-            status = w->place.ring > 0 ? outline_ring_end(w, true) : FRAM_OK;
+            status = end_points(w, &behind);
             continue;
         }
         if (w->place.ring == 0) {
             w->place.feature++;
             w->place.polygon = 1;
             status = outline_ring_begin(w, 1);
+        } else if (behind.line == 0 && is_closed(w)) {
+            behind = *w;
         }
         if (status == FRAM_OK)
             status = read_point(w);
     }
-    return status == FRAM_OK && w->place.ring > 0 ? outline_ring_end(w, true) : status;
+    return status == FRAM_OK ? end_points(w, &behind) : status;
 }
 
 /* ---- forms ---- */

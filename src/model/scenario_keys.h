@@ -149,8 +149,8 @@
       "floes drawn from ice.populations, then brought to places where none overlap")                                   \
     X(level, SECTION(level), "", "the sheet, for source level")                                                        \
     X(file, PATH(""), "",                                                                                              \
-      "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "      \
-      "before ice.thickness")                                                                                          \
+      "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y with a blank line between outlines; a "      \
+      "thickness property of GeoJSON goes before ice.thickness")                                                       \
     X(file_coordinates, CHOICE(file_coordinates, FILE_PLANAR, "planar degrees"), "",                                   \
       "file: planar: lengths; degrees: longitude and latitude (WGS 84), laid flat about the centre of all "            \
       "floes, which goes to file_x, file_y, with y to the north")                                                      \

@@ -79,6 +79,10 @@ START_TEST(lines_of_points)
     check_ring(1, (const int[]){2, 1, 1, 9, 1, 3, 0});
     check_ring(2, (const int[]){3, 1, 1, 14, 4, 3, 0});
     assert_bits(polygon_list_get(&rings.rings, 2).vertex[0].x, -1);
+    /* Rows that say a position twice, and an outline that touches itself where it begins. */
+    assert_ok(parse("0 0\n0 0\n1 0\n1 1\n0 0\n0 0\n\n0 0\n1 0\n1 1\n0 0\n-1 0\n-1 -1\n0 0\n"), error);
+    ck_assert_int_eq(rings.place.count, 2);
+    check_ring(1, (const int[]){2, 1, 1, 8, 1, 6, 0});
     import_rings_free(&ctx, &rings);
 }
 END_TEST
@@ -118,6 +122,8 @@ START_TEST(refusals_say_where)
     check_refusal("0 0\n1 0\n1 1 7\n", 3, 5, "feature 1, polygon 1, ring 1", "found more");
     check_refusal("0 0\n1\n", 2, 2, "feature 1, polygon 1, ring 1", "found none");
     check_refusal("0 0\n1 0\n1 1\n\n2 2\n3 x", 6, 3, "feature 2, polygon 1, ring 1", "finite number");
+    check_refusal("9 9\n8 9\n8 8\n\n0 0\n1 0\n1 1\n0 0\n 5 5\n6 5\n6 6\n5 5\n7 7\n8 7\n8 8\n7 7\n", 9, 2,
+                  "feature 2, polygon 1, ring 1", "divided by a blank line");
     check_refusal("0 0,5", 1, 4, "feature 1, polygon 1, ring 1", "found more");
     check_refusal("0x10 3", 1, 1, "feature 1, polygon 1, ring 1", "finite number");
 }
