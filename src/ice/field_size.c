@@ -22,8 +22,10 @@ const char *size_bins_fault(const double *edge, const double *weight, int32_t bi
 {
     double sum = 0;
     *bin = 0;
-    if (bins < 1 || !(edge[0] > 0))
+    if (bins < 1 || !(edge[0] >= 0))
         return "a histogram needs bins of positive diameters";
+    if (edge[0] == 0)
+        return "the first bin with floes begins at 0 m: give the smallest diameter that you have";
     for (; *bin < bins; ++*bin) {
         if (!isfinite(edge[*bin + 1]) || !isfinite(weight[*bin]))
             return "the edges and weights of a histogram must be finite numbers";

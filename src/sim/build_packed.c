@@ -61,6 +61,15 @@ static fram_status resolve(const scenario *s, const char *file, int32_t number, 
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "the path is too long");
 }
 
+/* Binning begins at 0, where there is no floe. */
+static int32_t bins_before_floes(const double *lo, const double *floes, int32_t bins)
+{
+    int32_t first = 0;
+    while (first < bins && lo[first] <= 0 && floes[first] == 0)
+        first++;
+    return first < bins ? first : 0;
+}
+
 /* Bins in rising order without gaps, as edges and numbers. */
 static fram_status read_histogram(context *ctx, const scenario *s, int32_t number, population_files *f,
                                   fram_error *error)
@@ -73,20 +82,22 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
     if (status == FRAM_OK)
         status = csv_read(ctx, path, names, HISTOGRAM_COLUMNS, column, error);
     const double *lo = column[HISTOGRAM_LO].data, *hi = column[HISTOGRAM_HI].data;
-    int32_t bins = column[HISTOGRAM_LO].count, bin;
-    for (int32_t i = 0; i < bins && status == FRAM_OK; i++) {
+    const double *floes = column[HISTOGRAM_FLOES].data;
+    int32_t bins = column[HISTOGRAM_LO].count, first = bins_before_floes(lo, floes, bins), bin;
+    for (int32_t i = first; i < bins && status == FRAM_OK; i++) {
         if (i > 0 && !(fabs(lo[i] - hi[i - 1]) <= SAME_EDGE * fabs(hi[i - 1])))
             status =
                 error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, i), "diameter_min",
                           "each bin must begin where the one before ends, at %.12g m, found %.12g m", hi[i - 1], lo[i]);
-        else if ((i == 0 && !array_push(ctx, &f->edge[number], lo[0])) || !array_push(ctx, &f->edge[number], hi[i]) ||
-                 !array_push(ctx, &f->weight[number], column[HISTOGRAM_FLOES].data[i]))
+        else if ((i == first && !array_push(ctx, &f->edge[number], lo[i])) ||
+                 !array_push(ctx, &f->edge[number], hi[i]) || !array_push(ctx, &f->weight[number], floes[i]))
             status = error_memory(error);
     }
     const char *fault =
-        status == FRAM_OK ? size_bins_fault(f->edge[number].data, f->weight[number].data, bins, &bin) : NULL;
+        status == FRAM_OK ? size_bins_fault(f->edge[number].data, f->weight[number].data, bins - first, &bin) : NULL;
     if (fault)
-        status = error_set(error, FRAM_ERROR_INPUT, path, bin < 0 ? 0 : csv_line_of(ctx, path, bin), NULL, "%s", fault);
+        status = error_set(error, FRAM_ERROR_INPUT, path, bin < 0 ? 0 : csv_line_of(ctx, path, first + bin), NULL, "%s",
+                           fault);
     for (int i = 0; i < HISTOGRAM_COLUMNS; i++)
         array_free(ctx, &column[i]);
     return status;

@@ -128,14 +128,16 @@ START_TEST(bins_of_a_histogram_follow_one_another)
     refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n5,12,5\n", "at 6 m, found 5 m");
     refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n6.0000001,12,5\n", "found 6.0000001 m");
     refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n6,12,nan\n", "must be finite numbers");
+    refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n0,4,0\n4,6,-1\n", "must not be negative");
+    refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n-4,0,0\n0,4,5\n4,6,10\n", "begins at 0 m: give");
 }
 END_TEST
 
 START_TEST(shapes_come_from_templates_and_sizes_from_a_histogram)
 {
     static const char shapes[] = "{\"type\": \"Polygon\", \"coordinates\": [[[0,0],[3,-1],[2.2,1],[3,3],[0,0]]]}";
-    /* 6 as programs come to it in two ways. */
-    static const char sizes[] = "diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n6.000000000000001,12,5\n";
+    /* Bins from 0 on, and 6 as programs come to it in two ways. */
+    static const char sizes[] = "diameter_min[m],diameter_max[m],floes[1]\n0,4,0\n4,6,10\n6.000000000000001,12,5\n";
     char templates[PATH_SIZE], histogram[PATH_SIZE], text[TEXT_SIZE];
     write_file(templates, "shapes.geojson", shapes);
     write_file(histogram, "sizes.csv", sizes);
