@@ -64,10 +64,11 @@ fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *
     return status;
 }
 
+/* Rounding makes a little less than nothing of a floe beside the box. */
 static double common_area(polygon p, box2 b)
 {
     const vec2 corner[4] = {b.lo, {b.hi.x, b.lo.y}, b.hi, {b.lo.x, b.hi.y}};
-    return polygon_overlap_area(p, (polygon){corner, 4});
+    return fmax(0, polygon_overlap_area(p, (polygon){corner, 4}));
 }
 
 /* Cells from `first` on that [lo, hi] meets; none: first > last. */

@@ -225,6 +225,11 @@ says "at most 0.001 m wide" out
 expect 0 "$FRAM" field bent.yaml --set ice.file=bent9.99999.wkt
 ! grep -q '^warning: .*overlap' err || fail "an overlap within the skin warns: $(cat err)"
 
+# There is no less than no ice, as under an arch.
+echo 'POLYGON ((0 0, 5 0, 6.1 10.3, 17.7 11.1, 25 0, 30 0, 21.3 20, 9.7 21, 3 19, 0 0))' >arch.wkt
+expect 0 "$FRAM" field arch.wkt --window 8.3,2.6,15.6,6.6 --window 8,1.8,15.3,5.8 --json
+same "$(value '[0 <= w["concentration"] < 1e-12 for w in j["windows"]]')" "[True, True]" "windows without ice"
+
 # What became of the rings of a scenario's file is told as of the file alone: one beside the domain, one in open water,
 # a bow tie, and two that overlap, by their features.
 cat >rings.wkt <<'END'
