@@ -88,6 +88,7 @@ typedef struct fram_field_summary {
     double bin_edge[FRAM_FIELD_BINS + 1]; /* [m] */
     int bin[FRAM_FIELD_BINS];
     int passed_over; /* features of a file that say they are no ice: kind "vessel" or "wall", as exports write them */
+    int overlap_polygons[2]; /* polygons (from 1) of overlap_features, 0 where those are */
 } fram_field_summary;
 FRAM_API void fram_field_summary_get(const fram_field *field, fram_field_summary *summary, size_t size);
 #define fram_field_summary_get(...) fram_field_summary_get(__VA_ARGS__, sizeof(fram_field_summary))

@@ -43,12 +43,12 @@ static box2 window_of(const fram_field_definition *d)
 static double box_area(box2 b) { return (b.hi.x - b.lo.x) * (b.hi.y - b.lo.y); }
 
 /* Of the file that the floes are of or, where there is none, of one that is written. */
-static int feature_of(const fram_field *f, int32_t floe)
+static import_place place_of(const fram_field *f, int32_t floe)
 {
     if (f->source.place.count == 0)
-        return floe + 1;
+        return (import_place){.feature = floe + 1, .polygon = floe >= 0};
     bool drawn = floe < 0 || floe >= f->floes.ring.count;
-    return drawn ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
+    return drawn ? (import_place){0} : f->source.place.data[f->floes.ring.data[floe]];
 }
 
 fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error)
@@ -60,6 +60,7 @@ fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram
         return status;
     f->window = f->made.crop ? window_of(&f->made) : f->generated ? f->window : m->bounds;
     double window = box_area(f->window);
+    const import_place a = place_of(f, m->overlap_pair[0]), b = place_of(f, m->overlap_pair[1]);
     f->about = (fram_field_summary){
         .rings = f->source.place.count,
         .floes = m->floes,
@@ -76,7 +77,8 @@ fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram
         .overlap_area = m->overlap_area,
         .overlap_width = m->overlap_width,
         .passed_over = f->source.passed_over,
-        .overlap_features = {feature_of(f, m->overlap_pair[0]), feature_of(f, m->overlap_pair[1])},
+        .overlap_features = {a.feature, b.feature},
+        .overlap_polygons = {a.polygon, b.polygon},
     };
     for (int32_t i = 0; i < f->floes.notes.count; i++)
         *(f->floes.notes.data[i].dropped ? &f->about.dropped : &f->about.repaired) += 1;

@@ -61,6 +61,20 @@ static void print_box(const fram_field_summary *s)
            box_text(s->hi[1], decimals, text[3]));
 }
 
+static void print_overlaps(const fram_field_summary *s)
+{
+    const int *feature = s->overlap_features, *polygon = s->overlap_polygons;
+    if (s->overlaps == 0) {
+        printf("  no overlaps\n");
+        return;
+    }
+    printf("  overlaps: %d pairs share %.4g m2, at most %.4g m wide; the most, features %d and %d", s->overlaps,
+           s->overlap_area, s->overlap_width, feature[0], feature[1]);
+    if (polygon[0] > 1 || polygon[1] > 1)
+        printf(", polygons %d and %d", polygon[0], polygon[1]);
+    printf("\n");
+}
+
 static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
 {
     if (w->scenario)
@@ -76,11 +90,7 @@ static void print_summary(const field_words *w, const fram_field *field, const f
     for (int i = 0; i < FRAM_FIELD_BINS; i++)
         if (s->bin[i] > 0)
             printf("    %8.4g to %8.4g m %6d\n", s->bin_edge[i], s->bin_edge[i + 1], s->bin[i]);
-    if (s->overlaps)
-        printf("  overlaps: %d pairs share %.4g m2, at most %.4g m wide; the most, features %d and %d\n", s->overlaps,
-               s->overlap_area, s->overlap_width, s->overlap_features[0], s->overlap_features[1]);
-    else
-        printf("  no overlaps\n");
+    print_overlaps(s);
     if (!w->scenario || s->dropped > 0 || s->repaired > 0)
         printf("  left out: %d, repairs: %d\n", s->dropped, s->repaired);
     if (s->passed_over > 0)
@@ -249,6 +259,8 @@ static void print_field_json(const field_words *w, const fram_field *field, cons
     json_real(&j, "largest_width_m", s->overlap_width);
     json_integer(&j, "feature_a", s->overlap_features[0]);
     json_integer(&j, "feature_b", s->overlap_features[1]);
+    json_integer(&j, "polygon_a", s->overlap_polygons[0]);
+    json_integer(&j, "polygon_b", s->overlap_polygons[1]);
     json_close(&j);
     json_open(&j, "histogram");
     json_reals(&j, "diameter_edges_m", s->bin_edge, FRAM_FIELD_BINS + 1);

@@ -173,7 +173,7 @@ static const function_row functions[] = {
     WHOLE(fram_ice_break, fram_ice_breaking, NO_GAP),
     WHOLE(fram_ice_split, fram_ice_splitting, NO_GAP),
     WHOLE(fram_field_summary_get, fram_field_summary, GAP(fram_field_summary, overlaps, overlap_area),
-          GAP_AT_END(fram_field_summary, passed_over)),
+          GAP_AT_END(fram_field_summary, overlap_polygons)),
     WHOLE(fram_field_making_get, fram_field_making, GAP(fram_field_making, tile, tile_x)),
     WHOLE(fram_field_population_get, fram_field_population, GAP(fram_field_population, floes, area)),
     LIST(fram_field_notes, fram_field_note, GAP(fram_field_note, dropped, reason),
