@@ -230,7 +230,7 @@ static fram_status find_format(const mesh_reading *r, const char *data, size_t s
         return mesh_refuse(r, 0, 0, "the file is empty");
     bool solid = word_next(&w) && word_is(&w, "solid");
     if (mesh_file_ends_with(r->name, ".stl"))
-        *f = solid && !mesh_is_binary_stl(data, size) ? MESH_STL_TEXT : MESH_STL_BINARY;
+        *f = solid ? mesh_solid_format(data, size) : MESH_STL_BINARY;
     else if (mesh_file_ends_with(r->name, ".obj"))
         *f = MESH_OBJ;
     else if (mesh_file_ends_with(r->name, ".gdf"))
@@ -238,7 +238,7 @@ static fram_status find_format(const mesh_reading *r, const char *data, size_t s
     else if (mesh_is_binary_stl(data, size))
         *f = MESH_STL_BINARY;
     else if (solid)
-        *f = MESH_STL_TEXT;
+        *f = mesh_solid_format(data, size);
     else if (mesh_looks_like_gdf(data, size))
         *f = MESH_GDF;
     else if (looks_like_obj(data, size))

@@ -52,6 +52,9 @@ fram_status mesh_read_stl(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size);
 bool mesh_is_binary_stl(const char *data, size_t size);
+/* STL that begins with the word solid, as headers of binary files may: no text has a NUL, and each number of facets of
+   a binary file, whole or not, has one. */
+mesh_format mesh_solid_format(const char *data, size_t size);
 /* The second line begins with two numbers, and the third; words may follow. */
 bool mesh_looks_like_gdf(const char *data, size_t size);
 void mesh_write_stl_text(context *ctx, const mesh *m, text_buffer *out);

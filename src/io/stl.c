@@ -29,6 +29,12 @@ bool mesh_is_binary_stl(const char *data, size_t size)
     return size >= PREFIX && size == PREFIX + (size_t)read_u32(data + HEADER) * FACET;
 }
 
+mesh_format mesh_solid_format(const char *data, size_t size)
+{
+    size_t head = size < PREFIX ? size : PREFIX;
+    return mesh_is_binary_stl(data, size) || memchr(data, '\0', head) ? MESH_STL_BINARY : MESH_STL_TEXT;
+}
+
 static fram_status read_binary(const mesh_reading *r, const char *data, size_t size)
 {
     if (size < PREFIX)
@@ -37,10 +43,9 @@ static fram_status read_binary(const mesh_reading *r, const char *data, size_t s
     uint32_t count = read_u32(data + HEADER);
     if (!mesh_is_binary_stl(data, size))
         return mesh_refuse(
-            r, 0, 0,
-            "a binary STL file of %u facets is %llu bytes long, but this one is %zu; it is cut short, or "
-            "no STL file",
-            count, (unsigned long long)count * FACET + PREFIX, size);
+            r, 0, 0, "a binary STL file of %u facets is %llu bytes long, but this one is %zu; it is %s, or no STL file",
+            count, (unsigned long long)count * FACET + PREFIX, size,
+            size < (unsigned long long)count * FACET + PREFIX ? "cut short" : "padded");
     if (count > MESH_FILE_TRIANGLES)
         return mesh_refuse(r, 0, 0, "expected at most %d facets, found %u", MESH_FILE_TRIANGLES, count);
     r->out->elements = (int32_t)count;

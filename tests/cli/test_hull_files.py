@@ -350,6 +350,10 @@ def cases():
          refused("does not cut the hull", ["--draught", "3"], BOX_FLOATS)),
         ("huge.obj", "coordinates of 1e9", obj(moved(BOX, dx=1e9)), [], refused("about the origin")),
         ("short.stl", "binary STL, cut short", stl_binary(BOX)[:-20], [], refused("cut short")),
+        ("short_solid.stl", "binary STL whose header begins with \"solid\", cut short",
+         stl_binary(BOX, b"solid from a CAD program", 7)[:-20], [], refused("it is cut short, or no STL file")),
+        ("padded_solid.stl", "binary STL whose header begins with \"solid\", padded",
+         stl_binary(BOX, b"solid from a CAD program", 7) + bytes(20), [], refused("it is padded, or no STL file")),
         ("fine.stl", "binary STL, 116,000 triangles, hollow bow", stl_binary(ship_of(116000)), [], read({},
          slow=True)),
     ]
