@@ -9,9 +9,14 @@
 
 #include <string.h>
 
-/* Gravity in feet per square second tells that lengths are in feet. */
-#define FEET_LEAST 31.0
-#define FEET_MOST 33.0
+/* Gravity that is that of the earth in another unit tells in which one lengths are. */
+static const struct {
+    double least, most, metres;
+    const char *name;
+} gdf_units[] = {{31, 33, 0.3048, "feet"},
+                 {380, 392, 0.0254, "inches"},
+                 {970, 990, 0.01, "centimetres"},
+                 {9700, 9900, 0.001, "millimetres"}};
 
 typedef struct gdf_words {
     word_reader reader;
@@ -99,11 +104,12 @@ static fram_status read_lengths(const mesh_reading *r, gdf_words *w)
                            length);
     if (!(gravity > 0))
         return mesh_refuse(r, line, 0, "expected a positive GRAV, found %g", gravity);
-    if (gravity > FEET_LEAST && gravity < FEET_MOST)
-        return mesh_refuse(r, line, 0,
-                           "GRAV %g says that lengths are in feet; convert the file to metres (times 0.3048), GRAV to "
-                           "9.80665",
-                           gravity);
+    for (size_t i = 0; i < sizeof gdf_units / sizeof *gdf_units; i++)
+        if (gravity > gdf_units[i].least && gravity < gdf_units[i].most)
+            return mesh_refuse(r, line, 0,
+                               "GRAV %g says that lengths are in %s; convert the file to metres (times %g), GRAV to "
+                               "9.80665",
+                               gravity, gdf_units[i].name, gdf_units[i].metres);
     return FRAM_OK;
 }
 
