@@ -211,8 +211,9 @@
       "the sheet, which carries them along; 0: none")                                                                  \
     X(sleep_time, SCALED(5, 30, 0.5, 1e-3, 1e6), "s", "how long a floe must have been slow before it sleeps")          \
     X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2",                                                            \
-      "smaller floes are not made or are removed, but packed ones, which are made as they were drawn; smaller pieces " \
-      "of ice that breaks stay with a neighbour, and loads grow from a tenth of the wedges on that fram check tells")  \
+      "smaller floes are not made or are removed, but packed and listed ones, which are made as they were given; "     \
+      "smaller pieces of ice that breaks stay with a neighbour, and loads grow from a tenth of the wedges on that "    \
+      "fram check tells")                                                                                              \
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")        \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                      \
     X(open_water, LIST(opening, 100), "", "voronoi, file, packed: zones without ice at the start")                     \
