@@ -278,7 +278,8 @@ static void tell_floes(const teller *t)
     const scenario_ice *i = &t->s->ice;
     for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count && t->s->environment.water; k++) {
         const scenario_floe *f = &i->floes.data[k];
-        double h = automatic_or(f->thickness, i->thickness), size = f->shape == FLOE_REGULAR ? f->radius : f->length;
+        double h = automatic_or(f->thickness, i->thickness);
+        double size = f->shape == FLOE_REGULAR ? f->radius : fmin(f->length, f->width);
         if (size < h)
             sanity_say(t->tell, t->to, "ice.floes[%d]: %.4g m is less than it is thick, %.4g m: give metres", (int)k,
                        size, h);

@@ -91,6 +91,7 @@ all_told floes.yaml "ice.floes[0].x=19" "ice.floes[0].velocity_y=20" "ice.floes[
     "ice.floes[0]: 211.1 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
 all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
     "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
+all_told floes.yaml "ice.floes[0].width=0.5" -- "ice.floes[0]: 0.5 m is less than it is thick, 1 m"
 sed 's/{x: 50,[^}]*}/&, {x: 55, length: 20, width: 20}/' floes.yaml >heap.yaml
 all_told heap.yaml -- "pairs of floes overlap at the start, as ice.floes[0] and ice.floes[1], by 300 m2"
 all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diameter_max=2000" \
