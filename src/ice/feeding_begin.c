@@ -2,6 +2,7 @@
 #include "ice/feeding_parts.h"
 
 #include "ice/field_cells.h"
+#include "ice/field_measure.h"
 
 #include <math.h>
 
@@ -100,7 +101,7 @@ fram_status feeding_check(const feeding_definition *d, double radius, double *ba
 static bool meets_zone(const polygon_list *zones, polygon floe)
 {
     for (int32_t i = 0; i < polygon_list_count(zones); i++)
-        if (polygon_overlap_area(polygon_list_get(zones, i), floe) > 0)
+        if (field_common_area(polygon_list_get(zones, i), floe) > 0)
             return true;
     return false;
 }
@@ -111,6 +112,7 @@ typedef struct view_work {
     polygon_list one, parts;
     vec2_array outline;
     cells_scratch cells;
+    int32_t left_out; /* concave floes in the way */
 } view_work;
 
 static void view_work_free(context *ctx, view_work *v)
@@ -127,8 +129,10 @@ static fram_status cut_floe(context *ctx, overlay *o, const feeding_definition *
                             view_work *v, fram_error *error)
 {
     polygon p = {v->outline.data, v->outline.count};
-    if (!polygon_is_convex(p))
+    if (!polygon_is_convex(p)) {
+        v->left_out++;
         return FRAM_OK;
+    }
     vec2 place = feeding_place(w, row);
     double least = fmax(d->smallest_area, SMALLEST_CUT_PIECE * w->pattern->area[row]);
     polygon_list_clear(&v->one);
@@ -189,6 +193,9 @@ fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d,
         status = error_memory(error);
     for (int32_t row = 0; row < w->pattern->count && status == FRAM_OK; row++)
         status = show_floe(ctx, o, d, w, row, &v, error);
+    if (v.left_out > 0)
+        log_write(ctx, LOG_INFO, "%d concave floes left out at the start, in the way of a vessel or of open water",
+                  (int)v.left_out);
     view_work_free(ctx, &v);
     return status;
 }

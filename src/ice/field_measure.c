@@ -7,6 +7,9 @@
 
 enum { MEASURED_VERTICES = 24 };
 
+/* Common area under this part of the areas of both outlines is rounding (polygon_overlap_area: about 1e-15). */
+#define COMMON_ROUNDING 1e-12
+
 /* Convex pieces, and the outline that each is of; outlines of the second list are counted from -1 down. */
 typedef struct measured_pieces {
     polygon_list pieces;
@@ -62,6 +65,12 @@ fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *
     array_free(ctx, &m.owner);
     array_free(ctx, &m.box);
     return status;
+}
+
+double field_common_area(polygon a, polygon b)
+{
+    double area = polygon_overlap_area(a, b);
+    return area > 0 && area > COMMON_ROUNDING * (polygon_area(a) + polygon_area(b)) ? area : 0;
 }
 
 /* Rounding makes a little less than nothing of a floe beside the box. */

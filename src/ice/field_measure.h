@@ -11,6 +11,10 @@
 fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *floes, const polygon_list *others,
                                   double *overlap, fram_error *error);
 
+/* Area that two simple outlines, counter-clockwise, have in common [m2]; 0 where it is rounding, which outlines that
+   lie apart may have too (polygon_overlap_area). */
+double field_common_area(polygon a, polygon b);
+
 /* Ice area within a window over the window's area; outlines must not overlap.  period: by which the field repeats
    itself along each axis [m]; 0, 0: it does not. */
 double field_concentration(const polygon_list *floes, vec2 period, box2 window);

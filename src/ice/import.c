@@ -1,3 +1,4 @@
+#include "ice/field_measure.h"
 #include "ice/import_frame.h"
 #include "ice/import_parts.h"
 
@@ -196,9 +197,6 @@ static bool vertex_near(polygon p, polygon q, double margin)
     return false;
 }
 
-/* Area in common with a zone that lies beside a floe is rounding up to this part of both. */
-static const double SAME_EDGE = 1e-12;
-
 static bool is_kept_out(const import_options *o, polygon p)
 {
     box2 box = polygon_bounds(p);
@@ -206,8 +204,7 @@ static bool is_kept_out(const import_options *o, polygon p)
         polygon zone = polygon_list_get(o->keep_out, i);
         if (zone.count < 3 || !boxes_meet(box, polygon_bounds(zone), o->keep_out_margin))
             continue;
-        double rounding = SAME_EDGE * (polygon_area(p) + polygon_area(zone));
-        if (polygon_overlap_area(p, zone) > rounding || vertex_near(p, zone, o->keep_out_margin) ||
+        if (field_common_area(p, zone) > 0 || vertex_near(p, zone, o->keep_out_margin) ||
             vertex_near(zone, p, o->keep_out_margin))
             return true;
     }

@@ -3,12 +3,11 @@
 
 #include "geometry/box_pairs.h"
 #include "ice/crowd.h"
+#include "ice/field_measure.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Common area under this part of the areas of both outlines is rounding (polygon_overlap_area: about 1e-15). */
-#define OVERLAP_ROUNDING 1e-12
 /* A cut piece whose hydraulic diameter, 4 area / perimeter, is under this part of the side of a square as large as its
    floe is a sliver of two digitised edges, no floe: a strip as long as that side goes under a thousandth of the floe.
  */
@@ -40,9 +39,8 @@ static fram_status add_if_common(void *user, int32_t i, int32_t k, fram_error *e
         return crowd_refuse(s->name, count, error);
     import_pair pair = {i < k ? i : k, i < k ? k : i, 0};
     polygon a = polygon_list_get(s->outlines, pair.a), b = polygon_list_get(s->outlines, pair.b);
-    pair.area = polygon_overlap_area(a, b);
-    bool common = pair.area > OVERLAP_ROUNDING * (polygon_area(a) + polygon_area(b));
-    return !common || array_push(s->ctx, s->out, pair) ? FRAM_OK : error_memory(error);
+    pair.area = field_common_area(a, b);
+    return !(pair.area > 0) || array_push(s->ctx, s->out, pair) ? FRAM_OK : error_memory(error);
 }
 
 fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,

@@ -502,6 +502,31 @@ START_TEST(open_water_is_clear)
 }
 END_TEST
 
+/* A concave floe 28 m from a hull that lies across: it is there with feeding as without. */
+START_TEST(concave_floes_beside_a_vessel_stay)
+{
+    char path[] = "/tmp/fram-floe-XXXXXX", floe[128];
+    int file = mkstemp(path);
+    ck_assert_int_ge(file, 0);
+    static const char text[] = "POLYGON ((30 -30, 50 -30, 50 -10, 44 -10, 44 -24, 30 -24, 30 -30))\n";
+    ck_assert_int_eq(write(file, text, sizeof text - 1), (int)sizeof text - 1);
+    close(file);
+    snprintf(floe, sizeof floe, "ice.file=%s", path);
+    static const char across[] = "vessel: {mode: towed, heading_deg: 57, hull: {form: box, length: 100, beam: 20, "
+                                 "draught: 6}}\nice: {source: file}\n"
+                                 "domain: {x_min: -150, x_max: 150, y_min: -150, y_max: 150}\n";
+    static const char *const boundary[] = {"domain.boundary=open", "domain.boundary=feeding"};
+    for (int i = 0; i < 2; i++) {
+        const char *const overrides[] = {floe, boundary[i], "domain.tile_x=400", "domain.tile_y=400"};
+        scene k;
+        scene_open_with(&k, across, overrides, 4);
+        ck_assert_int_eq(living_floes(&k.w), 1);
+        scene_close(&k);
+    }
+    unlink(path);
+}
+END_TEST
+
 /* ---- what is refused ---- */
 
 START_TEST(refusals_name_their_key)
@@ -533,4 +558,4 @@ END_TEST
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, the_tile_is_longer_by_floes_of_the_populations,
           hours_of_drift_keep_the_field, floes_that_linger_leave_no_holes, copies_of_floes_are_state,
           drift_turns_and_reverses, driven_ice_presses, a_hull_that_meets_the_band_is_told, cut_at_the_vessel,
-          open_water_is_clear, refusals_name_their_key)
+          open_water_is_clear, concave_floes_beside_a_vessel_stay, refusals_name_their_key)
