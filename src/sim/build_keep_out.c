@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "geometry/predicate.h"
 #include "ice/field_cells.h"
+#include "ice/field_measure.h"
 #include "io/outline_file.h"
 #include "sim/build_ice.h"
 
@@ -36,8 +37,14 @@ fram_status build_wide_footprints(context *ctx, const scenario *s, const world *
 static bool reaches_ice(const scenario *s, polygon zone)
 {
     const scenario_domain *d = &s->domain;
-    const vec2 corner[4] = {{d->x_min, d->y_min}, {d->x_max, d->y_min}, {d->x_max, d->y_max}, {d->x_min, d->y_max}};
-    return polygon_overlap_area(zone, (polygon){corner, 4}) > 0;
+    box2 b = polygon_bounds(zone);
+    /* Of the domain what is as large as the zone: rounding of a whole ocean would be as much as a small zone. */
+    vec2 lo = {real_max(b.lo.x, d->x_min), real_max(b.lo.y, d->y_min)};
+    vec2 hi = {real_min(b.hi.x, d->x_max), real_min(b.hi.y, d->y_max)};
+    if (!(lo.x < hi.x && lo.y < hi.y))
+        return false;
+    const vec2 corner[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
+    return field_common_area(zone, (polygon){corner, 4}) > 0;
 }
 
 static bool add_rectangle(context *ctx, const scenario_opening *z, polygon_list *out)

@@ -505,10 +505,12 @@ expect 2 "$FRAM" field zones.yaml "${fed[@]}"
 says "ring 2: the ring is a hole" err
 # Zones that lie beside the domain, as in other coordinates, are told; of a file only when all of it does.
 printf '%s\n' 'run: {duration: 1}' 'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' \
-    'ice: {open_water: [{x: 60, y: 0, length: 99, width: 9}, {x: 3000, y: 0, length: 50, width: 20}]}' >elsewhere.yaml
+    'ice: {open_water: [{x: 60, y: 0, length: 99, width: 9}, {x: 3000, y: 0, length: 50, width: 20},' \
+    '  {x: 120, y: 120, length: 90, width: 6, angle_deg: 135}]}' >elsewhere.yaml
 printf '%s\n' 'POLYGON ((400000 0, 400090 0, 400000 90, 400000 0))' >zones.wkt
 expect 0 "$FRAM" field elsewhere.yaml --set ice.open_water_file=zones.wkt
 says "ice.open_water[1]: it lies beside the domain and keeps no ice away" err
+says "ice.open_water[2]: it lies beside the domain and keeps no ice away" err # across the domain's corner
 says "ice.open_water_file: all of it lies beside the domain and keeps no ice away: x from 400000 to 400090" err
 ! grep -qF "open_water[0]" err || fail "a zone inside the domain is said to lie beside it"
 echo 'POLYGON ((90 0, 140 0, 100 40, 90 0))' >>zones.wkt
