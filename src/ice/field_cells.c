@@ -11,8 +11,9 @@ enum { MOST_STEPS = 60 };
 /* Vertices nearer than this part of the perimeter are one: three lines that meet in a point, but for rounding. */
 static const double SAME_VERTEX = 1e-10;
 
-/* Turn between two neighbouring tangents of a grown corner at most: cosine of 45 degrees. */
-static const double TANGENT_TURN = 0.70710678118654752;
+/* Turn between two neighbouring tangents of a grown corner at most: cosine of a little less than 45 degrees, so that
+   rounding does not decide whether the halves of a right angle are halved again. */
+static const double TANGENT_TURN = 0.7072;
 
 void cells_scratch_free(context *ctx, cells_scratch *s)
 {

@@ -266,6 +266,28 @@ START_TEST(zones_grow_all_around)
 }
 END_TEST
 
+/* A rectangle opens as much water whichever way it is turned: each of its corners has four tangents. */
+START_TEST(zones_grow_alike_at_any_heading)
+{
+    context ctx;
+    context_init(&ctx);
+    polygon_list zones = {0}, grown = {0};
+    for (int k = 0; k < 360; k++) {
+        vec2 way = {real_cos(radians(k)), real_sin(radians(k))};
+        vec2 along = vec2_scale(way, 10), across = vec2_scale(vec2_perp(way), 5);
+        vec2 fore = vec2_add(along, across), aft = vec2_sub(along, across);
+        const vec2 corner[4] = {fore, vec2_scale(aft, -1), vec2_scale(fore, -1), aft};
+        ck_assert(polygon_list_push(&ctx, &zones, (polygon){corner, 4}));
+    }
+    ck_assert(zones_grow(&ctx, &zones, 10, &grown));
+    const double corners = 16 * real_sin(PI / 16) / real_cos(PI / 16) * 100;
+    for (int32_t k = 0; k < 360; k++)
+        assert_relative(polygon_area(polygon_list_get(&grown, k)), 200 + 60 * 10 + corners, 1e-12);
+    polygon_list_free(&ctx, &zones);
+    polygon_list_free(&ctx, &grown);
+}
+END_TEST
+
 START_TEST(impossible_targets)
 {
     context ctx;
@@ -474,5 +496,5 @@ START_TEST(periodic_fields)
 END_TEST
 
 TEST_MAIN("field", concentrations, every_seed, periodic_fields, the_same_on_any_threads, sizes, roundness,
-          keep_out_zones, zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out,
-          every_part_listens)
+          keep_out_zones, zones_grow_all_around, zones_grow_alike_at_any_heading, impossible_targets, wrong_requests,
+          few_cells, memory_runs_out, every_part_listens)
