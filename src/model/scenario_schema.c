@@ -154,12 +154,22 @@ const scenario_key *scenario_key_find(const char *section, const char *name)
     return &of->keys[section_find(of, name)];
 }
 
+/* The first key that is called so up to a low line, x_min for x; NULL when there is none. */
+static const char *section_begun(const scenario_section *section, const char *name)
+{
+    size_t length = strlen(name);
+    for (int32_t k = 0; length > 0 && k < section->key_count; k++)
+        if (strncmp(section->keys[k].name, name, length) == 0 && section->keys[k].name[length] == '_')
+            return section->keys[k].name;
+    return NULL;
+}
+
 const char *section_nearest(const scenario_section *section, const char *name)
 {
     name_search near = name_search_begin(name);
     for (int32_t k = 0; k < section->key_count; k++)
         name_try(&near, section->keys[k].name);
-    return near.found;
+    return near.found ? near.found : section_begun(section, name);
 }
 
 double key_default(const scenario_key *key, double scale)

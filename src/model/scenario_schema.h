@@ -55,7 +55,8 @@ int32_t section_find(const scenario_section *section, const char *name);
 /* A key of a section of the scenario, both of which there are: for what is no scenario and keeps to the same default or
    range. */
 const scenario_key *scenario_key_find(const char *section, const char *name);
-/* The key whose name is nearest to a misspelt one (Damerau's distance), NULL when none is near. */
+/* The key whose name is nearest to a misspelt one (Damerau's distance), or else the first that begins with it and a low
+   line; NULL when none is near. */
 const char *section_nearest(const scenario_section *section, const char *name);
 /* Default of a real key. */
 double key_default(const scenario_key *key, double scale);

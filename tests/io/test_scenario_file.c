@@ -395,6 +395,7 @@ START_TEST(bad_overrides_are_refused)
         {"run.dt=3", "run.dt", "did you mean time_step?"},
         {"vessel.draft=3", "vessel.draft", "did you mean vessel.hull.draught?"},
         {"environment.wind=3", "environment.wind", "did you mean wind_speed?"},
+        {"domain.x=3", "domain.x", "did you mean x_min?"},
         {"seed=3", "seed", "did you mean run.seed?"},
         {"run=3", "run", "expected a key inside run"},
         {"run.=3", "run.", "expected a key of run"},

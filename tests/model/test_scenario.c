@@ -152,10 +152,16 @@ END_TEST
 START_TEST(misspelt_names_find_their_neighbour)
 {
     const scenario_section *ice = scenario_schema.keys[section_find(&scenario_schema, "ice")].section;
+    const scenario_section *domain = scenario_schema.keys[section_find(&scenario_schema, "domain")].section;
     ck_assert_str_eq(section_nearest(ice, "thicknes"), "thickness");
     ck_assert_str_eq(section_nearest(ice, "thcikness"), "thickness");
     ck_assert_str_eq(section_nearest(ice, "Density"), "density");
     ck_assert_ptr_null(section_nearest(ice, "propeller"));
+    ck_assert_ptr_null(section_nearest(ice, ""));
+    ck_assert_ptr_null(section_nearest(ice, "_"));
+    ck_assert_str_eq(section_nearest(domain, "x"), "x_min");
+    ck_assert_str_eq(section_nearest(domain, "drift"), "drift_speed");
+    ck_assert_ptr_null(section_nearest(domain, "dri"));
     ck_assert_ptr_null(section_nearest(ice, "a_name_that_is_much_longer_than_any_key_can_ever_be"));
     ck_assert_int_eq(section_find(ice, "thicknes"), -1);
 }
