@@ -4,18 +4,22 @@
 #include "io/temporary.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #ifdef FRAM_HAVE_NETCDF
 #include <dlfcn.h>
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 /* NetCDF brings sixty libraries, which take longer to load than most commands run: it is opened when the first file
    is written, and stays open. */
 #define CALLS(X)        \
     X(create)           \
+    X(create_mem)       \
     X(close)            \
+    X(close_memio)      \
     X(def_dim)          \
     X(def_var)          \
     X(def_var_chunking) \
@@ -65,6 +69,8 @@ static fram_status open_library(context *ctx, const char *path, netcdf_calls **o
 enum { SHUFFLE = 1, DEFLATE = 1, LEVEL = 1 };
 /* Values of a chunk of two dimensions at least: every chunk costs 600 bytes and a write of its own. */
 enum { CHUNK_VALUES = 1024 };
+/* What a file in memory begins with; HDF5 lets it grow by as much and more. */
+enum { MEMORY_BYTES = 1 << 16 };
 
 static void keep(netcdf_file *f, int code)
 {
@@ -80,16 +86,42 @@ static void forget_netcdf(netcdf_file *f)
     memset(f, 0, sizeof *f);
 }
 
+static fram_status prepare(context *ctx, const char *path, netcdf_file *f, fram_error *error)
+{
+    memset(f, 0, sizeof *f);
+    fram_status status = open_library(ctx, path, &f->nc, error);
+    if (status != FRAM_OK)
+        return status;
+    f->ctx = ctx;
+    f->path = memory_string(ctx, path);
+    if (f->path)
+        return FRAM_OK;
+    forget_netcdf(f);
+    return error_memory(error);
+}
+
+fram_status netcdf_begin_in_memory(context *ctx, const char *path, netcdf_file *f, fram_error *error)
+{
+    fram_status status = prepare(ctx, path, f, error);
+    if (status != FRAM_OK)
+        return status;
+    int code = f->nc->create_mem(f->path, NC_NETCDF4 | NC_CLOBBER, MEMORY_BYTES, &f->id);
+    if (code != NC_NOERR) {
+        status = error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", f->nc->strerror(code));
+        forget_netcdf(f);
+        return status;
+    }
+    f->open = true;
+    return FRAM_OK;
+}
+
 fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error)
 {
     int descriptor = -1;
-    memset(f, 0, sizeof *f);
-    fram_status there = open_library(ctx, path, &f->nc, error);
-    if (there != FRAM_OK)
-        return there;
-    f->ctx = ctx;
-    f->path = memory_string(ctx, path);
-    fram_status made = f->path ? temporary_file(ctx, path, &f->temporary, &descriptor, error) : error_memory(error);
+    fram_status made = prepare(ctx, path, f, error);
+    if (made != FRAM_OK)
+        return made;
+    made = temporary_file(ctx, path, &f->temporary, &descriptor, error);
     if (made != FRAM_OK) {
         forget_netcdf(f);
         return made;
@@ -175,19 +207,26 @@ void netcdf_put_row(netcdf_file *f, int variable, size_t row, const double *valu
         keep(f, f->nc->put_vara_double(f->id, variable, start, edge, values));
 }
 
+/* Gives the whole file its name. */
+static fram_status put_in_place(netcdf_file *f, const NC_memio *whole, fram_error *error)
+{
+    if (f->failed == NC_NOERR)
+        return f->temporary ? atomic_file_adopt(f->ctx, f->temporary, f->path, error)
+                            : atomic_file_write(f->ctx, f->path, whole->memory, whole->size, error);
+    if (f->temporary)
+        unlink(f->temporary);
+    /* HDF5 keeps to itself what it met, which is mostly that there is no room. */
+    return error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s%s", f->nc->strerror(f->failed),
+                     f->temporary && f->failed == NC_EHDFERR ? " (a full disk ends so)" : "");
+}
+
 fram_status netcdf_end(netcdf_file *f, fram_error *error)
 {
-    keep(f, f->nc->close(f->id));
+    NC_memio whole = {.memory = NULL};
+    keep(f, f->temporary ? f->nc->close(f->id) : f->nc->close_memio(f->id, &whole));
     f->open = false;
-    fram_status status = FRAM_OK;
-    if (f->failed == NC_NOERR)
-        status = atomic_file_adopt(f->ctx, f->temporary, f->path, error);
-    else
-        /* HDF5 keeps to itself what it met, which is mostly that there is no room. */
-        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s%s", f->nc->strerror(f->failed),
-                           f->failed == NC_EHDFERR ? " (a full disk ends so)" : "");
-    if (f->failed != NC_NOERR)
-        unlink(f->temporary);
+    fram_status status = put_in_place(f, &whole, error);
+    free(whole.memory); /* of the library, which takes it from malloc */
     forget_netcdf(f);
     return status;
 }
@@ -197,7 +236,8 @@ void netcdf_abandon(netcdf_file *f)
     if (!f->open)
         return;
     f->nc->close(f->id);
-    unlink(f->temporary);
+    if (f->temporary)
+        unlink(f->temporary);
     forget_netcdf(f);
 }
 
@@ -209,6 +249,10 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
     memset(f, 0, sizeof *f);
     return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL,
                      "this build has no NetCDF (Debian: libnetcdf-dev), so it writes no .nc files");
+}
+fram_status netcdf_begin_in_memory(context *ctx, const char *path, netcdf_file *f, fram_error *error)
+{
+    return netcdf_begin(ctx, path, f, error);
 }
 int netcdf_dimension(netcdf_file *f, const char *name, size_t length) { return (void)f, (void)name, (int)length; }
 int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,

@@ -12,7 +12,7 @@ typedef struct netcdf_calls netcdf_calls; /* the functions of the library */
 typedef struct netcdf_file {
     context *ctx;
     netcdf_calls *nc;
-    char *path, *temporary;
+    char *path, *temporary; /* temporary NULL: made in memory */
     int id;
     int failed; /* NetCDF's code of the first failure, 0 */
     bool open;
@@ -21,6 +21,9 @@ typedef struct netcdf_file {
 typedef enum netcdf_type { NETCDF_F64, NETCDF_F32, NETCDF_I32, NETCDF_TEXT } netcdf_type;
 
 fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error);
+/* The same for a file that memory holds whole, of which nothing is written before netcdf_end.  HDF5 keeps what it
+   cannot write to a full disk, and may die of it when the program ends. */
+fram_status netcdf_begin_in_memory(context *ctx, const char *path, netcdf_file *f, fram_error *error);
 /* Number of a new dimension. */
 int netcdf_dimension(netcdf_file *f, const char *name, size_t length);
 /* Number of a new variable over `count` dimensions (at most 2); compressed, but for text; rows of 2-D ones are

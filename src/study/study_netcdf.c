@@ -105,7 +105,7 @@ fram_status study_netcdf_write(const study_folder *f, const condition_rows *cond
     const char **word = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *word);
     fram_status status = path.failed || !value || !state || !word ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
-        status = netcdf_begin(f->ctx, path.data, &nc, error);
+        status = netcdf_begin_in_memory(f->ctx, path.data, &nc, error);
     if (status == FRAM_OK) {
         put_all(f, &nc, conditions, seeds, value, state, word);
         status = netcdf_end(&nc, error);

@@ -4,6 +4,7 @@ ignore how programs end; and what is told meanwhile is of the study."""
 import fcntl
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -152,6 +153,22 @@ class Folders(StudyTest):
             error = json.loads(done.stdout.splitlines()[-1])["error"]
             self.assertEqual((error["file"], error["message"]), (str(path), "cannot open the folder: Not a directory"))
             path.unlink()
+
+    def limited(self, study, kilobytes):
+        """What is said where no file may be larger, as a cluster may hand on."""
+        bound = [1000 * kilobytes] * 2
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--json"], capture_output=True, text=True,
+                              timeout=60, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, bound))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])["error"]
+
+    def test_files_that_find_no_room_end_the_study(self):
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nkeep: summary\nseeds: 1\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 1)
+        # Of study.nc, or without NetCDF of the page, HDF5 kept what it could not write, and the program died of it.
+        error = self.limited(study, 60)
+        self.assertRegex(error["file"], r"/study\.(nc|html)\.")
+        self.assertEqual(error["message"], "cannot write: File too large")
 
     def test_runs_end_well_where_the_starter_ignored_sigchld(self):
         study = self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n")
