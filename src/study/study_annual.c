@@ -27,6 +27,11 @@ static void say_lack(const annual_lack *lack, annual_answer *out)
             "No answer: the data do not carry this level by gev: it is so rare that %d runs of condition %d, which "
             "has %d, would tell the shape of its tail; more seeds, or gumbel.",
             (int)lack->runs, (int)lack->condition + 1, (int)lack->there);
+    else if (lack->tied > 0)
+        snprintf(out->why, sizeof out->why,
+                 "No answer: condition %d occurs and has no fit: %d of %d largest values are equal, the least; longer "
+                 "runs.",
+                 (int)lack->condition + 1, (int)lack->tied, (int)lack->there);
     else
         snprintf(out->why, sizeof out->why, "No answer: condition %d occurs and has no fit: more seeds.",
                  (int)lack->condition + 1);

@@ -196,7 +196,8 @@ typedef struct year_work {
     context *ctx;
     const study_extremes *ask;
     int32_t conditions;
-    int32_t occur; /* conditions that do */
+    int32_t occur; /* conditions that do, and whose runs did not all come out the same */
+    double least;  /* the largest value of those whose runs did */
     year_part *part;
     year_source *source;
     double_array drawn, level[STUDY_LEVELS_MOST]; /* level: of all replicates */
@@ -234,12 +235,15 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
             w->part[c].blocks = 0;
             continue;
         }
-        /* Runs without any load: nothing to exceed. */
-        if (s->value[0] == 0 && s->value[n - 1] == 0)
+        /* Where nothing is left to chance, as in open water or without any load, that is met and never exceeded. */
+        if (s->value[0] == s->value[n - 1]) {
             w->part[c].blocks = 0;
-        else if ((w->ask->gev && extreme_law_tied(s->value, n, PROFILE_SHAPE_MOST) > 0) ||
-                 !extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0, &w->part[c].law))
+            w->least = fmax(w->least, s->value[0]);
+        } else if ((w->ask->gev && extreme_law_tied(s->value, n, PROFILE_SHAPE_MOST) > 0) ||
+                   !extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0,
+                                    &w->part[c].law)) {
             return c;
+        }
         s->occurs = w->part[c].blocks > 0;
         w->occur += s->occurs;
         s->law = w->part[c].law;
@@ -337,8 +341,18 @@ static annual_lack lack_of_shape(const year_work *w, double exponent)
             continue;
         double y = real_log(fmax(w->part[c].blocks / exponent, 1)), runs = ceil(SHAPE_VARIANCE * y * y);
         if (w->source[c].count < runs && runs > out.runs)
-            out = (annual_lack){c, (int32_t)runs, w->source[c].count};
+            out = (annual_lack){.condition = c, .runs = (int32_t)runs, .there = w->source[c].count};
     }
+    return out;
+}
+
+/* Of a condition without a fit; its values are in order where there are enough of them. */
+static annual_lack lack_of_fit(const year_work *w, const condition_maxima *of, int32_t condition)
+{
+    const double_array *value = &of[condition].value;
+    annual_lack out = {.condition = condition, .there = value->count};
+    if (value->count >= LAW_VALUES_LEAST)
+        out.tied = extreme_law_tied(value->data, value->count, w->ask->gev ? PROFILE_SHAPE_MOST : FIT_SHAPE_MOST);
     return out;
 }
 
@@ -379,6 +393,13 @@ static fram_status answer_many(year_work *w, const double *exponent, level_inter
     return status;
 }
 
+/* What is not known stays so. */
+static level_interval at_least(const level_interval *i, double least)
+{
+    return (level_interval){i->level < least ? least : i->level, i->low < least ? least : i->low,
+                            i->high < least ? least : i->high};
+}
+
 static fram_status answer_year(year_work *w, const condition_maxima *of, level_interval *out, annual_lack *lack)
 {
     const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
@@ -386,7 +407,7 @@ static fram_status answer_year(year_work *w, const condition_maxima *of, level_i
     int32_t missing = fit_year(w, of), only = 0;
     for (int i = 0; i < w->ask->annuals; i++) {
         exponent[i] = -real_log(1 - w->ask->annual[i]);
-        lack[i] = missing >= 0 ? (annual_lack){.condition = missing} : lack_of_shape(w, exponent[i]);
+        lack[i] = missing >= 0 ? lack_of_fit(w, of, missing) : lack_of_shape(w, exponent[i]);
         if (missing < 0)
             out[i].level = solve_year(w->part, w->conditions, exponent[i]);
     }
@@ -405,15 +426,14 @@ static fram_status answer_year(year_work *w, const condition_maxima *of, level_i
     bool many = w->occur > 1 || (w->occur == 1 && w->ask->gev);
     fram_status status = any && many ? answer_many(w, exponent, out) : FRAM_OK;
     for (int i = 0; i < w->ask->annuals; i++)
-        if (lack[i].condition >= 0)
-            out[i] = none;
+        out[i] = lack[i].condition >= 0 ? none : at_least(&out[i], w->least);
     return status;
 }
 
 fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
                           level_interval *out, annual_lack *lack, fram_error *error)
 {
-    year_work w = {.ctx = ctx, .ask = ask, .conditions = conditions};
+    year_work w = {.ctx = ctx, .ask = ask, .conditions = conditions, .least = -(double)INFINITY};
     for (int i = 0; i < ask->annuals; i++) {
         out[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
         lack[i] = (annual_lack){.condition = -1};

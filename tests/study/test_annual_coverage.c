@@ -270,6 +270,41 @@ START_TEST(the_shape_of_a_tail_takes_enough_runs)
 }
 END_TEST
 
+/* One condition in open water, of which all runs come out the same, beside one in ice: no level is under it, and those
+   above it are those of the ice. */
+START_TEST(a_condition_without_chance_adds_no_rate)
+{
+    const diagram *d = &diagrams[0];
+    double value[2][RUNS_MOST], hours[2] = {500, 4000};
+    condition_maxima of[2];
+    for (int32_t c = 0; c < 2; c++)
+        of[c] = (condition_maxima){.value = {.data = value[c], .count = d->runs}, .block = BLOCK};
+    draw(d, 0, of);
+    study_extremes ask = {.confidence = 0.95, .annual = {0.01}, .annuals = 1, .hours = {.data = hours, .count = 2}};
+    level_interval alone, got;
+    annual_lack lack;
+    fram_error error = {0};
+    context ctx;
+    context_init(&ctx);
+    assert_ok(annual_levels(&ctx, &ask, of, 1, &alone, &lack, &error), error);
+    const double constant[] = {0.5 * alone.low, 0.5 * (alone.level + alone.high), 2 * alone.high};
+    for (int k = 0; k < 3; k++) {
+        for (int32_t i = 0; i < d->runs; i++)
+            value[1][i] = constant[k];
+        assert_ok(annual_levels(&ctx, &ask, of, 2, &got, &lack, &error), error);
+        ck_assert_int_eq(lack.condition, -1);
+        ck_assert(got.level == fmax(alone.level, constant[k]));
+        ck_assert(got.low == fmax(alone.low, constant[k]) && got.high == fmax(alone.high, constant[k]));
+    }
+    /* Where all but one are the same no law fits, however many there are. */
+    value[1][d->runs - 1] *= 2;
+    assert_ok(annual_levels(&ctx, &ask, of, 2, &got, &lack, &error), error);
+    ck_assert_int_eq(lack.condition, 1);
+    ck_assert_int_eq(lack.tied, d->runs - 1);
+    ck_assert(isnan(got.level));
+}
+END_TEST
+
 TEST_MAIN("annual_coverage", levels_of_a_year_are_held_as_often_as_they_say, one_condition_has_the_exact_interval,
           hours_of_conditions_add_up, hours_of_conditions_add_up_for_the_shape_of_a_tail,
-          the_shape_of_a_tail_takes_enough_runs)
+          the_shape_of_a_tail_takes_enough_runs, a_condition_without_chance_adds_no_rate)
