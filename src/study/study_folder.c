@@ -427,10 +427,10 @@ static void name_fault(int number, char out[128])
         freelocale(plain);
 }
 
-/* A fault of the disk that a text names; false: none. */
+/* A fault of the disk that a text names, or of what may be written there, as a cluster limits it; false: none. */
 static bool find_fault(const char *text, char name[128])
 {
-    static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};
+    static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO, EFBIG, ESTALE};
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
         name_fault(faults[i], name);
         if (strstr(text, name))
