@@ -248,10 +248,14 @@ static fram_status check_slurm_word(const char *key, const char *word, fram_erro
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, key, "expected one line of 1 to %d letters", SLURM_WORD_MOST);
 }
 
+/* Letters, dashes too, by which sbatch tells those that are refused from its others. */
+enum { OPTION_LEAST = 4 };
+
+/* Whether the word is that option, or what sbatch takes for it: it does with fewer letters. */
 static bool is_option(const char *word, const char *name)
 {
-    size_t length = strlen(name);
-    return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=' || word[length] == ' ');
+    size_t length = strcspn(word, "= \t");
+    return length >= OPTION_LEAST && strncmp(word, name, length) == 0;
 }
 
 /* Options by which tasks would not be those that are waited for. */
@@ -266,7 +270,10 @@ static fram_status check_slurm_option(const char *word, fram_error *error)
     if (is_option(word, "--array"))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
                          "the study numbers its tasks itself: expected no --array; runs a task make fewer of them");
-    if (is_option(word, "--clusters") || is_option(word, "--cluster"))
+    if (is_option(word, "--quiet"))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
+                         "expected no --quiet, with which sbatch tells no number by which tasks are waited for");
+    if (is_option(word, "--clusters"))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
                          "expected no --clusters, which squeue would not know of: set SLURM_CLUSTERS for all commands "
                          "of Slurm");

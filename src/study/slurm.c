@@ -239,6 +239,15 @@ static long long job_in(const char *answer)
     return job;
 }
 
+/* What may have been taken is not offered again, as what was refused is: its runs would be made twice. */
+static fram_status refuse_answer(const char *script, int code, const char *answer, fram_error *error)
+{
+    if (code != 0)
+        return error_set(error, FRAM_ERROR_USAGE, script, 0, "on", "sbatch refuses the script: %.300s", answer);
+    return error_set(error, FRAM_ERROR_IO, script, 0, "on",
+                     "sbatch told no number; look with squeue whether it has taken the script: %.300s", answer);
+}
+
 static fram_status submit_script(slurm_pool *all, const slurm_script_facts *f, fram_error *error)
 {
     char *script = array_path(all, f->number, "sh"), array[32];
@@ -249,11 +258,10 @@ static fram_status submit_script(slurm_pool *all, const slurm_script_facts *f, f
     fram_status status = words ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
     memory_free(all->ctx, words);
     long long job = status == FRAM_OK ? job_in(answer.data) : 0;
-    if (status == FRAM_OK && (code != 0 || job < 1))
+    if (status == FRAM_OK && (code != 0 || job < 1)) {
         capture_line(&answer);
-    if (status == FRAM_OK && (code != 0 || job < 1))
-        status = error_set(error, FRAM_ERROR_USAGE, script, 0, "on", "sbatch refuses the script: %.300s",
-                           answer.data ? answer.data : "");
+        status = refuse_answer(script, code, answer.data ? answer.data : "it says nothing", error);
+    }
     if (status == FRAM_OK && !array_push(all->ctx, &all->jobs, job))
         status = error_memory(error);
     text_buffer number = {0};

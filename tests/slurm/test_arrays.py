@@ -83,10 +83,15 @@ class Arrays(unittest.TestCase):
         self.assertEqual(json.loads(self.fram("out", "--partition", "all", code=2))["error"]["key"], "--on")
         error = json.loads(self.fram("out", "--on", "slurm", "--sbatch", "account", code=2))["error"]
         self.assertIn("--account=ice", error["message"])
-        for option in ("--array=0-9%2", "--clusters=far"):
-            error = json.loads(self.fram("out", "--on", "slurm", "--sbatch", option, code=2))["error"]
+        # By as many letters as sbatch tells an option from others.
+        for option, told in (("--array=0-9%2", "--array"), ("--arr=0-0", "--array"), ("--ar\t0-0", "--array"),
+                             ("--clusters=far", "--clusters"), ("--cluster=far", "--clusters"),
+                             ("--quiet", "--quiet"), ("--qu", "--quiet")):
+            error = json.loads(self.fram("out", "--on", "slurm", f"--sbatch={option}", code=2))["error"]
             self.assertEqual(error["key"], "--sbatch")
-            self.assertIn("expected no " + option[:7], error["message"])
+            self.assertIn("expected no " + told, error["message"])
+        for option in ("--acc=ice", "--cluster-constraint=ib", "--qos=high"):
+            self.fram("out", "--on", "slurm", "--sbatch", option, "--dry-run")
         none = dict(os.environ, PATH="/nowhere")
         error = json.loads(self.fram("out", "--on", "slurm", code=2, environment=none))["error"]
         self.assertIn("sbatch", error["message"])

@@ -204,6 +204,25 @@ START_TEST(the_number_of_an_array_is_found_among_words)
 }
 END_TEST
 
+/* Where sbatch ends well without a word something may have been taken: that is no refusal, which would be tried again.
+ */
+START_TEST(an_array_without_a_number_ends_the_study)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const slurm_options options = {.runs_per_task = 1, .poll = 1e-9};
+    begin_queue(&ctx, &s, &options, &queue);
+    write_script(&s, "sbatch", "#!/bin/sh\n");
+    ck_assert(slurm_add(&queue, "0123456789ab", 2, 6, 0));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_ERROR_IO);
+    ck_assert_ptr_nonnull(strstr(error.message, "sbatch told no number; look with squeue"));
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 /* A variable as SBATCH_PARTITION goes before what a script says, an option of the command before both. */
 START_TEST(what_is_asked_for_stands_in_the_command_too)
 {
@@ -427,7 +446,7 @@ END_TEST
 
 TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
           tasks_are_known_by_their_number, the_number_of_an_array_is_found_among_words,
-          what_is_asked_for_stands_in_the_command_too, tasks_are_known_in_hidden_partitions,
-          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
-          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for,
-          a_scheduler_that_does_not_answer_is_told)
+          an_array_without_a_number_ends_the_study, what_is_asked_for_stands_in_the_command_too,
+          tasks_are_known_in_hidden_partitions, what_is_not_cancelled_is_cancelled_by_the_next_call,
+          failures_of_another_call_are_tried_again, what_a_task_did_not_come_to_has_not_failed,
+          a_scheduler_that_starts_anew_is_waited_for, a_scheduler_that_does_not_answer_is_told)
