@@ -50,7 +50,8 @@ typedef struct fram_study_definition {
     size_t size;         /* of this struct, set by fram_study_default */
     const char *folder;  /* of the results; one that holds this study, earlier or smaller, is gone on with */
     const char *program; /* the command `fram`, path */
-    int jobs;            /* processes at a time, 0: as many as this process may use cores */
+    int jobs;            /* processes at a time, 0: as many as this process may use cores; by Slurm tasks of an array
+                            at a time, 0: as many as there is room for */
     bool retry;          /* run again what failed */
     fram_study_progress_function progress; /* may be NULL; called from the caller's thread */
     void *progress_user;

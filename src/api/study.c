@@ -351,7 +351,8 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
                                  .option_count = d->slurm_option_count,
                                  .runs_per_task = d->slurm_runs_per_task,
                                  .poll = d->slurm_poll,
-                                 .dry_run = d->dry_run};
+                                 .dry_run = d->dry_run,
+                                 .jobs = d->jobs};
     const study_options options = {.folder = d->folder,
                                    .program = d->program,
                                    .jobs = d->jobs,

@@ -333,7 +333,8 @@ int command_study(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR",
          "folder for the results; a folder of this study is continued"},
-        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "concurrent processes (as many as cores and free memory allow)"},
+        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N",
+         "concurrent processes (as many as cores and free memory allow); by Slurm, concurrent tasks of an array"},
         {"--on", NULL, OPTION_TEXT, &d.on, "WHERE", "local, or slurm: job arrays over a shared folder (local)"},
         {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "Slurm partition (the cluster's default)"},
         {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "time limit of a task, as for sbatch: 1:00:00"},

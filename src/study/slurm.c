@@ -250,8 +250,8 @@ static fram_status refuse_answer(const char *script, int code, const char *answe
 
 static fram_status submit_script(slurm_pool *all, const slurm_script_facts *f, fram_error *error)
 {
-    char *script = array_path(all, f->number, "sh"), array[32];
-    snprintf(array, sizeof array, "0-%d", (int)slurm_script_tasks(f) - 1);
+    char *script = array_path(all, f->number, "sh"), array[SLURM_ARRAY_SIZE];
+    slurm_script_array(f, array);
     const char **words = script ? slurm_submission(all->ctx, f, array, script) : NULL;
     text_buffer answer = {0};
     int code = 0;

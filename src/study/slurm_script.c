@@ -1,5 +1,6 @@
 #include "study/slurm_script.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A text as one word of the shell. */
@@ -22,7 +23,12 @@ static void add_option(context *ctx, text_buffer *out, const char *option)
         text_format(ctx, out, "#SBATCH %s\n", option);
 }
 
-int32_t slurm_script_tasks(const slurm_script_facts *f) { return (f->runs + f->each - 1) / f->each; }
+void slurm_script_array(const slurm_script_facts *f, char out[SLURM_ARRAY_SIZE])
+{
+    int used = snprintf(out, SLURM_ARRAY_SIZE, "0-%d", (int)((f->runs - 1) / f->each));
+    if (f->options->jobs > 0)
+        snprintf(out + used, SLURM_ARRAY_SIZE - (size_t)used, "%%%d", f->options->jobs);
+}
 
 /* Whether the option is one word, as it stands: what has quotation marks, or a blank before its value, is so for the
    script, which alone takes that apart. */
@@ -63,8 +69,9 @@ const char **slurm_submission(context *ctx, const slurm_script_facts *f, const c
 
 static void directives(context *ctx, const slurm_script_facts *f, text_buffer *out)
 {
-    text_format(ctx, out, "#!/bin/bash\n#SBATCH --job-name=fram-study\n#SBATCH --array=0-%d\n",
-                (int)slurm_script_tasks(f) - 1);
+    char array[SLURM_ARRAY_SIZE];
+    slurm_script_array(f, array);
+    text_format(ctx, out, "#!/bin/bash\n#SBATCH --job-name=fram-study\n#SBATCH --array=%s\n", array);
     text_add(ctx, out,
              "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n#SBATCH --requeue\n#SBATCH --output=/dev/null\n");
     if (f->options->partition)

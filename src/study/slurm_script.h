@@ -13,6 +13,7 @@ typedef struct slurm_options {
     int runs_per_task; /* 0: such that there are 200 tasks at most */
     double poll;       /* between questions to the scheduler [s]; 0: 30 */
     bool dry_run;      /* the script is printed on standard output, and nothing submitted */
+    int jobs;          /* tasks of an array at a time; 0: as many as Slurm has room for */
 } slurm_options;
 
 typedef struct slurm_script_facts {
@@ -23,10 +24,11 @@ typedef struct slurm_script_facts {
 
 void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out);
 
-/* How many tasks the array has. */
-int32_t slurm_script_tasks(const slurm_script_facts *f);
+/* The tasks of the array as sbatch takes them: "0-LAST", or "0-LAST%JOBS". */
+enum { SLURM_ARRAY_SIZE = 32 };
+void slurm_script_array(const slurm_script_facts *f, char out[SLURM_ARRAY_SIZE]);
 
-/* The command that submits the script `path`, to be freed; NULL without memory.  array: "0-LAST". */
+/* The command that submits the script `path`, to be freed; NULL without memory.  array: its tasks. */
 const char **slurm_submission(context *ctx, const slurm_script_facts *f, const char *array, const char *path);
 
 #endif

@@ -73,6 +73,8 @@ class Arrays(unittest.TestCase):
             self.assertIn(line, script)
         runs = 3 * int(os.environ.get("FRAM_SLURM_SEEDS", "8"))
         self.assertIn(f"#SBATCH --array=0-{(runs + 4) // 5 - 1}\n", script)
+        limited = self.fram("it's", "--on", "slurm", "--dry-run", "--runs-per-task", "5", "-j", "2")
+        self.assertIn(f"#SBATCH --array=0-{(runs + 4) // 5 - 1}%2\n", limited)
         checked = subprocess.run(["bash", "-n"], input=script, text=True, capture_output=True)
         self.assertEqual(checked.stderr, "")
         self.assertFalse((self.at / "it's" / "slurm").exists())

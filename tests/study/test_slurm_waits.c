@@ -227,7 +227,7 @@ END_TEST
 START_TEST(what_is_asked_for_stands_in_the_command_too)
 {
     static const char *const more[] = {"--comment=two words", "--nice=5", "--account ice", "--qos=\"a\""};
-    const slurm_options options = {"long", "1:00:00", more, 4, 2, 0, false};
+    const slurm_options options = {"long", "1:00:00", more, 4, 2, 0, false, 3};
     context ctx;
     scheduler s;
     slurm_pool queue;
@@ -247,7 +247,7 @@ START_TEST(what_is_asked_for_stands_in_the_command_too)
     char *script = strstr(line, s.folder);
     ck_assert_ptr_nonnull(script);
     *script = '\0';
-    ck_assert_str_eq(line, "--parsable|--array|0-1|--partition|long|--time|1:00:00|--comment=two words|--nice=5|");
+    ck_assert_str_eq(line, "--parsable|--array|0-1%3|--partition|long|--time|1:00:00|--comment=two words|--nice=5|");
     slurm_free(&queue);
     end(&s);
 }
