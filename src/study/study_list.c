@@ -4,8 +4,10 @@
 #include "study/study_file.h"
 #include "study/study_record.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 /* An index of the most conditions with a few files each. */
 enum { INDEX_LIMIT = 1 << 27 };
@@ -27,7 +29,8 @@ static fram_status read_part(context *ctx, const char *folder, const char *name,
     text_format(ctx, path, "%s/%s", folder, name);
     if (path->failed)
         return error_memory(error);
-    if (!file_is_readable(path->data))
+    /* One that is there and may not be read is told as that. */
+    if (access(path->data, F_OK) != 0 && (errno == ENOENT || errno == ENOTDIR))
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
                          "the folder holds no study: expected one made by `fram study STUDY -o DIR` (%s is not there)",
                          name);

@@ -154,6 +154,15 @@ class Folders(StudyTest):
             self.assertEqual((error["file"], error["message"]), (str(path), "cannot open the folder: Not a directory"))
             path.unlink()
 
+    def test_a_folder_that_cannot_be_read_is_not_one_of_no_study(self):
+        record = self.at / "effective.yaml"
+        for folder in (self.at, self.at / "base.yaml"):
+            self.assertIn("holds no study", self.fram("list", folder, code=2)["error"]["message"])
+        record.symlink_to(record)
+        error = self.fram("list", self.at, code=2)["error"]
+        self.assertEqual((error["file"], error["message"]),
+                         (str(record), "cannot read: Too many levels of symbolic links"))
+
     def limited(self, study, kilobytes):
         """What is said where no file may be larger, as a cluster may hand on."""
         bound = [1000 * kilobytes] * 2
