@@ -105,12 +105,15 @@ double station_exceedance(const station_data *d, const double_array *of, double 
 
 double station_energy(const station_data *d, double transient)
 {
-    double sum = 0;
+    double sum = 0, since = transient;
     const double *t = d->column[TIME].data, *p = d->column[POWER].data;
     int32_t first = station_first_row(d, transient);
-    for (int32_t i = first + 1; i < d->rows; i++)
-        sum += 0.5 * (p[i] + p[i - 1]) * (t[i] - t[i - 1]);
-    return d->rows - first > 1 ? sum : (double)NAN;
+    for (int32_t i = first; i < d->rows; since = t[i++])
+        sum += p[i] * (t[i] - since);
+    if (first == d->rows)
+        return (double)NAN;
+    /* Where output.csv_interval leaves rows out a run goes on behind the last one. */
+    return sum + p[d->rows - 1] * fmax(d->outcome->time - since, 0);
 }
 
 int32_t station_lines_gone(const station_data *d)

@@ -34,7 +34,8 @@ int32_t station_first_row(const station_data *d, double transient);
 channel_statistics station_statistics(const station_data *d, const double_array *of, double transient);
 /* Part of the rows after the transient beyond a limit; NaN without any. */
 double station_exceedance(const station_data *d, const double_array *of, double limit, double transient);
-/* Of the thrusters, from the first row after the transient to the last one [J]; NaN without two. */
+/* Of the thrusters after the transient [J], of which a row tells the power since the one before, the first one since
+   the transient, and the last one until the end as well.  NaN without any. */
 double station_energy(const station_data *d, double transient);
 /* Lines that parted or were let go. */
 int32_t station_lines_gone(const station_data *d);

@@ -64,9 +64,10 @@ def ends(key, column):
 sides = {ends("offset_x_m", "offset_x[m]"), ends("offset_y_m", "offset_y[m]"),
          ends("heading_deviation_deg", "heading_deviation[deg]")}
 assert sides == {-1, 1}, "nothing to tell the sides apart"
-# Energy and mean power are of the same time.
-power = [(float(r["time[s]"]), float(r["thruster_power[W]"])) for r in rows]
-energy = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(power, power[1:]))
+# Energy and mean power are of the same time, the whole one after the transient.
+power = [(20, 0), *((float(r["time[s]"]), float(r["thruster_power[W]"])) for r in rows)]
+energy = sum((b[0] - a[0]) * b[1] for a, b in zip(power, power[1:]))
+assert abs(energy / (40 * j["thruster_power_W"]["mean"]) - 1) < 1e-9, (energy, j["thruster_power_W"])
 assert abs(j["thruster_power_W"]["energy_J"] / energy - 1) < 1e-9, (j["thruster_power_W"], energy)
 # A row has the deviation at its time, as the event at that time has it.
 event = next(e for e in j["events"] if e["kind"] == "heading_lost")
