@@ -198,20 +198,84 @@ static void warn_of_mass(context *ctx, const scenario *s, const vessel_entry *e,
                   e->path, ratio);
 }
 
+/* Part of its diagonal by which a damping matrix may be beyond the edge of damping nothing: published ones have three
+   digits. */
+#define ROUNDED_DAMPING 1e-3
+
+static const char *const motions[6] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+
+/* Both halves of a coupling take power together, each force by the other one's motion. */
+static double coupling_of(const matrix6 *b, int i, int j) { return 0.5 * (b->m[i][j] + b->m[j][i]); }
+
+/* Beyond what the two motions damp: a motion of both gains. */
+static double coupling_excess(const matrix6 *b, int i, int j)
+{
+    return fabs(coupling_of(b, i, j)) / sqrt(b->m[i][i] * b->m[j][j]) - 1;
+}
+
+/* Whether no motion gains, by Cholesky's factors of the symmetric part over the roots of its diagonal, which has no
+   negative number; rounding is given to it. */
+static bool damps_all(const matrix6 *b)
+{
+    matrix6 l = {0};
+    for (int i = 0; i < 6; i++) {
+        for (int j = 0; j <= i; j++) {
+            double scale = sqrt(b->m[i][i] * b->m[j][j]);
+            double left = (scale > 0 ? coupling_of(b, i, j) / scale : 0) + (i == j ? ROUNDED_DAMPING : 0);
+            for (int k = 0; k < j; k++)
+                left -= l.m[i][k] * l.m[j][k];
+            if (i == j && !(left > 0))
+                return false;
+            l.m[i][j] = i == j ? sqrt(left) : left / l.m[j][j];
+        }
+    }
+    return true;
+}
+
+/* A diagonal of good numbers damps each motion by itself; what drives is the coupling of two, or of more. */
+static void warn_of_couplings(context *ctx, const vessel_entry *e, const matrix6 *b)
+{
+    int first = 0, second = 0;
+    double most = ROUNDED_DAMPING;
+    for (int i = 0; i < 6; i++) {
+        for (int j = i + 1; j < 6; j++) {
+            double excess = coupling_excess(b, i, j);
+            if (excess > most) /* no number where nothing couples what nothing damps */
+                most = excess, first = i, second = j;
+        }
+    }
+    if (second > 0)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hydrodynamics.damping is not positive between %s and %s, %.4g in the mean of both sides beside "
+                  "%.4g and %.4g on the diagonal about the centre of mass: it drives a motion of both instead of "
+                  "damping it",
+                  e->path, motions[first], motions[second], coupling_of(b, first, second), b->m[first][first],
+                  b->m[second][second]);
+    else if (!damps_all(b))
+        log_write(ctx, LOG_WARNING,
+                  "%s.hydrodynamics.damping is not positive, by its couplings of more than two motions: it drives a "
+                  "motion of them instead of damping it",
+                  e->path);
+}
+
 /* Of a given matrix: a negative number on its diagonal drives the motion that it should damp. */
 static void warn_of_damping(context *ctx, const vessel_entry *e, const vessel_model *hull)
 {
-    static const char *const motions[6] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+    bool damps_each = true;
+    const matrix6 *b = &hull->hydrodynamics.damping;
     if (e->keys->hydrodynamics.source != HYDRODYNAMICS_GIVEN)
         return;
     for (int i = 0; i < 6; i++) {
-        double c = hull->hydrodynamics.damping.m[i][i];
+        double c = b->m[i][i];
+        damps_each = damps_each && c >= 0;
         if (c < 0)
             log_write(ctx, LOG_WARNING,
                       "%s.hydrodynamics.damping is negative in %s, %.4g about the centre of mass: it drives that "
                       "motion instead of damping it",
                       e->path, motions[i], c);
     }
+    if (damps_each)
+        warn_of_couplings(ctx, e, b);
 }
 
 /* Forces that follow from the place at the beginning of a step let a body swing up when its natural frequency times the

@@ -58,6 +58,24 @@ told ship.yaml "lines[0].length: 8 m|from the start: it is the length without te
 told ship.yaml "vessel: without water (environment.water: false) nothing holds it upright|take vessel.mode: towed" \
     --set environment.water=false
 told drive.yaml "vessel: without water (environment.water: false)" --set environment.water=false
+# Damping that drives: by a coupling of two motions, and of three of which no two do.  Halves that take from each other
+# what they give drive nothing, nor does a force on an arm, which just damps.
+damped() {
+    sed "s/^  mooring:/  hydrodynamics: {source: given, z: -2, damping: [$1]}\n&/; s/icebreaker/box/" \
+        ship.yaml >damped.yaml
+}
+turns="{roll: 1e9}, {pitch: 1e9}"
+damped "{surge: 1e4}, {sway: 1e5, yaw: 5e6}, {heave: 1e6}, $turns, {sway: 5e6, yaw: 2e7}"
+told damped.yaml "vessel.hydrodynamics.damping is not positive between sway and yaw|beside 1e+05 and"
+three="{surge: 5, sway: 3, heave: 3}, {surge: 3, sway: 5, heave: -3}, {surge: 3, sway: -3, heave: 5}"
+damped "$three, $turns, {yaw: 1e9}"
+told damped.yaml "hydrodynamics.damping is not positive, by its couplings of more than two motions"
+for rows in "{surge: 1e4}, {sway: 1e5, yaw: 5e6}, {heave: 1e6}, $turns, {sway: -5e6, yaw: 2e7}" \
+    "{surge: 1e4}, {sway: 1e5}, {}, {}, {}, {}"; do
+    damped "$rows"
+    expect 0 "$FRAM" check damped.yaml
+    grep 'damping is' err && fail "damping that drives nothing is told: $rows"
+done
 # A beam current on the drag of a hull that goes ahead: not where the sides have theirs, nor for one from ahead.
 across=environment.current_direction_deg as_put="--set vessel.mooring.equilibrium=false"
 # shellcheck disable=SC2086
