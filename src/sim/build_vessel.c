@@ -7,6 +7,7 @@
 #include "sim/build_station.h"
 #include "sim/vessel_check.h"
 #include "vessel/path.h"
+#include "vessel/plane_motion.h"
 
 /* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
    ships; of what is wider than long yaw goes by the beam.  Roll and yaw are no more than any body has with the others.
@@ -167,6 +168,44 @@ static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const
     return status;
 }
 
+typedef fram_status (*place_check)(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
+                                   int32_t row, fram_error *error);
+
+typedef struct vessel_pose {
+    vec3 position;
+    quat orientation;
+} vessel_pose;
+
+static vessel_pose trade_pose(body_table *bodies, int32_t body, vessel_pose next)
+{
+    vessel_pose had = {bodies->position[body], bodies->orientation[body]};
+    bodies->position[body] = next.position;
+    bodies->orientation[body] = next.orientation;
+    return had;
+}
+
+/* Who is put well and moved by lines into what the check finds has to look at the lines, not at the place. */
+static fram_status check_moored_place(context *ctx, const scenario *s, const vessel_entry *entry, world *w, int32_t row,
+                                      vessel_pose put, place_check check, const char *found_in, fram_error *error)
+{
+    int32_t body = w->vessels.body[row];
+    fram_status status = check(ctx, s, entry, w, row, error);
+    if (status != FRAM_ERROR_INPUT)
+        return status;
+    vessel_pose moored = trade_pose(&w->bodies, body, put);
+    status = check(ctx, s, entry, w, row, error);
+    trade_pose(&w->bodies, body, moored);
+    if (status != FRAM_OK)
+        return status;
+    vec3 by = vec3_sub(moored.position, put.position);
+    double turn = plane_angle(quat_roll_pitch_yaw(moored.orientation).z - quat_roll_pitch_yaw(put.orientation).z);
+    return vessel_fault(s, entry, "mooring.lines", error,
+                        "where they balance current and wind, (%.4g, %.4g) m from where it is put and turned by %.3g "
+                        "degrees, the hull stands in %s: look at their count, spacing_deg, direction_deg and "
+                        "pretension, or take mooring.equilibrium: false",
+                        by.x, by.y, degrees(turn), found_in);
+}
+
 fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, world *w,
                          fram_error *error)
 {
@@ -177,14 +216,17 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
         status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
     if (status == FRAM_OK)
         status = check_turns(s, entry, w, row, error);
-    if (status == FRAM_OK)
-        status = build_station(ctx, s, entry, m, row, w, error);
+    if (status != FRAM_OK)
+        return status;
+    int32_t body = w->vessels.body[row];
+    const vessel_pose put = {w->bodies.position[body], w->bodies.orientation[body]};
+    status = build_station(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
         status = build_propulsion(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
-        status = check_clear_of_walls(ctx, s, entry, w, row, error);
+        status = check_moored_place(ctx, s, entry, w, row, put, check_clear_of_walls, "the walls of the domain", error);
     if (status == FRAM_OK)
-        status = check_clear_of_vessels(ctx, s, entry, w, row, error);
+        status = check_moored_place(ctx, s, entry, w, row, put, check_clear_of_vessels, "another vessel", error);
     if (status == FRAM_OK)
         status = vessel_warnings(ctx, s, entry, m, w, row, error);
     return status;

@@ -46,6 +46,13 @@ told ship.yaml "lines[0].table_file: the tension goes up to 1900 N, less than 1e
     --set "$file=kilo.csv"
 expect 0 "$FRAM" check ship.yaml --set "$table" --set "$file=newtons.csv"
 grep 'the tension goes up' err && fail "told of a table in newtons"
+# Lines that balance in a wall or in another hull, since all of them lead one way: the ship lies well where it is put.
+alone="vessel.mooring.lines[0].count=1"
+refused ship.yaml "vessel.mooring.lines: where they balance current and wind, (" --set "$alone" \
+    --set domain.boundary=walls
+says "the hull stands in the walls of the domain: look at their count, spacing_deg" err
+refused ship.yaml "vessel.x: the hull covers x from 1" --set "$alone" --set domain.boundary=walls --set vessel.x=150
+expect 0 "$FRAM" check ship.yaml --set "$alone" --set domain.boundary=walls --set vessel.mooring.equilibrium=false
 spring="vessel.mooring.lines[0].kind=spring"
 told ship.yaml "lines[0].pretension: 8e+05 N is over the breaking load of 7e+05 N" --set "$spring" \
     --set "vessel.mooring.lines[0].stiffness=5e4" --set "vessel.mooring.lines[0].breaking_load=7e5"
