@@ -58,7 +58,7 @@
     X(failure_time, AUTOMATIC(0, 1e9), "s", "it fails then; auto: never")                                       \
     X(setting, REAL(0, -1, 1), "1", "without positioning: thrust over the largest")                             \
     X(direction_deg, REAL(0, -360, 360), "deg",                                                                 \
-      "without positioning: direction of an azimuth's thrust, or of a main's that its rudder turns")
+      "of an azimuth's thrust, or of a main's that its rudder turns; with positioning: at the start alone")
 
 #define SCENARIO_PATH_POINT_KEYS(X)                                      \
     X(time, REAL(0, 0, 1e9), "s", "at which the ship's origin is there") \

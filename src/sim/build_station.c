@@ -227,6 +227,7 @@ static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_e
     for (int32_t i = 0; i < entry->keys->thrusters.count; i++) {
         const scenario_thruster *t = &entry->keys->thrusters.data[i];
         double astern = automatic_or(t->thrust_astern, t->thrust);
+        double setting = entry->keys->positioning.active ? 0 : t->setting;
         const thruster_definition d = {
             .vessel = vessel,
             .kind = t->kind,
@@ -243,7 +244,7 @@ static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_e
             .full_power =
                 automatic_or(t->power, POWER_PER_THRUST * sqrt(scenario_size(s)) * thruster_largest_thrust(t)),
             .failure_time = automatic_or(t->failure_time, HUGE_VAL),
-            .order = t->setting * (t->setting >= 0 ? t->thrust : astern),
+            .order = setting * (setting >= 0 ? t->thrust : astern),
             .order_angle = radians(t->direction_deg),
         };
         fram_status status = thruster_add(ctx, &d, &w->vessels, &w->thrusters, error);

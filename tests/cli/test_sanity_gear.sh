@@ -139,6 +139,12 @@ refused ship.yaml "thrusters[0].direction_deg: expected a direction outside of f
 expect 0 "$FRAM" check ship.yaml \
     --set "vessel.thrusters[0].setting=0.5" --set "vessel.thrusters[0].direction_deg=59" \
     --set "vessel.thrusters[0].forbidden_deg=90" --set "vessel.thrusters[0].forbidden_width_deg=60"
+# What positioning does not look at is refused of nobody, and told.
+for setting in 0.5 -0.5; do
+    told ship.yaml "thrusters[0].setting: without effect, since positioning.active is true" \
+        --set vessel.positioning.active=true --set "vessel.thrusters[0].setting=$setting" \
+        --set "vessel.thrusters[0].forbidden_width_deg=20"
+done
 refused ship.yaml "thrusters[0].direction_deg: expected 0 without rudder_deg, found 10" \
     --set "vessel.thrusters[0].kind=main" --set "vessel.thrusters[0].direction_deg=10"
 refused ship.yaml "thrusters[0].direction_deg: expected -35 to 35, as far as its rudder_deg turns, found 40" \

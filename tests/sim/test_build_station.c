@@ -18,7 +18,7 @@ static const char *const SHIP = "run: {duration: 10, time_step: 0.05, scale: 30}
 START_TEST(thrusters_are_as_their_keys_say)
 {
     scene k;
-    scene_open(&k, SHIP);
+    scene_open_with(&k, SHIP, (const char *const[]){"vessel.positioning.active=false"}, 1);
     ck_assert_int_eq(k.w.thrusters.count, 3);
     assert_relative(k.w.thrusters.forbidden_centre[0], 0.5 * PI, 1e-12);
     assert_relative(k.w.thrusters.forbidden_half[0], PI / 9, 1e-12);
@@ -40,6 +40,8 @@ START_TEST(intervals_are_whole_steps_and_samples_fall_on_calls)
     ck_assert_int_eq(k.w.stations.sample_every[0], 20);
     assert_relative(k.w.stations.heading_limit[0], radians(12), 1e-12);
     assert_absolute(k.w.stations.offset_limit[0], 5, 0);
+    /* The controller has not called yet, and what it is not told does not count. */
+    assert_absolute(k.w.thrusters.order[0], 0, 0);
     scene_close(&k);
 }
 END_TEST
