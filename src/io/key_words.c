@@ -1,6 +1,7 @@
 #include "io/key_words.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Word and key, by the word; of several keys for one word in the order in which they are tried. */
@@ -121,4 +122,26 @@ const char *key_other_name(const char *word, int32_t nth)
         if (strcmp(word, other_words[i][0]) == 0 && nth-- == 0)
             return other_words[i][1];
     return NULL;
+}
+
+bool key_nested(const scenario_section *section, const char *name, char out[KEY_NESTED_SIZE])
+{
+    char word[KEY_NESTED_SIZE];
+    size_t used = 0, depth = 0;
+    out[0] = '\0';
+    for (const char *point; (point = strchr(name, '.')) != NULL; name = point + 1, depth++) {
+        snprintf(word, sizeof word, "%.*s", (int)(point - name), name);
+        int32_t k = section_find(section, word);
+        if (k < 0 || section->keys[k].kind != KEY_SECTION)
+            return false;
+        section = section->keys[k].section;
+        used += (size_t)snprintf(out + used, KEY_NESTED_SIZE - used, "%s: {", word);
+    }
+    if (depth == 0 || section_find(section, name) < 0)
+        return false;
+    /* The names of the schema are short, and nested a few deep. */
+    used += (size_t)snprintf(out + used, KEY_NESTED_SIZE - used, "%s: ...", name);
+    for (; depth > 0 && used + 1 < KEY_NESTED_SIZE; depth--)
+        used += (size_t)snprintf(out + used, KEY_NESTED_SIZE - used, "}");
+    return true;
 }

@@ -209,7 +209,7 @@ static bool find_anywhere(const scenario_section *section, const char *path, con
 static fram_status unknown_key(const scenario_reader *r, const scenario_section *section, const char *path,
                                const char *name, const value_place *place)
 {
-    char other[KEY_SIZE];
+    char other[KEY_SIZE], nested[KEY_NESTED_SIZE];
     const char *known = key_other_name(name, 0), *nearest = NULL, *word = known;
     for (int32_t nth = 1; word && !nearest; nth++) {
         nearest = section_find(section, word) >= 0 ? word : NULL;
@@ -217,13 +217,14 @@ static fram_status unknown_key(const scenario_reader *r, const scenario_section 
     }
     if (!nearest && known && find_anywhere(&scenario_schema, "", known, other))
         nearest = other;
-    if (!nearest)
-        nearest = section_nearest(section, name);
+    nearest = nearest ? nearest : section_nearest(section, name);
     const char *where = *path ? path : "the scenario";
+    if (key_nested(section, name, nested))
+        return refuse(r, place, "expected a key of %s, found %s: write %s", where, shown(name).text, nested);
+    if (!nearest && find_anywhere(&scenario_schema, "", name, other))
+        nearest = other;
     if (nearest)
         return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, nearest);
-    if (find_anywhere(&scenario_schema, "", name, other))
-        return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, other);
     return refuse(r, place, "expected a key of %s, found %s", where, shown(name).text);
 }
 

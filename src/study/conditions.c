@@ -31,6 +31,33 @@ const char *study_key(const study_source *r, const yaml_node *node)
     return node->key >= 0 ? yaml_text(r->tree, node->key) : "";
 }
 
+study_found_text study_found(const study_source *r, const yaml_node *node)
+{
+    study_found_text f = {"nothing"};
+    const char *text = node->kind == YAML_SCALAR ? yaml_text(r->tree, node->value) : "";
+    const char *more = strlen(text) > 40 ? " ..." : "";
+    if (node->kind != YAML_SCALAR)
+        snprintf(f.text, sizeof f.text, node->kind == YAML_MAPPING ? "a mapping" : "a list");
+    else if (*text)
+        snprintf(f.text, sizeof f.text, node->quoted ? "the text \"%.40s\"%s" : "%.40s%s", text, more);
+    return f;
+}
+
+fram_status study_refuse_kind(const study_source *r, const yaml_node *node, const char *expected)
+{
+    char key[160];
+    const yaml_node *below = node;
+    int used = snprintf(key, sizeof key, "%.60s", study_key(r, node));
+    while (below->kind == YAML_MAPPING && study_child(r, below) && used < (int)sizeof key) {
+        below = study_child(r, below);
+        used += snprintf(key + used, sizeof key - (size_t)used, ".%.60s", study_key(r, below));
+    }
+    if (below == node)
+        return study_refuse(r, node, "expected %s, found %s", expected, study_found(r, node).text);
+    const char *value = below->kind == YAML_SCALAR ? yaml_text(r->tree, below->value) : "[...]";
+    return study_refuse(r, node, "expected %s, found a mapping; write %s: %.40s", expected, key, value);
+}
+
 void study_beside(const study_source *r, const char *name, text_buffer *path)
 {
     const char *slash = strrchr(r->out->file, '/');
@@ -51,10 +78,12 @@ const yaml_node *study_next(const study_source *r, const yaml_node *node)
 
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
 {
-    const char *text = node->kind == YAML_SCALAR && !node->quoted ? yaml_text(r->tree, node->value) : "";
+    bool quoted = node->kind == YAML_SCALAR && node->quoted;
+    const char *text = node->kind == YAML_SCALAR && !quoted ? yaml_text(r->tree, node->value) : "";
     double value = 0;
     if (real_from_text(text, &value) != NUMBER_GOOD || !(value >= lo && value <= hi))
-        return study_refuse(r, node, "expected a number from %.10g to %.10g, found %s", lo, hi, *text ? text : "none");
+        return study_refuse(r, node, "expected a number from %.10g to %.10g%s, found %s", lo, hi,
+                            quoted ? " without quotes" : "", study_found(r, node).text);
     *out = value;
     return FRAM_OK;
 }
@@ -80,7 +109,7 @@ fram_status study_time(const study_source *r, const yaml_node *node, double lo, 
         return FRAM_OK;
     }
     return study_refuse(r, node, "expected a time from %g to %g s, as 10800, 90min or 3h, found %s", lo, hi,
-                        *text ? text : "none");
+                        study_found(r, node).text);
 }
 
 fram_status study_unknown(const study_source *r, const yaml_node *node, const char *const *names, size_t count)
@@ -111,15 +140,14 @@ fram_status study_add_key(const study_source *r, const yaml_node *node)
 static fram_status add_value(const study_source *r, const yaml_node *node)
 {
     if (node->kind != YAML_SCALAR)
-        return study_refuse(r, node, "expected one value of the key, found a %s",
-                            node->kind == YAML_MAPPING ? "mapping" : "list");
+        return study_refuse_kind(r, node, "one value of the key");
     return text_list_add(r->ctx, &r->out->values, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
 }
 
 fram_status study_range(const study_source *r, const yaml_node *node, key_range *out)
 {
     if (node->kind != YAML_SEQUENCE || node->count != 2)
-        return study_refuse(r, node, "expected the ends of a range, as [0.5, 1.5]");
+        return study_refuse_kind(r, node, "the ends of a range, as [0.5, 1.5]");
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
     fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
     if (status == FRAM_OK)
@@ -167,7 +195,8 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
     double conditions = 1;
     fram_status status = expect(r, node, YAML_MAPPING, "keys with a list of values each");
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
-        status = expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
+        status = k->kind == YAML_MAPPING ? study_refuse_kind(r, k, "a list of values, as [0.6, 1.1]")
+                                         : expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
         if (status == FRAM_OK)
             status = study_add_key(r, k);
         conditions *= k->count;

@@ -17,6 +17,14 @@ typedef struct study_source {
 /* A refusal at a node's value: file, line, key. */
 fram_status study_refuse(const study_source *r, const yaml_node *node, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* The same of what is no single value: what was expected there, what was found, and how the first of keys below it is
+   written. */
+fram_status study_refuse_kind(const study_source *r, const yaml_node *node, const char *expected);
+/* What was found in place of a number or a name, for messages: cut; a text in quotes is told as that. */
+typedef struct study_found_text {
+    char text[80];
+} study_found_text;
+study_found_text study_found(const study_source *r, const yaml_node *node);
 /* The key a node stands under, of an element of a list that of the list; "" for none. */
 const char *study_key(const study_source *r, const yaml_node *node);
 /* The path of a file that the study names, which is relative to the study's own folder; path.failed: no memory. */

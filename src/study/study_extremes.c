@@ -27,7 +27,7 @@ static fram_status read_method(const study_source *r, const yaml_node *k)
                             m < EXTREME_METHODS ? "expected gumbel or gev, of the largest values of runs; %s takes the "
                                                   "series: keep: series, and `fram extremes DIR/runs/ID/*/`"
                                                 : "expected gumbel or gev, found %s",
-                            *text ? text : "none");
+                            m < EXTREME_METHODS ? text : study_found(r, k).text);
     r->out->extremes.gev = m == EXTREME_GEV;
     return FRAM_OK;
 }

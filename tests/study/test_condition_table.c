@@ -179,6 +179,38 @@ START_TEST(hours_fill_a_leap_year_and_no_more)
 }
 END_TEST
 
+/* A number in quotes is one to its writer, and a scenario has its keys one in another. */
+START_TEST(slips_are_told_with_their_remedy)
+{
+    static const struct {
+        const char *text, *key, *said;
+    } cases[] = {
+        {"seeds: \"2\"\n", "seeds", "expected a number from 1 to 100000 without quotes, found the text \"2\""},
+        {"seeds: {least: }\n", "least", "found nothing"},
+        {"seeds: {least: [2]}\n", "least", "found a list"},
+        {"extremes: {levels: ['0.5']}\n", "levels", "without quotes, found the text \"0.5\""},
+        {"extremes: {duration: [3h]}\n", "duration", "3h, found a list"},
+        {"extremes: {method: {gumbel: 1}}\n", "method", "expected gumbel or gev, found a mapping"},
+        {"set: {vessel: {speed: 2}}\n", "vessel", "one value of the key, found a mapping; write vessel.speed: 2"},
+        {"set: {vessel: {hull: {length: 80}}}\n", "vessel", "write vessel.hull.length: 80"},
+        {"set: {vessel: {}}\n", "vessel", "expected one value of the key, found a mapping"},
+        {"vary: {list: [{vessel: {speed: 2}}]}\n", "vessel", "found a mapping; write vessel.speed: 2"},
+        {"vary: {grid: {vessel: {speed: [1, 2]}}}\n", "vessel", "found a mapping; write vessel.speed: [...]"},
+        {"vary: {latin: {count: 2, keys: {ice: {thickness: [1, 2]}}}}\n", "ice", "write ice.thickness: [...]"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[160];
+        context ctx;
+        fram_error error = {0};
+        study s = {0};
+        context_init(&ctx);
+        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", cases[i].text);
+        ck_assert_int_eq(study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error), FRAM_ERROR_INPUT);
+        ck_assert_str_eq(error.key, cases[i].key);
+        ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
+    }
+}
+END_TEST
+
 /* What the command takes for a time, by the list that tests/study/test_statistics.py reads. */
 START_TEST(times_are_those_of_the_command)
 {
@@ -210,4 +242,5 @@ START_TEST(times_are_those_of_the_command)
 END_TEST
 
 TEST_MAIN("condition_table", times_are_those_of_the_command, tables_of_any_program_are_read, hours_are_no_key,
-          what_is_unclear_is_refused_at_its_place, memory_runs_out, hours_fill_a_leap_year_and_no_more)
+          what_is_unclear_is_refused_at_its_place, slips_are_told_with_their_remedy, memory_runs_out,
+          hours_fill_a_leap_year_and_no_more)
