@@ -124,9 +124,10 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
                       l->included_angle, error);
     if (status == FRAM_OK)
         status = need_thickness(l->thickness, error);
+    /* The density of the ice counts by its inertia alone. */
     if (status == FRAM_OK)
-        status = need(l->ice_density < l->water_density, "ice_density", "less than the density of the water",
-                      l->ice_density, error);
+        status = need(l->rise_time == 0 || l->ice_density < l->water_density, "ice_density",
+                      "less than the density of the water", l->ice_density, error);
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
 }
 

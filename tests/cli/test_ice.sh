@@ -72,6 +72,7 @@ expect 2 "$FRAM" ice break --thickness 1e-300
 says "1e-06 to 100 m" err
 expect 2 "$FRAM" ice break --rise-time 0.1 --ice-density 1030
 says "less than the density of the water" err
+expect 0 "$FRAM" ice break --water-density 900
 
 expect 0 "$FRAM" ice split --length 75 --width 50 --json
 near 'j["factor"]' 0.1540 2e-3 "splitting, width over length 2/3"
