@@ -217,6 +217,9 @@ static void fram_hull_condition_fill(fram_hull_condition *c)
 }
 DEFINITION_DEFAULT(fram_hull_condition, fram_hull_condition)
 
+/* No hull reaches so far [m], and stiffness about what lies farther away would be no number. */
+#define CENTRE_MOST 1e9
+
 static fram_status check_condition(const fram_hull_condition *c, fram_error *error)
 {
     if (!isnan(c->draught) && !isnan(c->mass))
@@ -231,8 +234,8 @@ static fram_status check_condition(const fram_hull_condition *c, fram_error *err
     if (!isnan(c->mass) && !(c->mass > 0 && c->mass < HUGE_VAL))
         return error_value(error, "mass", "a positive mass", c->mass);
     for (int i = 0; i < 3; i++) {
-        if (isinf(c->centre[i]))
-            return error_value(error, "centre", "finite coordinates", c->centre[i]);
+        if (fabs(c->centre[i]) > CENTRE_MOST)
+            return error_value(error, "centre", "coordinates within 1e9 m", c->centre[i]);
     }
     return FRAM_OK;
 }

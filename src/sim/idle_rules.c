@@ -146,6 +146,7 @@ static bool has_period(const idle_question *q)
 }
 static bool watches_not(const idle_question *q) { return is_automatic(q->v->approach.limit); }
 static bool has_no_wash(const idle_question *q) { return !q->v->wash.active; }
+static bool has_one_propeller(const idle_question *q) { return q->v->propulsion.propellers == 1; }
 static bool has_no_table(const scenario_flow *c) { return c->table.count == 0 && !c->table_file[0]; }
 static bool has_no_current_table(const idle_question *q) { return has_no_table(&q->v->current_coefficients); }
 static bool has_no_wind_table(const idle_question *q) { return has_no_table(&q->v->wind_coefficients); }
@@ -339,6 +340,7 @@ static const idle_rule rules[] = {
     {"vessel.propulsion.", drives_not, "there is no propulsion.bollard_pull"},
     {"vessel.propulsion.speed", has_period, "propulsion.pattern.period gives the speed"},
     {"vessel.propulsion.propeller_spacing", has_no_wash, NO_WASH},
+    {"vessel.propulsion.propeller_spacing", has_one_propeller, "propulsion.propellers is 1"},
     {"vessel.propulsion.propeller_z", has_no_wash, NO_WASH},
     {"vessel.propulsion.pattern.", has_no_pattern, "propulsion.pattern.kind is none"},
     {"vessel.propulsion.pattern.distance", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},

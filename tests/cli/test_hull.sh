@@ -22,6 +22,12 @@ same "$(value 'abs(j["level_m"] + 0.5) < 1e-12, abs(j["heel_deg"]) < 1e-9, j["kg
     "True True 1 True" "the box of 1025 t"
 expect 0 "$FRAM" hull box.stl --mass 1025e3 --kg 1 --tcg 5e-11
 says "heel 0 deg, trim 0 deg" out
+expect 0 "$FRAM" hull box.stl --water-density 1.025 --lcg 21 --kg 9.9
+says "warning: --water-density: 1.025 kg/m3 is outside of 980 to 1100" err
+says "warning: --lcg: the centre of gravity is at x = 21 m, outside of the hull, -20 to 20 m" err
+same "$(grep -c warning err)" 2 "warnings of water and centre"
+expect 2 "$FRAM" hull box.stl --lcg 1e300
+says "centre: expected coordinates within 1e9 m" err
 expect 0 "$FRAM" hull box.stl --freeboard 3
 says "warning: --freeboard: no level open top: without effect" err
 expect 0 "$FRAM" hull box.stl

@@ -166,7 +166,7 @@ all_told path.yaml "vessel.path[1].heading_deg=3600" -- \
 all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.steering_rate_deg=0.04 \
     vessel.propulsion.steering_x=27 vessel.propulsion.lookahead=0.1 vessel.propulsion.ram_distance=5000 \
     vessel.propulsion.beset_speed=5 vessel.propulsion.propeller_diameter=0.03 vessel.propulsion.propeller_z=-50 \
-    vessel.propulsion.propeller_spacing=100 vessel.wash.active=true -- \
+    vessel.propulsion.propeller_spacing=100 vessel.propulsion.propellers=2 vessel.wash.active=true -- \
     "steering_angle_deg: 0.61 deg|not radians" "steering_rate_deg: 0.04" \
     "steering_x: 27 m is ahead of the centre of mass" "lookahead: 0.1 m is 0.00167 lengths" \
     "ram_distance: 5000 m is 83.3 lengths" "beset_speed: the ship never makes more than 1 m/s" \
