@@ -3,8 +3,9 @@
 #ifndef MODEL_SCENARIO_STATION_KEYS_H
 #define MODEL_SCENARIO_STATION_KEYS_H
 
-#define SCENARIO_LINE_POINT_KEYS(X)                                                                            \
-    X(offset, REAL(0, -1e6, 1e6), "m", "of the upper end away from the anchor, from where it is at the start") \
+#define SCENARIO_LINE_POINT_KEYS(X)                                                         \
+    X(offset, REAL(0, -1e6, 1e6), "m",                                                      \
+      "of the upper end away from the anchor, horizontally, from where it is at the start") \
     X(tension, REAL(0, 0, 1e12), "N", "of the line then, along the straight line between its ends")
 
 #define SCENARIO_MOORING_LINE_KEYS(X)                                                                                  \

@@ -271,6 +271,21 @@ static fram_status check_stations(const world *w, fram_error *error)
     return FRAM_OK;
 }
 
+/* Lines by a table have no stiffness; those of states from when offsets were along the line, whose length is another
+   one, have. */
+static fram_status check_lines(const line_table *l, fram_error *error)
+{
+    for (int32_t i = 0; i < l->count; i++) {
+        char key[48];
+        snprintf(key, sizeof key, "line[%d].stiffness", (int)i);
+        if (l->kind[i] == LINE_TABLE && l->stiffness[i] != 0)
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key,
+                             "expected a line by its table without stiffness, found one of before offsets were "
+                             "horizontal: start the run again");
+    }
+    return FRAM_OK;
+}
+
 static fram_status check_inputs(const world *w, fram_error *error)
 {
     for (int32_t i = 0; i < w->inputs.count; i++) {
@@ -311,6 +326,8 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = refuse("vessel", 0, NULL, w->vessels.count, error);
     if (status == FRAM_OK)
         status = check_stations(w, error);
+    if (status == FRAM_OK)
+        status = check_lines(&w->lines, error);
     if (status == FRAM_OK && w->drift.count != (m->sheet.drifts ? 1 : 0))
         status = refuse("drift", 0, NULL, w->drift.count, error);
     const tile_grid *tiles = &m->fracture.tiles;

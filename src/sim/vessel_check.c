@@ -293,7 +293,7 @@ static void warn_of_stiffness(context *ctx, const scenario *s, const char *what,
                   what, frequency, GOOD_FREQUENCY / frequency);
 }
 
-/* Steepest rise of a line's tension with the distance of its ends [N/m]. */
+/* Steepest rise of a line's tension with the distance of its ends, of a table with the horizontal one [N/m]. */
 static double line_stiffness(const line_table *l, int32_t row)
 {
     if (l->kind[row] == LINE_SPRING)

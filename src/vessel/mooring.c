@@ -62,7 +62,7 @@ static fram_status find_length(const line_definition *d, double height, double *
 {
     *length = d->length;
     if (d->kind == LINE_TABLE) {
-        *length = sqrt(height * height + d->distance * d->distance);
+        *length = d->distance;
         return FRAM_OK;
     }
     if (!isnan(d->length))
@@ -113,7 +113,7 @@ fram_status mooring_add_line(context *ctx, const line_definition *d, const vesse
     lines->anchor[row] = vec3_make(anchor.x, anchor.y, -d->depth);
     lines->length[row] = length;
     lines->weight[row] = d->weight;
-    lines->stiffness[row] = d->stiffness;
+    lines->stiffness[row] = d->kind == LINE_TABLE ? 0 : d->stiffness;
     lines->points[row] = d->kind == LINE_TABLE ? d->points : 0;
     lines->curve[row] = d->kind == LINE_TABLE ? d->curve : (line_curve){{0}, {0}};
     lines->breaking_load[row] = d->breaking_load;
@@ -136,12 +136,14 @@ static double line_curve_tension(const line_curve *c, int32_t points, double off
     return c->tension[i - 1] + slope * (offset - c->offset[i - 1]);
 }
 
-/* Springs and tables. */
+/* Springs, which go by the distance of their ends, and tables, which go by the horizontal one. */
 static void straight_pull(const line_table *lines, int32_t row, vec3 gap, line_pull *pull)
 {
-    double distance = vec3_length(gap), stretch = distance - lines->length[row];
-    pull->tension = lines->kind[row] == LINE_TABLE ? line_curve_tension(&lines->curve[row], lines->points[row], stretch)
-                                                   : lines->stiffness[row] * fmax(stretch, 0);
+    bool by_table = lines->kind[row] == LINE_TABLE;
+    double distance = vec3_length(gap), aside = sqrt(gap.x * gap.x + gap.y * gap.y);
+    double stretch = (by_table ? aside : distance) - lines->length[row];
+    pull->tension = by_table ? line_curve_tension(&lines->curve[row], lines->points[row], stretch)
+                             : lines->stiffness[row] * fmax(stretch, 0);
     if (!(distance > 0))
         return;
     pull->force = vec3_scale(gap, pull->tension / distance);

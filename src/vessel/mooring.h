@@ -11,13 +11,13 @@
 typedef enum line_kind {
     LINE_CATENARY = 0, /* elastic, on a flat bottom */
     LINE_SPRING,       /* straight; pulls only */
-    LINE_TABLE         /* straight; tension by the offset of its upper end */
+    LINE_TABLE         /* straight; tension by the horizontal offset of its upper end */
 } line_kind;
 
 /* Tension over offset: linear between points, that of the first below it, the last slope beyond the last. */
 enum { LINE_POINTS = 32 };
 typedef struct line_curve {
-    double offset[LINE_POINTS];  /* of the ends' distance from that at the start, ascending [m] */
+    double offset[LINE_POINTS];  /* of the ends' horizontal distance from that at the start, ascending [m] */
     double tension[LINE_POINTS]; /* 0 or more, never falling [N] */
 } line_curve;
 
@@ -28,9 +28,9 @@ typedef struct line_curve {
     X(fairlead, vec3, FIELD_F64, 3, "m", "upper end, or centre of the turret, body frame")                  \
     X(arm, vec3, FIELD_F64, 3, "m", "from the turret's centre to the upper end, global frame; 0: spread")   \
     X(anchor, vec3, FIELD_F64, 3, "m", "lower end on the bottom, global frame")                             \
-    X(length, double, FIELD_F64, 1, "m", "unstretched; table: distance of the ends at the start")           \
+    X(length, double, FIELD_F64, 1, "m", "unstretched; table: horizontal distance at the start")            \
     X(weight, double, FIELD_F64, 1, "N/m", "in water")                                                      \
-    X(stiffness, double, FIELD_F64, 1, "N, N/m", "catenary: axial stiffness EA; spring: force per length")  \
+    X(stiffness, double, FIELD_F64, 1, "N, N/m", "catenary: EA; spring: force per length; table: none")     \
     X(points, int32_t, FIELD_I32, 1, "1", "table: points of the curve")                                     \
     X(curve, line_curve, FIELD_F64, 64, "m, N", "table: tension over offset")                               \
     X(breaking_load, double, FIELD_F64, 1, "N", "tension at which it parts")                                \

@@ -104,6 +104,7 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, pairs.b[0], w->bodies.count, "pair[0].b");
     FOUND(&k, lines.vessel[1], 1, "line[1].vessel");
     FOUND(&k, lines.kind[0], 200, "line[0].kind");
+    FOUND(&k, lines.kind[0], LINE_TABLE, "line[0].stiffness"); /* as of tables that went along the line */
     FOUND(&k, lines.points[0], LINE_POINTS + 1, "line[0].points");
     FOUND(&k, thrusters.vessel[0], -1, "thruster[0].vessel");
     FOUND(&k, thrusters.kind[1], 3, "thruster[1].kind");

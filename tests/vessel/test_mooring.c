@@ -150,6 +150,44 @@ START_TEST(tabulated_lines)
 }
 END_TEST
 
+static vec3 steady(const void *user, double heading)
+{
+    (void)heading;
+    return *(const vec3 *)user;
+}
+
+/* A line that goes down as far as it goes out: offsets are horizontal, the tension is that of the straight line, and a
+   ship that heaves stretches nothing.  Statics: H = T / sqrt(2) at the start. */
+START_TEST(tables_go_by_the_horizontal_offset)
+{
+    moored m;
+    line_definition d = sample_line(0);
+    d.kind = LINE_TABLE;
+    d.depth = 305;
+    d.distance = 300;
+    d.points = 3;
+    d.curve = (line_curve){{-10, 0, 20}, {1e5, 1e5, 3e5}};
+    moor(&m, d, 1);
+    assert_relative(m.lines.horizontal[0], 1e5 / sqrt(2), 1e-12);
+    line_pull pull = mooring_line_pull(&m.lines, 0, vec3_make(-12, 0, 0), quat_identity());
+    assert_relative(pull.tension, 2.2e5, 1e-12);
+    assert_vec3_close(pull.force, vec3_scale(vec3_make(312, 0, -300), 2.2e5 / hypot(312, 300)), 1e-6);
+    pull = mooring_line_pull(&m.lines, 0, vec3_make(0, 0, 3), quat_identity());
+    assert_relative(pull.tension, 1e5, 1e-12);
+    /* Aside by 80 m the anchor is 310.5 m off. */
+    pull = mooring_line_pull(&m.lines, 0, vec3_make(0, 80, 0), quat_identity());
+    assert_relative(pull.tension, 1e5 + 1e4 * (hypot(300, 80) - 300), 1e-12);
+    /* The ship lies where the horizontal part of the tension is the load: the equilibrium goes by the same offsets. */
+    double load_x = -2.2e5 * 312 / hypot(312, 300);
+    vec3 load = {load_x, 0, 0}, at = m.b.bodies.position[0];
+    quat q = quat_identity();
+    mooring_balance left;
+    ck_assert(mooring_equilibrium(&m.lines, 0, 76, steady, &load, &at, &q, &left));
+    assert_absolute(at.x, -12, 1e-3);
+    unmoor(&m);
+}
+END_TEST
+
 static void refuse_curve(int32_t points, line_curve curve, const char *key)
 {
     moored m;
@@ -174,12 +212,6 @@ START_TEST(faulty_tables)
     refuse_curve(2, (line_curve){{1, 2}, {1, 2}}, "table[0].offset");
 }
 END_TEST
-
-static vec3 steady(const void *user, double heading)
-{
-    (void)heading;
-    return *(const vec3 *)user;
-}
 
 START_TEST(equilibrium_under_a_steady_load)
 {
@@ -251,5 +283,5 @@ START_TEST(refusals)
 END_TEST
 
 TEST_MAIN("mooring", spread_is_balanced_and_restores, a_turret_does_not_hold_the_heading, a_step_adds_force_and_moment,
-          spring_offset, tabulated_lines, faulty_tables, equilibrium_under_a_steady_load, lines_break_and_are_let_go,
-          refusals)
+          spring_offset, tabulated_lines, tables_go_by_the_horizontal_offset, faulty_tables,
+          equilibrium_under_a_steady_load, lines_break_and_are_let_go, refusals)
