@@ -184,6 +184,7 @@ uint64_t world_hash(const world *w)
 void world_forget(world *w)
 {
     collision_scratch_forget(w->scratch.collision);
+    w->scratch.step = 0;
     w->scratch.rest_seen = (rest_seen){0};
     w->shapes.is_counted = false;
 }
@@ -227,6 +228,7 @@ static bool copy_bytes(void *to, const void *from, int32_t count, size_t size)
 static bool copy_reports(context *ctx, const world *src, world *dst)
 {
     dst->scratch.solver = src->scratch.solver;
+    dst->scratch.step = src->scratch.step;
     return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(contact_generations) && COPY_ARRAY(patches) &&
            COPY_ARRAY(ice_loads) && COPY_ARRAY(responses) && COPY_ARRAY(wash_force) && COPY_ARRAY(fractures);
 }

@@ -119,6 +119,7 @@ typedef struct world {
 
     /* Scratch: written anew each step. */
     struct {
+        int64_t step;            /* that left what follows; 0: none, as when a state was loaded */
         ARRAY(wrench) loads;     /* one per body slot */
         ARRAY(double) submerged; /* volume, one per body slot [m3] */
         ARRAY(fluid_load) fluid; /* one per solid of the shape store; rows of static bodies mean nothing */

@@ -451,13 +451,14 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
 {
     int64_t step = w->clock.step[0];
     fram_status status = FRAM_OK;
-    if (step > 0 && step % r->series_every == 0) {
+    bool known = step > 0 && w->scratch.step == step; /* a state that was loaded holds nothing of its last step */
+    if (known && step % r->series_every == 0) {
         series_row(r->ctx, &r->layout, w, wall, r->row.data);
         status = csv_append(&r->series, r->row.data, error);
     }
-    if (status == FRAM_OK && step > 0)
+    if (status == FRAM_OK && known)
         status = write_fractures(r, w, error);
-    if (status == FRAM_OK && step > 0)
+    if (status == FRAM_OK && known)
         status = peak_watch_step(&r->peaks, w, error);
     if (status == FRAM_OK && frame_is_due(r, w)) {
         status = write_frame(r, w, error);

@@ -475,6 +475,7 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
             watch->done(watch->user, (step_stage)i);
     }
     count_step(m, w);
+    w->scratch.step = w->clock.step[0];
     return lent_threads_check(ctx, error);
 }
 

@@ -1,6 +1,7 @@
 /* A checkpoint that a run wrote is a state that a world of the same scenario takes, wherever the files of the scenario
    lie, and goes on from as the resumed run does; a state that a program saved is no checkpoint of a run. */
 #include "fram/live.h"
+#include "fram/results.h"
 #include "testing.h"
 
 #include <sys/stat.h>
@@ -247,6 +248,39 @@ START_TEST(states_of_other_versions_are_refused)
 }
 END_TEST
 
+/* A state holds no loads of its last step, so that a record from there on has no row of it; the rows that it has are
+   those of the whole run, by which a moment is computed again. */
+START_TEST(a_record_of_a_loaded_world_begins_with_its_first_step)
+{
+    enum { LINE = 1 << 14 };
+    run_half(without_files);
+    fram_scenario *s;
+    fram_world *w = world_in(without_files, top, &s);
+    fram_record_definition d;
+    char late[ROOM], path[ROOM], *line = malloc(LINE), *text = NULL;
+    snprintf(late, sizeof late, "%s/late", top);
+    snprintf(path, sizeof path, "%s/series.csv", late);
+    assert_ok(fram_world_load(w, file, &e), e);
+    fram_record_default(&d);
+    d.folder = late;
+    assert_ok(fram_world_record(w, &d, &e), e);
+    for (int i = 0; i < 30; i++)
+        assert_ok(fram_world_step(w, &e), e);
+    assert_ok(fram_world_record_end(w, NULL, &e), e);
+    close_world(w, s);
+    FILE *f = fopen(path, "r");
+    ck_assert(f && line && fgets(line, LINE, f) && fgets(line, LINE, f) && fclose(f) == 0);
+    ck_assert_msg(strtod(line, NULL) == 0.62, "the first row is of %.20s s", line);
+    free(line);
+    fram_why_definition moment;
+    fram_why_default(&moment);
+    moment.time = 0.9;
+    assert_ok(fram_why(ctx, late, &moment, &text, &e), e);
+    fram_text_free(ctx, text);
+    close_all();
+}
+END_TEST
+
 /* A world that loads it is as failed as the one that saved it, until it loads a good one; no run goes on from it. */
 START_TEST(what_a_failed_world_saves_is_no_good_state)
 {
@@ -376,5 +410,5 @@ END_TEST
 
 TEST_MAIN("saved_states", a_world_goes_on_from_a_checkpoint_as_the_resumed_run, states_of_other_files_are_refused,
           a_run_does_not_go_on_from_a_state_of_a_program, states_of_other_versions_are_refused,
-          what_a_failed_world_saves_is_no_good_state, the_same_state_has_the_same_bytes,
-          damaged_lists_of_files_are_refused)
+          a_record_of_a_loaded_world_begins_with_its_first_step, what_a_failed_world_saves_is_no_good_state,
+          the_same_state_has_the_same_bytes, damaged_lists_of_files_are_refused)
