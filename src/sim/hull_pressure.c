@@ -83,7 +83,7 @@ static fram_status find_last_time(pressure_map *p, fram_error *error)
 {
     double until;
     fram_status status = rerun_run_end(p->ctx, p->o->folder, &until, error);
-    p->end = until > 0 ? until : p->s.run.duration;
+    p->end = until >= 0 ? until : p->s.run.duration;
     p->last = last_step(p);
     if (status == FRAM_OK && p->o->to > p->end + STEP_ROUNDING * p->s.run.time_step)
         log_write(p->ctx, LOG_WARNING, "the run has gone to %.10g s: pressures are up to there, not to %.10g s", p->end,

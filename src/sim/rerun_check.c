@@ -195,7 +195,7 @@ bool rerun_check_awaits(const rerun_check *c, double time)
 
 typedef struct run_end {
     char status[WORD_SIZE], hash[WORD_SIZE];
-    double time, steps; /* steps 0: nothing tells */
+    double time, steps; /* steps -1: nothing tells */
 } run_end;
 
 static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
@@ -229,7 +229,7 @@ static fram_status find_end(context *ctx, const char *folder, run_end *e, fram_e
     char *text = NULL;
     size_t size = 0;
     fram_status status = path_join(folder, "run.json", path, NULL);
-    *e = (run_end){0};
+    *e = (run_end){.steps = -1};
     if (status == FRAM_OK)
         status = file_read(ctx, path, SUMMARY_MOST, &text, &size, NULL);
     if (status == FRAM_OK) {
@@ -242,7 +242,7 @@ static fram_status find_end(context *ctx, const char *folder, run_end *e, fram_e
     bool ended = strcmp(e->status, "finished") == 0 || strcmp(e->status, "stopped") == 0 ||
                  strcmp(e->status, "interrupted") == 0;
     if (status != FRAM_OK || !ended)
-        *e = (run_end){0};
+        *e = (run_end){.steps = -1};
     return FRAM_OK;
 }
 
@@ -256,7 +256,7 @@ fram_status rerun_check_end(const rerun_check *c, const world *w, double time, f
     if (status != FRAM_OK)
         return status;
     snprintf(hash, sizeof hash, "%016" PRIx64, world_hash(w));
-    if (e.steps > 0 && (int64_t)e.steps == w->clock.step[0])
+    if ((int64_t)e.steps == w->clock.step[0])
         return strcmp(hash, e.hash) == 0
                    ? FRAM_OK
                    : error_set(error, FRAM_ERROR_INPUT, c->folder, 0, "state_hash",
@@ -274,8 +274,8 @@ fram_status rerun_run_end(context *ctx, const char *folder, double *time, fram_e
     run_end e;
     rerun_check c;
     fram_status status = find_end(ctx, folder, &e, error);
-    *time = e.time;
-    if (status != FRAM_OK || e.steps > 0)
+    *time = e.steps < 0 ? -1 : e.time;
+    if (status != FRAM_OK || e.steps >= 0)
         return status;
     fram_error reason = {0};
     status = open_series(ctx, folder, &c, &reason);

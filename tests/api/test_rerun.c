@@ -37,7 +37,10 @@ static void close_all(void)
 /* The other speed of the tow that a run is told. */
 static double told_speed = 1.5;
 
-/* The run, told another speed of the tow after `told` of 150 steps. */
+/* The steps that are made at all. */
+static int steps = 150;
+
+/* The run, told another speed of the tow after `told` of its steps. */
 static void record(const char *const *overrides, int count, int told)
 {
     fram_scenario *s;
@@ -50,7 +53,7 @@ static void record(const char *const *overrides, int count, int told)
     d.folder = run;
     d.force = true;
     assert_ok(fram_world_record(w, &d, &e), e);
-    for (int i = 0; i < 150; i++) {
+    for (int i = 0; i < steps; i++) {
         if (i == told) {
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), told_speed, &e), e);
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "wind_x"), 0, &e), e);
@@ -302,6 +305,19 @@ START_TEST(before_a_window_has_passed)
 }
 END_TEST
 
+/* A run that a program ended before its first step has nothing to be computed again. */
+START_TEST(no_step)
+{
+    open_all();
+    steps = 0;
+    record(no_checkpoints, 1, -1);
+    steps = 150;
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "no step ends after 0 s and up to 0 s");
+    assert_fails(why(1, 0), e, FRAM_ERROR_INPUT, "up to 0 s");
+    close_all();
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     open_all();
@@ -330,4 +346,4 @@ END_TEST
 
 TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
           from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
-          memory_runs_out)
+          no_step, memory_runs_out)
