@@ -64,7 +64,12 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
         status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, y->vessel, again, error)
                        : error_memory(error);
         if (status == FRAM_OK)
-            checked = (why_check){true, again->start, again->fork, again->same, again->half_step, again->accurate};
+            checked = (why_check){.done = true,
+                                  .start = again->start,
+                                  .fork = again->fork,
+                                  .same = again->same.load,
+                                  .half_step = {again->half_step.load, again->half_step.wrong},
+                                  .accurate = {again->accurate.load, again->accurate.wrong}};
         detail = detail || !again ? detail : &again->detail;
     }
     int32_t rank = rank_of(y, detail);

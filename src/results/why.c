@@ -56,9 +56,18 @@ const peak_detail *why_recorded_at(const why *y, double time)
     return NULL;
 }
 
+/* Where the run stands; that of one that failed is mostly of the step that went wrong, which has no row. */
+static double last_time(const run_data *d)
+{
+    const double *time = run_channel(d, "time");
+    if (strcmp(d->note.status, "failed") != 0)
+        return d->note.time;
+    return fmax(d->note.time - d->s.run.time_step, time && d->series.rows > 0 ? time[d->series.rows - 1] : 0);
+}
+
 fram_status why_check_time(const why *y, double time, fram_error *error)
 {
-    double end = y->run.note.time;
+    double end = last_time(&y->run);
     if (time > 0 && time <= end * (1 + 1e-12))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "time",
@@ -172,11 +181,14 @@ static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
         text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
 }
 
-static void tell_difference(context *ctx, const char *how, double load, double same, load_unit unit, text_buffer *out)
+static void tell_difference(context *ctx, const char *how, why_method by, double same, load_unit unit, text_buffer *out)
 {
-    double part = same > 0 ? load / same - 1 : 0;
-    text_format(ctx, out, "  %-24s %9.4g %s  %+.1f %%%s\n", how, load * unit.factor, unit.name, 100 * part,
-                fabs(part) > MATTERS ? "  significant" : "");
+    double part = same > 0 ? by.load / same - 1 : 0;
+    if (by.wrong > 0)
+        text_format(ctx, out, "  %-24s went wrong at t = %g s\n", how, by.wrong);
+    else
+        text_format(ctx, out, "  %-24s %9.4g %s  %+.1f %%%s\n", how, by.load * unit.factor, unit.name, 100 * part,
+                    fabs(part) > MATTERS ? "  significant" : "");
 }
 
 static void tell_check(context *ctx, const why_check *c, load_unit unit, text_buffer *out)
@@ -187,7 +199,7 @@ static void tell_check(context *ctx, const why_check *c, load_unit unit, text_bu
     }
     text_format(ctx, out, "\nRecomputed from %g s on, with other methods from %g s; largest averaged load:\n", c->start,
                 c->fork);
-    tell_difference(ctx, "as in the run", c->same, c->same, unit, out);
+    tell_difference(ctx, "as in the run", (why_method){c->same, 0}, c->same, unit, out);
     tell_difference(ctx, "half the time step", c->half_step, c->same, unit, out);
     tell_difference(ctx, "the accurate solver", c->accurate, c->same, unit, out);
     text_format(ctx, out, "  (more than %g %% counts as significant; jams are chaotic, so compare means too)\n",
@@ -293,6 +305,19 @@ static void json_floes(context *ctx, text_buffer *out, const peak_detail *d)
     text_add(ctx, out, "]");
 }
 
+/* A method that went wrong has no load, and tells when that was. */
+static void json_method(context *ctx, text_buffer *out, const char *key, why_method by)
+{
+    char when[40];
+    text_add(ctx, out, ", ");
+    number(ctx, out, key, by.wrong > 0 ? (double)NAN : by.load);
+    if (!(by.wrong > 0))
+        return;
+    snprintf(when, sizeof when, "%s_went_wrong_at", key);
+    text_add(ctx, out, ", ");
+    number(ctx, out, when, by.wrong);
+}
+
 static void json_check(context *ctx, text_buffer *out, const why_check *c)
 {
     text_add(ctx, out, ", \"computed_again\": ");
@@ -306,10 +331,8 @@ static void json_check(context *ctx, text_buffer *out, const why_check *c)
     number(ctx, out, "other_methods_from", c->fork);
     text_add(ctx, out, ", ");
     number(ctx, out, "same", c->same);
-    text_add(ctx, out, ", ");
-    number(ctx, out, "half_step", c->half_step);
-    text_add(ctx, out, ", ");
-    number(ctx, out, "accurate", c->accurate);
+    json_method(ctx, out, "half_step", c->half_step);
+    json_method(ctx, out, "accurate", c->accurate);
     text_add(ctx, out, "}");
 }
 

@@ -7,10 +7,15 @@
 #include "results/peaks.h"
 
 /* What a second computed again by other methods came to; sim/rerun.h. */
+typedef struct why_method {
+    double load;  /* largest averaged load from the fork on [N] */
+    double wrong; /* when it went wrong by this method [s]; 0: it did not */
+} why_method;
 typedef struct why_check {
     bool done;
     double start, fork;
-    double same, half_step, accurate; /* largest averaged load from the fork on [N] */
+    double same; /* load as the run was made [N] */
+    why_method half_step, accurate;
 } why_check;
 
 typedef struct why {

@@ -27,6 +27,7 @@ typedef struct rerun {
     const char *folder;
     scenario s;
     double time;
+    double ran; /* where the run stands, as rerun_run_end [s] */
     int32_t vessel;
     rerun_check check;
     rerun_result *out;
@@ -51,22 +52,44 @@ static fram_status step_same(rerun *r, const model *m, world *w, fram_error *err
     return status == FRAM_OK ? rerun_check_step(&r->check, w, error) : status;
 }
 
-/* Largest averaged load from where the world is to the end, which is half a window after the moment: another method has
-   its peak a little earlier or later. */
-static fram_status follow(rerun *r, const model *m, world *w, bool same, double *largest, fram_error *error)
+/* By another method, which may go wrong where the run did not: that is an answer. */
+static fram_status step_other(rerun *r, const model *m, world *w, double *wrong, fram_error *error)
+{
+    fram_error reason = {0};
+    fram_status status = step_once(r, m, w, &reason);
+    if (status == FRAM_ERROR_SIMULATION) {
+        *wrong = w->clock.time[0];
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK && error)
+        *error = reason;
+    return status;
+}
+
+/* Half a window after the moment, since another method has its peak a little earlier or later; not beyond the last step
+   that the run made, behind which it may have failed. */
+static int64_t last_step_to_follow(const rerun *r, const model *m, const world *w)
+{
+    int64_t end = step_at(r->time, m->time_step), last = end + load_window_length(w) / 2;
+    int64_t ran = r->ran >= 0 ? step_at(r->ran, m->time_step) : last;
+    return ran >= last ? last : ran > end ? ran : end;
+}
+
+/* Largest averaged load from where the world is to the last step. */
+static fram_status follow(rerun *r, const model *m, world *w, bool same, rerun_method *out, fram_error *error)
 {
     fram_status status = FRAM_OK;
-    int64_t end = step_at(r->time, m->time_step);
+    int64_t end = step_at(r->time, m->time_step), last = last_step_to_follow(r, m, w);
     /* From where the window holds nothing but the method's own steps; from the run's start on it never holds others. */
-    int64_t first = w->clock.step[0] + load_window_length(w), last = end + load_window_length(w) / 2;
+    int64_t first = w->clock.step[0] + load_window_length(w);
     if (first > end)
         first = end;
-    *largest = 0;
-    while (status == FRAM_OK && w->clock.step[0] < last) {
-        status = same ? step_same(r, m, w, error) : step_once(r, m, w, error);
+    *out = (rerun_method){0};
+    while (status == FRAM_OK && w->clock.step[0] < last && !(out->wrong > 0)) {
+        status = same ? step_same(r, m, w, error) : step_other(r, m, w, &out->wrong, error);
         vec3 f = load_window_average(w, r->vessel).force;
         if (w->clock.step[0] >= first)
-            *largest = fmax(*largest, sqrt(f.x * f.x + f.y * f.y));
+            out->load = fmax(out->load, sqrt(f.x * f.x + f.y * f.y));
     }
     while (status == FRAM_OK && same && rerun_check_awaits(&r->check, r->time))
         status = step_same(r, m, w, error);
@@ -92,7 +115,7 @@ static fram_status explain(const rerun *r, const model *m, world *w, fram_error 
 }
 
 /* A copy of the world goes on by another method, with its time step or a part of that. */
-static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool accurate, double *largest,
+static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool accurate, rerun_method *out,
                                 fram_error *error)
 {
     scenario s = r->s;
@@ -111,7 +134,7 @@ static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool
         if (parts > 1)
             status = rerun_divide_step(r->ctx, from, parts, &m, &w, error);
         if (status == FRAM_OK)
-            status = follow(r, &m, &w, !accurate && parts == 1, largest, error);
+            status = follow(r, &m, &w, !accurate && parts == 1, out, error);
         world_free(r->ctx, &w);
     }
     model_free(r->ctx, &m);
@@ -186,11 +209,11 @@ static fram_status go_back(rerun *r, const model *m, fram_error *error)
 }
 
 /* From the first step on to the last one of the scenario, or as far as a program took the run beyond that. */
-static fram_status check_moment(const rerun *r, fram_error *error)
+static fram_status check_moment(rerun *r, fram_error *error)
 {
-    double dt = r->s.run.time_step, ran, end = r->s.run.duration;
-    fram_status status = rerun_run_end(r->ctx, r->folder, &ran, error);
-    end = fmax(end, fmax((double)step_at(end, dt) * dt, ran));
+    double dt = r->s.run.time_step, end = r->s.run.duration;
+    fram_status status = rerun_run_end(r->ctx, r->folder, &r->ran, error);
+    end = fmax(end, fmax((double)step_at(end, dt) * dt, r->ran));
     if (status == FRAM_OK && !(r->time >= dt && r->time <= end * (1 + 1e-12)))
         status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "time", "expected a time from %g s to %g s, found %g",
                            dt, end, r->time);

@@ -7,13 +7,17 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
+typedef struct rerun_method {
+    double load;  /* largest averaged load from the fork on [N] */
+    double wrong; /* when the simulation went wrong by this method [s]; 0: it did not */
+} rerun_method;
+
 typedef struct rerun_result {
-    peak_detail detail; /* of the vessel at that time, as peak_watch_explain */
-    double start;       /* of the state that was gone on from [s] */
-    double fork;        /* from here on the others differ: a second and a window before the time [s] */
-    double half_step;   /* largest averaged load from the fork on, with half the time step [N] */
-    double accurate;    /* the same with the accurate solver [N] */
-    double same;        /* the same as the run was made [N] */
+    peak_detail detail;               /* of the vessel at that time, as peak_watch_explain */
+    double start;                     /* of the state that was gone on from [s] */
+    double fork;                      /* from here on the others differ: a second and a window before the time [s] */
+    rerun_method half_step, accurate; /* with half the time step, with the accurate solver */
+    rerun_method same;                /* as the run was made */
 } rerun_result;
 
 /* The state of a run at or before a time, of its nearest checkpoint or as it was built, into an empty world.

@@ -89,6 +89,9 @@ static fram_status pressure(double from, double to)
     return fram_pressure(ctx, run, &d, &e);
 }
 
+static bool as_json;
+static char answer[1 << 14]; /* of why */
+
 static fram_status why(double time, int peak)
 {
     fram_why_definition d;
@@ -96,10 +99,14 @@ static fram_status why(double time, int peak)
     fram_why_default(&d);
     d.time = time;
     d.peak = peak;
+    d.json = as_json;
     fram_status status = fram_why(ctx, run, &d, &text, &e);
+    snprintf(answer, sizeof answer, "%s", text ? text : "");
     fram_text_free(ctx, text);
     return status;
 }
+
+static void assert_told(const char *words) { ck_assert_msg(strstr(answer, words), "no \"%s\" in %s", words, answer); }
 
 static void remove_rows(void)
 {
@@ -305,6 +312,48 @@ START_TEST(before_a_window_has_passed)
 }
 END_TEST
 
+/* A ship that is faster than it may be when it has met a floe. */
+static void run_until_it_fails(const char *speed_limit)
+{
+    static const char ship[] = "run: {duration: 20, time_step: 0.02, transient: 0}\n"
+                               "vessel:\n  mode: free\n  x: -30\n  speed: 1\n"
+                               "  hull: {length: 50, beam: 12, draught: 4, freeboard: 3}\n"
+                               "  hydrodynamics: {source: estimate}\n"
+                               "  propulsion: {bollard_pull: 4.0e5, open_water_speed: 8, speed: 3}\n"
+                               "ice: {source: floes, thickness: 0.3, floes: [{length: 4, width: 10, x: -0.6}]}\n"
+                               "domain: {x_min: -90, x_max: 100, y_min: -50, y_max: 50, boundary: open}\n";
+    fram_scenario *s;
+    fram_run_definition d;
+    fram_run_result result;
+    assert_ok(fram_scenario_parse(ctx, ship, NULL, &speed_limit, 1, &s, &e), e);
+    fram_run_default(&d);
+    d.folder = run;
+    d.force = true;
+    assert_fails(fram_run(s, &d, &result, &e), e, FRAM_ERROR_SIMULATION, "went wrong in step");
+    fram_scenario_destroy(s);
+}
+
+/* The last moments before a run failed are explained, up to the last step that it made; another method may go wrong
+   sooner. */
+START_TEST(up_to_a_failure)
+{
+    open_all();
+    run_until_it_fails("run.speed_limit=1.5");
+    assert_ok(why(0, 1), e);
+    assert_told("Peak 1 of 1: t = 1.92 s");
+    assert_ok(why(1.9, 0), e);
+    assert_fails(why(1.94, 0), e, FRAM_ERROR_INPUT, "up to 1.92 s");
+    run_until_it_fails("run.speed_limit=1.545");
+    assert_ok(why(0, 1), e);
+    assert_told("half the time step       went wrong at t = 2.07 s\n");
+    as_json = true;
+    assert_ok(why(0, 1), e);
+    assert_told("\"half_step\": null, \"half_step_went_wrong_at\": 2.07, \"accurate\": ");
+    as_json = false;
+    close_all();
+}
+END_TEST
+
 /* A run that a program ended before its first step has nothing to be computed again. */
 START_TEST(no_step)
 {
@@ -346,4 +395,4 @@ END_TEST
 
 TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
           from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
-          no_step, memory_runs_out)
+          up_to_a_failure, no_step, memory_runs_out)
