@@ -118,6 +118,15 @@ void peak_list_free(context *ctx, peak_list *list)
 
 double peak_span_before(const scenario *s) { return 5 * sqrt(scenario_size(s)); }
 
+double peak_span_recorded(const run_data *d, double time)
+{
+    const double *row = run_channel(d, "time");
+    double span = peak_span_before(&d->s), from = run_recorded_from(d);
+    if (from > 0 && row && d->series.rows > 0)
+        from = fmin(from, row[0]); /* the first frame may come later */
+    return from > 0 && time - from < span ? fmax(time - from, 0) : span;
+}
+
 peak_breaks peak_breaks_before(const run_data *d, double time)
 {
     peak_breaks b = {.last = (double)NAN};
@@ -183,7 +192,11 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     if (b.splits + b.bendings > 0) {
         text_add(ctx, out, "; in all of the ice ");
         peak_tell_breaks(ctx, &b, out);
-        text_format(ctx, out, " in the %.3g s before", peak_span_before(&run->s));
+        double span = peak_span_recorded(run, d->time);
+        text_format(ctx, out,
+                    span < peak_span_before(&run->s) ? " in the %.3g s since the recording began"
+                                                     : " in the %.3g s before",
+                    span);
     }
     text_add(ctx, out, ".");
 }

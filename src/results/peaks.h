@@ -19,6 +19,8 @@ void peak_list_free(context *ctx, peak_list *list);
 
 /* How far before a peak it is told what broke [s]: five seconds at full size, at other scales by Froude. */
 double peak_span_before(const scenario *s);
+/* How much of it up to a time was recorded: less where a program had the run recorded later [s]. */
+double peak_span_recorded(const run_data *d, double time);
 
 /* The floes that broke in that span up to a time: how many by kind.  Parts of a sheet that came loose did not break. */
 typedef struct peak_breaks {

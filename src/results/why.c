@@ -160,25 +160,41 @@ static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text
         text_add(ctx, out, "  no chain to follow: those floes broke in that step or no longer touched\n");
 }
 
+/* Of rows in a span up to a time. */
+static void tell_residual(const why *y, double until, double span, text_buffer *out)
+{
+    const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
+    double most = -1;
+    int32_t rows = 0;
+    for (int32_t i = 0; time && residual && i < y->run.series.rows; i++) {
+        if (!(time[i] > until - span && time[i] <= until))
+            continue;
+        most = fmax(most, residual[i]);
+        rows++;
+    }
+    if (most < 0)
+        text_add(y->ctx, out, "; series.csv holds no rows of that time, so the solver's residual is unknown\n");
+    else if (run_leaves_out_steps(&y->run))
+        text_format(y->ctx, out, "; the solver's largest residual %.3g m/s in the %d row%s that series.csv has of it\n",
+                    most, (int)rows, rows == 1 ? "" : "s");
+    else
+        text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
+}
+
 static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
 {
     peak_breaks b = peak_breaks_before(&y->run, d->time);
-    double span = peak_span_before(&y->run.s);
-    text_format(y->ctx, out, "\nIn the %.3g s before, in all of the ice: ", span);
+    double span = peak_span_before(&y->run.s), recorded = peak_span_recorded(&y->run, d->time);
+    text_format(y->ctx, out,
+                recorded < span ? "\nSince the recording began, %.3g s before, in all of the ice: "
+                                : "\nIn the %.3g s before, in all of the ice: ",
+                recorded);
     peak_tell_breaks(y->ctx, &b, out);
     if (b.last < d->time)
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
     else if (isfinite(b.last))
         text_add(y->ctx, out, ", the last one in that step");
-    const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
-    double most = -1;
-    for (int32_t i = 0; time && residual && i < y->run.series.rows; i++)
-        if (time[i] > d->time - span && time[i] <= d->time)
-            most = fmax(most, residual[i]);
-    if (most < 0)
-        text_add(y->ctx, out, "; series.csv holds no rows of that time, so the solver's residual is unknown\n");
-    else
-        text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
+    tell_residual(y, d->time, span, out);
 }
 
 static void tell_difference(context *ctx, const char *how, why_method by, double same, load_unit unit, text_buffer *out)
@@ -360,7 +376,8 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
     }
     text_format(ctx, out, "}, \"bodies\": %d", (int)d->bodies);
     json_floes(ctx, out, d);
-    text_format(ctx, out, ", \"bendings_before\": %d, \"splits_before\": %d", (int)b.bendings, (int)b.splits);
+    text_format(ctx, out, ", \"bendings_before\": %d, \"splits_before\": %d, ", (int)b.bendings, (int)b.splits);
+    number(ctx, out, "span_before", peak_span_recorded(&y->run, d->time));
     json_check(ctx, out, check);
     text_add(ctx, out, "}\n");
     return out->failed ? error_memory(error) : FRAM_OK;

@@ -37,8 +37,8 @@ static void close_all(void)
 /* The other speed of the tow that a run is told. */
 static double told_speed = 1.5;
 
-/* The steps that are made at all. */
-static int steps = 150;
+/* The steps that are made at all, and those of them before the recording begins. */
+static int steps = 150, unrecorded;
 
 /* The run, told another speed of the tow after `told` of its steps. */
 static void record(const char *const *overrides, int count, int told)
@@ -52,8 +52,10 @@ static void record(const char *const *overrides, int count, int told)
     fram_record_default(&d);
     d.folder = run;
     d.force = true;
+    for (int i = 0; i < unrecorded; i++)
+        assert_ok(fram_world_step(w, &e), e);
     assert_ok(fram_world_record(w, &d, &e), e);
-    for (int i = 0; i < steps; i++) {
+    for (int i = unrecorded; i < steps; i++) {
         if (i == told) {
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), told_speed, &e), e);
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "wind_x"), 0, &e), e);
@@ -367,6 +369,28 @@ START_TEST(no_step)
 }
 END_TEST
 
+/* What is not known of the time before a recording is told as that, and what rows leave out. */
+START_TEST(recorded_from_later_on)
+{
+    static const char *const far_apart[] = {"output.checkpoint_interval=0", "output.csv_interval=1"};
+    open_all();
+    unrecorded = 75;
+    record(no_checkpoints, 1, -1);
+    assert_ok(why(2.9, 0), e);
+    assert_told("\nSince the recording began, 1.4 s before, in all of the ice: 0 breaks");
+    as_json = true;
+    assert_ok(why(2.9, 0), e);
+    ck_assert_double_eq_tol(told_number(answer, "span_before"), 1.4, 1e-9);
+    as_json = false;
+    unrecorded = 0;
+    record(far_apart, 2, -1);
+    assert_ok(why(2.9, 0), e);
+    assert_told("\nIn the 5 s before, in all of the ice: 0 breaks");
+    assert_told(" m/s in the 2 rows that series.csv has of it\n");
+    close_all();
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     open_all();
@@ -395,4 +419,4 @@ END_TEST
 
 TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
           from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
-          up_to_a_failure, no_step, memory_runs_out)
+          up_to_a_failure, no_step, recorded_from_later_on, memory_runs_out)

@@ -45,4 +45,25 @@ START_TEST(parts_that_came_loose_are_no_breaks)
 }
 END_TEST
 
-TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks)
+/* Of a recording that began late nothing is known of the time before. */
+START_TEST(breaks_before_a_recording_are_not_known)
+{
+    static double time[] = {8.4, 8.42}, broke[] = {9}, kind[] = {FRACTURE_SPLIT};
+    static peak_detail peak = {.time = 10, .load = 1000, .window = 0.5, .mechanism = {1000}};
+    csv_table_column row = {.name = "time", .value = {time, 2, 2}};
+    csv_table_column columns[] = {{.name = "time", .value = {broke, 1, 1}}, {.name = "kind", .value = {kind, 1, 1}}};
+    run_data d = {.s.run = {.scale = 30, .time_step = 0.02},
+                  .series = {.columns = {&row, 1, 1}, .rows = 2},
+                  .fractures = {.columns = {columns, 2, 2}, .rows = 1}};
+    context ctx;
+    text_buffer out = {0};
+    context_init(&ctx);
+    assert_absolute(peak_span_recorded(&d, 10), 1.6, 1e-12);
+    ck_assert_double_eq(peak_span_recorded(&d, 13.5), 5);
+    peak_sentence(&ctx, &d, &peak, &out);
+    ck_assert_msg(strstr(out.data, "1 split in the 1.6 s since the recording began."), "%s", out.data);
+    text_free(&ctx, &out);
+}
+END_TEST
+
+TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks, breaks_before_a_recording_are_not_known)
