@@ -30,8 +30,21 @@ void why_close(why *y)
     run_data_free(y->ctx, &y->run);
 }
 
+/* Peaks are told of whole windows.  From the first row of a recording that began late on. */
+static bool is_shorter_than_a_window(const run_data *d)
+{
+    double from = run_recorded_from(d);
+    return from > 0 && d->note.time - from < scenario_averaging_window(&d->s) - 0.5 * d->s.run.time_step;
+}
+
 fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error)
 {
+    const run_data *run = &y->run;
+    if (y->peaks.count == 0 && is_shorter_than_a_window(run))
+        return error_set(error, FRAM_ERROR_INPUT, run->folder, 0, "peak",
+                         "the run keeps no peaks: it was recorded from %g s to %g s, and a peak is told of a whole "
+                         "averaging window of %g s; name a moment by its time, which is computed again",
+                         run_recorded_from(run), run->note.time, scenario_averaging_window(&run->s));
     if (y->peaks.count == 0)
         return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
                          "the run keeps no peaks of this vessel: it met no ice after its transient of %g s, it was "

@@ -382,6 +382,9 @@ START_TEST(recorded_from_later_on)
     assert_ok(why(2.9, 0), e);
     ck_assert_double_eq_tol(told_number(answer, "span_before"), 1.4, 1e-9);
     as_json = false;
+    unrecorded = 130;
+    record(no_checkpoints, 1, -1);
+    assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "recorded from 2.6 s to 3 s, and a peak is told of a whole averaging");
     unrecorded = 0;
     record(far_apart, 2, -1);
     assert_ok(why(2.9, 0), e);
