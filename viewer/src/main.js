@@ -19,15 +19,16 @@ const MARKED = 10; // seconds that a fracture stays marked
 const GAP = 12, LEAST_PANEL = 150; // from the legend to the panel of a peak under it, and what that asks for [px]
 
 class Player {
-    constructor(record) {
+    /** @param live of a run that goes on: the view begins at its end, and so goes on with it. */
+    constructor(record, live = false) {
         this.record = record;
         const files = 1 + record.frames.reduce((most, f) => Math.max(most, f.chunk ?? -1), -1);
         this.chunks = new Chunks($('record').dataset.beside, files, () => this.arrived(),
             (name) => this.lose(name));
         this.store = new FrameStore(record, this.chunks);
         this.poses = new Poses(record, this.store);
-        this.time = record.frames[0].time;
         this.end = record.frames.at(-1).time;
+        this.time = live ? this.end : record.frames[0].time;
         this.playing = false;
         this.picked = null;
         this.dirty = true;
@@ -408,7 +409,7 @@ function watch(address) {
     waiting.hidden = false;
     const begin = (grown) => {
         waiting.textContent = 'loading ...';
-        window.fram = new Player(grown);
+        window.fram = new Player(grown, true);
         return window.fram;
     };
     follow(address, begin, (text) => { waiting.hidden = true; tell(text); });
