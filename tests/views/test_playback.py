@@ -336,23 +336,26 @@ def check_tank(browser, folder):
     most = max(math.hypot(r["ice_force_averaged_x[N]"], r["ice_force_averaged_y[N]"]) for r in rows)
     assert 0.1 < most < 1e3, f"loads of {most} N are not those of a model"
     told = browser.run("document.getElementById('load').textContent")
-    found = re.fullmatch(r"averaged ice force: X (-?[0-9.]+) kN, Y (-?[0-9.]+) kN", told)
-    told_x, x = 1e3 * float(found[1] if found else "nan"), rows[-1]["ice_force_averaged_x[N]"]
+    found = re.fullmatch(r"averaged ice force: X (-?[0-9.]+) N, Y (-?[0-9.]+) N", told)
+    told_x, x = float(found[1] if found else "nan"), rows[-1]["ice_force_averaged_x[N]"]
     assert math.isclose(told_x, x, abs_tol=0.005 * most), (told, x)
     unit, ends = browser.run("[fram.legend.content.unit, fram.legend.content.ends]")
     assert unit == "contact force [N]" and 0.1 < ends[1] < 100, (unit, ends)
+    words = browser.run("fram.legend.words(fram.seen())")
+    assert re.search(r"; [0-9.]+ m: [0-9.]+ N(;|$)", words), words
     # The same of loads of any size.
     told = browser.run("""(() => { const { timeline, colours } = fram, { most } = timeline, { force } = colours.ranges;
-        const out = [0, 0.3, 2.345, 41, 37000].map((m) => (timeline.most = m, fram.loadText(-290)));
+        const out = [0, 0.0023, 0.3, 9.9, 10, 41, 37000].map((m) => (timeline.most = m, fram.loadText(-290)));
         timeline.most = most;
-        for (const end of [1, 999, 3.7e7]) {
+        for (const end of [9, 10, 999, 3.7e7]) {
             colours.ranges.force = [0, end];
             out.push(Object.values(colours.scale('force')).join());
         }
         colours.ranges.force = force;
         return out; })()""")
-    assert told[:5] == ["0 kN", "-0.290 kN", "-0.29 kN", "-0.3 kN", "0 kN"], told
-    assert told[5:] == ["contact force [kN],0,1", "contact force [kN],0,999", "contact force [MN],0,37000"], told
+    assert told[:7] == ["0 kN", "-290.00 N", "-290 N", "-290 N", "-0.3 kN", "-0.3 kN", "0 kN"], told
+    assert told[7:] == ["contact force [N],0,9000", "contact force [kN],0,10", "contact force [kN],0,999",
+                        "contact force [MN],0,37000"], told
     assert browser.run("fram.colours.ranges.force[1]") < 0.1, "no floe takes a colour"
     wide = browser.run("fram.scene.box.max.x - fram.scene.box.min.x")
     assert wide < 10, f"{wide} m for a tank of 5 m: the model is lost in it"

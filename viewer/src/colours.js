@@ -1,6 +1,7 @@
 // What stands for a number in the scene: the colours of bodies and the lengths of arrows, and how far each scale goes.
 // Knows no drawing.
 import * as THREE from 'three';
+import { forceUnit } from './legend.js';
 import { forcesOf } from './record.js';
 import { own } from './scene.js';
 
@@ -101,8 +102,8 @@ export class Colours {
     /** What the colours of a mode tell, with its unit, and their ends in it: of a force N, kN or MN as its end asks. */
     scale(mode) {
         const ends = [...this.ranges[mode] ?? [0, 1]], unit = UNITS[mode];
-        if (mode !== 'force' || (ends[1] >= 1 && ends[1] < 1000)) return { unit, ends };
-        const [name, per] = ends[1] < 1 ? ['N', 1000] : ['MN', 0.001];
+        if (mode !== 'force') return { unit, ends };
+        const [name, per] = forceUnit(ends[1]);
         return { unit: unit.replace('kN', name), ends: ends.map((end) => end * per) };
     }
 

@@ -15,9 +15,15 @@ export const CHAIN = '#111111', BEHIND = '#7a7f3a';
 /** Of a line that parted, a thruster that failed. */
 export const GONE = '#d62728';
 
-/** A number with its unit, kilo or mega as fits. */
+/** The unit in which a force is told, and how many of it a kilonewton has: newtons where four digits do. */
+export function forceUnit(kilonewton) {
+    return kilonewton < 10 ? ['N', 1000] : kilonewton < 1000 ? ['kN', 1] : ['MN', 0.001];
+}
+
+/** A number with its unit. */
 export function forceText(kilonewton) {
-    return kilonewton >= 1000 ? `${(kilonewton / 1000).toPrecision(3)} MN` : `${kilonewton.toPrecision(3)} kN`;
+    const [name, per] = forceUnit(kilonewton), value = kilonewton * per;
+    return `${value < 999.5 ? value.toPrecision(3) : value.toFixed(0)} ${name}`;
 }
 
 /** As many digits as it needs, two after the point at most. */

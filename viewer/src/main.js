@@ -3,7 +3,7 @@ import { Camera } from './camera.js';
 import { Colours, RAMP, ramp } from './colours.js';
 import { Film } from './film.js';
 import { History } from './history.js';
-import { Legend, secondsText } from './legend.js';
+import { forceUnit, Legend, secondsText } from './legend.js';
 import { follow } from './live.js';
 import { Loads } from './loads.js';
 import { $, tell } from './page.js';
@@ -377,11 +377,13 @@ class Player {
         return true;
     }
 
-    /** Kilonewtons with as many digits as the largest load at the frames asks for to have three; never "-0". */
+    /** Kilonewtons, or newtons where the largest load at the frames is told in them, with as many digits as that asks
+     *  for to have three; never "-0". */
     loadText(newton) {
-        const { most } = this.timeline, places = most > 0 ? 2 - Math.floor(Math.log10(most)) : 0;
+        const { most } = this.timeline, small = most > 0 && forceUnit(most)[0] === 'N', per = small ? 1 : 0.001;
+        const places = most > 0 ? 2 - Math.floor(Math.log10(small ? 1000 * most : most)) : 0;
         const digits = Math.min(20, Math.max(0, places));
-        return `${(Number((newton / 1000).toFixed(digits)) || 0).toFixed(digits)} kN`;
+        return `${(Number((newton * per).toFixed(digits)) || 0).toFixed(digits)} ${small ? 'N' : 'kN'}`;
     }
 
     tell(state) {
