@@ -3,6 +3,7 @@
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
 #include "results/report.h"
+#include "results/run_channels.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
 
@@ -74,13 +75,6 @@ static const struct {
     {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
 };
 
-/* The same angle [deg], by as many turns more or less that it is next to the other one: 180.1 for -179.9 beside 179. */
-static double turned_next_to(double other, double angle)
-{
-    double turns = floor((other - angle) / 360 + 0.5);
-    return isfinite(turns) ? angle + 360 * turns : angle;
-}
-
 /* One measure of a channel in both runs; vessel: its name before a colon, or "". */
 static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
 {
@@ -89,7 +83,7 @@ static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
     for (int k = 0; k < 2; k++)
         value[k] = measure_of(&p->d[k], channel, rows[i].what) * rows[i].factor;
     if (strcmp(rows[i].unit, "deg") == 0)
-        value[1] = turned_next_to(value[0], value[1]);
+        value[1] = angle_next_to(value[0], value[1]);
     snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
     add_row(p, name, rows[i].unit, strncmp(rows[i].channel, "position_", 9) == 0, value);
 }

@@ -2,7 +2,7 @@
 
 #include "io/chart.h"
 #include "io/csv_read.h"
-#include "results/run_data.h"
+#include "results/run_channels.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ typedef struct plot {
     int32_t count;
     const double *time;
     int32_t first, rows;
-    ARRAY(double *) kept; /* values in a larger unit */
+    ARRAY(double *) kept; /* values in a larger unit, and angles that go on */
 } plot;
 
 static panel *panel_of(plot *p, const char *unit)
@@ -50,7 +50,48 @@ static void choose_rows(plot *p, double from, double to, int32_t rows)
    dashed. */
 static int line_colour(int32_t n) { return 1 + (n + 1) % CHART_COLOURS + n / CHART_COLOURS * CHART_COLOURS; }
 
-static fram_status add_channel(plot *p, const run_data *d, const char *name, fram_error *error)
+/* Room for values of a line, kept with the plot; NULL: no memory. */
+static double *keep_values(context *ctx, plot *p, int32_t count)
+{
+    double *y = memory_array(ctx, (size_t)count, sizeof *y);
+    if (y && array_push(ctx, &p->kept, y))
+        return y;
+    memory_free(ctx, y);
+    return NULL;
+}
+
+static bool is_heading(const char *name)
+{
+    const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
+    return strcmp(own, "yaw") == 0 || strcmp(own, "estimated_heading") == 0;
+}
+
+/* Of the headings that the panel has, the first value of the first one; NaN without. */
+static double first_heading(const panel *at)
+{
+    for (int32_t i = 0; i < at->count; i++)
+        if (is_heading(at->lines[i].name))
+            return at->lines[i].y[0];
+    return (double)NAN;
+}
+
+/* Channels have angles up to half a turn: one that goes on beyond it would jump across the whole panel.  Each is drawn
+   next to the one before it, and headings begin next to each other. */
+static fram_status go_on_turning(context *ctx, plot *p, const panel *at, chart_line *line, fram_error *error)
+{
+    double before = is_heading(line->name) ? first_heading(at) : (double)NAN;
+    double *y = keep_values(ctx, p, line->count);
+    if (!y)
+        return error_memory(error);
+    for (int32_t k = 0; k < line->count; k++) {
+        y[k] = angle_next_to(before, line->y[k]);
+        before = isfinite(y[k]) ? y[k] : before;
+    }
+    line->y = y;
+    return FRAM_OK;
+}
+
+static fram_status add_channel(context *ctx, plot *p, const run_data *d, const char *name, fram_error *error)
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
     if (!c)
@@ -58,6 +99,8 @@ static fram_status add_channel(plot *p, const run_data *d, const char *name, fra
     panel *at = panel_of(p, c->unit);
     chart_line line = chart_line_make(c->name, p->time + p->first, c->value.data + p->first, p->rows, true);
     line.colour = line_colour(at->count);
+    if (strcmp(c->unit, "deg") == 0 && p->rows > 0 && go_on_turning(ctx, p, at, &line, error) != FRAM_OK)
+        return FRAM_ERROR_MEMORY;
     at->lines[at->count++] = line;
     return FRAM_OK;
 }
@@ -90,11 +133,9 @@ static fram_status take_prefix(context *ctx, plot *p, panel *at, const char **pr
         return FRAM_OK;
     *prefix = most >= 1e7 ? "M" : "k";
     for (int32_t i = 0; i < at->count; i++) {
-        double *y = memory_array(ctx, (size_t)at->lines[i].count, sizeof *y);
-        if (!y || !array_push(ctx, &p->kept, y)) {
-            memory_free(ctx, y);
+        double *y = keep_values(ctx, p, at->lines[i].count);
+        if (!y)
             return error_memory(error);
-        }
         for (int32_t k = 0; k < at->lines[i].count; k++)
             y[k] = factor * at->lines[i].y[k];
         at->lines[i].y = y;
@@ -142,7 +183,7 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
     if (status == FRAM_OK && p.time)
         choose_rows(&p, from, to, d.series.rows);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-        status = add_channel(&p, &d, channels[i], error);
+        status = add_channel(ctx, &p, &d, channels[i], error);
     if (status == FRAM_OK && p.rows == 0)
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the run has no row between these times");
     if (status == FRAM_OK)

@@ -44,3 +44,9 @@ bool run_equivalent_range(context *ctx, const run_data *d, const double *value, 
     rainflow_free(ctx, &cycles);
     return good;
 }
+
+double angle_next_to(double other, double angle)
+{
+    double turns = floor((other - angle) / 360 + 0.5);
+    return isfinite(turns) ? angle + 360 * turns : angle;
+}

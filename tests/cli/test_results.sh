@@ -318,6 +318,23 @@ if [ $pictures = yes ]; then
     expect 2 "$FRAM" plot run averaged_x -o no.png
     says "did you mean ice_force_averaged_x?" err
     expect 2 "$FRAM" plot run roll -o no.png --from 9
+    # Headings about 180 degrees are drawn next to each other, whichever side of it they are on.
+    for case in jumps goes_on; do
+        cp -r run $case
+        python3 - $case <<'PY'
+import csv, sys
+head, *rows = csv.reader(open("run/series.csv"))
+other = -179.9 if sys.argv[1] == "jumps" else 180.1
+yaw, pitch = head.index("yaw[deg]"), head.index("pitch[deg]")
+head[pitch] = "estimated_heading[deg]"
+for k, row in enumerate(rows):
+    row[yaw], row[pitch] = (179.9, other) if k % 2 == 0 else (other, 179.9)
+csv.writer(open(sys.argv[1] + "/series.csv", "w"), lineterminator="\n").writerows([head, *rows])
+PY
+        expect 0 "$FRAM" plot $case yaw estimated_heading roll -o $case.svg
+    done
+    cmp jumps.svg goes_on.svg || fail "headings jump across the plot at 180 degrees"
+    rm -r jumps goes_on
 fi
 expect 2 "$FRAM" plot run roll
 says "--output" err

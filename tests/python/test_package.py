@@ -538,6 +538,8 @@ ice: {source: none}
                 drawn = np.transpose([columns["time"], columns[name]])
                 np.testing.assert_array_equal(line.get_xydata(), drawn)
                 self.assertEqual(line.get_label(), f"{name} [{run.units[name]}]")
+            np.testing.assert_allclose(fram.runs._going_on(np.array([179.9, -179.9, np.nan, 179, 0, -179, 170])),
+                                       [179.9, 180.1, np.nan, 179, 0, -179, -190])
             with self.assertRaises(fram.InputError):
                 run.plot("no_such")
             self.assertEqual(len(run.plot_field(0.5).collections), 1)

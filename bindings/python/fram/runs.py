@@ -113,6 +113,14 @@ def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[st
     return {name: table[:, i] for i, name in enumerate(units)}, units
 
 
+def _going_on(angles: np.ndarray) -> np.ndarray:
+    """Angles [deg] without the jump at half a turn."""
+    known, values = np.isfinite(angles), angles.copy()
+    turns = np.round(np.diff(angles[known], prepend=angles[known][:1]) / 360)
+    values[known] -= 360 * np.cumsum(turns)
+    return values
+
+
 def _last_time(path: pathlib.Path) -> Optional[float]:
     """Time of the last whole row [s]; None without rows."""
     with _open_text(path) as file:
@@ -258,7 +266,8 @@ class Run:
                 raise InputError("input", "the run has no such channel", key=name)
         axes = axes if axes is not None else pyplot.figure(figsize=(8, 3)).gca()
         for name in names:
-            axes.plot(columns["time"], columns[name], label=f"{name} [{units[name]}]", linewidth=1)
+            values = _going_on(columns[name]) if units[name] == "deg" else columns[name]
+            axes.plot(columns["time"], values, label=f"{name} [{units[name]}]", linewidth=1)
         axes.set_xlabel("time [s]")
         axes.legend()
         return axes
