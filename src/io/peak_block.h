@@ -12,8 +12,8 @@ enum { PEAK_ZONES = 5 };
 /* A body that loads the vessel: means over the averaging window. */
 typedef struct peak_floe {
     int32_t number, slot;         /* running number of the floe, -1: a wall or another vessel; slot in the record */
-    uint8_t mechanism;            /* the one with the largest part */
-    uint8_t zone;                 /* where the largest part is */
+    uint8_t mechanism;            /* the one with the largest part in the direction of their sum */
+    uint8_t zone;                 /* where the largest part is, likewise */
     uint8_t links;                /* of its chain, in peak_detail.link: this floe first; 0: not followed */
     uint8_t end;                  /* enum chain_end, with links */
     vec3 force, point;            /* on the vessel [N]; weighted by the sizes of the contacts' forces [m] */

@@ -209,11 +209,16 @@ static void add_share(body_sum *b, const ice_share *s, vec3 along, double scale,
     d->zone[s->zone][MECHANISM_FRICTION] += of_friction;
 }
 
+/* The largest in the direction of their sum: a floe may push against the load. */
 static int32_t largest(const double *value, int32_t count)
 {
+    double sum = 0;
+    for (int32_t i = 0; i < count; i++)
+        sum += value[i];
+    double sign = sum < 0 ? -1 : 1;
     int32_t best = 0;
     for (int32_t i = 1; i < count; i++)
-        best = value[i] > value[best] ? i : best;
+        best = sign * value[i] > sign * value[best] ? i : best;
     return best;
 }
 

@@ -149,6 +149,51 @@ START_TEST(parts_of_a_long_window_add_up)
 }
 END_TEST
 
+/* Two floes hold the hull up, and one helps it on: its three parts are all against the load, at two zones. */
+START_TEST(a_floe_that_pushes_against_the_load_does_so_by_its_largest_part)
+{
+    static const struct {
+        int32_t floe;
+        uint8_t mechanism, zone;
+        double normal, friction; /* against the hull's way */
+    } share[] = {{5, MECHANISM_CRUSHING, ZONE_BOW, 20e3, 500},
+                 {6, MECHANISM_IMPACT, ZONE_BOW, -605, 0},
+                 {6, MECHANISM_CRUSHING, ZONE_BOW, -2819, 0},
+                 {6, MECHANISM_ACCUMULATION, ZONE_STERN, -3549, 0},
+                 {7, MECHANISM_ACCUMULATION, ZONE_STERN, -3413, 297}};
+    enum { SHARES = sizeof share / sizeof *share };
+    scene k;
+    peak_watch p;
+    peak_detail d;
+    scene_open(&k, text);
+    scene_steps(&k, 1);
+    peak_watch_init(&k.ctx, 0.02, 0, &p);
+    ck_assert(array_resize(&k.ctx, &k.w.scratch.shares, SHARES));
+    vec3 sum = {0, 0, 0};
+    for (int i = 0; i < SHARES; i++) {
+        k.w.scratch.shares.data[i] = (ice_share){.floe = share[i].floe, .patch = -1, .body = share[i].floe};
+        ice_share *c = &k.w.scratch.shares.data[i];
+        c->mechanism = share[i].mechanism;
+        c->zone = share[i].zone;
+        c->normal = vec3_make(-share[i].normal, 0, 0);
+        c->friction = vec3_make(-share[i].friction, 0, 0);
+        sum = vec3_add(sum, vec3_add(c->normal, c->friction));
+    }
+    k.w.load_window.force[load_window_row(&k.w, 0, 0)] = sum;
+    assert_ok(peak_watch_keep(&p, &k.w, &e), e);
+    assert_ok(peak_watch_explain(&p, &k.w, 0, &d, &e), e);
+    ck_assert_int_eq(d.floe_count, 3);
+    ck_assert_int_eq(d.floe[0].mechanism, MECHANISM_CRUSHING);
+    for (int i = 1; i < 3; i++) { /* the lesser push first */
+        ck_assert_int_eq(d.floe[i].number, 8 - i);
+        ck_assert_int_eq(d.floe[i].mechanism, MECHANISM_ACCUMULATION);
+        ck_assert_int_eq(d.floe[i].zone, ZONE_STERN);
+    }
+    peak_watch_free(&p);
+    scene_close(&k);
+}
+END_TEST
+
 /* Restores or is refused; after that it is a fresh watch, which goes on. */
 static bool is_taken(scene *k, const byte_array *bytes)
 {
@@ -241,4 +286,5 @@ START_TEST(a_recording_that_begins_late_explains_whole_peaks)
 END_TEST
 
 TEST_MAIN("peak_state", what_is_restored_goes_on_as_what_was_saved, parts_of_a_long_window_add_up,
-          bytes_that_are_no_state_are_refused, a_recording_that_begins_late_explains_whole_peaks)
+          a_floe_that_pushes_against_the_load_does_so_by_its_largest_part, bytes_that_are_no_state_are_refused,
+          a_recording_that_begins_late_explains_whole_peaks)
