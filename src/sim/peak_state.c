@@ -64,23 +64,45 @@ static void detail(byte_stream *s, peak_detail *d)
         s->bad = !peak_block_unpack(room, (size_t)size, s->watch->origin, d) || d->vessel >= s->watch->vessels.count;
 }
 
+/* What it rose to, and what carried it where it is kept, or may be. */
+static void peak(byte_stream *s, vessel_peaks *v, load_peak *k, bool kept)
+{
+    finite_real(s, &k->time);
+    finite_real(s, &k->value);
+    if (!s->out) {
+        k->room = v->detail.count;
+        s->full = s->full || !array_push(s->watch->ctx, &v->detail, (peak_detail){0});
+    }
+    if (goes(s) && (kept || peak_picker_may_keep(&v->picker, k)))
+        detail(s, &v->detail.data[k->room]);
+}
+
+static void recent(byte_stream *s, peak_picker *p)
+{
+    whole(s, &p->recent_count, p->recent.count);
+    for (int32_t i = 0; i < p->recent_count && goes(s); i++) {
+        load_value *value = peak_picker_recent(p, i);
+        finite_real(s, &value->time);
+        finite_real(s, &value->value);
+    }
+}
+
 static void peaks(byte_stream *s, vessel_peaks *v)
 {
     peak_picker *p = &v->picker;
     int32_t open = p->open;
     finite_real(s, &p->from);
-    finite_real(s, &p->last);
     whole(s, &p->count, PEAKS_KEPT);
-    for (int32_t i = 0; i < p->count && goes(s); i++) {
-        detail(s, &v->kept[i]);
-        p->kept[i] = (load_peak){v->kept[i].time, v->kept[i].load};
-    }
+    for (int32_t i = 0; i < p->count && goes(s); i++)
+        peak(s, v, &p->kept[i], true);
+    whole(s, &p->awaited_count, PEAKS_AWAITED);
+    for (int32_t i = 0; i < p->awaited_count && goes(s); i++)
+        peak(s, v, &p->awaited[i], false);
     whole(s, &open, 1);
     p->open = open;
-    finite_real(s, &p->candidate.time);
-    finite_real(s, &p->candidate.value);
     if (open)
-        detail(s, &v->candidate);
+        peak(s, v, &p->candidate, false);
+    recent(s, p);
 }
 
 static void share(byte_stream *s, const world *w, ice_share *c)
@@ -124,9 +146,15 @@ static void steps(byte_stream *s, const world *w)
         p->next = p->filled % p->ring.count;
 }
 
+/* Of these bytes; those of before had none, and begin with another number. */
+enum { STATE_LAYOUT = 2 };
+
 static void state(byte_stream *s, const world *w)
 {
     peak_watch *p = s->watch;
+    int32_t layout = STATE_LAYOUT;
+    whole(s, &layout, INT32_MAX);
+    s->bad = s->bad || layout != STATE_LAYOUT;
     for (int32_t v = 0; v < p->vessels.count && goes(s); v++)
         peaks(s, &p->vessels.data[v]);
     steps(s, w);

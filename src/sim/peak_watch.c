@@ -21,12 +21,21 @@ void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p)
     *p = (peak_watch){.ctx = ctx, .time_step = time_step, .from = from};
 }
 
+static void free_vessels(peak_watch *p)
+{
+    for (int32_t v = 0; v < p->vessels.count; v++) {
+        peak_picker_free(p->ctx, &p->vessels.data[v].picker);
+        array_free(p->ctx, &p->vessels.data[v].detail);
+    }
+    array_free(p->ctx, &p->vessels);
+}
+
 void peak_watch_free(peak_watch *p)
 {
     for (int32_t i = 0; i < p->ring.count; i++)
         array_free(p->ctx, &p->ring.data[i]);
     array_free(p->ctx, &p->ring);
-    array_free(p->ctx, &p->vessels);
+    free_vessels(p);
 }
 
 /* The fewest steps a row that so many rows hold a window of, wherever in the newest one it ends. */
@@ -48,6 +57,20 @@ static int64_t known_steps(const peak_watch *p)
     return p->filled > 0 ? (int64_t)(p->filled - 1) * p->block + p->within : 0;
 }
 
+static bool begin_vessels(peak_watch *p, int32_t vessels)
+{
+    free_vessels(p);
+    for (int32_t v = 0; v < vessels; v++) {
+        vessel_peaks fresh = {0};
+        if (!peak_picker_init(p->ctx, PEAK_SEPARATION * p->window, p->from, (int32_t)p->steps, &fresh.picker) ||
+            !array_push(p->ctx, &p->vessels, fresh)) {
+            peak_picker_free(p->ctx, &fresh.picker);
+            return false;
+        }
+    }
+    return true;
+}
+
 bool peak_watch_begin(peak_watch *p, const world *w)
 {
     int64_t steps = load_window_length(w);
@@ -55,19 +78,13 @@ bool peak_watch_begin(peak_watch *p, const world *w)
         return true;
     p->block = block_of(steps);
     p->window = (double)steps * p->time_step;
-    if (!array_resize(p->ctx, &p->vessels, w->vessels.count))
-        return false;
-    for (int32_t v = 0; v < p->vessels.count; v++) {
-        peak_picker_init(&p->vessels.data[v].picker, PEAK_SEPARATION * p->window, p->from);
-        p->vessels.data[v].candidate = (peak_detail){.vessel = v}; /* none is explained before `from` */
-    }
+    p->steps = steps;
     int32_t had = p->ring.count;
     if (!array_resize(p->ctx, &p->ring, ring_rows(steps, p->block)))
         return false;
     for (int32_t i = had; i < p->ring.count; i++)
         p->ring.data[i] = (ice_share_array){0};
-    p->steps = steps;
-    return true;
+    return begin_vessels(p, w->vessels.count);
 }
 
 bool peak_watch_await(peak_watch *p, const world *w)
@@ -348,15 +365,16 @@ fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_det
 
 /* ---- the largest ones ---- */
 
-static void keep_detail(vessel_peaks *v, int32_t at)
+/* The room of the candidate. */
+static bool has_room(peak_watch *p, vessel_peaks *v)
 {
-    if (at < 0)
-        return;
-    size_t after = (size_t)(v->picker.count - 1 - at);
-    memmove(&v->kept[at + 1], &v->kept[at], after * sizeof *v->kept);
-    v->kept[at] = v->candidate;
+    bool good = true;
+    while (good && v->detail.count <= v->picker.candidate.room)
+        good = array_push(p->ctx, &v->detail, (peak_detail){0});
+    return good;
 }
 
+/* What is not explained as it rises is not among the largest, and never will be. */
 fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
 {
     fram_status status = peak_watch_keep(p, w, error);
@@ -364,9 +382,11 @@ fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++) {
         vessel_peaks *peaks = &p->vessels.data[v];
         vec3 force = load_window_average(w, v).force;
-        keep_detail(peaks, peak_picker_settles(&peaks->picker, time));
-        if (peak_picker_rises(&peaks->picker, time, sqrt(force.x * force.x + force.y * force.y)))
-            status = peak_watch_explain(p, w, v, &peaks->candidate, error);
+        if (!peak_picker_rises(&peaks->picker, time, sqrt(force.x * force.x + force.y * force.y)))
+            continue;
+        if (!has_room(p, peaks))
+            return error_memory(error);
+        status = peak_watch_explain(p, w, v, &peaks->detail.data[peaks->picker.candidate.room], error);
     }
     return status;
 }
@@ -380,15 +400,16 @@ static fram_status append_peak(record_writer *file, unsigned char *room, vec2 or
     return record_append(file, BLOCK_PEAK, &part, 1, error);
 }
 
+/* As if the load ended now. */
 static fram_status append_vessel(record_writer *file, unsigned char *room, vec2 origin, const vessel_peaks *v,
                                  fram_error *error)
 {
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < v->picker.count && status == FRAM_OK; i++)
-        status = append_peak(file, room, origin, &v->kept[i], error);
-    /* Explained when it would be kept. */
-    bool large = peak_picker_keeps(&v->picker);
-    return status == FRAM_OK && large ? append_peak(file, room, origin, &v->candidate, error) : status;
+    peak_picker end = v->picker;
+    peak_picker_ends(&end);
+    for (int32_t i = 0; i < end.count && status == FRAM_OK; i++)
+        status = append_peak(file, room, origin, &v->detail.data[end.kept[i].room], error);
+    return status;
 }
 
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)

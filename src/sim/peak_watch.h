@@ -12,8 +12,7 @@ typedef ARRAY(ice_share) ice_share_array;
 
 typedef struct vessel_peaks {
     peak_picker picker;
-    peak_detail kept[PEAKS_KEPT]; /* row i explains picker.kept[i] */
-    peak_detail candidate;
+    ARRAY(peak_detail) detail; /* by the rooms of the picker's peaks: as many as ever waited together */
 } vessel_peaks;
 
 typedef struct peak_watch {
