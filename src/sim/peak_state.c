@@ -149,6 +149,24 @@ static void steps(byte_stream *s, const world *w)
 /* Of these bytes; those of before had none, and begin with another number. */
 enum { STATE_LAYOUT = 2 };
 
+static void trims(byte_stream *s, const world *w)
+{
+    floe_trim_array *a = &s->watch->trims;
+    int32_t count = a->count, last = w->bodies.count - 1;
+    whole(s, &count, INT32_MAX);
+    for (int32_t i = 0; i < count && goes(s); i++) {
+        floe_trim t = s->out ? a->data[i] : (floe_trim){0};
+        int32_t had = t.had + 1; /* -1: none */
+        bytes(s, &t.step, sizeof t.step);
+        whole(s, &t.from, INT32_MAX);
+        whole(s, &t.to, INT32_MAX);
+        whole(s, &had, last + 1);
+        whole(s, &t.slot, last);
+        t.had = had - 1;
+        s->full = s->full || (!s->out && !array_push(s->watch->ctx, a, t));
+    }
+}
+
 static void state(byte_stream *s, const world *w)
 {
     peak_watch *p = s->watch;
@@ -158,6 +176,7 @@ static void state(byte_stream *s, const world *w)
     for (int32_t v = 0; v < p->vessels.count && goes(s); v++)
         peaks(s, &p->vessels.data[v]);
     steps(s, w);
+    trims(s, w);
 }
 
 bool peak_state_save(peak_watch *p, const world *w, byte_array *out)

@@ -2,8 +2,8 @@
 
 #include "io/path.h"
 #include "io/record_layout.h"
-#include "sim/force_chain.h"
 #include "sim/ice_loads.h"
+#include "sim/peak_chain.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -35,6 +35,7 @@ void peak_watch_free(peak_watch *p)
     for (int32_t i = 0; i < p->ring.count; i++)
         array_free(p->ctx, &p->ring.data[i]);
     array_free(p->ctx, &p->ring);
+    array_free(p->ctx, &p->trims);
     free_vessels(p);
 }
 
@@ -170,9 +171,26 @@ static ice_share_array *row_of_step(peak_watch *p)
     return &p->ring.data[(p->next + p->ring.count - 1) % p->ring.count];
 }
 
+/* Trims of steps that the ring tells no more of go. */
+static bool keep_trims(peak_watch *p, const world *w)
+{
+    int64_t first = w->clock.step[0] - (p->steps + 2 * (int64_t)p->block);
+    int32_t old = 0, kept = 0;
+    if (p->filled == 0)
+        array_clear(&p->trims);
+    while (old < p->trims.count && p->trims.data[old].step < first)
+        old++;
+    for (; old > 0 && old + kept < p->trims.count; kept++)
+        p->trims.data[kept] = p->trims.data[old + kept];
+    p->trims.count -= old;
+    return floe_trims_note(p->ctx, w, &p->trims);
+}
+
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error)
 {
     if (!peak_watch_begin(p, w))
+        return error_memory(error);
+    if (!keep_trims(p, w))
         return error_memory(error);
     ice_share_array *row = row_of_step(p);
     if (!row)
@@ -206,6 +224,42 @@ static body_sum *sum_of(context *ctx, body_sum_array *sums, const ice_share *s, 
         return NULL;
     *last = sums->count - 1;
     return &sums->data[*last];
+}
+
+/* The sum of a floe; NULL: none. */
+static body_sum *find_sum(const body_sum_array *sums, int32_t number)
+{
+    for (int32_t i = 0; i < sums->count; i++)
+        if (sums->data[i].floe.number == number)
+            return &sums->data[i];
+    return NULL;
+}
+
+static void add_sum(body_sum *to, const body_sum *from)
+{
+    to->floe.force = vec3_add(to->floe.force, from->floe.force);
+    to->floe.point = vec3_add(to->floe.point, from->floe.point);
+    to->weight += from->weight;
+    for (int i = 0; i < MECHANISM_COUNT; i++)
+        to->floe.part[i] += from->floe.part[i];
+    for (int i = 0; i < PEAK_ZONES; i++)
+        to->zone[i] += from->zone[i];
+}
+
+/* A floe that only lost crushed ice is the same one, whatever its number; it has the last one. */
+static void join_trimmed(const peak_watch *p, body_sum_array *sums)
+{
+    for (int32_t i = 0; i < p->trims.count; i++) {
+        const floe_trim *t = &p->trims.data[i];
+        body_sum *from = find_sum(sums, t->from), *to = find_sum(sums, t->to);
+        if (from && to) {
+            add_sum(to, from);
+            *from = sums->data[--sums->count];
+        } else if (from) {
+            from->floe.number = t->to;
+            from->floe.slot = t->slot;
+        }
+    }
 }
 
 static void add_share(body_sum *b, const ice_share *s, vec3 along, double scale, peak_detail *d)
@@ -268,40 +322,6 @@ static void list_floes(body_sum_array *sums, peak_detail *d)
     }
 }
 
-/* ---- chains ---- */
-
-static int32_t number_at(const world *w, int32_t body)
-{
-    bool ice = w->bodies.material[body] == MATERIAL_ICE && w->bodies.owner[body] >= 0;
-    return ice && body_is_alive(&w->bodies, body) ? w->floes.number[w->bodies.owner[body]] : -1;
-}
-
-/* Of a floe that is still there: its slot is another's when it broke in this step. */
-static void add_chain(const world *w, double time_step, int32_t hull, force_chain *chain, peak_floe *f, peak_detail *d)
-{
-    if (f->number < 0 || number_at(w, f->slot) != f->number)
-        return;
-    force_chain_follow(w, time_step, hull, f->slot, chain);
-    if (vec3_length(chain->link[0].push) == 0)
-        return;
-    int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS;
-    f->links = (uint8_t)count;
-    f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
-    for (int32_t i = 0; i < count; i++) {
-        const chain_link *l = &chain->link[i];
-        bool gone = world_came_since_contacts(w, l->body);
-        /* The middle of a sheet or a wall may be far away, and that of what broke in this step is no more. */
-        bool whole = w->bodies.motion[l->body] == MOTION_DYNAMIC && !gone;
-        d->link[d->link_count++] = (peak_link){l->body,
-                                               gone ? -1 : number_at(w, l->body),
-                                               whole ? w->bodies.position[l->body] : l->point,
-                                               l->push,
-                                               l->others,
-                                               l->water,
-                                               l->inertia};
-    }
-}
-
 /* The part of a row's shares that its last `left` steps have, which are the window's first: as much as these carry of
    the load, so that the parts of a peak add up to it. */
 static double part_inside(const world *w, const ice_share_array *row, int64_t left, int32_t vessel, vec3 along)
@@ -349,6 +369,7 @@ fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_det
     vec3 along = d->load > 0 ? vec3_make(force.x / d->load, force.y / d->load, 0) : vec3_make(0, 0, 0);
     body_sum_array sums = {0};
     bool good = sum_window(p, w, vessel, along, &sums, d);
+    join_trimmed(p, &sums);
     if (good)
         list_floes(&sums, d);
     array_free(p->ctx, &sums);
@@ -358,7 +379,7 @@ fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_det
     if (!chain)
         return error_memory(error);
     for (int32_t i = 0; i < d->floe_count && i < PEAK_CHAINS; i++)
-        add_chain(w, p->time_step, w->vessels.body[vessel], chain, &d->floe[i], d);
+        peak_chain_add(w, p->time_step, &p->trims, chain, &d->floe[i], d);
     memory_free(p->ctx, chain);
     return FRAM_OK;
 }

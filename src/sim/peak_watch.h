@@ -6,7 +6,7 @@
 
 #include "base/peak_picker.h"
 #include "io/peak_block.h"
-#include "model/world.h"
+#include "sim/floe_trims.h"
 
 typedef ARRAY(ice_share) ice_share_array;
 
@@ -24,6 +24,7 @@ typedef struct peak_watch {
     ARRAY(ice_share_array) ring;    /* rows that hold each step of the window, WINDOW_ROWS_MOST at most */
     int32_t next, filled;           /* rows */
     int32_t within;                 /* steps in the newest row */
+    floe_trim_array trims;          /* of the steps that the ring tells of */
     ARRAY(vessel_peaks) vessels;
 } peak_watch;
 

@@ -4,12 +4,14 @@
 #include "sim/recording.h"
 #include "sim/scene.h"
 
-static const char text[] = "run: {duration: 4, time_step: 0.02, transient: 0}\n"
-                           "vessel: {mode: towed, x: -26, speed: 3, ramp: 0.1,\n"
-                           "  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}\n"
-                           "ice: {source: floes, thickness: 0.5, breakable: true,\n"
-                           "  floes: [{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}\n"
-                           "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n";
+#define SCENE(others)                                                                \
+    "run: {duration: 4, time_step: 0.02, transient: 0}\n"                            \
+    "vessel: {mode: towed, x: -26, speed: 3, ramp: 0.1,\n"                           \
+    "  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}\n"                    \
+    "ice: {source: floes, thickness: 0.5, breakable: true,\n"                        \
+    "  floes: [" others "{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}\n" \
+    "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n"
+static const char text[] = SCENE(""), beside[] = SCENE("{x: -50, y: -30, length: 2, width: 2}, ");
 
 static fram_error e;
 
@@ -154,6 +156,57 @@ START_TEST(parts_of_a_long_window_add_up)
 }
 END_TEST
 
+static int32_t last_number(const world *w)
+{
+    int32_t last = -1;
+    for (int32_t i = 0; i < w->floes.count; i++)
+        last = w->floes.body[i] >= 0 && w->floes.number[i] > last ? w->floes.number[i] : last;
+    return last;
+}
+
+/* The hull crushes its way into a fixed floe, which has a new number each few steps and is one body, also beside a
+   watch that takes the state up in a window of such steps, and whether or not the step of the peak is one. */
+START_TEST(a_floe_that_is_crushed_is_one_body)
+{
+    static const char *const whole[] = {"ice.breakable=false", "ice.smallest_floe_area=0.05"};
+    scene k;
+    peak_watch p, q;
+    scene_open_with(&k, beside, whole, 2);
+    peak_watch_init(&k.ctx, 0.02, 0, &p);
+    peak_watch_init(&k.ctx, 0.02, 0, &q);
+    run(&k, &p, 90);
+    restore_as_saved(&k, &p, &q);
+    /* The slot of another floe is free: the next number of this one is in that. */
+    floe_remove(&k.w.bodies, &k.w.shapes, &k.w.floes, 0);
+    int trimmed = 0;
+    for (int i = 0; i < 10; i++) {
+        peak_detail one, other;
+        int32_t before = last_number(&k.w);
+        scene_steps(&k, 1);
+        assert_ok(peak_watch_keep(&p, &k.w, &e), e);
+        assert_ok(peak_watch_keep(&q, &k.w, &e), e);
+        assert_ok(peak_watch_explain(&p, &k.w, 0, &one, &e), e);
+        assert_ok(peak_watch_explain(&q, &k.w, 0, &other, &e), e);
+        int32_t number = last_number(&k.w);
+        trimmed += number != before;
+        ck_assert_int_eq(one.bodies, 1);
+        ck_assert_int_eq(one.floe[0].number, number);
+        assert_relative(hypot(one.floe[0].force.x, one.floe[0].force.y), one.load, 1e-9);
+        assert_relative(one.zone[ZONE_BOW][MECHANISM_CRUSHING], one.floe[0].part[MECHANISM_CRUSHING], 1e-9);
+        ck_assert_int_eq(one.floe[0].links, 1);
+        ck_assert_int_eq(one.floe[0].end, CHAIN_SHEET);
+        ck_assert_int_eq(one.link[0].number, number);
+        ck_assert_double_gt(one.link[0].push.x, 0);
+        ck_assert_mem_eq(&one.floe[0].part, &other.floe[0].part, sizeof one.floe[0].part);
+        ck_assert_int_eq(other.bodies, 1);
+    }
+    ck_assert(trimmed > 0 && trimmed < 10);
+    peak_watch_free(&p);
+    peak_watch_free(&q);
+    scene_close(&k);
+}
+END_TEST
+
 /* Two floes hold the hull up, and one helps it on: its three parts are all against the load, at two zones. */
 START_TEST(a_floe_that_pushes_against_the_load_does_so_by_its_largest_part)
 {
@@ -292,5 +345,5 @@ START_TEST(a_recording_that_begins_late_explains_whole_peaks)
 END_TEST
 
 TEST_MAIN("peak_state", what_is_restored_goes_on_as_what_was_saved, parts_of_a_long_window_add_up,
-          a_floe_that_pushes_against_the_load_does_so_by_its_largest_part, bytes_that_are_no_state_are_refused,
-          a_recording_that_begins_late_explains_whole_peaks)
+          a_floe_that_is_crushed_is_one_body, a_floe_that_pushes_against_the_load_does_so_by_its_largest_part,
+          bytes_that_are_no_state_are_refused, a_recording_that_begins_late_explains_whole_peaks)

@@ -1,0 +1,56 @@
+#include "sim/peak_chain.h"
+
+static int32_t number_at(const world *w, int32_t body)
+{
+    bool ice = w->bodies.material[body] == MATERIAL_ICE && w->bodies.owner[body] >= 0;
+    return ice && body_is_alive(&w->bodies, body) ? w->floes.number[w->bodies.owner[body]] : -1;
+}
+
+/* Behind a floe that lost crushed ice in this step, whose contacts are of the slot that it had.  Held ice is the end.
+ */
+static bool follow_trimmed(const world *w, double time_step, int32_t hull, const floe_trim *t, force_chain *chain)
+{
+    if (t->had < 0)
+        return false;
+    force_chain_follow(w, time_step, hull, t->had, chain);
+    motion kind = (motion)w->bodies.motion[t->slot];
+    if (kind == MOTION_STATIC || kind == MOTION_CARRIED) {
+        chain->count = 1;
+        chain->end = kind == MOTION_STATIC ? CHAIN_SHEET : CHAIN_DRIVEN;
+        chain->link[0].others = chain->link[0].water = chain->link[0].inertia = 0;
+    }
+    return true;
+}
+
+/* A link to a floe that was trimmed in this step is to what it is now. */
+static peak_link link_now(const world *w, const floe_trim_array *trims, const chain_link *l)
+{
+    bool gone = world_came_since_contacts(w, l->body);
+    /* The middle of a sheet or a wall may be far away, and that of what broke in this step is no more. */
+    bool whole = w->bodies.motion[l->body] == MOTION_DYNAMIC && !gone;
+    vec3 place = whole ? w->bodies.position[l->body] : l->point;
+    const floe_trim *t = floe_trims_find_slot(trims, w->clock.step[0], l->body);
+    int32_t slot = t ? t->slot : l->body, number = gone && !t ? -1 : number_at(w, slot);
+    return (peak_link){slot, number, place, l->push, l->others, l->water, l->inertia};
+}
+
+void peak_chain_add(const world *w, double time_step, const floe_trim_array *trims, force_chain *chain, peak_floe *f,
+                    peak_detail *d)
+{
+    /* The slot is another's when the floe broke in this step. */
+    if (f->number < 0 || number_at(w, f->slot) != f->number)
+        return;
+    int32_t hull = w->vessels.body[d->vessel];
+    const floe_trim *t = floe_trims_find(trims, w->clock.step[0], f->number);
+    if (!t)
+        force_chain_follow(w, time_step, hull, f->slot, chain);
+    else if (!follow_trimmed(w, time_step, hull, t, chain))
+        return;
+    if (vec3_length(chain->link[0].push) == 0)
+        return;
+    int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS;
+    f->links = (uint8_t)count;
+    f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
+    for (int32_t i = 0; i < count; i++)
+        d->link[d->link_count++] = link_now(w, trims, &chain->link[i]);
+}
