@@ -1,39 +1,17 @@
 /* The report's verdict: what a reader must know before the numbers, and what to do about it. */
-#include "results/report_parts.h"
+#include "results/report_verdict_parts.h"
 
 #include "base/channel_statistics.h"
-#include "results/limit_use.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/peaks.h"
-#include "results/station_results.h"
 #include "results/track_results.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A text holds the longest message of a failed run (run_note), and what goes before it. */
-enum { TEXT_SIZE = 640 };
-
-typedef struct finding {
-    verdict_grade grade;
-    char text[TEXT_SIZE], remedy[TEXT_SIZE];
-} finding;
-
-typedef struct verdict {
-    report *r;
-    ARRAY(finding) findings;
-    bool failed;     /* no memory for one */
-    bool kept, lost; /* a limit of station is set: every vessel stayed within, or one did not, */
-    bool unsure;     /* or may not have */
-    int32_t lines, parted;
-    char load[128]; /* of a single vessel */
-} verdict;
-
-static void find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-static void find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
+void verdict_find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
 {
     finding f = {.grade = grade};
     va_list arguments;
@@ -46,8 +24,7 @@ static void find(verdict *v, verdict_grade grade, const char *remedy, const char
     v->failed = !array_push(v->r->ctx, &v->findings, f) || v->failed;
 }
 
-/* "vessel tanker: " before what is said of one of several. */
-static const char *whose(const report *r, char out[48])
+const char *verdict_whose(const report *r, char out[48])
 {
     const scenario *s = &r->d.s;
     bool named = scenario_names_vessels(s);
@@ -56,7 +33,7 @@ static const char *whose(const report *r, char out[48])
     return out;
 }
 
-static const char *force(double newton, char out[40])
+const char *verdict_force(double newton, char out[40])
 {
     load_unit unit = load_unit_for(fabs(newton));
     char number[32];
@@ -74,12 +51,12 @@ static void judge_end(verdict *v)
         return;
     bool failed = strcmp(n->status, "failed") == 0, open = run_is_open(&v->r->d);
     const char *how = failed ? "failed at" : open ? "goes on, or was killed: it came to" : "stopped at";
-    find(v, failed ? VERDICT_BAD : VERDICT_CAUTION,
-         failed ? "Results up to the failure are valid; the message says what went wrong."
-         : open ? "fram resume continues one that was killed from its newest checkpoint."
-                : "fram resume continues from the newest checkpoint.",
-         "The run %s %.4g s of %.4g s%s%s.", how, n->time, v->r->d.s.run.duration, n->message[0] ? ": " : "",
-         n->message);
+    verdict_find(v, failed ? VERDICT_BAD : VERDICT_CAUTION,
+                 failed ? "Results up to the failure are valid; the message says what went wrong."
+                 : open ? "fram resume continues one that was killed from its newest checkpoint."
+                        : "fram resume continues from the newest checkpoint.",
+                 "The run %s %.4g s of %.4g s%s%s.", how, n->time, v->r->d.s.run.duration, n->message[0] ? ": " : "",
+                 n->message);
 }
 
 /* A hull at a wall measures the wall, and one at the band of a field ice that nothing pushes aside: the run's own
@@ -90,17 +67,18 @@ static void judge_walls(verdict *v)
     for (int32_t i = 0; i < n->events.count; i++) {
         const run_event *e = &n->events.data[i];
         if (strcmp(e->kind, "wall") == 0)
-            find(v, VERDICT_BAD,
-                 "Loads and motion after that are those of a wall, not of ice: enlarge the domain, shorten "
-                 "run.duration or give another course.",
-                 "%s%s ran into a wall of the domain at %.4g s.", e->vessel[0] ? "Vessel " : "The vessel", e->vessel,
-                 e->time);
+            verdict_find(v, VERDICT_BAD,
+                         "Loads and motion after that are those of a wall, not of ice: enlarge the domain, shorten "
+                         "run.duration or give another course.",
+                         "%s%s ran into a wall of the domain at %.4g s.", e->vessel[0] ? "Vessel " : "The vessel",
+                         e->vessel, e->time);
         else if (strcmp(e->kind, "band") == 0)
-            find(v, VERDICT_BAD,
-                 "Loads and motion after that are not those of ice that gives way: enlarge the domain or shorten "
-                 "run.duration.",
-                 "%s%s reached the band of the ice field, whose floes nothing pushes aside, at %.4g s.",
-                 e->vessel[0] ? "Vessel " : "The vessel", e->vessel, e->time);
+            verdict_find(
+                v, VERDICT_BAD,
+                "Loads and motion after that are not those of ice that gives way: enlarge the domain or shorten "
+                "run.duration.",
+                "%s%s reached the band of the ice field, whose floes nothing pushes aside, at %.4g s.",
+                e->vessel[0] ? "Vessel " : "The vessel", e->vessel, e->time);
     }
 }
 
@@ -109,141 +87,10 @@ static void judge_tracks(verdict *v)
     const run_note *n = &v->r->d.note;
     for (int32_t i = 0; i < n->tracks.count; i++) {
         const run_track *t = &n->tracks.data[i];
-        char text[TEXT_SIZE];
+        char text[VERDICT_TEXT_SIZE];
         track_text(t, text, sizeof text);
-        find(v, track_was_kept(t) ? VERDICT_GOOD : VERDICT_CAUTION, track_remedy(t), "%s", text);
+        verdict_find(v, track_was_kept(t) ? VERDICT_GOOD : VERDICT_CAUTION, track_remedy(t), "%s", text);
     }
-}
-
-/* ---- keeping station ---- */
-
-static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
-{
-    char most[32], name[48];
-    report_number(u.most, most);
-    whose(v->r, name);
-    if (is_automatic(limit)) {
-        find(v, VERDICT_NOTE, "", "%slargest %s %s %s; %s is not set, so it is not judged.", name, what, most, unit,
-             key);
-        return;
-    }
-    v->kept = true;
-    v->lost |= isfinite(u.first);
-    v->unsure |= u.unsure;
-    if (u.unsure)
-        find(v, VERDICT_CAUTION,
-             run_leaves_out_steps(&v->r->d) ? "Make output.csv_interval shorter to see." : "Record it from its start.",
-             "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, %s; the rows reach %s %s.", name, what,
-             limit, unit, v->r->d.s.run.transient, limit_use_between_rows(&v->r->d, v->r->d.s.run.transient), most,
-             unit);
-    else if (isfinite(u.first) && !(u.most > limit))
-        find(v, VERDICT_BAD,
-             u.first < run_recorded_from(&v->r->d) ? "" : "Make output.csv_interval shorter to see by how much.",
-             "%sthe %s passed its limit of %.4g %s at %.6g s, %s; the rows reach %s %s.", name, what, limit, unit,
-             u.first, limit_use_between_rows(&v->r->d, u.first), most, unit);
-    else if (u.most > limit)
-        find(v, VERDICT_BAD,
-             "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
-             "%sthe %s passed its limit of %.4g %s, first at %.6g s: largest %s %s, exceeded for %.3g %% of the time.",
-             name, what, limit, unit, u.first, most, unit, 100 * u.part);
-    else
-        find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what, most, unit,
-             limit, unit, 100 * u.most / limit);
-}
-
-/* Of the breaking load of a line: 1 / 1.67, the factor of safety of an intact mooring (API RP 2SK). */
-#define LINE_USE 0.6
-/* Of the time, at their limit. */
-#define THRUSTERS_FULL 0.05
-
-/* The largest tension over the breaking load, and of which line. */
-static void judge_lines(verdict *v)
-{
-    const report *r = v->r;
-    const scenario_mooring *m = &scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring;
-    const double *time = run_channel(&r->d, "time");
-    const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
-    int32_t number = 0, worst = 0, rows = r->d.series.rows, at = 0;
-    int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0;
-    double use = 0, tension = 0;
-    for (int32_t i = 0; i < m->lines.count; i++)
-        for (int64_t k = 0; k < m->lines.data[i].count; k++) {
-            char channel[40];
-            snprintf(channel, sizeof channel, "line_%d_tension", ++number);
-            const double *t = run_vessel_channel(&r->d, r->vessel, channel);
-            double most = 0, breaks = automatic_or(m->lines.data[i].breaking_load, HUGE_VAL);
-            bool whole = gone > 0 && t && !(t[rows - 1] > 0); /* what parted is judged with its transient */
-            for (int32_t row = whole ? 0 : run_first_row(&r->d); t && row < rows; row++)
-                most = fmax(most, t[row]);
-            if (most / breaks > use || (use == 0 && most > tension)) {
-                use = most / breaks;
-                tension = most;
-                worst = number;
-            }
-        }
-    while (gone > 0 && at < rows && parted[at] < 1)
-        at++;
-    char name[48], text[40];
-    whose(r, name);
-    v->lines += number;
-    v->parted += gone;
-    double broke = run_event_from(&r->d, r->vessel, EVENT_LINE_BREAK, 0);
-    double when = fmin(broke, run_event_from(&r->d, r->vessel, EVENT_LINE_RELEASE, 0));
-    /* Lines that were let go did not. */
-    bool beyond = gone > 0 && (isfinite(broke) || !isfinite(when));
-    if (gone > 0)
-        find(v, VERDICT_BAD, "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
-             "%s%d of %d lines parted or were released, the first at %.6g s.", name, (int)gone, (int)number,
-             fmin(when, time ? time[at] : 0));
-    if (number > 0 && use > 0)
-        find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
-             use > LINE_USE ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
-                            : "",
-             "%slargest tension %s in line %d, %.0f %% of its breaking load; %d line%s%s.", name, force(tension, text),
-             (int)worst, 100 * use, (int)number, number == 1 ? "" : "s",
-             beyond ? ", of which those that parted went beyond" : "");
-    else if (number > 0)
-        find(v, VERDICT_NOTE, "",
-             "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
-             force(tension, text), (int)worst, (int)number);
-}
-
-static void judge_thrusters(verdict *v)
-{
-    const report *r = v->r;
-    const double *time = run_channel(&r->d, "time"),
-                 *full = run_vessel_channel(&r->d, r->vessel, "thrusters_saturated");
-    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
-    if (!time || !full || keys->thrusters.count == 0 || !keys->positioning.active)
-        return;
-    char name[48];
-    double part = channel_statistics_of(time, full, r->d.series.rows, r->d.s.run.transient).mean;
-    find(v, part > THRUSTERS_FULL ? VERDICT_CAUTION : VERDICT_GOOD,
-         part > THRUSTERS_FULL ? "The demand exceeded the thrust available: see fram capability." : "",
-         "%sthrusters saturated for %.3g %% of the time.", whose(r, name), 100 * part);
-}
-
-static void judge_station(verdict *v)
-{
-    const report *r = v->r;
-    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
-    if (!station_has_results(&r->d.s, r->vessel))
-        return;
-    if (run_first_row(&r->d) == r->d.series.rows) {
-        char name[48];
-        find(v, VERDICT_CAUTION, "", "%swhether it kept its station was not measured.", whose(r, name));
-        return;
-    }
-    limit_use offset =
-        limit_use_of(&r->d, r->vessel, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
-    limit_use heading = limit_use_of(&r->d, r->vessel, "heading_deviation", NULL,
-                                     automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
-    judge_limit(v, "offset", "m", offset, keys->station.offset_limit, "station.offset_limit");
-    if (!is_automatic(keys->station.heading_limit_deg))
-        judge_limit(v, "heading deviation", "deg", heading, keys->station.heading_limit_deg,
-                    "station.heading_limit_deg");
-    judge_lines(v);
-    judge_thrusters(v);
 }
 
 /* No part of the ice load: another hull, or a wall, met the vessel, the transient included. */
@@ -261,9 +108,9 @@ static void judge_hulls(verdict *v)
     }
     char name[48], load[40];
     if (largest > 0)
-        find(v, VERDICT_NOTE, "It is no part of the ice load: hull_contact_force_* of the series.",
-             "%sanother hull or a wall touched it, first at %.6g s: largest horizontal force %s, at %.6g s.",
-             whose(r, name), first, force(largest, load), at);
+        verdict_find(v, VERDICT_NOTE, "It is no part of the ice load: hull_contact_force_* of the series.",
+                     "%sanother hull or a wall touched it, first at %.6g s: largest horizontal force %s, at %.6g s.",
+                     verdict_whose(r, name), first, verdict_force(largest, load), at);
 }
 
 /* ---- loads, and how sure they are ---- */
@@ -273,11 +120,11 @@ static void judge_transient(verdict *v)
     const run_data *d = &v->r->d;
     int rows = (int)(d->series.rows - run_first_row(d));
     if (rows < 2)
-        find(v, VERDICT_CAUTION,
-             d->series.rows > 1 ? "Make run.transient shorter or the run longer."
-                                : "Make output.csv_interval or run.transient shorter, or the run longer.",
-             "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.", rows,
-             (int)d->series.rows, d->s.run.transient);
+        verdict_find(v, VERDICT_CAUTION,
+                     d->series.rows > 1 ? "Make run.transient shorter or the run longer."
+                                        : "Make output.csv_interval or run.transient shorter, or the run longer.",
+                     "%d of %d rows of the run are after the transient of %.4g s: its statistics are of these alone.",
+                     rows, (int)d->series.rows, d->s.run.transient);
 }
 
 /* A mean within this part of itself, at 95 %, by so many independent values, is enough for most uses. */
@@ -295,13 +142,13 @@ static fram_status judge_no_load(verdict *v, const char *name, fram_error *error
     if (list.count > 0) {
         const peak_detail *most = list.peak[0];
         char load[40];
-        force(most->load, load);
-        find(v, VERDICT_CAUTION, "Make output.csv_interval shorter: figures here are those of the series.",
-             "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name, load,
-             most->time);
+        verdict_force(most->load, load);
+        verdict_find(v, VERDICT_CAUTION, "Make output.csv_interval shorter: figures here are those of the series.",
+                     "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name, load,
+                     most->time);
     } else
-        find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?", "%sno ice load occurred.",
-             name);
+        verdict_find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?",
+                     "%sno ice load occurred.", name);
     peak_list_free(r->ctx, &list);
     return FRAM_OK;
 }
@@ -316,10 +163,10 @@ static fram_status judge_load(verdict *v, fram_error *error)
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     /* Each value stands for a step. */
     double step = (time[first + rows - 1] - time[first]) / (rows - 1), span = step * rows;
-    char name[48], mean[40], most[40], remedy[TEXT_SIZE], needed[32];
-    whose(r, name);
-    force(s.mean, mean);
-    force(s.greatest, most);
+    char name[48], mean[40], most[40], remedy[VERDICT_TEXT_SIZE], needed[32];
+    verdict_whose(r, name);
+    verdict_force(s.mean, mean);
+    verdict_force(s.greatest, most);
     if (!scenario_names_vessels(&r->d.s))
         snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean, most);
     if (!(s.greatest > 0))
@@ -338,16 +185,17 @@ static fram_status judge_load(verdict *v, fram_error *error)
              part > ENOUGH ? 100 * ENOUGH : VALUES_ENOUGH);
     snprintf(remedy, sizeof remedy,
              "About %s s after the transient, or as much over several seeds (fram study), would give %s.", needed, aim);
-    find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
-         "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent values in %.4g s): %s.", name,
-         mean, fmin(100 * part, 999), d.independent, span,
-         enough           ? "enough for a mean"
-         : part <= ENOUGH ? "too few values to trust that"
-                          : "too short for a mean");
-    find(v, VERDICT_NOTE,
-         "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
-         "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, scenario_averaging_window(&r->d.s),
-         r->d.s.run.transient);
+    verdict_find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
+                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent values in %.4g s): %s.",
+                 name, mean, fmin(100 * part, 999), d.independent, span,
+                 enough           ? "enough for a mean"
+                 : part <= ENOUGH ? "too few values to trust that"
+                                  : "too short for a mean");
+    verdict_find(
+        v, VERDICT_NOTE,
+        "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
+        "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, scenario_averaging_window(&r->d.s),
+        r->d.s.run.transient);
     load_distribution_free(r->ctx, &d);
     return FRAM_OK;
 }
@@ -393,16 +241,17 @@ static void judge_solver(verdict *v)
         return;
     double mean = channel_statistics_of(time, residual, r->d.series.rows, r->d.s.run.transient).mean;
     if (!(speed > 0)) {
-        find(v, VERDICT_NOTE, "It is small if it is a few hundredths of the approach speed of the bodies.",
-             "The mean residual of the contact solver is %.2g m/s.", mean);
+        verdict_find(v, VERDICT_NOTE, "It is small if it is a few hundredths of the approach speed of the bodies.",
+                     "The mean residual of the contact solver is %.2g m/s.", mean);
         return;
     }
     bool good = mean <= RESIDUAL_SMALL * speed;
-    find(v, good ? VERDICT_GOOD : VERDICT_CAUTION,
-         good ? "" : "Compare with half of run.time_step and twice run.solver.iterations before trusting peaks.",
-         "The contact solver %s: mean residual %.2g m/s, %s%.2g %% of the approach speed of %.3g m/s.",
-         good ? "converged" : "did not converge well", mean, mean < 1e-4 * speed ? "less than " : "",
-         fmax(100 * mean / speed, 0.01), speed);
+    verdict_find(v, good ? VERDICT_GOOD : VERDICT_CAUTION,
+                 good ? ""
+                      : "Compare with half of run.time_step and twice run.solver.iterations before trusting peaks.",
+                 "The contact solver %s: mean residual %.2g m/s, %s%.2g %% of the approach speed of %.3g m/s.",
+                 good ? "converged" : "did not converge well", mean, mean < 1e-4 * speed ? "less than " : "",
+                 fmax(100 * mean / speed, 0.01), speed);
 }
 
 /* ---- the edge of the field ---- */
@@ -430,15 +279,16 @@ static void judge_edge(verdict *v)
         return;
     double part = chain_part(r);
     if (part > EDGE_PART)
-        find(v, VERDICT_CAUTION, "Enlarge the domain until the load no longer depends on it; fram why shows chains.",
-             "%.0f %% of the mean ice load on %s comes through chains of floes that end at the driven edge of the "
-             "domain%s.",
-             100 * part, report_vessel(r).text, scenario_vessel_count(s) > 1 ? " or at another vessel" : "");
+        verdict_find(
+            v, VERDICT_CAUTION, "Enlarge the domain until the load no longer depends on it; fram why shows chains.",
+            "%.0f %% of the mean ice load on %s comes through chains of floes that end at the driven edge of the "
+            "domain%s.",
+            100 * part, report_vessel(r).text, scenario_vessel_count(s) > 1 ? " or at another vessel" : "");
 }
 
 /* ---- the box ---- */
 
-static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
+static verdict_grade headline(const verdict *v, char out[VERDICT_TEXT_SIZE])
 {
     const report *r = v->r;
     bool finished = strcmp(r->d.note.status, "finished") == 0;
@@ -458,7 +308,8 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
     snprintf(held, sizeof held, " held its station%s%s.", since, finished ? "" : " as far as the run went");
     const char *did = v->lost ? " did not hold its station." : v->unsure ? " may not have held its station." : held;
     const char *end = finished ? "The run finished." : "The run has not finished.";
-    snprintf(out, TEXT_SIZE, "%s%s%s%s", v->kept ? who : end, v->kept ? did : "", lines, v->kept ? "" : v->load);
+    snprintf(out, VERDICT_TEXT_SIZE, "%s%s%s%s", v->kept ? who : end, v->kept ? did : "", lines,
+             v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;
     for (int32_t i = 0; i < v->findings.count; i++)
         worst = v->findings.data[i].grade > worst ? v->findings.data[i].grade : worst;
@@ -467,7 +318,7 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
 
 fram_status report_verdict(report *r, fram_error *error)
 {
-    char title[TEXT_SIZE];
+    char title[VERDICT_TEXT_SIZE];
     verdict v = {.r = r};
     fram_status status = FRAM_OK;
     judge_end(&v);
@@ -477,7 +328,7 @@ fram_status report_verdict(report *r, fram_error *error)
     for (int32_t i = 0; i < scenario_vessel_count(&r->d.s) && status == FRAM_OK; i++) {
         status = report_choose_vessel(r, i, error);
         if (status == FRAM_OK)
-            judge_station(&v);
+            verdict_station(&v);
         if (status == FRAM_OK)
             judge_hulls(&v);
         if (status == FRAM_OK && r->d.s.ice.source != ICE_NONE)

@@ -1,0 +1,143 @@
+/* What the report's verdict says of keeping station: limits, lines, thrusters. */
+#include "results/report_verdict_parts.h"
+
+#include "base/channel_statistics.h"
+#include "results/limit_use.h"
+#include "results/station_results.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
+{
+    char most[32], name[48];
+    report_number(u.most, most);
+    verdict_whose(v->r, name);
+    if (is_automatic(limit)) {
+        verdict_find(v, VERDICT_NOTE, "", "%slargest %s %s %s; %s is not set, so it is not judged.", name, what, most,
+                     unit, key);
+        return;
+    }
+    v->kept = true;
+    v->lost |= isfinite(u.first);
+    v->unsure |= u.unsure;
+    if (u.unsure)
+        verdict_find(v, VERDICT_CAUTION,
+                     run_leaves_out_steps(&v->r->d) ? "Make output.csv_interval shorter to see."
+                                                    : "Record it from its start.",
+                     "%sthe %s may have been beyond its limit of %.4g %s from %.6g s on, %s; the rows reach %s %s.",
+                     name, what, limit, unit, v->r->d.s.run.transient,
+                     limit_use_between_rows(&v->r->d, v->r->d.s.run.transient), most, unit);
+    else if (isfinite(u.first) && !(u.most > limit))
+        verdict_find(v, VERDICT_BAD,
+                     u.first < run_recorded_from(&v->r->d) ? ""
+                                                           : "Make output.csv_interval shorter to see by how much.",
+                     "%sthe %s passed its limit of %.4g %s at %.6g s, %s; the rows reach %s %s.", name, what, limit,
+                     unit, u.first, limit_use_between_rows(&v->r->d, u.first), most, unit);
+    else if (u.most > limit)
+        verdict_find(
+            v, VERDICT_BAD,
+            "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
+            "%sthe %s passed its limit of %.4g %s, first at %.6g s: largest %s %s, exceeded for %.3g %% of the time.",
+            name, what, limit, unit, u.first, most, unit, 100 * u.part);
+    else
+        verdict_find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what,
+                     most, unit, limit, unit, 100 * u.most / limit);
+}
+
+/* Of the breaking load of a line: 1 / 1.67, the factor of safety of an intact mooring (API RP 2SK). */
+#define LINE_USE 0.6
+/* Of the time, at their limit. */
+#define THRUSTERS_FULL 0.05
+
+/* The largest tension over the breaking load, and of which line. */
+static void judge_lines(verdict *v)
+{
+    const report *r = v->r;
+    const scenario_mooring *m = &scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring;
+    const double *time = run_channel(&r->d, "time");
+    const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
+    int32_t number = 0, worst = 0, rows = r->d.series.rows, at = 0;
+    int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0;
+    double use = 0, tension = 0;
+    for (int32_t i = 0; i < m->lines.count; i++)
+        for (int64_t k = 0; k < m->lines.data[i].count; k++) {
+            char channel[40];
+            snprintf(channel, sizeof channel, "line_%d_tension", ++number);
+            const double *t = run_vessel_channel(&r->d, r->vessel, channel);
+            double most = 0, breaks = automatic_or(m->lines.data[i].breaking_load, HUGE_VAL);
+            bool whole = gone > 0 && t && !(t[rows - 1] > 0); /* what parted is judged with its transient */
+            for (int32_t row = whole ? 0 : run_first_row(&r->d); t && row < rows; row++)
+                most = fmax(most, t[row]);
+            if (most / breaks > use || (use == 0 && most > tension)) {
+                use = most / breaks;
+                tension = most;
+                worst = number;
+            }
+        }
+    while (gone > 0 && at < rows && parted[at] < 1)
+        at++;
+    char name[48], text[40];
+    verdict_whose(r, name);
+    v->lines += number;
+    v->parted += gone;
+    double broke = run_event_from(&r->d, r->vessel, EVENT_LINE_BREAK, 0);
+    double when = fmin(broke, run_event_from(&r->d, r->vessel, EVENT_LINE_RELEASE, 0));
+    /* Lines that were let go did not. */
+    bool beyond = gone > 0 && (isfinite(broke) || !isfinite(when));
+    if (gone > 0)
+        verdict_find(v, VERDICT_BAD,
+                     "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
+                     "%s%d of %d lines parted or were released, the first at %.6g s.", name, (int)gone, (int)number,
+                     fmin(when, time ? time[at] : 0));
+    if (number > 0 && use > 0)
+        verdict_find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
+                     use > LINE_USE
+                         ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
+                         : "",
+                     "%slargest tension %s in line %d, %.0f %% of its breaking load; %d line%s%s.", name,
+                     verdict_force(tension, text), (int)worst, 100 * use, (int)number, number == 1 ? "" : "s",
+                     beyond ? ", of which those that parted went beyond" : "");
+    else if (number > 0)
+        verdict_find(v, VERDICT_NOTE, "",
+                     "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
+                     verdict_force(tension, text), (int)worst, (int)number);
+}
+
+static void judge_thrusters(verdict *v)
+{
+    const report *r = v->r;
+    const double *time = run_channel(&r->d, "time"),
+                 *full = run_vessel_channel(&r->d, r->vessel, "thrusters_saturated");
+    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
+    if (!time || !full || keys->thrusters.count == 0 || !keys->positioning.active)
+        return;
+    char name[48];
+    double part = channel_statistics_of(time, full, r->d.series.rows, r->d.s.run.transient).mean;
+    verdict_find(v, part > THRUSTERS_FULL ? VERDICT_CAUTION : VERDICT_GOOD,
+                 part > THRUSTERS_FULL ? "The demand exceeded the thrust available: see fram capability." : "",
+                 "%sthrusters saturated for %.3g %% of the time.", verdict_whose(r, name), 100 * part);
+}
+
+void verdict_station(verdict *v)
+{
+    const report *r = v->r;
+    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
+    if (!station_has_results(&r->d.s, r->vessel))
+        return;
+    if (run_first_row(&r->d) == r->d.series.rows) {
+        char name[48];
+        verdict_find(v, VERDICT_CAUTION, "", "%swhether it kept its station was not measured.", verdict_whose(r, name));
+        return;
+    }
+    limit_use offset =
+        limit_use_of(&r->d, r->vessel, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
+    limit_use heading = limit_use_of(&r->d, r->vessel, "heading_deviation", NULL,
+                                     automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
+    judge_limit(v, "offset", "m", offset, keys->station.offset_limit, "station.offset_limit");
+    if (!is_automatic(keys->station.heading_limit_deg))
+        judge_limit(v, "heading deviation", "deg", heading, keys->station.heading_limit_deg,
+                    "station.heading_limit_deg");
+    judge_lines(v);
+    judge_thrusters(v);
+}
