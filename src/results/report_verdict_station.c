@@ -50,36 +50,84 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
 /* Of the time, at their limit. */
 #define THRUSTERS_FULL 0.05
 
-/* The largest tension over the breaking load, and of which line. */
+typedef struct lines_use {
+    int32_t number, unjudged; /* of the lines; of those without a breaking load */
+    int32_t used, tightest;   /* the line with the largest part of its breaking load, and with the largest tension */
+    double use, tension;      /* that part, and its tension [N] */
+    double largest;           /* [N] after the transient */
+} lines_use;
+
+static double tension_from(const double *tension, int32_t first, int32_t rows)
+{
+    double most = 0;
+    for (int32_t row = first; tension && row < rows; row++)
+        most = fmax(most, tension[row]);
+    return most;
+}
+
+/* The next line; gone: lines parted or were let go. */
+static void use_line(const report *r, double breaking_load, bool gone, lines_use *u)
+{
+    char channel[40];
+    snprintf(channel, sizeof channel, "line_%d_tension", ++u->number);
+    const double *t = run_vessel_channel(&r->d, r->vessel, channel);
+    int32_t rows = r->d.series.rows, first = run_first_row(&r->d);
+    bool whole = gone && t && !(t[rows - 1] > 0); /* what parted is judged with its transient */
+    double largest = tension_from(t, first, rows), most = whole ? tension_from(t, 0, rows) : largest;
+    if (largest > u->largest || u->number == 1) {
+        u->largest = largest;
+        u->tightest = u->number;
+    }
+    if (is_automatic(breaking_load))
+        u->unjudged++;
+    else if (most / breaking_load > u->use || u->used == 0) {
+        u->use = most / breaking_load;
+        u->tension = most;
+        u->used = u->number;
+    }
+}
+
+static void judge_use(verdict *v, const lines_use *u, bool beyond)
+{
+    bool near = u->use > LINE_USE;
+    char name[48], text[40], largest[96] = "", unjudged[96] = "";
+    verdict_whose(v->r, name);
+    if (u->unjudged == u->number) {
+        verdict_find(v, VERDICT_NOTE, "",
+                     "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
+                     verdict_force(u->largest, text), (int)u->tightest, (int)u->number);
+        return;
+    }
+    if (u->largest > u->tension)
+        snprintf(largest, sizeof largest, "; largest tension %s in line %d", verdict_force(u->largest, text),
+                 (int)u->tightest);
+    if (u->unjudged > 0)
+        snprintf(unjudged, sizeof unjudged, "; %d line%s without a breaking load %s not judged", (int)u->unjudged,
+                 u->unjudged == 1 ? "" : "s", u->unjudged == 1 ? "is" : "are");
+    verdict_find(v, near ? VERDICT_CAUTION : VERDICT_GOOD,
+                 near ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %." : "",
+                 "%smost used line %d: %s, %.0f %% of its breaking load; %d line%s%s%s%s.", name, (int)u->used,
+                 verdict_force(u->tension, text), 100 * u->use, (int)u->number, u->number == 1 ? "" : "s",
+                 beyond ? ", of which those that parted went beyond" : "", unjudged, largest);
+}
+
+/* Lines are judged by their use, the largest tension over the breaking load. */
 static void judge_lines(verdict *v)
 {
     const report *r = v->r;
     const scenario_mooring *m = &scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring;
     const double *time = run_channel(&r->d, "time");
     const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
-    int32_t number = 0, worst = 0, rows = r->d.series.rows, at = 0;
+    int32_t rows = r->d.series.rows, at = 0;
     int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0;
-    double use = 0, tension = 0;
+    lines_use u = {0};
     for (int32_t i = 0; i < m->lines.count; i++)
-        for (int64_t k = 0; k < m->lines.data[i].count; k++) {
-            char channel[40];
-            snprintf(channel, sizeof channel, "line_%d_tension", ++number);
-            const double *t = run_vessel_channel(&r->d, r->vessel, channel);
-            double most = 0, breaks = automatic_or(m->lines.data[i].breaking_load, HUGE_VAL);
-            bool whole = gone > 0 && t && !(t[rows - 1] > 0); /* what parted is judged with its transient */
-            for (int32_t row = whole ? 0 : run_first_row(&r->d); t && row < rows; row++)
-                most = fmax(most, t[row]);
-            if (most / breaks > use || (use == 0 && most > tension)) {
-                use = most / breaks;
-                tension = most;
-                worst = number;
-            }
-        }
+        for (int64_t k = 0; k < m->lines.data[i].count; k++)
+            use_line(r, m->lines.data[i].breaking_load, gone > 0, &u);
     while (gone > 0 && at < rows && parted[at] < 1)
         at++;
-    char name[48], text[40];
-    verdict_whose(r, name);
-    v->lines += number;
+    char name[48];
+    v->lines += u.number;
     v->parted += gone;
     double broke = run_event_from(&r->d, r->vessel, EVENT_LINE_BREAK, 0);
     double when = fmin(broke, run_event_from(&r->d, r->vessel, EVENT_LINE_RELEASE, 0));
@@ -88,20 +136,10 @@ static void judge_lines(verdict *v)
     if (gone > 0)
         verdict_find(v, VERDICT_BAD,
                      "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
-                     "%s%d of %d lines parted or were released, the first at %.6g s.", name, (int)gone, (int)number,
-                     fmin(when, time ? time[at] : 0));
-    if (number > 0 && use > 0)
-        verdict_find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
-                     use > LINE_USE
-                         ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
-                         : "",
-                     "%slargest tension %s in line %d, %.0f %% of its breaking load; %d line%s%s.", name,
-                     verdict_force(tension, text), (int)worst, 100 * use, (int)number, number == 1 ? "" : "s",
-                     beyond ? ", of which those that parted went beyond" : "");
-    else if (number > 0)
-        verdict_find(v, VERDICT_NOTE, "",
-                     "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
-                     verdict_force(tension, text), (int)worst, (int)number);
+                     "%s%d of %d lines parted or were released, the first at %.6g s.", verdict_whose(r, name),
+                     (int)gone, (int)u.number, fmin(when, time ? time[at] : 0));
+    if (u.number > 0)
+        judge_use(v, &u, beyond);
 }
 
 static void judge_thrusters(verdict *v)
