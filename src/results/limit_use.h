@@ -8,6 +8,7 @@
 typedef struct limit_use {
     double most, part; /* largest value; part of the time beyond */
     double first;      /* [s] when it was first passed; HUGE_VAL: not that it is known */
+    double since;      /* [s] since when it was beyond as the transient ended; HUGE_VAL: it was not, that it is known */
     bool unsure;       /* it may have been, in steps without a row */
 } limit_use;
 

@@ -8,6 +8,23 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Rows after the transient are beyond it. */
+static void judge_beyond(verdict *v, const char *what, const char *unit, limit_use u, double limit)
+{
+    char most[32], name[48], when[128];
+    report_number(u.most, most);
+    if (isfinite(u.since))
+        snprintf(when, sizeof when,
+                 "was beyond its limit of %.4g %s already at the end of the transient (since %.6g s)", limit, unit,
+                 u.since);
+    else
+        snprintf(when, sizeof when, "passed its limit of %.4g %s, first at %.6g s", limit, unit, u.first);
+    verdict_find(v, VERDICT_BAD,
+                 "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
+                 "%sthe %s %s: largest %s %s, exceeded for %.3g %% of the time.", verdict_whose(v->r, name), what, when,
+                 most, unit, 100 * u.part);
+}
+
 static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
 {
     char most[32], name[48];
@@ -35,11 +52,7 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
                      "%sthe %s passed its limit of %.4g %s at %.6g s, %s; the rows reach %s %s.", name, what, limit,
                      unit, u.first, limit_use_between_rows(&v->r->d, u.first), most, unit);
     else if (u.most > limit)
-        verdict_find(
-            v, VERDICT_BAD,
-            "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
-            "%sthe %s passed its limit of %.4g %s, first at %.6g s: largest %s %s, exceeded for %.3g %% of the time.",
-            name, what, limit, unit, u.first, most, unit, 100 * u.part);
+        judge_beyond(v, what, unit, u, limit);
     else
         verdict_find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what,
                      most, unit, limit, unit, 100 * u.most / limit);

@@ -393,6 +393,17 @@ double run_event_from(const run_data *d, int32_t vessel, station_event kind, dou
     return first;
 }
 
+double run_event_until(const run_data *d, int32_t vessel, station_event kind, double to)
+{
+    double last = -HUGE_VAL;
+    for (int32_t i = 0; i < d->note.events.count; i++) {
+        const run_event *e = &d->note.events.data[i];
+        if (!time_is_after(e->time, to) && is_event(d, e, vessel, kind))
+            last = fmax(last, e->time);
+    }
+    return last;
+}
+
 bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at)
 {
     bool on = false;

@@ -72,6 +72,8 @@ const double *run_channel(const run_data *d, const char *name);
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
 /* When the run's own events of every step tell that something began after a time [s]; HUGE_VAL: they do not. */
 double run_event_from(const run_data *d, int32_t vessel, station_event kind, double from);
+/* When the last one by a time began [s]; -HUGE_VAL: none did. */
+double run_event_until(const run_data *d, int32_t vessel, station_event kind, double to);
 /* Whether something had begun at a time and was not yet over. */
 bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at);
 /* Lines of a vessel that parted, whenever that was, but not those that were let go. */

@@ -75,10 +75,10 @@ expect 0 "$FRAM" run ship.yaml -o lost --quiet --set vessel.station.offset_limit
 verdict lost
 says "bad" verdict.txt
 says "The vessel did not hold its station. 1 of 5 lines parted" verdict.txt
-says "passed its limit of 0.01 m, first at" verdict.txt
+says "was beyond its limit of 0.01 m already at the end of the transient (since" verdict.txt
 says "damaged mooring" verdict.txt
 says "of which those that parted went beyond" verdict.txt
-python3 - <<'PY' || fail "station.json or the box does not tell the line that parted, or the largest tension"
+python3 - <<'PY' || fail "station.json or the box does not tell the line that parted, the largest tension or since when"
 import json, re
 lines = json.load(open("lost/station.json"))["lines"]
 gone = [l for l in lines if l["parted"]]
@@ -89,6 +89,9 @@ assert all(l["parted_at_s"] is None and 0 < l["utilisation"] < 1 for l in lines 
 told = re.search(r"Most used line 5: .*; largest tension (\d+) kN in line (\d)\.", open("verdict.txt").read())
 most = max(lines, key=lambda line: line["greatest"])
 assert int(told[2]) == most["number"] and abs(float(told[1]) * 1e3 / most["greatest"] - 1) < 1e-3, (told[0], most)
+since = float(re.search(r"\(since ([\d.]+) s\)", open("verdict.txt").read())[1])
+passed = [e["time_s"] for e in json.load(open("lost/run.json"))["events"] if e["kind"] == "position_lost"]
+assert abs(since - max(t for t in passed if t <= 4)) < 1e-5, (since, passed)
 PY
 
 fewer="lines parted or were let go in 1 of 1 runs: cycles from there on are those of a mooring with fewer lines"
@@ -136,7 +139,7 @@ says "may have been beyond its limit of 0.05 m from 0 s on, between two rows of 
 expect 0 "$FRAM" run fleet.yaml -o fleet --quiet
 verdict fleet
 says "A vessel did not hold its station. No line of 120 parted." verdict.txt
-says "Vessel v30: the offset passed its limit" verdict.txt
+says "Vessel v30: the offset passed its limit of 1e-06 m, first at 0.05 s" verdict.txt
 says "contact solver" verdict.txt
 [ "$(head -1 verdict.txt)" = bad ] || fail "the last of 30 vessels is not judged"
 [ "$(grep -c 'within its limit of 5 m' verdict.txt)" = 29 ] || fail "a vessel of 30 is not judged"
