@@ -1,10 +1,12 @@
 /* The report's sections on loads and on keeping station. */
 #include "results/report_parts.h"
 
+#include "base/channel_statistics.h"
 #include "io/file.h"
 #include "results/station_results.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -73,32 +75,54 @@ static fram_status distribution(report *r, load_unit unit, fram_error *error)
     return status;
 }
 
+/* Whether the mean load lies more along Y than along X. */
+static bool lies_along_y(const report *r)
+{
+    const double *time = run_channel(&r->d, "time");
+    double mean[2] = {0, 0};
+    for (int k = 0; k < 2 && time; k++) {
+        const double *load = run_vessel_channel(&r->d, r->vessel, k ? "ice_force_averaged_y" : "ice_force_averaged_x");
+        if (load)
+            mean[k] = channel_statistics_of(time, load, r->d.series.rows, r->d.s.run.transient).mean;
+    }
+    return fabs(mean[1]) > fabs(mean[0]);
+}
+
+/* A vector's part along X, and along Y where that is asked for too. */
+static void axis_rows(report *r, const char *channel, const char *name, bool along_y, double factor)
+{
+    for (int k = 0; k < 1 + along_y; k++) {
+        char full[COLUMN_NAME_SIZE], title[64];
+        snprintf(full, sizeof full, "%s_%c", channel, 'x' + k);
+        snprintf(title, sizeof title, "%s, along %c", name, 'X' + k);
+        report_statistics(r, full, title, factor);
+    }
+}
+
 static void load_table(report *r, load_unit unit)
 {
-    static const struct {
-        const char *channel, *name;
-    } rows[] = {{"ice_force_averaged_x", "averaged, along X"},
-                {"ice_force_averaged_y", "averaged, along Y"},
-                {"ice_force_body_x", "each step, along the vessel"},
-                {"ice_force_body_y", "each step, across the vessel"},
-                {"ice_force_body_z", "each step, upwards"},
-                {"ice_force_bow_x", "bow, along X"},
-                {"ice_force_shoulder_x", "shoulder, along X"},
-                {"ice_force_midbody_x", "midbody, along X"},
-                {"ice_force_stern_x", "stern, along X"},
-                {"ice_force_bottom_x", "bottom, along X"},
-                {"ice_force_capped_x", "crushing, along X"},
-                {"ice_force_below_cap_x", "below the limit, along X"},
-                {"ice_force_friction_x", "friction, along X"},
-                {"tow_force_x", "towing carriage, along X"}};
+    static const report_line body[] = {{"ice_force_body_x", "each step, along the vessel"},
+                                       {"ice_force_body_y", "each step, across the vessel"},
+                                       {"ice_force_body_z", "each step, upwards"}};
+    static const report_line parts[] = {{"ice_force_bow", "bow"},
+                                        {"ice_force_shoulder", "shoulder"},
+                                        {"ice_force_midbody", "midbody"},
+                                        {"ice_force_stern", "stern"},
+                                        {"ice_force_bottom", "bottom"},
+                                        {"ice_force_capped", "crushing"},
+                                        {"ice_force_below_cap", "below the limit"},
+                                        {"ice_force_friction", "friction"}};
     char head[64];
+    bool along_y = lies_along_y(r);
     snprintf(head, sizeof head, "load on %s [%s]", report_vessel(r).text, unit.name);
     report_statistics_heads(r, head);
-    /* The last row is that of the carriage, which a free vessel does not have. */
-    vessel_entry e = scenario_vessel_entry(&r->d.s, r->vessel);
-    size_t count = sizeof rows / sizeof *rows - (e.keys->mode == VESSEL_FREE ? 1 : 0);
-    for (size_t i = 0; i < count; i++)
-        report_statistics(r, rows[i].channel, rows[i].name, unit.factor);
+    axis_rows(r, "ice_force_averaged", "averaged", true, unit.factor);
+    for (size_t i = 0; i < sizeof body / sizeof *body; i++)
+        report_statistics(r, body[i].channel, body[i].name, unit.factor);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        axis_rows(r, parts[i].channel, parts[i].name, along_y, unit.factor);
+    if (scenario_vessel_entry(&r->d.s, r->vessel).keys->mode != VESSEL_FREE) /* which has no carriage */
+        axis_rows(r, "tow_force", "towing carriage", true, unit.factor);
     html_table_end(&r->page);
 }
 

@@ -155,6 +155,8 @@ def check(name, run, pictures):
     check_breaks(run, rows, page)
     check_heads(page)
     assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
+    mean_x, mean_y = (abs(number(rows[f"averaged, along {axis}"][0])) for axis in "XY")
+    assert ("bow, along Y" in rows) == (mean_y > mean_x) == (name == "feeding"), (mean_x, mean_y)
     if name == "level":
         assert all(word in rows["strength variation"][0] for word in ("0.2", "7 m")), rows["strength variation"]
     for row in ("kinetic energy", "crushing work"):
@@ -187,7 +189,7 @@ ROWS = {"averaged, along X": "ice_force_averaged_x", "averaged, along Y": "ice_f
         "stern, along X": "ice_force_stern_x", "bottom, along X": "ice_force_bottom_x",
         "crushing, along X": "ice_force_capped_x", "below the limit, along X": "ice_force_below_cap_x",
         "friction, along X": "ice_force_friction_x"}
-TOWED_ROWS = {"towing carriage, along X": "tow_force_x"}
+TOWED_ROWS = {"towing carriage, along X": "tow_force_x", "towing carriage, along Y": "tow_force_y"}
 MOORED_ROWS = {"along X [m]": "offset_x", "along Y [m]": "offset_y", "heading [deg]": "heading_deviation",
                "mooring, along X": "mooring_force_x", "mooring, along Y": "mooring_force_y",
                "largest line tension": "line_tension_max",
@@ -333,14 +335,35 @@ def check_water(folder, pictures):
             assert f'alt="{chart}"' not in page, chart
 
 
+def turn_loads(series):
+    """What was along X is along Y, as of a ship that goes there."""
+    head, rows = series.read_text().split("\n", 1)
+    series.write_text(re.sub(r"((?:ice|tow)_force_\w*)(x|y)\[", lambda m: m[1] + "yx"["xy".index(m[2])] + "[", head)
+                      + "\n" + rows)
+
+
+def check_along_y(run, page):
+    """Where the load lies along Y, zones and parts are told along it too."""
+    tables = Tables()
+    tables.feed(page)
+    with open(run / "series.csv", newline="") as file:
+        series = list(csv.DictReader(file))
+    along_x = {name: channel for name, channel in {**ROWS, **TOWED_ROWS}.items() if name.endswith("along X")}
+    along_y = {name[:-1] + "Y": channel[:-1] + "y" for name, channel in along_x.items()}
+    assert len(along_y) == 10 and any(float(row["ice_force_bow_y[N]"]) for row in series)
+    check_channels(series, 0, tables.rows, {**along_x, **along_y}, page)
+
+
 def check_loose(folder):
     """A part of a sheet that comes loose did not break, in bending least of all."""
     file, run = folder / "loose.yaml", folder / "loose"
     file.write_text(LOOSE)
     subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
     move_series(run / "fractures.csv", -1400000, "place_x[m]")
+    turn_loads(run / "series.csv")
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
+    check_along_y(run, page)
     with open(run / "fractures.csv", newline="") as file:
         kinds, places = zip(*((row["kind[1]"], float(row["place_x[m]"])) for row in csv.DictReader(file)))
     assert all(f'<td class="n">{x:.1f}</td>' in page for x in places[:25]), "places far from the origin"
