@@ -127,6 +127,20 @@ typedef struct list_view {
     int64_t conditions, runs, failed, wanted;
 } list_view;
 
+/* "739 +- 169 kN", of a model "1.2 +- 0.4 N"; half: NaN without an interval. */
+static void tell_load(double newton, double half, char out[48])
+{
+    bool small = newton > 0 && newton < 1e4;
+    double factor = small ? 1 : 1e-3;
+    const char *unit = small ? "N" : "kN";
+    if (isfinite(half))
+        snprintf(out, 48, "%.4g +- %.3g %s", newton * factor, half * factor, unit);
+    else if (isfinite(newton))
+        snprintf(out, 48, "%.4g %s", newton * factor, unit);
+    else
+        snprintf(out, 48, "-");
+}
+
 static void list_condition(void *user, const fram_study_standing *c)
 {
     list_view *view = user;
@@ -153,16 +167,11 @@ static void list_condition(void *user, const fram_study_standing *c)
         return;
     }
     if (first)
-        printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load [kN]", "largest [kN]",
-               "id and keys");
-    char runs[48], mean[32] = "-", largest[32] = "-";
+        printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load", "largest", "id and keys");
+    char runs[48], mean[48], largest[48];
     snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
-    if (isfinite(c->load_mean_half))
-        snprintf(mean, sizeof mean, "%.4g +- %.3g", c->load_mean * 1e-3, c->load_mean_half * 1e-3);
-    else if (isfinite(c->load_mean))
-        snprintf(mean, sizeof mean, "%.4g", c->load_mean * 1e-3);
-    if (isfinite(c->load_largest))
-        snprintf(largest, sizeof largest, "%.4g", c->load_largest * 1e-3);
+    tell_load(c->load_mean, c->load_mean_half, mean);
+    tell_load(c->load_largest, (double)NAN, largest);
     printf("%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest, c->id,
            c->keys);
 }

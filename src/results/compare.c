@@ -1,4 +1,5 @@
 /* Comparison of two runs: the same numbers of both, and their channels over each other. */
+#include "base/load_unit.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
@@ -16,6 +17,7 @@ typedef struct pair {
     run_data d[2];
     html_page page;
     compare_result *result;
+    load_unit load, tension, power; /* those of both runs */
 } pair;
 
 static void add_row(pair *p, const char *name, const char *unit, bool is_place, const double value[2])
@@ -75,17 +77,28 @@ static const struct {
     {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
 };
 
+/* Of a force or power that of both runs. */
+static load_unit row_unit(const pair *p, size_t i)
+{
+    if (strncmp(rows[i].channel, "ice_force_averaged_", 19) == 0)
+        return p->load;
+    return strcmp(rows[i].channel, "line_tension_max") == 0 ? p->tension
+           : strcmp(rows[i].channel, "thruster_power") == 0 ? p->power
+                                                            : (load_unit){rows[i].unit, rows[i].factor};
+}
+
 /* One measure of a channel in both runs; vessel: its name before a colon, or "". */
 static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
 {
     double value[2];
     char name[sizeof p->result->row->name];
+    const load_unit unit = row_unit(p, i);
     for (int k = 0; k < 2; k++)
-        value[k] = measure_of(&p->d[k], channel, rows[i].what) * rows[i].factor;
+        value[k] = measure_of(&p->d[k], channel, rows[i].what) * unit.factor;
     if (strcmp(rows[i].unit, "deg") == 0)
         value[1] = angle_next_to(value[0], value[1]);
     snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
-    add_row(p, name, rows[i].unit, strncmp(rows[i].channel, "position_", 9) == 0, value);
+    add_row(p, name, unit.name, strncmp(rows[i].channel, "position_", 9) == 0, value);
 }
 
 static int32_t named_vessels(const scenario *s) { return scenario_names_vessels(s) ? scenario_vessel_count(s) : 0; }
@@ -106,6 +119,30 @@ static const scenario *next_vessel(const pair *p, int32_t at, int32_t *index)
     return NULL;
 }
 
+/* The largest size of a measure of a channel in both runs, of any vessel. */
+static double largest_measure(const pair *p, const char *channel, measure what)
+{
+    double most = 0;
+    const scenario *s;
+    for (int k = 0; k < 2; k++) {
+        most = fmax(most, fabs(measure_of(&p->d[k], channel, what)));
+        for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
+            most = fmax(most, fabs(measure_of(&p->d[k], vessel_channel_name(s, v, channel).text, what)));
+    }
+    return most;
+}
+
+static void choose_units(pair *p)
+{
+    static const char *const loads[] = {"ice_force_averaged_x", "ice_force_averaged_y"};
+    double load = 0;
+    for (int i = 0; i < 2; i++)
+        load = fmax(load, fmax(largest_measure(p, loads[i], GREATEST), largest_measure(p, loads[i], LEAST)));
+    p->load = kilonewtons_or_less(load);
+    p->tension = kilonewtons_or_less(largest_measure(p, "line_tension_max", GREATEST));
+    p->power = megawatts_or_less(largest_measure(p, "thruster_power", MEAN));
+}
+
 /* The hash has files by their names alone; what is in them is told beside it. */
 static void compare_scenarios(const run_note *a, const run_note *b, compare_result *out)
 {
@@ -120,6 +157,7 @@ static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
     const scenario *s;
+    choose_units(p);
     add_row(p, "simulated time", "s", false, time);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         find_row(p, i, rows[i].channel, "");
@@ -136,7 +174,7 @@ static void find_rows(pair *p)
 
 typedef struct overlay {
     const char *channel, *title, *label;
-    double factor;
+    load_unit unit;
     bool free; /* its axis need not hold zero: far from the origin a way would not be seen */
 } overlay;
 
@@ -145,6 +183,8 @@ static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
     chart_line lines[2];
     double *scaled[2] = {NULL, NULL};
     static const char *const names[2] = {"A", "B"};
+    char label[48];
+    snprintf(label, sizeof label, *o->unit.name ? "%s [%s]" : "%s%s", o->label, o->unit.name);
     int32_t n = 0;
     fram_status status = FRAM_OK;
     for (int k = 0; k < 2 && status == FRAM_OK; k++) {
@@ -156,12 +196,12 @@ static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
         if (!scaled[k])
             status = error_memory(error);
         for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-            scaled[k][i] = value[i] * o->factor;
+            scaled[k][i] = value[i] * o->unit.factor;
         lines[n] = chart_line_make(names[k], run_channel(&p->d[k], "time"), scaled[k], count, k == 1);
         lines[n++].colour = k + 2;
     }
     if (status == FRAM_OK && n > 0) {
-        chart c = chart_make(o->title, "", "time [s]", o->label, lines, n);
+        chart c = chart_make(o->title, "", "time [s]", label, lines, n);
         c.free_y = o->free;
         status = html_chart(&p->page, &c, false, error);
     }
@@ -207,14 +247,14 @@ static void number_table(pair *p)
 
 static fram_status compose_comparison(pair *p, fram_error *error)
 {
-    static const overlay charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force [kN]", 1e-3, false},
-                                     {"ice_force_averaged_y", "Ice load along Y, averaged", "force [kN]", 1e-3, false},
-                                     {"position_x", "Position along X", "x [m]", 1, true},
-                                     {"position_y", "Position along Y", "y [m]", 1, true},
-                                     {"floes", "Floes", "floes", 1, false},
-                                     {"bendings", "Floes broken in bending", "floes so far", 1, false},
-                                     {"line_tension_max", "Largest line tension", "tension [kN]", 1e-3, false},
-                                     {"crushing_work", "Work of crushing", "work [kJ]", 1e-3, false}};
+    const overlay charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force", p->load, false},
+                              {"ice_force_averaged_y", "Ice load along Y, averaged", "force", p->load, false},
+                              {"position_x", "Position along X", "x", {"m", 1}, true},
+                              {"position_y", "Position along Y", "y", {"m", 1}, true},
+                              {"floes", "Floes", "floes", {"", 1}, false},
+                              {"bendings", "Floes broken in bending", "floes so far", {"", 1}, false},
+                              {"line_tension_max", "Largest line tension", "tension", p->tension, false},
+                              {"crushing_work", "Work of crushing", "work", {"kJ", 1e-3}, false}};
     html_begin(&p->page, "Comparison of two runs", "");
     html_table_begin(&p->page, NULL, 0);
     for (int k = 0; k < 2; k++)

@@ -145,25 +145,52 @@ static fram_status station_picture(report *r, fram_error *error)
     return status;
 }
 
+/* The largest size of what a channel has after the transient. */
+static double largest_told(const report *r, const char *channel)
+{
+    const double *value = run_vessel_channel(&r->d, r->vessel, channel);
+    double most = 0;
+    for (int32_t i = run_first_row(&r->d); value && i < r->d.series.rows; i++)
+        most = fmax(most, fabs(value[i]));
+    return most;
+}
+
+static const report_line equipment_kinds[] = {{"line_%d_tension", "tension of line %d"},
+                                              {"thruster_%d_thrust", "thrust of thruster %d"}};
+enum { EQUIPMENT_KINDS = 2 };
+
+/* The channel of a line or thruster; false where the run has none of this number. */
+static bool equipment_channel(const report *r, int kind, int number, char channel[40])
+{
+    snprintf(channel, 40, equipment_kinds[kind].channel, number);
+    return run_vessel_channel(&r->d, r->vessel, channel) != NULL;
+}
+
+static load_unit equipment_unit(const report *r)
+{
+    char channel[40];
+    double most = fmax(largest_told(r, "mooring_force_x"), largest_told(r, "mooring_force_y"));
+    for (int kind = 0; kind < EQUIPMENT_KINDS; kind++)
+        for (int number = 1; equipment_channel(r, kind, number, channel); number++)
+            most = fmax(most, largest_told(r, channel));
+    return load_unit_for(most);
+}
+
 /* Lines and thrusters, by their numbers, as far as the run has channels of them. */
 static void equipment(report *r, load_unit unit)
 {
-    static const char *const kinds[2][2] = {{"line_%d_tension", "tension of line %d"},
-                                            {"thruster_%d_thrust", "thrust of thruster %d"}};
-    for (int k = 0; k < 2; k++) {
-        char channel[40], name[40];
-        for (int number = 1; snprintf(channel, sizeof channel, kinds[k][0], number) > 0 &&
-                             run_vessel_channel(&r->d, r->vessel, channel);
-             number++) {
-            snprintf(name, sizeof name, kinds[k][1], number);
+    char channel[40], name[40];
+    for (int kind = 0; kind < EQUIPMENT_KINDS; kind++)
+        for (int number = 1; equipment_channel(r, kind, number, channel); number++) {
+            snprintf(name, sizeof name, equipment_kinds[kind].name, number);
             report_statistics(r, channel, name, unit.factor);
         }
-    }
 }
 
-static fram_status station(report *r, load_unit unit, fram_error *error)
+static fram_status station(report *r, fram_error *error)
 {
     char head[64];
+    load_unit unit = equipment_unit(r);
     if (!station_has_results(&r->d.s, r->vessel))
         return FRAM_OK;
     report_vessel_section(r, "Station keeping");
@@ -207,7 +234,7 @@ fram_status report_loads(report *r, fram_error *error)
     if (status == FRAM_OK)
         status = report_mechanisms(r, unit, error);
     if (status == FRAM_OK)
-        status = station(r, unit, error);
+        status = station(r, error);
     report_vessel_section(r, "Motion of the vessel");
     html_grid_begin(&r->page);
     if (status == FRAM_OK)

@@ -123,7 +123,7 @@ static bool add_pair(study_page *p, const condition_pair *pair, const bool *has)
     page_text_cell(p, key);
     for (int i = 0; i < PAGE_FIGURES && good; i++)
         if (has[i])
-            good = add_cell(p, pair, &page_figures[i]);
+            good = add_cell(p, pair, &p->figures[i]);
     html_row_end(&p->page);
     return good;
 }
@@ -136,7 +136,7 @@ static bool add_difference_table(study_page *p, const condition_pairs *pairs, co
     bool good = true;
     html_section(&p->page, "Differences");
     for (int i = 0; i < PAGE_FIGURES; i++) {
-        snprintf(names[i], sizeof names[i], "%s [%s]", page_figures[i].name, page_figures[i].unit);
+        snprintf(names[i], sizeof names[i], "%s [%s]", p->figures[i].name, p->figures[i].unit);
         if (has[i])
             heads[count++] = names[i];
     }

@@ -11,14 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const page_figure page_figures[PAGE_FIGURES] = {
-    {ROW_load_mean, "Mean load", "kN", 1e-3},
-    {ROW_load_significant, "Significant load", "kN", 1e-3},
-    {ROW_load_largest, "Largest load", "kN", 1e-3},
-    {ROW_offset_largest, "Largest offset", "m", 1},
-    {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
-    {ROW_line_tension_range_equivalent, "Equivalent tension range", "kN", 1e-3},
-    {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
 enum { WORST = 10 };
 /* An interval wider than this part of the mean calls for more seeds, where the study does not say what does. */
 #define WIDE_INTERVAL 0.1
@@ -38,14 +30,6 @@ seed_interval page_interval(study_page *p, int32_t condition, const page_figure 
         p->page.text.failed = true;
     memory_free(p->f->ctx, value);
     return out;
-}
-
-page_figure page_figure_of(run_figure figure)
-{
-    for (int i = 0; i < PAGE_FIGURES; i++)
-        if (page_figures[i].figure == figure)
-            return page_figures[i];
-    return (page_figure){figure, run_figure_name(figure), run_figure_unit(figure), 1};
 }
 
 /* Decimals that leave so many significant digits, at most six; negative: of a number that is larger. */
@@ -267,7 +251,7 @@ static double wide_of(const study_page *p)
 /* Half the interval of the mean load is a large part of it. */
 static bool wants_seeds(study_page *p, int32_t condition)
 {
-    seed_interval of = page_interval(p, condition, &page_figures[0]);
+    seed_interval of = page_interval(p, condition, &p->figures[0]);
     return isfinite(of.mean) && of.mean != 0 && !(of.half <= wide_of(p) * fabs(of.mean));
 }
 
@@ -282,7 +266,7 @@ static void add_row(study_page *p, int32_t condition, const bool *has)
     html_cell(&p->page, text);
     for (int i = 0; i < PAGE_FIGURES; i++)
         if (has[i])
-            add_interval(p, page_interval(p, condition, &page_figures[i]));
+            add_interval(p, page_interval(p, condition, &p->figures[i]));
     html_row_end(&p->page);
 }
 
@@ -300,7 +284,7 @@ static void add_table(study_page *p, const bool *has)
              "@media print{@page{size:A4 landscape}.wide{overflow:visible}.wide table{font-size:8pt}"
              ".grid{grid-template-columns:1fr 1fr}}</style>\n");
     for (int i = 0; i < PAGE_FIGURES; i++) {
-        snprintf(names[i], sizeof names[i], "%s [%s]", page_figures[i].name, page_figures[i].unit);
+        snprintf(names[i], sizeof names[i], "%s [%s]", p->figures[i].name, p->figures[i].unit);
         if (has[i])
             heads[count++] = names[i];
     }
@@ -405,13 +389,15 @@ static fram_status add_worst(study_page *p, fram_error *error)
 {
     const study *s = p->f->s;
     worst_run worst[STUDY_WORST_MOST];
-    char text[32], name[80];
-    page_figure by = page_figure_of((run_figure)s->worst.figure);
+    char text[32], name[80], beside[80];
+    page_figure by = page_figure_of(p, (run_figure)s->worst.figure);
     bool load = by.figure == ROW_load_largest;
+    page_figure other = page_figure_of(p, load ? ROW_load_mean : ROW_load_largest);
     int32_t most = s->worst.count > WORST ? s->worst.count : WORST;
     int32_t count = study_worst_find(p->f, p->conditions, by.figure, most, worst);
     snprintf(name, sizeof name, "%s [%s]", by.name, by.unit);
-    const char *heads[] = {"condition", "seed", name, load ? "Mean load [kN]" : "Largest load [kN]", "playback"};
+    snprintf(beside, sizeof beside, "%s [%s]", other.name, other.unit);
+    const char *heads[] = {"condition", "seed", name, beside, "playback"};
     if (count == 0)
         return FRAM_OK;
     html_section(&p->page, "Worst runs");
@@ -433,7 +419,7 @@ static fram_status add_worst(study_page *p, fram_error *error)
         snprintf(text, sizeof text, "%lld", (long long)s->seeds.first + worst[i].index);
         html_cell(&p->page, text);
         html_number(&p->page, page_three_digits(worst[i].value * by.factor));
-        html_number(&p->page, page_three_digits(row->figure[load ? ROW_load_mean : ROW_load_largest] * 1e-3));
+        html_number(&p->page, page_three_digits(row->figure[other.figure] * other.factor));
         status = add_playback(p, &worst[i], error);
         html_row_end(&p->page);
     }
@@ -447,8 +433,9 @@ static fram_status make_page(study_page *p, fram_error *error)
 {
     bool has[PAGE_FIGURES];
     int64_t runs, failed;
+    page_choose_units(p);
     for (int i = 0; i < PAGE_FIGURES; i++)
-        has[i] = has_figure(p, &page_figures[i]);
+        has[i] = has_figure(p, &p->figures[i]);
     add_head(p);
     add_table(p, has);
     page_count_runs(p, &runs, &failed);

@@ -169,7 +169,7 @@ fram_status page_add_charts(study_page *p, const bool *has, fram_error *error)
             html_section(&p->page, "Seeds and means");
             html_grid_begin(&p->page);
         }
-        status = add_chart(&w, &page_figures[i], error);
+        status = add_chart(&w, &p->figures[i], error);
     }
     if (charts > 0)
         html_grid_end(&p->page);

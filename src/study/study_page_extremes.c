@@ -122,7 +122,7 @@ static fram_status add_annual(study_page *p, const bool *has, const double *bloc
     html_table_begin(&p->page, heads, 5);
     for (int f = 0; f < STUDY_RARE && status == FRAM_OK; f++) {
         annual_answer answer[STUDY_LEVELS_MOST];
-        page_figure figure = page_figure_of(study_rare[f]);
+        page_figure figure = page_figure_of(p, study_rare[f]);
         if (!has[f])
             continue;
         status = study_annual(p->f, p->conditions, figure.figure, block, answer, error);
@@ -159,13 +159,13 @@ fram_status page_add_extremes(study_page *p, fram_error *error)
                    "are not exceeded with a probability.  They know of the scatter of seeds alone.",
                    duration, x->gev ? "the generalized extreme value" : "Gumbel's", 100 * x->confidence);
     for (int i = 0; i < STUDY_RARE && status == FRAM_OK; i++) {
-        page_figure figure = page_figure_of(study_rare[i]);
+        page_figure figure = page_figure_of(p, study_rare[i]);
         has[i] = has_rare(p, study_rare[i]);
         if (has[i])
             status = add_levels(p, &figure, block, error);
     }
     if (status == FRAM_OK) {
-        page_figure figure = page_figure_of(study_rare[most_wanted(has)]);
+        page_figure figure = page_figure_of(p, study_rare[most_wanted(has)]);
         status = add_plots(p, &figure, block, error);
     }
     if (status == FRAM_OK && x->annuals > 0)

@@ -90,10 +90,10 @@ void page_add_heats(study_page *p, const bool *has)
             continue;
         page_heat_scale scale = {"#d1603d", 0};
         for (int32_t c = 0; c < p->f->s->conditions; c++) {
-            value[c] = page_interval(p, c, &page_figures[i]).mean;
+            value[c] = page_interval(p, c, &p->figures[i]).mean;
             scale.full = fmax(scale.full, value[c]);
         }
-        snprintf(name, sizeof name, "%s [%s]", page_figures[i].name, page_figures[i].unit);
+        snprintf(name, sizeof name, "%s [%s]", p->figures[i].name, p->figures[i].unit);
         page_add_heat(p, &of, name, scale, value);
     }
 }

@@ -7,7 +7,7 @@
 #include "study/study_answers.h"
 #include "study/study_series.h"
 
-/* A figure in the unit of the page. */
+/* A figure in the unit of the page: those of page_figures are of full size. */
 typedef struct page_figure {
     run_figure figure;
     const char *name, *unit;
@@ -20,11 +20,15 @@ typedef struct study_page {
     const study_folder *f;
     const condition_rows *conditions;
     html_page page;
-    int32_array key_digits; /* of the keys that were asked for */
+    page_figure figures[PAGE_FIGURES]; /* page_figures in the units that fit this study */
+    int32_array key_digits;            /* of the keys that were asked for */
 } study_page;
 
+/* The units of its figures: kN and kW, or N and W where all are under 10 kN or kW, as of a model.  Loads have one, so
+   that their columns can be compared, and tensions have one. */
+void page_choose_units(study_page *p);
 /* The figure as the page has it, or as in summary.csv. */
-page_figure page_figure_of(run_figure figure);
+page_figure page_figure_of(const study_page *p, run_figure figure);
 /* Mean over the seeds of a condition and half its interval, in the unit of the page; without memory none, and the
    page's text has failed. */
 seed_interval page_interval(study_page *p, int32_t condition, const page_figure *figure);

@@ -4,6 +4,7 @@ ignore how programs end; and what is told meanwhile is of the study."""
 import fcntl
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -14,6 +15,18 @@ from studies import FRAM, StudyTest
 
 
 class Folders(StudyTest):
+    def check_newtons(self, folder):
+        """Loads that are all under 10 kN are told in newtons."""
+        most = max(float(r["load_largest[N]"]) for r in self.rows(folder))
+        self.assertTrue(0 < most < 1e4, most)
+        page = (self.at / folder / "study.html").read_text()
+        heads = set(re.findall("<th[^>]*>((?:Mean|Significant|Largest) load.*?)</th>", page))
+        self.assertEqual(heads, {"Mean load [N]", "Significant load [N]", "Largest load [N]"})
+        largest = re.search("Worst runs.*?<tbody>.*?<tr>" + "<td[^>]*>([^<]*)</td>" * 3, page, re.S)[3]
+        self.assertAlmostEqual(float(largest), most, delta=0.006 * most)
+        done = subprocess.run([FRAM, "study", "list", self.at / folder], check=True, capture_output=True, text=True)
+        self.assertRegex(done.stdout, r" \d\S* N +\d\S* N  ")
+
     def test_a_folder_of_a_study_of_another_scenario_is_told(self):
         short = "set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n"
         self.fram(self.write(short), "-o", self.at / "out")
@@ -120,7 +133,7 @@ class Folders(StudyTest):
 
     def test_a_study_that_begins_in_the_same_folder_takes_nothing_away(self):
         """The first file of a study is there under another name for a moment, which is no leftover then."""
-        path, folder = self.write("seeds: 1\nset: {run.duration: 1.5}\n"), self.at / "out"
+        path, folder = self.write("seeds: 1\nset: {run.duration: 3, ice.thickness: 0.001}\n"), self.at / "out"
         folder.mkdir()
         first = folder / "study.yaml.0123456789abcdef.new"
         first.write_text("half of it")
@@ -131,6 +144,7 @@ class Folders(StudyTest):
         os.close(lock)
         self.assertEqual(self.fram(path, "-o", folder)["runs"], 1)
         self.assertFalse(first.exists())
+        self.check_newtons("out")
         # Beside something else it is no folder of a study.
         shutil.rmtree(folder)
         folder.mkdir()
