@@ -148,7 +148,7 @@ static void print_number(double x, const char *unit, int digits)
         printf(" %14s", "-");
 }
 
-enum { COMPARED_NAME_ROOM = 96 };
+enum { COMPARED_NAME_ROOM = 136 };
 
 static int compared_name(const fram_comparison_row *row, char out[COMPARED_NAME_ROOM])
 {

@@ -18,6 +18,7 @@ typedef struct pair {
     html_page page;
     compare_result *result;
     load_unit load, tension, power; /* those of both runs */
+    char last_row[48];              /* "7 s", "7 and 12 s": of both; "" where both ended with it */
 } pair;
 
 static void add_row(pair *p, const char *name, const char *unit, bool is_place, const double value[2])
@@ -87,17 +88,46 @@ static load_unit row_unit(const pair *p, size_t i)
                                                             : (load_unit){rows[i].unit, rows[i].factor};
 }
 
+/* Where the last row is not of the end, what was then is not told as of the end. */
+static void find_last_row(pair *p)
+{
+    double last[2];
+    bool early = false;
+    for (int k = 0; k < 2; k++) {
+        last[k] = run_ends_after_row(&p->d[k]);
+        early |= isfinite(last[k]);
+        last[k] = fmin(last[k], p->d[k].note.time);
+    }
+    if (early && fabs(last[1] - last[0]) > 1e-6 * last[0])
+        snprintf(p->last_row, sizeof p->last_row, "%.6g and %.6g s", last[0], last[1]);
+    else if (early)
+        snprintf(p->last_row, sizeof p->last_row, "%.6g s", last[0]);
+}
+
+/* "tug: x at the end", or "tug: x in the last row, at 7 s"; what counts up is told until then. */
+static void name_row(const pair *p, size_t i, const char *vessel, char out[COMPARE_NAME_SIZE])
+{
+    const char *name = rows[i].name, *end = strstr(name, " at the end");
+    int length = (int)(end ? (size_t)(end - name) : strlen(name));
+    int n = snprintf(out, COMPARE_NAME_SIZE, "%.*s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "");
+    if (rows[i].what == LAST && p->last_row[0])
+        snprintf(out + n, COMPARE_NAME_SIZE - (size_t)n, "%.*s %s the last row, at %s", length, name,
+                 end ? "in" : "until", p->last_row);
+    else
+        snprintf(out + n, COMPARE_NAME_SIZE - (size_t)n, "%s", name);
+}
+
 /* One measure of a channel in both runs; vessel: its name before a colon, or "". */
 static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
 {
     double value[2];
-    char name[sizeof p->result->row->name];
+    char name[COMPARE_NAME_SIZE];
     const load_unit unit = row_unit(p, i);
     for (int k = 0; k < 2; k++)
         value[k] = measure_of(&p->d[k], channel, rows[i].what) * unit.factor;
     if (strcmp(rows[i].unit, "deg") == 0)
         value[1] = angle_next_to(value[0], value[1]);
-    snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
+    name_row(p, i, vessel, name);
     add_row(p, name, unit.name, strncmp(rows[i].channel, "position_", 9) == 0, value);
 }
 
@@ -158,6 +188,7 @@ static void find_rows(pair *p)
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
     const scenario *s;
     choose_units(p);
+    find_last_row(p);
     add_row(p, "simulated time", "s", false, time);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         find_row(p, i, rows[i].channel, "");
@@ -232,7 +263,7 @@ static void number_table(pair *p)
     html_table_begin(&p->page, heads, 5);
     for (int32_t i = 0; i < p->result->count; i++) {
         const compare_row *row = &p->result->row[i];
-        char name[96];
+        char name[COMPARE_NAME_SIZE + UNIT_SIZE + 3];
         snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
         html_row_begin(&p->page);
         html_cell(&p->page, name);

@@ -13,8 +13,9 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
                          fram_error *error);
 
 /* One quantity of two runs. */
+enum { COMPARE_NAME_SIZE = 112 };
 typedef struct compare_row {
-    char name[COLUMN_NAME_SIZE], unit[UNIT_SIZE];
+    char name[COMPARE_NAME_SIZE], unit[UNIT_SIZE];
     double a, b;   /* a NaN: the run does not have it */
     bool is_place; /* a coordinate, of which parts of another say nothing */
 } compare_row;

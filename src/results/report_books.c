@@ -91,11 +91,20 @@ static void mass_balance(report *r)
     book_row(r, "of the mass at the start", 100 * open / a->mass, "%");
 }
 
+/* "at the end", or when the last row was, where the run went on after it. */
+static const char *last_row_words(const report *r, char out[48])
+{
+    double row = run_ends_after_row(&r->d);
+    snprintf(out, 48, isfinite(row) ? "in the last row, at %.6g s" : "at the end", row);
+    return out;
+}
+
 static void mass_books(report *r)
 {
     const field_state *a = &r->d.before, *b = &r->d.after;
     bool know = r->d.frames > 0 && r->d.series.rows > 0;
-    const char *const heads[] = {"mass of ice", "at the end"};
+    char when[48];
+    const char *const heads[] = {"mass of ice", last_row_words(r, when)};
     html_table_begin(&r->page, heads, 2);
     if (know) {
         book_row(r, "in the field at the first frame", a->mass * 1e-3, "t");
@@ -159,7 +168,8 @@ fram_status report_books(report *r, fram_error *error)
     const report_line energy[] = {{"crushing_work", "dissipated by crushing"}, {"kinetic_energy", "kinetic"}};
     html_section(&r->page, "Mass and energy");
     mass_books(r);
-    const char *const heads[] = {"energy", "at the end"};
+    char when[48];
+    const char *const heads[] = {"energy", last_row_words(r, when)};
     html_table_begin(&r->page, heads, 2);
     book_channels(r, "energy_", "_energy", 1e-3, "kJ");
     book_channels(r, "work_", "_work", 1e-3, "kJ");

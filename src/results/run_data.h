@@ -84,6 +84,8 @@ int32_t run_fractures(const run_data *d, int kind);
 int32_t run_first_row(const run_data *d);
 /* From when on a run was recorded that a program had stepped before [s]; 0: from its start, or nothing tells. */
 double run_recorded_from(const run_data *d);
+/* The time of the last row where the run went on after it [s]; HUGE_VAL: that is its end, or there is no row. */
+double run_ends_after_row(const run_data *d);
 /* Whether rows of the series are more than a step apart. */
 bool run_leaves_out_steps(const run_data *d);
 /* That the series has no rows. */

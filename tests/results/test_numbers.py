@@ -133,6 +133,17 @@ def main():
             deviation = (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5
             close(rows["ice load along X, standard deviation"][k], deviation, 5e-3)
             close(rows["x at the end"][k], -22 + SPEED * (WAY + 2), 1e-3)
+        # Where the last row is not of the end, that is said.
+        sparse = run(folder, "sparse", BOX.replace(f"duration: {WAY + 2}", "duration: 1"), "output.csv_interval=0.7")
+        told, rows_then = compare(sparse, sparse)
+        assert told["same_state"] and not any("the end" in name for name in rows_then), rows_then
+        close(rows_then["x in the last row, at 0.7 s"][0], -22 + SPEED * 0.7, 1e-3)
+        assert rows_then["floes split until the last row, at 0.7 s"] == (0, 0), rows_then
+        both = compare(box, sparse)[1]
+        assert f"floes in the last row, at {WAY + 2} and 0.7 s" in both, both
+        rows_then = report(sparse)
+        assert all("in the last row, at 0.7 s" in (sparse / "report.html").read_text().split(f">{head}</th>")[1][:60]
+                   for head in ("mass of ice", "energy")), rows_then
         # Headings are next to each other on either side of astern.
         water = BOX.replace("source: level", "source: none").replace("transient: 1", "transient: 0")
         ends = [run(folder, f"to{h}", water, f"vessel.heading_deg={h}", "run.duration=0.02") for h in (179.9, -179.9)]
