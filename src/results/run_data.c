@@ -277,7 +277,8 @@ static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
     bool found = true;
     if (d->s.output.frame_interval <= 0)
         return FRAM_OK;
-    fram_status status = replay_open(ctx, d->folder, &r, error);
+    /* A recording that met no frame's time has a record without any. */
+    fram_status status = replay_open_any(ctx, d->folder, &r, error);
     if (status != FRAM_OK)
         return status;
     while (status == FRAM_OK) {
