@@ -21,8 +21,12 @@ double run_recorded_from(const run_data *d)
 {
     const double *time = run_channel(d, "time");
     double step = d->s.run.time_step, first = time && d->series.rows > 0 ? time[0] : 0;
-    if (d->frames > 0) /* the first one is of where the recording began, however far apart rows are */
-        return d->before.time > 1.5 * step ? d->before.time : 0;
+    /* Recorded from its start a run has a frame of that.  Later ones come at multiples of their interval, as rows do.
+     */
+    if (d->frames > 0 && !(d->before.time > 1.5 * step))
+        return 0;
+    if (d->frames > 0)
+        return first > 0 ? fmin(first, d->before.time) : d->before.time;
     return first > fmax(step, d->s.output.csv_interval) + 0.5 * step ? first : 0;
 }
 

@@ -429,9 +429,11 @@ def drop_frame(record):
 
 
 def check_late_frames(folder):
-    """The first frame tells when a recording began, however far apart rows are; without it the next one is that."""
+    """The first frame tells whether a recording began late, however far apart rows are; the first frame or row tells
+    when."""
     run = folder / "water"
     scenario, series, record = run / "scenario.yaml", run / "series.csv", run / "record.fram"
+    rows = series.read_text()
     scenario.write_text(re.sub("csv_interval: 0 ", "csv_interval: 1.8 ", scenario.read_text()))
     keep_rows(series, 1.79)
     for told in (False, True):
@@ -439,6 +441,12 @@ def check_late_frames(folder):
         page = (run / "report.html").read_text()
         assert ("recorded from 1 to 2 s of 2; Fram" in page) == told, re.search("<p.*Fram.*", page)
         assert drop_frame(record)
+    # What is left is the frame at 2 s.
+    series.write_text(rows)
+    keep_rows(series, 0.499)
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    page = (run / "report.html").read_text()
+    assert "recorded from 0.5 to 2 s of 2; Fram" in page, re.search("<p.*Fram.*", page)
     while drop_frame(record):
         pass
     subprocess.run([FRAM, "report", run, "-q"], check=True)
