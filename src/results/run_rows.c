@@ -41,8 +41,19 @@ bool run_leaves_out_steps(const run_data *d) { return floor(d->s.output.csv_inte
 
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
 {
-    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
-                     "the run's series has no rows; give the scenario a shorter output.csv_interval");
+    bool goes_on = strcmp(d->note.status, "finished") != 0 &&
+                   d->s.run.duration + 0.5 * d->s.run.time_step >= d->s.output.csv_interval;
+    if (strcmp(d->note.status, "failed") == 0)
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
+                         "the run's series has no rows: it failed before the first step that has one");
+    if (goes_on)
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
+                         "the run's series has no rows: it has made no step yet that has one; `fram resume %.200s` "
+                         "goes on with it",
+                         d->folder);
+    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL, "the run's series has no rows%s",
+                     run_leaves_out_steps(d) ? "; give the scenario a shorter output.csv_interval"
+                                             : ": it made no step");
 }
 
 fram_status run_refuse_channel(const run_data *d, const char *name, const char *also, fram_error *error)

@@ -130,9 +130,13 @@ for command in extremes fatigue; do
     expect 2 "$FRAM" $command none
     says "the run's series has no rows" err
     expect 2 "$FRAM" $command none --channel offset_x
-    says "the run's series has no rows" err
+    says "the run's series has no rows; give the scenario a shorter output.csv_interval" err
 done
 expect 0 "$FRAM" compare none none -o none.html -q
+# One that was stopped before its first step has no rows yet, whatever the interval.
+expect 0 "$FRAM" run "$scratch/scene.yaml" -o early -q --until 0.001
+expect 2 "$FRAM" extremes early --channel offset_x
+says "it has made no step yet that has one; \`fram resume early\` goes on with it" err
 
 # What is required of a vessel that nothing holds is judged as well.
 cat >adrift.yaml <<'END'
