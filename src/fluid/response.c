@@ -294,6 +294,22 @@ static pair6 pair_sum(pair6 a, pair6 b, double scale)
     return (pair6){vec3_mad(a.linear, b.linear, scale), vec3_mad(a.angular, b.angular, scale)};
 }
 
+/* Kirchhoff's terms for all of A, but for what is measured. */
+static pair6 steady_terms(const hydrodynamics *h, pair6 v)
+{
+    pair6 terms = turning_terms(&h->added_mass, v);
+    if (h->measured)
+        terms.angular.z -= munk(&h->added_mass, v.linear);
+    return terms;
+}
+
+/* What the diagonals leave out of the water's load on a body that a joint leads: the joint bears it. */
+static pair6 led_terms(const hydrodynamics *h, const matrix6 *damping, pair6 v)
+{
+    pair6 coupling = pair_sum(matrix6_mul(&h->damping, v), matrix6_mul(damping, v), -1);
+    return pair_sum(steady_terms(h, v), coupling, -1);
+}
+
 /* What is made up for shrinks from one step to the next by this factor at least: under 1, so that it dies out; nearer
    to 1 more is made up for, and oscillations die out more slowly. */
 #define DEFERRED_SHRINK 0.9
@@ -333,15 +349,15 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
         /* Known to the dynamics, who divide it by what they know: it must be divided by all, and then put back. */
         vec3 turning = matrix6_mul(&diagonal, v).angular;
         gyroscopic = vec3_cross(v.angular, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.angular), turning));
-        force = pair_sum(force, turning_terms(&added, v), 1);
-        if (h->measured)
-            force.angular.z -= munk(&added, v.linear);
+        force = pair_sum(force, steady_terms(h, v), 1);
         force.angular = vec3_sub(force.angular, gyroscopic);
     }
     pair6 acceleration;
     if (!matrix6_solve(&whole, pair_sum(force, deferred, 1), &acceleration))
         return;
     pair6 changed = pair_sum(matrix6_mul(&known, acceleration), deferred, -1);
+    if (!coupled)
+        changed = pair_sum(changed, led_terms(h, &damping, v), 1);
     load->force = mat3_mul_vec(r, changed.linear);
     load->moment = mat3_mul_vec(r, vec3_add(changed.angular, gyroscopic));
 }
