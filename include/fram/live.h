@@ -208,9 +208,10 @@ FRAM_API int fram_world_fractures(const fram_world *world, fram_fracture *fractu
    scenario: wind_x, wind_y, current_x, current_y [m/s]; ice_drift_x, ice_drift_y [m/s] with an endless field or level
    ice that drifts; for the vessel outside_force_x to outside_moment_z [N, N m], tow_velocity_x, tow_velocity_y [m/s]
    while it is towed or driven, set_point_x, set_point_y [m], set_point_heading [deg] of a free one (not of one with
-   propulsion and no thrusters, which goes by its track; with positioning.control: heading the heading alone) and
-   positioning (1 or 0) where it has thrusters; thruster_1_order [N], thruster_1_order_angle [deg] ... while positioning
-   is 0; line_1_release (1) ...  Those of a list of vessels begin with the name and a point: NAME.set_point_x. */
+   propulsion and no thrusters, which goes by its track; with positioning.control: heading the heading alone, with
+   positioning.heading: vaning no heading) and positioning (1 or 0) where it has thrusters; thruster_1_order [N],
+   thruster_1_order_angle [deg] (not of a tunnel, nor of a main without a rudder) ... while positioning is 0;
+   line_1_release (1) ...  Those of a list of vessels begin with the name and a point: NAME.set_point_x. */
 FRAM_API int fram_world_inputs(const fram_world *world);
 FRAM_API fram_status fram_world_input(const fram_world *world, int index, fram_channel *input, fram_error *error,
                                       size_t size);
@@ -227,7 +228,8 @@ FRAM_API fram_status fram_world_set_input(fram_world *world, int index, double v
    path any more, and a towed or driven vessel goes on as fast as it went along it, or stands where it stood; times and
    places may be NULL.  FRAM_ERROR_INPUT, key "times", where the way to a place would take a towed or driven vessel, or
    the turn to it the vessel's rim, to run.speed_limit.  FRAM_ERROR_USAGE, key "vessel", for a path of one with
-   propulsion and no thrusters, which goes by its track. */
+   propulsion and no thrusters, which goes by its track, or with control: heading and heading: vaning, which follows
+   neither places nor headings. */
 FRAM_API fram_status fram_world_set_path(fram_world *world, int vessel, const double *times, const double *places,
                                          int count, fram_error *error);
 

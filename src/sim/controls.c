@@ -61,13 +61,17 @@ static bool goes_by_track(const world *w, int32_t v)
     return drives && thrusters_of(w, v) == 0;
 }
 
+/* Of a ship whose bow turns against the ice the heading that is wanted is its own. */
+static bool finds_its_heading(const world *w, int32_t v) { return w->stations.heading_rule[v] == HEADING_VANING; }
+
 static void list_station(lister *l, const world *w, int32_t v)
 {
     if (!station_is_kept(&w->stations, &w->vessels, v) || goes_by_track(w, v))
         return;
     if (!station_is_of_heading_alone(&w->stations, v))
         add_vector(l, CONTROL_SET_POINT, v, 2, "set_point", "m", "where the ship's origin shall be, global frame");
-    add(l, CONTROL_SET_POINT, v, v, 2, "set_point_heading", 0, "deg", "heading that is wanted");
+    if (!finds_its_heading(w, v))
+        add(l, CONTROL_SET_POINT, v, v, 2, "set_point_heading", 0, "deg", "heading that is wanted");
     if (thrusters_of(w, v) > 0)
         add(l, CONTROL_POSITIONING, v, v, 0, "positioning", 0, "1",
             "1: the vessel's own controller gives the orders to the thrusters; 0: whoever steps the world does");
@@ -96,7 +100,7 @@ static void list_equipment(lister *l, const world *w, int32_t v)
             continue;
         add(l, CONTROL_THRUST, v, i, 0, "thruster_%d_order", ++thruster, "N",
             "thrust ordered, within what the thruster can give; negative: astern");
-        if (w->thrusters.kind[i] != THRUSTER_TUNNEL)
+        if (w->thrusters.kind[i] == THRUSTER_AZIMUTH || w->thrusters.rudder[i] > 0)
             add(l, CONTROL_ANGLE, v, i, 0, "thruster_%d_order_angle", thruster, "deg",
                 w->thrusters.kind[i] == THRUSTER_MAIN
                     ? "direction ordered of the thrust behind the rudder, vessel frame"
@@ -433,6 +437,13 @@ static void put_waypoint(waypoint_table *t, int32_t row, int32_t vessel, double 
     t->place[row] = place;
 }
 
+/* Neither of a place nor of a heading. */
+static bool follows_nothing(const world *w, int32_t vessel)
+{
+    return station_is_kept(&w->stations, &w->vessels, vessel) && station_is_of_heading_alone(&w->stations, vessel) &&
+           finds_its_heading(w, vessel);
+}
+
 fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel, const double *times,
                          const vec3 *places, int32_t count, fram_error *error)
 {
@@ -440,6 +451,11 @@ fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel,
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
                          "expected one that is towed or driven or has a set point; number %d drives itself without "
                          "thrusters: its autopilot goes by propulsion.waypoints or propulsion.pattern",
+                         (int)vessel);
+    if (count > 0 && follows_nothing(w, vessel))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
+                         "expected one that is towed or driven or has a set point; lines hold the place of number %d "
+                         "(positioning.control: heading), and its bow turns against the ice (heading: vaning)",
                          (int)vessel);
     fram_status status = check_path(w, times, places, count, error);
     if (status != FRAM_OK)

@@ -41,7 +41,8 @@ fram_status control_set(context *ctx, const model *m, world *w, const control *c
 /* A path from where the vessel is now, in place of what it had: `count` places (x, y of the ship's origin, heading
    [m, m, rad]) at times that ascend from now on; 0: none, and a carriage goes on at the velocity that it has.  A free
    vessel's set point jumps to each place at its time; a path that another vessel cannot follow under the speed limit is
-   refused, and so is any of a ship that drives itself and has no thrusters. */
+   refused, and so is any of a ship that drives itself and has no thrusters, or that has its place from lines and its
+   heading from the ice. */
 fram_status control_path(context *ctx, const model *m, world *w, int32_t vessel, const double *times,
                          const vec3 *places, int32_t count, fram_error *error);
 

@@ -173,8 +173,8 @@ START_TEST(speeds_that_end_a_world)
 }
 END_TEST
 
-/* A ship that drives itself goes by its track, and one whose thrusters turn it about its mooring stays there: of what
-   nothing of it follows there is no set point. */
+/* A ship that drives itself goes by its track, one whose thrusters turn it about its mooring stays there, and one whose
+   bow turns against the ice has its heading from there: of what nothing of it follows there is no set point. */
 START_TEST(no_set_point_that_nothing_follows)
 {
 #define DRIVES "propulsion: {bollard_pull: 4.0e5, waypoints: [{x: 99}]}\n"
@@ -182,10 +182,16 @@ START_TEST(no_set_point_that_nothing_follows)
     static const struct {
         const char *gear;
         bool place, heading;
-    } ships[] = {{"  " DRIVES, false, false},
-                 {"  " DRIVES "  thrusters: [{x: 18}]\n", true, true},
-                 {"  thrusters: [{x: 18}]\n  " LINES "  positioning: {active: true, control: heading}\n", false, true},
-                 {"  " LINES "  positioning: {control: heading}\n", false, true}};
+        const char *why; /* there is no path */
+    } ships[] = {
+        {"  " DRIVES, false, false, "propulsion.waypoints"},
+        {"  " DRIVES "  thrusters: [{x: 18}]\n", true, true, NULL},
+        {"  thrusters: [{x: 18}]\n  " LINES "  positioning: {active: true, control: heading}\n", false, true, NULL},
+        {"  " LINES "  positioning: {control: heading}\n", false, true, NULL},
+        {"  thrusters: [{x: 18}, {x: -18, kind: main}]\n  positioning: {active: true, heading: vaning}\n", true, false,
+         NULL},
+        {"  thrusters: [{x: 18}]\n  " LINES "  positioning: {active: true, control: heading, heading: vaning}\n", false,
+         false, "vaning"}};
     static const char ship[] = "run: {duration: 1, time_step: 0.05}\n"
                                "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
                                "%sice: {source: none}\n";
@@ -199,13 +205,18 @@ START_TEST(no_set_point_that_nothing_follows)
         ck_assert_int_eq(fram_world_find_input(w, "set_point_x") >= 0, ships[i].place);
         ck_assert_int_eq(fram_world_find_input(w, "set_point_y") >= 0, ships[i].place);
         ck_assert_int_eq(fram_world_find_input(w, "set_point_heading") >= 0, ships[i].heading);
+        bool main = strstr(ships[i].gear, "kind: main") != NULL; /* without a rudder it has no angle */
+        ck_assert_int_eq(fram_world_find_input(w, "thruster_2_order") >= 0, main);
+        ck_assert_int_eq(fram_world_find_input(w, "thruster_1_order_angle") >= 0,
+                         strstr(ships[i].gear, "{x: 18}") != NULL);
+        ck_assert_int_eq(fram_world_find_input(w, "thruster_2_order_angle"), -1);
         fram_status status = fram_world_set_path(w, 0, &time, place, 1, &e);
-        ck_assert_int_eq(status, ships[i].heading ? FRAM_OK : FRAM_ERROR_USAGE);
+        ck_assert_int_eq(status, ships[i].why ? FRAM_ERROR_USAGE : FRAM_OK);
+        ck_assert(!ships[i].why || (strcmp(e.key, "vessel") == 0 && strstr(e.message, ships[i].why)));
         assert_ok(fram_world_set_path(w, 0, NULL, NULL, 0, &e), e);
         fram_world_destroy(w);
         fram_scenario_destroy(s);
     }
-    ck_assert(strcmp(e.key, "vessel") == 0 && strstr(e.message, "propulsion.waypoints"));
     fram_context_destroy(ctx);
 }
 END_TEST
