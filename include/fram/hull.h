@@ -157,6 +157,8 @@ FRAM_API fram_status fram_hull_float(const fram_hull *hull, const fram_hull_cond
 
 /* --- Pieces, drawings, files --- */
 
+/* Drawings and files are not written over the file that the hull is of: FRAM_ERROR_USAGE, key "path". */
+
 typedef struct fram_hull_pieces {
     int count;
     double tolerance; /* distance that was allowed [m] */

@@ -10,7 +10,9 @@
 extern "C" {
 #endif
 
-/* Where a series is read.  Several files are realizations of one process, as seeds of one condition are. */
+/* Where a series is read.  Several files are realizations of one process, as seeds of one condition are.  What is
+   written beside the answer is none of them, nor one that a run is made of: FRAM_ERROR_USAGE, key "draw" or "cycles".
+ */
 typedef struct fram_series_source {
     const char *const *files; /* folders of runs, or CSV files with a row of heads, "name" or "name[unit]" */
     int file_count;           /* 1 to 4096 */

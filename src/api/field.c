@@ -104,6 +104,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
                                     .simplify = d->simplify,
                                     .bad = (import_bad)d->bad,
                                     .smallest_area = d->smallest_area};
+    (void)path_absolute(path, f->path, sizeof f->path);
     fram_status status = outline_file_read(ctx, path, &f->source, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
@@ -193,9 +194,16 @@ int fram_field_outline(const fram_field *f, int floe, double *vertices, int room
 
 /* ---- drawings, files ---- */
 
+fram_status field_check_output(const fram_field *f, const char *path, fram_error *error)
+{
+    return path_refuse_read(f->path, path, "path", error);
+}
+
 fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    if (status == FRAM_OK)
+        status = field_check_output(f, path, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &f->context->inner;

@@ -21,6 +21,9 @@ static bool is_other_ice(const scenario *s, const floe_traits *t)
 static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fram_error *error)
 {
     context *ctx = &f->context->inner;
+    char path[PATH_ROOM];
+    if (s->ice.source == ICE_FILE && scenario_resolve_path(s, s->ice.file, path, sizeof path))
+        (void)path_absolute(path, f->path, sizeof f->path);
     fram_status status = build_outlines(ctx, s, &f->drawn, &f->window, error);
     f->source = f->drawn.source;
     f->floes = f->drawn.file;

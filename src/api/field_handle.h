@@ -4,6 +4,7 @@
 
 #include "api/handles.h"
 #include "fram/field.h"
+#include "io/path.h"
 #include "sim/draw_ice.h"
 
 struct fram_field {
@@ -19,9 +20,12 @@ struct fram_field {
     vec2 period;         /* of an endless field, whose tile is the window; 0, 0: it ends [m] */
     fram_field_definition made;
     fram_field_summary about;
+    char path[PATH_ROOM]; /* from the root, of the file that floes are of; empty: none */
 };
 
 /* Measures the outlines: window (unless given by a scenario) and summary. */
 fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error);
+/* Nothing is written over the file that the floes are of: FRAM_ERROR_USAGE, key "path". */
+fram_status field_check_output(const fram_field *f, const char *path, fram_error *error);
 
 #endif

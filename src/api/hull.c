@@ -6,6 +6,7 @@
 #include "base/transcendental.h"
 #include "io/hull_mend.h"
 #include "io/hull_view.h"
+#include "io/path.h"
 #include "model/scenario_schema.h"
 #include "vessel/hydrostatics.h"
 
@@ -14,6 +15,7 @@
 
 struct fram_hull {
     fram_context *context;
+    char path[PATH_ROOM]; /* from the root, of the file that it is of; empty: none */
     mesh surface;
     polyhedron_array pieces;
     double concavity;
@@ -105,6 +107,7 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     fram_hull *h = hull_begin(c);
     if (!h)
         return error_memory(error);
+    (void)path_absolute(path, h->path, sizeof h->path);
     hull_file_report report;
     status = hull_file_read(&c->inner, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK)
@@ -427,6 +430,8 @@ fram_status fram_hull_draw(const fram_hull *h, const fram_hull_condition *condit
     fram_status status = REFUSE_NULL(error, {"path", path});
     if (status == FRAM_OK)
         status = find_stability(h, condition, &c, &a, &s, error);
+    if (status == FRAM_OK)
+        status = path_refuse_read(h->path, path, "path", error);
     if (status != FRAM_OK)
         return status;
     view_table table = {.count = 0};
@@ -452,6 +457,8 @@ fram_status fram_hull_draw(const fram_hull *h, const fram_hull_condition *condit
 fram_status fram_hull_save(const fram_hull *h, const char *path, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"hull", h}, {"path", path});
+    if (status == FRAM_OK)
+        status = path_refuse_read(h->path, path, "path", error);
     if (status != FRAM_OK)
         return status;
     status = mesh_file_write(&h->context->inner, path, &h->surface, error);

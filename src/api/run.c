@@ -257,6 +257,8 @@ fram_status(fram_bench_scene)(fram_context *c, const char *path, const fram_benc
         status = RESULT_CHECK(result, size, fram_bench_result, error);
     if (status == FRAM_OK)
         status = scene_options(definition, &options, error);
+    if (status == FRAM_OK && options.dump)
+        status = path_refuse_read(path, options.dump, "dump", error);
     if (status == FRAM_OK)
         status = scene_file_read(&c->inner, path, &scene, error);
     if (status != FRAM_OK)
@@ -289,6 +291,8 @@ fram_status(fram_playback)(fram_context *c, const fram_playback_definition *defi
         status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
     if (status == FRAM_OK)
         status = path_refuse_own(d->folder, d->output, error);
+    if (status == FRAM_OK)
+        status = path_refuse_read(d->viewer_page, d->output, "output", error);
     if (status != FRAM_OK)
         return status;
     const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit, d->pressure};

@@ -4,6 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "io/text_buffer.h"
 #include "results/rainflow.h"
 #include "study/extremes.h"
@@ -38,6 +39,15 @@ static fram_status check_source(const fram_series_source *s, fram_error *error)
     fram_status status = number_check("step", s->step, 0, DURATION_MOST, error);
     if (status == FRAM_OK && !isnan(s->from))
         status = number_check("from", s->from, -DURATION_MOST, DURATION_MOST, error);
+    return status;
+}
+
+/* An output that is none of what is read. */
+static fram_status check_output(const fram_series_source *s, const char *output, const char *key, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int i = 0; output && i < s->file_count && status == FRAM_OK; i++)
+        status = path_refuse_read(s->files[i], output, key, error);
     return status;
 }
 
@@ -192,6 +202,8 @@ fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition 
         status = RESULT_CHECK(result, size, fram_extremes, error);
     if (status == FRAM_OK)
         status = take_extremes(definition, d, error);
+    if (status == FRAM_OK)
+        status = check_output(&d->source, d->draw, "draw", error);
     int count = status == FRAM_OK ? methods_of(d, methods, error) : 0;
     if (status != FRAM_OK || count == 0)
         return status == FRAM_OK ? FRAM_ERROR_USAGE : status;
@@ -302,6 +314,8 @@ fram_status(fram_fatigue_find)(fram_context *c, const fram_fatigue_definition *d
         status = fatigue_check(result, size, error);
     if (status == FRAM_OK)
         status = take_fatigue(definition, d, error);
+    if (status == FRAM_OK)
+        status = check_output(&d->source, d->cycles, "cycles", error);
     if (status == FRAM_OK)
         status = read_source(c, &d->source, false, &data, error);
     if (status != FRAM_OK)

@@ -14,15 +14,20 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
                      (int)PATH_ROOM);
 }
 
+/* One that is there, however the paths are spelt. */
+static bool is_one_file(const char *one, const char *other)
+{
+    struct stat a, b;
+    return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 bool path_is_own(const char *run, const char *path)
 {
     static const char *const names[] = {"scenario.yaml", "run.json",    "series.csv",
                                         "fractures.csv", "record.fram", "peaks.fram"};
-    struct stat one, other;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char own[PATH_ROOM]; /* where that is too long there is no such file */
-        if (path_join(run, names[i], own, NULL) == FRAM_OK && stat(own, &one) == 0 && stat(path, &other) == 0 &&
-            one.st_dev == other.st_dev && one.st_ino == other.st_ino)
+        if (path_join(run, names[i], own, NULL) == FRAM_OK && is_one_file(own, path))
             return true;
     }
     return false;
@@ -34,6 +39,13 @@ fram_status path_refuse_own(const char *run, const char *path, fram_error *error
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_USAGE, path, 0, "output",
                      "expected a file of its own, found one that the run is made of");
+}
+
+fram_status path_refuse_read(const char *read, const char *path, const char *key, fram_error *error)
+{
+    if (!is_one_file(read, path) && !path_is_own(read, path))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, path, 0, key, "expected a file of its own, found one that is read");
 }
 
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],

@@ -13,6 +13,9 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
 bool path_is_own(const char *run, const char *path);
 /* FRAM_ERROR_USAGE, key "output", where it does: nothing that is made from a run is written over it. */
 fram_status path_refuse_own(const char *run, const char *path, fram_error *error);
+/* FRAM_ERROR_USAGE, with the key, where the path names the file `read`, or one that the run in that folder is made of:
+   what something is made from is not written over. */
+fram_status path_refuse_read(const char *read, const char *path, const char *key, fram_error *error);
 /* "FOLDER/NAME", or `given` alone where it is not NULL: the output that a caller may have named, which is no file that
    the run in the folder is made of.  folder NULL: there is none. */
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],

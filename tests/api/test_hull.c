@@ -118,6 +118,8 @@ START_TEST(pieces_and_files)
     fram_hull_surface_get(back, &s);
     ck_assert_str_eq(s.format, "OBJ");
     assert_relative(s.enclosed_volume, 250, 1e-14);
+    assert_fails(fram_hull_save(back, path, &error), error, FRAM_ERROR_USAGE, "a file of its own");
+    assert_fails(fram_hull_draw(back, NULL, NULL, path, &error), error, FRAM_ERROR_USAGE, "a file of its own");
     unlink(path);
     ck_assert_int_eq(fram_hull_load(shared, path, NULL, &back, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.file, path);

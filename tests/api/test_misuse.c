@@ -266,6 +266,9 @@ START_TEST(runs_and_benchmarks)
         }
     }
     fram_bench_scene_default(&s);
+    s.dump = scene;
+    REFUSED_KEY(fram_bench_scene(c, scene, &s, &bench, &e), "dump");
+    fram_bench_scene_default(&s);
     s.iterations = INT_MIN;
     REFUSED(fram_bench_scene(c, scene, &s, &bench, &e));
     fram_bench_scene_default(&s);
@@ -489,6 +492,9 @@ START_TEST(videos_pages_and_capability)
     REFUSED(fram_playback(c, &p, &report, &e));
     p.viewer_page = page;
     REFUSED(fram_playback(c, &p, &report, &e)); /* no viewer */
+    p.output = page;
+    REFUSED_KEY(fram_playback(c, &p, &report, &e), "output");
+    p.output = output;
     p.page_limit = UINT64_MAX, p.total_limit = UINT64_MAX;
     REFUSED(fram_playback(c, &p, &report, &e));
     REFUSED(fram_playback(NULL, &p, &report, &e));
@@ -600,6 +606,12 @@ START_TEST(fields)
     REFUSED(fram_field_table(f, NULL, &e));
     REFUSED(fram_field_save(NULL, output, &e));
     REFUSED(fram_field_save(f, NULL, &e));
+    /* The file that it came from stays. */
+    snprintf(run, sizeof run, "%s/./output", folder);
+    REFUSED_KEY(fram_field_draw(f, NULL, run, &e), "path");
+    REFUSED_KEY(fram_field_draw_cover(f, 0, NULL, run, &e), "path");
+    REFUSED_KEY(fram_field_table(f, run, &e), "path");
+    REFUSED_KEY(fram_field_save(f, run, &e), "path");
     fram_field_destroy(f);
     fram_field_destroy(NULL);
 

@@ -6,6 +6,43 @@
 #include <stdio.h>
 #include <unistd.h>
 
+/* What is read stays, however its name is spelt: a file, and what a run in a folder is made of. */
+static void keep_what_is_read(fram_context *c, const char *file)
+{
+    char folder[] = "/tmp/fram_statistics_XXXXXX", names[3][80];
+    fram_error error = {0};
+    fram_fatigue cycles;
+    fram_fatigue_definition f;
+    static fram_extremes extremes;
+    fram_extremes_definition d;
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(names[0], sizeof names[0], "/tmp/../%s", file);
+    snprintf(names[1], sizeof names[1], "%s/series.csv", folder);
+    snprintf(names[2], sizeof names[2], "%s/run.json", folder);
+    for (int i = 1; i < 3; i++)
+        fclose(fopen(names[i], "w"));
+    fram_fatigue_default(&f);
+    fram_extremes_default(&d);
+    const char *sources[] = {file, folder};
+    f.source.files = d.source.files = sources;
+    f.source.channel = d.source.channel = "x";
+    for (int i = 0; i < 3; i++) {
+        f.source.file_count = d.source.file_count = i == 0 ? 1 : 2;
+        f.cycles = d.draw = names[i];
+        assert_fails(fram_fatigue_find(c, &f, &cycles, &error), error, FRAM_ERROR_USAGE, "a file of its own");
+        ck_assert_str_eq(error.key, "cycles");
+        assert_fails(fram_extremes_find(c, &d, &extremes, &error), error, FRAM_ERROR_USAGE, "a file of its own");
+        ck_assert_str_eq(error.key, "draw");
+    }
+    f.source.file_count = 1;
+    f.cycles = names[2]; /* of a run that is not read */
+    assert_ok(fram_fatigue_find(c, &f, &cycles, &error), error);
+    fram_fatigue_free(c, &cycles);
+    for (int i = 1; i < 3; i++)
+        ck_assert_int_eq(unlink(names[i]), 0);
+    ck_assert_int_eq(rmdir(folder), 0);
+}
+
 START_TEST(misuse_is_refused_and_a_file_is_answered)
 {
     char path[] = "/tmp/fram_statistics_XXXXXX";
@@ -55,6 +92,7 @@ START_TEST(misuse_is_refused_and_a_file_is_answered)
     f.slope[1] = 0;
     ck_assert_int_eq(fram_fatigue_find(c, &f, &cycles, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, "slope");
+    keep_what_is_read(c, path);
     fram_context_destroy(c);
     unlink(path);
 }
