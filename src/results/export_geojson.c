@@ -83,9 +83,9 @@ fram_status export_geojson(context *ctx, const char *folder, const char *output,
     real_to_text(time, text); /* all its digits, so that every time has a name of its own */
     char name[NUMBER_TEXT_SIZE + 16];
     snprintf(name, sizeof name, "field-%s.geojson", text);
-    if (path_given_or(output, folder, name, report->path, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = replay_open(ctx, folder, &r, error);
+    fram_status status = path_given_or(output, folder, name, report->path, error);
+    if (status == FRAM_OK)
+        status = replay_open(ctx, folder, &r, error);
     if (status != FRAM_OK)
         return status;
     status = replay_moment_at(&r, time, &m, error);

@@ -218,9 +218,11 @@ fram_status export_netcdf(context *ctx, const char *folder, const char *output, 
 {
     netcdf_file f;
     *report = (export_report){0};
-    if (path_given_or(output, folder, "run.nc", report->path, error) != FRAM_OK || check_run(folder, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = netcdf_begin(ctx, report->path, &f, error);
+    fram_status status = path_given_or(output, folder, "run.nc", report->path, error);
+    if (status == FRAM_OK)
+        status = check_run(folder, error);
+    if (status == FRAM_OK)
+        status = netcdf_begin(ctx, report->path, &f, error);
     if (status != FRAM_OK)
         return status;
     netcdf_attribute(&f, "title", "Time series of a run of Fram");

@@ -307,10 +307,13 @@ fram_status export_vtk(context *ctx, const char *folder, const char *output, int
     char to[PATH_ROOM], data[PATH_ROOM];
     vtk_export e = {.ctx = ctx, .folder = to};
     *report = (export_report){0};
-    if (path_given_or(output, folder, "vtk", to, error) != FRAM_OK || path_join(to, "data", data, error) != FRAM_OK ||
-        path_join(to, "run.pvd", report->path, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = replay_open(ctx, folder, &e.r, error);
+    fram_status status = path_given_or(output, folder, "vtk", to, error);
+    if (status == FRAM_OK)
+        status = path_join(to, "data", data, error);
+    if (status == FRAM_OK)
+        status = path_join(to, "run.pvd", report->path, error);
+    if (status == FRAM_OK)
+        status = replay_open(ctx, folder, &e.r, error);
     if (status != FRAM_OK)
         return status;
     status = make_folder(e.folder, error);

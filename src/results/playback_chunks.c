@@ -81,9 +81,9 @@ static fram_status close_chunk(chunk_writer *w, fram_error *error)
 static fram_status open_chunk(chunk_writer *w, fram_error *error)
 {
     char name[NAME_SIZE], head[40];
-    if (w->count == 0 && refuse_foreign(w->folder, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = w->stage ? FRAM_OK : temporary_folder(w->ctx, w->folder, &w->stage, error);
+    fram_status status = w->count == 0 ? refuse_foreign(w->folder, error) : FRAM_OK;
+    if (status == FRAM_OK && !w->stage)
+        status = temporary_folder(w->ctx, w->folder, &w->stage, error);
     if (status != FRAM_OK)
         return status;
     chunk_name(w->stage, w->count, name);

@@ -340,11 +340,12 @@ fram_status video_write(context *ctx, const char *folder, const video_options *o
 {
     video v = {.ctx = ctx, .options = options};
     char scene[PATH_ROOM];
-    if (path_given_or(options->output, folder, options->pictures ? "video" : "run.mp4", v.path, error) != FRAM_OK ||
-        path_join(folder, "scenario.yaml", scene, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
     *frames = 0;
-    fram_status status = scenario_read_alone(ctx, scene, NULL, &v.s, error);
+    fram_status status = path_given_or(options->output, folder, options->pictures ? "video" : "run.mp4", v.path, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "scenario.yaml", scene, error);
+    if (status == FRAM_OK)
+        status = scenario_read_alone(ctx, scene, NULL, &v.s, error);
     if (status != FRAM_OK)
         return status;
     status = look_ahead(&v, folder, error);

@@ -313,6 +313,9 @@ START_TEST(exports_and_reports)
     char own[4096];
     snprintf(own, sizeof own, "%s/series.csv", run);
     REFUSED(fram_report(c, run, own, false, &result, &e));
+    REFUSED(fram_export_vtk(c, run, own, 1, &result, &e));
+    REFUSED(fram_export_geojson(c, run, own, 0, &result, &e));
+    REFUSED(fram_export_netcdf(c, run, own, &result, &e));
     ck_assert(fram_run_has_file(run, own) && !fram_run_has_file(NULL, own) && !fram_run_has_file(run, NULL));
     close_all();
 }
@@ -474,6 +477,11 @@ START_TEST(videos_pages_and_capability)
         wrong.frames_per_second = sizes[i];
         REFUSED(fram_video(c, run, &wrong, &result, &e));
     }
+    char own[4096];
+    snprintf(own, sizeof own, "%s/series.csv", run);
+    v.output = own;
+    REFUSED(fram_video(c, run, &v, &result, &e));
+    v.output = output;
     v.colour = NULL;
     REFUSED(fram_video(c, run, &v, &result, &e));
     v.colour = "speed", v.camera = NULL;
