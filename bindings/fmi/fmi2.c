@@ -184,7 +184,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
     const unit *u = c;
     if (!u || !value || kind != fmi2LastSuccessfulTime)
         return u ? fmi2Discard : fmi2Error;
-    *value = unit_time(u);
+    *value = u->finished;
     return fmi2OK;
 }
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)

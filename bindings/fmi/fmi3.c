@@ -140,7 +140,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 now, fmi3Float64 step, fmi3Boo
         return (fmi3Status)unit_fail(u, "where fmi3DoStep is to tell how it went is NULL");
     *event = *terminate = false;
     unit_status status = unit_step(u, now, step, early_return);
-    *reached = unit_time(u);
+    *reached = u->reached;
     return (fmi3Status)status;
 }
 

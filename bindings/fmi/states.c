@@ -11,7 +11,7 @@ struct kept_state {
     kept_state *next;
     fram_world *world;
     bool is_set_up;
-    double start, stop;
+    double start, stop, reached, finished;
     unit_phase phase;
     int count;
     variable variables[]; /* so that outputs are as they were, also those of the last step */
@@ -68,6 +68,8 @@ static kept_state *keep(unit *u)
     s->is_set_up = u->is_set_up;
     s->start = u->start;
     s->stop = u->stop;
+    s->reached = u->reached;
+    s->finished = u->finished;
     s->phase = u->phase;
     s->count = u->count;
     memcpy(s->variables, u->variables, variables_size(u));
@@ -166,6 +168,8 @@ unit_status unit_state_set(unit *u, const void *state)
     u->is_set_up = s->is_set_up;
     u->start = s->start;
     u->stop = s->stop;
+    u->reached = s->reached;
+    u->finished = s->finished;
     u->phase = s->phase;
     memcpy(u->variables, s->variables, variables_size(u));
     return UNIT_OK;
@@ -178,9 +182,9 @@ typedef struct state_head {
     uint64_t checksum; /* of what follows up to the world, which has its own */
     char token[UNIT_TOKEN_ROOM];
     int64_t count, phase, is_set_up;
-    double start, stop;
+    double start, stop, reached, finished;
 } state_head;
-static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '5'};
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '6'};
 
 static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
 
@@ -195,8 +199,13 @@ static uint64_t checksum_of(const unit *u, const char *head)
 
 static void write_head(const unit *u, const kept_state *s, char *out)
 {
-    state_head head = {
-        .count = s->count, .phase = s->phase, .is_set_up = s->is_set_up, .start = s->start, .stop = s->stop};
+    state_head head = {.count = s->count,
+                       .phase = s->phase,
+                       .is_set_up = s->is_set_up,
+                       .start = s->start,
+                       .stop = s->stop,
+                       .reached = s->reached,
+                       .finished = s->finished};
     memcpy(head.mark, mark, sizeof mark);
     memcpy(head.token, u->token, sizeof head.token);
     memcpy(out, &head, sizeof head);
@@ -216,11 +225,13 @@ static bool read_head(const unit *u, const char *in, kept_state *s)
     if (memcmp(head.mark, mark, sizeof mark) != 0 || head.checksum != checksum_of(u, in) ||
         memcmp(head.token, u->token, sizeof head.token) != 0 || head.count != u->count || head.phase < 0 ||
         head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || (head.is_set_up != 0 && head.is_set_up != 1) ||
-        !isfinite(head.start) || isnan(head.stop))
+        !isfinite(head.start) || isnan(head.stop) || !isfinite(head.reached) || !isfinite(head.finished))
         return false;
     s->is_set_up = head.is_set_up != 0;
     s->start = head.start;
     s->stop = head.stop;
+    s->reached = head.reached;
+    s->finished = head.finished;
     s->phase = (unit_phase)head.phase;
     for (int i = 0; i < u->count; i++) {
         double values[2];

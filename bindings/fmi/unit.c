@@ -219,7 +219,7 @@ unit_status unit_set_up(unit *u, const char *call, double start, double stop)
         return fail_call(u, call, "the start time is not finite");
     if (!isgreater(stop, start)) /* as >, but raises no exception, which the importer may trap, for a stop of NaN */
         return fail_call(u, call, "the stop time is not after the start time");
-    u->start = start;
+    u->start = u->reached = u->finished = start;
     u->stop = stop;
     u->is_set_up = true;
     return UNIT_OK;
@@ -405,7 +405,7 @@ unit_status unit_make_world(unit *u)
     u->world = made;
     u->phase = UNIT_INSTANTIATED;
     u->is_set_up = false;
-    u->start = 0;
+    u->start = u->reached = u->finished = 0;
     u->stop = (double)INFINITY;
     unit_read_start(u);
     return UNIT_OK;
@@ -510,6 +510,7 @@ static unit_status step_inside(unit *u, bool is_last, double *return_at, bool *e
     double dt = fram_scenario_time_step(u->scenario);
     if (fram_world_step(u->world, &e) != FRAM_OK)
         return unit_fail_by(u, &e);
+    u->reached = unit_time(u);
     *end = is_last;
     if (u->look || is_last)
         read_outputs(u);
@@ -540,7 +541,9 @@ static unit_status make_step(unit *u, double now, double step, bool *early)
         status = step_inside(u, is_last, &return_at, &end);
         *early = end && !is_last;
     }
-    if (status != UNIT_OK)
+    if (status == UNIT_OK)
+        u->finished = u->reached;
+    else
         read_outputs(u);
     return status;
 }

@@ -76,6 +76,8 @@ struct unit {
     bool is_set_up;   /* start and stop were told */
     double start;     /* time of the importer at the world's time 0 [s] */
     double stop;      /* of the importer; infinite when it told none [s] */
+    double reached;   /* the end of the last time step that succeeded, of the importer [s] */
+    double finished;  /* the same of the last communication step [s] */
     kept_state *kept; /* all states that the importer holds of this instance */
 };
 
@@ -140,7 +142,7 @@ FMI_HIDDEN unit_status unit_no_such_type(unit *u, const char *call, size_t count
 /* Time of the importer where the unit stands [s]. */
 FMI_HIDDEN double unit_time(const unit *u);
 /* From `now` on by `step`, a whole multiple of the scenario's time step.  *early: it ended before its end, as the
-   importer wanted; unit_time tells where. */
+   importer wanted; u->reached tells where.  After a time step that failed the unit stands, and is read, at its end. */
 FMI_HIDDEN unit_status unit_step(unit *u, double now, double step, bool *early);
 
 /* ---- states ---- */

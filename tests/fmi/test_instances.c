@@ -549,6 +549,74 @@ START_TEST(a_state_holds_the_stop_time)
 }
 END_TEST
 
+enum { PUSH = 7 }; /* value reference */
+
+/* The bytes of a state in place of the state. */
+static void through_bytes(fmi3Instance c, fmi3FMUState *state)
+{
+    size_t size;
+    ck_assert_int_eq(CALL(fmi3SerializedFMUStateSize)(c, *state, &size), fmi3OK);
+    unsigned char *bytes = malloc(size);
+    ck_assert_ptr_nonnull(bytes);
+    ck_assert_int_eq(CALL(fmi3SerializeFMUState)(c, *state, bytes, size), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3DeserializeFMUState)(c, bytes, size, state), fmi3OK);
+    free(bytes);
+}
+
+/* A force that throws the vessel: 3.0 is told how many time steps were good, 2.0 how many communication steps.  States
+   know it too. */
+START_TEST(a_step_that_failed_was_no_success)
+{
+    make_resources();
+    char list[400];
+    snprintf(list, sizeof list, "%s\n%s", token, variables);
+    write_text("variables.txt", list, "input outside_force_x\n");
+    int errors = 0, good = 0;
+    const fmi3ValueReference push[] = {POSITIONING, PUSH};
+    const double told[] = {0, 1.5e9};
+    bool event, end, early;
+    double reached;
+    fmi2FMUstate failed = NULL;
+    fmi3FMUState failed_3 = NULL;
+    fmi2Component two = make_2(&errors);
+    begin_2(two, 3);
+    ck_assert_int_eq(CALL(fmi2SetReal)(two, push, 2, told), fmi2OK);
+    while (good < STEPS && CALL(fmi2DoStep)(two, 3 + good * dt, dt, fmi2True) == fmi2OK)
+        good++;
+    ck_assert(good > 0 && good < STEPS);
+    ck_assert_int_eq(CALL(fmi2GetFMUstate)(two, &failed), fmi2OK);
+    for (int way = 0; way < 3; way++) { /* as it failed, anew, by the state */
+        if (way == 1)
+            ck_assert_int_eq(CALL(fmi2Reset)(two), fmi2OK);
+        if (way == 2)
+            ck_assert_int_eq(CALL(fmi2SetFMUstate)(two, failed), fmi2OK);
+        ck_assert_int_eq(CALL(fmi2GetRealStatus)(two, fmi2LastSuccessfulTime, &reached), fmi2OK);
+        ck_assert_msg(reached == (way == 1 ? 0 : time_after(good)), "%d: %.17g", way, reached);
+    }
+    ck_assert_int_eq(CALL(fmi2Reset)(two), fmi2OK);
+    begin_2(two, 3);
+    ck_assert_int_eq(CALL(fmi2SetReal)(two, push, 2, told), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2DoStep)(two, 3, STEPS * dt, fmi2True), fmi2Error);
+    ck_assert_int_eq(CALL(fmi2GetRealStatus)(two, fmi2LastSuccessfulTime, &reached), fmi2OK);
+    ck_assert(reached == 3);
+    CALL(fmi2FreeInstance)(two);
+    fmi3Instance three = make_3(&errors, NULL);
+    ck_assert_int_eq(CALL(fmi3EnterInitializationMode)(three, false, 0, 3, false, 0), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3ExitInitializationMode)(three), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3SetFloat64)(three, push, 2, told, 2), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3DoStep)(three, 3, STEPS * dt, true, &event, &end, &early, &reached), fmi3Error);
+    ck_assert_msg(reached == time_after(good), "%.17g", reached);
+    ck_assert_int_eq(CALL(fmi3GetFMUState)(three, &failed_3), fmi3OK);
+    through_bytes(three, &failed_3);
+    ck_assert_int_eq(CALL(fmi3Reset)(three), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3SetFMUState)(three, failed_3), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3DoStep)(three, 3, dt, true, &event, &end, &early, &reached), fmi3Error);
+    ck_assert(reached == time_after(good));
+    CALL(fmi3FreeInstance)(three);
+    remove_resources();
+}
+END_TEST
+
 START_TEST(why_there_is_no_instance_is_told_to_a_silent_log)
 {
     make_resources();
@@ -599,5 +667,5 @@ END_TEST
 
 TEST_MAIN("instances", both_versions_are_the_world, an_importer_has_its_own_arithmetic,
           any_call_in_any_order_has_a_status, an_instance_is_not_freed_in_its_step,
-          version_2_is_set_up_before_it_is_initialized, a_state_holds_the_stop_time,
+          version_2_is_set_up_before_it_is_initialized, a_state_holds_the_stop_time, a_step_that_failed_was_no_success,
           why_there_is_no_instance_is_told_to_a_silent_log, instances_in_threads_are_as_alone)
