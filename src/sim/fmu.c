@@ -211,18 +211,43 @@ static fram_status list_file(void *user, const scenario_key *key, const void *me
     return array_push(p->ctx, &p->files, f) ? FRAM_OK : error_memory(error);
 }
 
-static fram_status pack_file(packer *p, const char *path, const char *name, bool library, fram_error *error)
+static bool has_text(const char *data, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    const char *end = data + size;
+    while ((size_t)(end - data) >= length) {
+        const char *at = memchr(data, text[0], (size_t)(end - data) - length + 1);
+        if (!at || memcmp(at, text, length) == 0)
+            return at != NULL;
+        data = at + 1;
+    }
+    return false;
+}
+
+/* An importer would say no more than that it cannot load the unit.  The name of the function that it calls first is
+   put together here: the library holds it nowhere else. */
+static fram_status check_binary(const packer *p, const char *path, const char *data, size_t size, fram_error *error)
 {
     static const char elf[] = {0x7f, 'E', 'L', 'F'};
+    char name[40];
+    snprintf(name, sizeof name, "fmi%dInstantiate%s", p->o->version, p->o->version == 3 ? "CoSimulation" : "");
+    bool library = size >= sizeof elf && memcmp(data, elf, sizeof elf) == 0;
+    if (library && has_text(data, size, name))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, "binary",
+                     "expected a shared library (ELF), as fram_fmu.so is, found %s",
+                     library ? "a shared library, but not fram_fmu.so" : "another file");
+}
+
+static fram_status pack_file(packer *p, const char *path, const char *name, bool library, fram_error *error)
+{
     char *data;
     size_t size;
     fram_status status = file_read(p->ctx, path, FILE_LIMIT, &data, &size, error);
     if (status != FRAM_OK)
         return status;
-    /* An importer would say no more than that it cannot load the unit. */
-    if (library && (size < sizeof elf || memcmp(data, elf, sizeof elf) != 0))
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, "binary",
-                           "expected a shared library (ELF), as fram_fmu.so is, found another file");
+    if (library)
+        status = check_binary(p, path, data, size, error);
     if (status == FRAM_OK)
         status = zip_add(&p->zip, name, data, size, library, error);
     memory_free(p->ctx, data);

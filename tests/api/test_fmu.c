@@ -11,13 +11,25 @@ static const char text[] = "run: {duration: 1, time_step: 0.05}\n"
                            "  thrusters: [{x: 18}]\n"
                            "ice: {source: none}\n";
 
+/* What there is to see of fram_fmu.so, with the functions of 2.0, or of both versions.  The names are not in one piece,
+   so that this program itself has none. */
+static void write_binary(const char *path, bool both)
+{
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "\177ELF fmi%dInst, fmi%dInstantiate", 2, 2);
+    if (both)
+        fprintf(file, "fmi%dInstantiateCoSimulation", 3);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
 START_TEST(units_are_written_and_mistakes_refused)
 {
     fram_error e;
     fram_context *ctx;
     fram_scenario *s;
     fram_fmu_result result;
-    char folder[300], output[340], command[340];
+    char folder[300], output[340], command[340], binary[340];
     const char *root = getenv("TMPDIR");
     snprintf(folder, sizeof folder, "%s/fram_fmu_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
     ck_assert_ptr_nonnull(mkdtemp(folder));
@@ -38,7 +50,14 @@ START_TEST(units_are_written_and_mistakes_refused)
     ck_assert_int_ne(access(output, F_OK), 0);
     d.binary = "/proc/self/mem"; /* is said to be a regular file, and cannot be read */
     assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_INPUT, "one of the system");
-    d.binary = "/proc/self/exe"; /* any program or library: it is packed as it is */
+    d.binary = "/proc/self/exe"; /* with all of the library, but none of the unit's functions */
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_INPUT, "but not fram_fmu.so");
+    d.version = 3;
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_INPUT, "but not fram_fmu.so");
+    d.version = 2;
+    snprintf(binary, sizeof binary, "%s/unit.so", folder);
+    write_binary(binary, false);
+    d.binary = binary; /* told by the names of its functions, and packed as it is */
     ck_assert_int_eq(fram_fmu(NULL, &d, NULL, &e), FRAM_ERROR_USAGE);
     assert_ok(fram_fmu(s, &d, &result, &e), e);
     ck_assert(result.inputs > 5 && result.outputs > 90 && result.files == 0);
@@ -72,6 +91,8 @@ START_TEST(units_are_written_and_mistakes_refused)
         ck_assert_str_eq(e.key, "version");
     }
     d.version = 3;
+    assert_fails(fram_fmu(s, &d, &result, &e), e, FRAM_ERROR_INPUT, "but not fram_fmu.so");
+    write_binary(binary, true);
     assert_ok(fram_fmu(s, &d, &result, &e), e);
     ck_assert(result.inputs > 5 && result.outputs == 3);
     static const char *const bad[] = {"", "ship", "1ship.fmu", "ship.zip", "a ship.fmu", "s.h.fmu", ".fmu"};

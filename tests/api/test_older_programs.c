@@ -317,7 +317,7 @@ static void write_files(void)
     char floe[260];
     snprintf(floe, sizeof floe, "%s/floe.yaml", folder);
     write_text(floe, "run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n");
-    write_text(library, "\177ELF"); /* what a unit packs begins so */
+    write_text(library, "\177ELF fmi2Instantiate"); /* what a unit packs is told by that */
     write_text(plan, "scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1]}}\n");
     /* A floe, and two rings that cross themselves. */
     write_text(outlines, "0 0\n10 0\n10 10\n0 10\n0 0\n\n20 0\n30 10\n30 0\n20 10\n20 0\n\n"

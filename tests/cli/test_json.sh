@@ -56,7 +56,7 @@ object 0 fatigue run --json
 object 0 why run --time 0.5 --json -q
 object 0 pressure run -o pressed --json -q
 object 0 manage run --json -q
-object 0 fmu scene.yaml -o unit.fmu --binary /proc/self/exe --json
+object 0 fmu scene.yaml -o unit.fmu --json
 for command in run resume check bench study extremes fatigue fmu view export report plot why pressure compare manage \
     video capability hull field ice keys; do
     object 0 --json $command --help

@@ -25,7 +25,7 @@ COMMANDS = (
     "study list studied", "extremes tension.csv --channel tension --draw levels.png",
     "fatigue done --channel line_tension_max -o cycles.csv", "manage done -o manage.html",
     "manage level --beside level -o manage.html", "why level --peak 1 -o why.png", "why done --peak 1 --no-rerun",
-    "pressure level -o pressed --panel 2", "fmu scene.yaml --binary /proc/self/exe -o scene.fmu",
+    "pressure level -o pressed --panel 2", "fmu scene.yaml -o scene.fmu",
     "capability scene.yaml -o held --formula --directions 4 --speed-step 0.5 --speed-most 1",
 )
 # Needs a page that only `make viewer` builds.
