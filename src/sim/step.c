@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "model/world_invariants.h"
 #include "sim/approach_watch.h"
+#include "sim/astray.h"
 #include "sim/events_tell.h"
 #include "sim/feed.h"
 #include "sim/fenders.h"
@@ -114,7 +115,7 @@ static bool start_responses(context *ctx, world *w)
     return true;
 }
 
-/* Forces that were given from outside; those for one step are used up. */
+/* Forces that were given from outside. */
 static void add_outside(world *w)
 {
     const input_table *in = &w->inputs;
@@ -126,7 +127,6 @@ static void add_outside(world *w)
         load->force = vec3_add(load->force, in->first[i]);
         load->moment = vec3_add(load->moment, in->second[i]);
     }
-    input_drop(&w->inputs, INPUT_WRENCH);
 }
 
 static fram_status external_forces(context *ctx, const model *m, world *w, fram_error *error)
@@ -315,39 +315,6 @@ static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error
     return FRAM_OK;
 }
 
-static bool is_touched(const world *w, int32_t body)
-{
-    for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
-        if (w->scratch.contacts.data[i].a == body || w->scratch.contacts.data[i].b == body)
-            return true;
-    }
-    return false;
-}
-
-/* A carriage tells a vessel how to go over the water, and leaves it free to heave. */
-static bool goes_as_towed(const world *w, int32_t body)
-{
-    vec3 u = w->bodies.velocity[body];
-    if (!(u.x * u.x + u.y * u.y >= u.z * u.z))
-        return false;
-    for (int32_t v = 0; v < w->vessels.count; v++) {
-        if (w->vessels.body[v] == body && w->vessels.joint[v] >= 0)
-            return true;
-    }
-    return false;
-}
-
-/* What a user can do about a body that is too fast. */
-static const char *remedy_of(const world *w, int32_t body)
-{
-    if (!body_is_dynamic(&w->bodies, body) || goes_as_towed(w, body))
-        return "it moves as the scenario, or a program, told it: correct that, or raise run.speed_limit";
-    if (is_touched(w, body))
-        return "contacts act on it; a smaller run.time_step may help";
-    return "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre of "
-           "gravity, at lines, thrusters and coefficients, and at the warnings that the notes of the scenario give";
-}
-
 static fram_status refuse_state(const world *w, int32_t body, const char *what, fram_error *error)
 {
     const body_table *b = &w->bodies;
@@ -358,7 +325,7 @@ static fram_status refuse_state(const world *w, int32_t body, const char *what, 
     return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
                      "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%s, %s, %g) m %s; %s",
                      (long long)w->clock.step[0], w->clock.time[0], (int)body, kind, b->mass[body],
-                     coordinate_text_of(r.x).text, coordinate_text_of(r.y).text, r.z, what, remedy_of(w, body));
+                     coordinate_text_of(r.x).text, coordinate_text_of(r.y).text, r.z, what, astray_remedy(w, body));
 }
 
 static fram_status tell_state(const model *m, const world *w, int32_t body, double reach, fram_error *error)
@@ -449,7 +416,7 @@ static void assert_stage(context *ctx, const model *m, const world *w, int stage
 }
 #endif
 
-fram_status world_step_watched(context *ctx, const model *m, world *w, const step_watch *watch, fram_error *error)
+static fram_status run_stages(context *ctx, const model *m, world *w, const step_watch *watch, fram_error *error)
 {
     typedef fram_status (*stage)(context *, const model *, world *, fram_error *);
     static const stage stages[STAGE_COUNT] = {
@@ -474,6 +441,15 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
         if (watch)
             watch->done(watch->user, (step_stage)i);
     }
+    return FRAM_OK;
+}
+
+fram_status world_step_watched(context *ctx, const model *m, world *w, const step_watch *watch, fram_error *error)
+{
+    fram_status status = run_stages(ctx, m, w, watch, error);
+    input_drop(&w->inputs, INPUT_WRENCH); /* used up, and till here known to who tells why a step failed */
+    if (status != FRAM_OK)
+        return status;
     count_step(m, w);
     w->scratch.step = w->clock.step[0];
     return lent_threads_check(ctx, error);

@@ -173,6 +173,45 @@ START_TEST(speeds_that_end_a_world)
 }
 END_TEST
 
+/* What a program told is looked at first where it threw the vessel; what it told to be nothing is not. */
+START_TEST(a_vessel_is_thrown_by_what_was_told)
+{
+    static const struct {
+        const char *input; /* NULL: a wrench */
+        double value;
+        bool told;
+    } ways[] = {{"outside_force_z", 1e12, true},
+                {"outside_moment_z", 1e16, true},
+                {NULL, 1e12, true},
+                {"current_x", 900, true},
+                {"wind_x", 0, false},
+                {"outside_force_x", 0, false}};
+    static const char *const driven[] = {"vessel.thrusters[0].setting=1", "run.speed_limit=0.001"};
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        assert_ok(fram_context_create(NULL, &ctx, &e), e);
+        assert_ok(fram_scenario_parse(ctx, text, NULL, driven, ways[i].told ? 0 : 2, &s, &e), e);
+        assert_ok(fram_world_create(s, &w, &e), e);
+        fram_body_id vessel;
+        const double force[] = {ways[i].value, 0, 0}, none[] = {0, 0, 0};
+        ck_assert(fram_world_vessel(w, &vessel));
+        if (ways[i].input)
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, ways[i].input), ways[i].value, &e), e);
+        else
+            assert_ok(fram_body_apply_wrench(w, vessel, force, none, &e), e);
+        fram_status status = FRAM_OK;
+        for (int k = 0; k < 20 && status == FRAM_OK; k++)
+            status = fram_world_step(w, &e);
+        ck_assert_int_eq(status, FRAM_ERROR_SIMULATION);
+        ck_assert_msg(strstr(e.message, "nothing touches it") != NULL, "%d: %s", (int)i, e.message);
+        ck_assert_msg((strstr(e.message, "look at the forces that a program told it") != NULL) == ways[i].told,
+                      "%d: %s", (int)i, e.message);
+        ck_assert_msg(strstr(e.message, ways[i].told ? "and coefficients" : "notes of the scenario give"), "%s",
+                      e.message);
+        close_all();
+    }
+}
+END_TEST
+
 /* A ship that drives itself goes by its track, one whose thrusters turn it about its mooring stays there, and one whose
    bow turns against the ice has its heading from there: of what nothing of it follows there is no set point. */
 START_TEST(no_set_point_that_nothing_follows)
@@ -360,5 +399,5 @@ START_TEST(the_working_folder_changes)
 END_TEST
 
 TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, speeds_that_end_a_world,
-          no_set_point_that_nothing_follows, arrays, recordings, memory_runs_out, older_definitions_are_taken,
-          the_working_folder_changes)
+          a_vessel_is_thrown_by_what_was_told, no_set_point_that_nothing_follows, arrays, recordings, memory_runs_out,
+          older_definitions_are_taken, the_working_folder_changes)
