@@ -30,8 +30,8 @@ FRAM_API bool fram_run_has_file(const char *run, const char *path);
 FRAM_API fram_status fram_export_vtk(fram_context *context, const char *run, const char *output, int64_t every,
                                      fram_result *result, fram_error *error, size_t size);
 #define fram_export_vtk(...) fram_export_vtk(__VA_ARGS__, sizeof(fram_result))
-/* Outlines of floes, walls and vessel at a time [s], between frames by interpolation (RUN/field-TIME.geojson).
-   FRAM_ERROR_INPUT for a time outside the record. */
+/* Outlines of floes, walls and vessel at a time [s], between frames by interpolation (RUN/field-TIME.geojson); what
+   breaks or leaves before the next frame goes on with its velocity.  FRAM_ERROR_INPUT for a time outside the record. */
 FRAM_API fram_status fram_export_geojson(fram_context *context, const char *run, const char *output, double time,
                                          fram_result *result, fram_error *error, size_t size);
 #define fram_export_geojson(...) fram_export_geojson(__VA_ARGS__, sizeof(fram_result))

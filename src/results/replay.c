@@ -361,6 +361,48 @@ fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error 
     return status;
 }
 
+/* Of the tiles of level ice that drifts, which go as one and do not turn: of any that both frames have. */
+static bool sheet_velocity(const replay *r, vec3 *out)
+{
+    for (int32_t i = 0; r->has_next && i < r->frame.poses.count; i++) {
+        const replay_body *b = &r->bodies.data[r->frame.poses.data[i].body];
+        if (!b->level || !b->moves || r->next_row.data[r->frame.poses.data[i].body] < 0)
+            continue;
+        *out = b->velocity;
+        return true;
+    }
+    return false;
+}
+
+/* A floe that this frame alone has goes on as that did from which it broke. */
+static vec3 inherited_velocity(const replay *r, int32_t body)
+{
+    const replay_body *b = &r->bodies.data[body];
+    for (int32_t i = body - 1; i >= 0 && b->parent >= 0; i--) {
+        if (r->bodies.data[i].number == b->parent)
+            return r->bodies.data[i].velocity;
+    }
+    return b->velocity;
+}
+
+/* Bodies that the next frame lacks: tiles go on with their sheet, floes as they came. */
+static void carry_on(replay *r)
+{
+    vec3 sheet = {0, 0, 0};
+    bool drifts = sheet_velocity(r, &sheet);
+    for (int32_t i = 0; i < r->frame.poses.count; i++) {
+        int32_t body = r->frame.poses.data[i].body;
+        replay_body *b = &r->bodies.data[body];
+        if (!b->moves || r->next_row.data[body] >= 0)
+            continue;
+        if (b->level && drifts)
+            b->velocity = sheet;
+        else if (b->born == r->frame.number)
+            b->velocity = inherited_velocity(r, body);
+        r->frame.poses.data[i].velocity = b->velocity;
+    }
+}
+
 /* Velocities of the current frame from the way to the next one. */
 static bool find_velocities(replay *r)
 {
@@ -379,6 +421,7 @@ static bool find_velocities(replay *r)
             b->velocity = vec3_scale(vec3_sub(r->next.poses.data[row].position, p->position), 1 / span);
         p->velocity = b->velocity;
     }
+    carry_on(r);
     return true;
 }
 

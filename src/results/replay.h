@@ -33,7 +33,8 @@ typedef struct replay_pose {
     int32_t body; /* in replay.bodies */
     vec3 position;
     quat orientation;
-    vec3 velocity;        /* way to the next frame over its time; of a body's last frame, the one before [m/s] */
+    vec3 velocity;        /* way to the next frame over its time; in a body's last frame that of its sheet (a tile), of
+                             the way from the frame before, or of what it broke from [m/s] */
     double contact_force; /* sum of the magnitudes at its contacts; 0 for a body that does not move [N] */
 } replay_pose;
 

@@ -61,7 +61,8 @@ int32_t replay_moment_row(const replay_moment *m, int32_t outline)
 
 static fram_status find_plan(replay *r, double part, replay_moment *out, fram_error *error)
 {
-    out->time = r->frame.time + (r->has_next ? part * (r->next.time - r->frame.time) : 0);
+    double since = r->has_next ? part * (r->next.time - r->frame.time) : 0;
+    out->time = r->frame.time + since;
     polygon_list_clear(&out->outlines);
     array_clear(&out->poses);
     array_clear(&out->part_of);
@@ -70,6 +71,8 @@ static fram_status find_plan(replay *r, double part, replay_moment *out, fram_er
         int32_t later = p.body < r->next_row.count && r->has_next ? r->next_row.data[p.body] : -1;
         if (later >= 0 && part > 0)
             blend(&p, &r->next.poses.data[later], part);
+        else if (part > 0)
+            p.position = vec3_mad(p.position, p.velocity, since);
         if (!add_outline(r, &p, out))
             return error_memory(error);
     }

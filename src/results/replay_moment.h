@@ -1,4 +1,5 @@
-/* The plan of the field at one moment of a run, between frames by interpolation. */
+/* The plan of the field at one moment of a run, between frames by interpolation; what the later frame lacks goes on
+   with its velocity. */
 #ifndef RESULTS_REPLAY_MOMENT_H
 #define RESULTS_REPLAY_MOMENT_H
 

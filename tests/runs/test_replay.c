@@ -266,6 +266,47 @@ START_TEST(a_moment_lies_between_its_frames)
 }
 END_TEST
 
+/* A ship in a sheet that drifts: tiles that are gone by the next frame, those of one frame alone too, lie at any time
+   where the sheet is, beside their neighbours; floes that break go on as they came. */
+START_TEST(what_breaks_between_frames_goes_on)
+{
+    static const char drifting[] =
+        "run: {duration: 4, time_step: 0.02}\n"
+        "vessel: {mode: prescribed, x: -12, speed: 3, hull: {length: 40, beam: 10, draught: 4, freeboard: 2}}\n"
+        "ice: {source: level, thickness: 0.4, breakable: true, level: {x_min: 10, tile_size: 10}}\n"
+        "domain: {x_min: -40, x_max: 60, y_min: -30, y_max: 30, boundary: feeding, drift_speed: 1,\n"
+        "         drift_direction_deg: 180}\noutput: {frame_interval: 0.5}\n";
+    context ctx;
+    char folder[PATH];
+    replay r;
+    replay_moment m = {0};
+    fram_error error = {0};
+    int32_t gone = 0, alone = 0, floes = 0;
+    context_init(&ctx);
+    run_and_open(&ctx, drifting, folder, &r);
+    for (int i = 0; i < 8; i++) {
+        assert_ok(replay_moment_at(&r, 0.5 * i + 0.3, &m, &error), error);
+        for (int32_t k = 0; k < m.poses.count; k++) {
+            const replay_pose *from = &r.frame.poses.data[k], *p = &m.poses.data[k];
+            const replay_body *b = &r.bodies.data[p->body];
+            vec3 way = vec3_sub(p->position, from->position);
+            bool last = b->died == r.frame.number + 1;
+            if (b->level)
+                ck_assert_msg(vec3_length(vec3_sub(way, vec3_make(-0.3, 0, 0))) < 1e-3, "tile %d moves by %g, %g m",
+                              b->number, way.x, way.y);
+            if (last)
+                ck_assert_double_le(vec3_length(vec3_sub(way, vec3_scale(p->velocity, 0.3))), 1e-9);
+            gone += b->level && last;
+            alone += b->level && last && b->born == r.frame.number && b->parent >= 0;
+            floes += !b->level && !b->solid && last && vec3_length(way) > 0.05;
+        }
+    }
+    ck_assert_msg(gone > 5 && alone > 1 && floes > 0, "%d tiles, %d of one frame, %d floes", gone, alone, floes);
+    replay_moment_free(&ctx, &m);
+    close_and_remove(&r, folder);
+}
+END_TEST
+
 /* Two moored vessels, whose lines each begin with number 1: a plan draws them as far as their own anchors. */
 START_TEST(lines_reach_their_own_anchors)
 {
@@ -594,5 +635,6 @@ END_TEST
 
 TEST_MAIN("replay", a_run_is_read_back, contacts_of_large_floes_are_kept_whole, contacts_of_an_earlier_layout_are_read,
           level_ice_is_known, pieces_have_an_age_and_tiles_none, a_propeller_astern_pushes_along_the_ship,
-          a_moment_lies_between_its_frames, a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
-          frames_come_rarely_enough_for_the_limit, places_are_as_fine_far_from_zero, records_that_lie_are_refused)
+          a_moment_lies_between_its_frames, what_breaks_between_frames_goes_on, a_turn_between_frames_is_the_short_one,
+          lines_reach_their_own_anchors, frames_come_rarely_enough_for_the_limit, places_are_as_fine_far_from_zero,
+          records_that_lie_are_refused)

@@ -228,14 +228,72 @@ console.log(JSON.stringify({ frames, origin: record.origin, fractures: record.fr
 """
 
 
+# A ship in a sheet that drifts.
+SHEET = """
+run: {duration: 4, time_step: 0.02}
+vessel: {mode: prescribed, x: -12, speed: 3, hull: {length: 40, beam: 10, draught: 4, freeboard: 2}}
+ice: {source: level, thickness: 0.4, breakable: true, level: {x_min: 10, tile_size: 10}}
+domain: {x_min: -40, x_max: 60, y_min: -30, y_max: 30, boundary: feeding, drift_speed: 1, drift_direction_deg: 180}
+output: {frame_interval: 0.5}
+"""
+# Where floes are between frames, by their numbers: [x, y, speed, whether the next frame lacks them].
+SHOW_POSES = """
+import { readFileSync } from 'node:fs';
+import { FrameStore, readRecord } from './record.mjs';
+import { Poses } from './poses.mjs';
+const record = readRecord(Uint8Array.from(readFileSync(process.argv[2])).buffer), out = [];
+const poses = new Poses(record, new FrameStore(record, { lost: new Set() })), [east, north] = record.origin;
+for (const when of process.argv.slice(3).map(Number)) {
+    poses.show(when);
+    out.push(Object.fromEntries(record.bodies.filter((b) => poses.shown[b.index] && b.number >= 0).map((b) =>
+        [b.number, [poses.pose[7 * b.index] + east, poses.pose[7 * b.index + 1] + north, poses.speed[b.index],
+                    b.death === Math.floor(when) + 1]])));
+}
+console.log(JSON.stringify(out));
+"""
+
+
+def ask_viewer(script, *words):
+    """What files of the playback page say by themselves in Node."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("record", "poses"):
+            shutil.copy(pathlib.Path(os.environ["FRAM_SOURCE"]) / f"viewer/src/{name}.js", f"{folder}/{name}.mjs")
+        (pathlib.Path(folder) / "ask.mjs").write_text(script)
+        return json.loads(subprocess.run(["node", f"{folder}/ask.mjs", *map(str, words)], check=True,
+                                         capture_output=True, text=True).stdout)
+
+
+def middle_of(ring):
+    """Of what is seen of a floe from above."""
+    x, y = ring[0]
+    sides = [((a - x) * (d - y) - (c - x) * (b - y), a + c + x, b + d + y) for (a, b), (c, d) in zip(ring, ring[1:])]
+    return [sum(s[0] * s[k] for s in sides) / sum(s[0] for s in sides) / 3 for k in (1, 2)]
+
+
+def check_between(folder, run):
+    """Between frames the page has floes where the library has them, those too that break before the next one."""
+    (folder / "sheet.yaml").write_text(SHEET)
+    fram("run", folder / "sheet.yaml", "-o", folder / "sheet", "-q")
+    for run, *whens in (run, 6.6, 11.6), (folder / "sheet", 3.6, 7.6):
+        gone = 0
+        for when, seen in zip(whens, ask_viewer(SHOW_POSES, run / "record.fram", *whens), strict=True):
+            fram("export", run, "--geojson", "--time", f"{0.5 * when:g}", "-q")
+            field = json.loads((run / f"field-{0.5 * when:g}.geojson").read_text())["features"]
+            floes = [(f["properties"], f["geometry"]["coordinates"][0]) for f in field
+                     if f["properties"]["kind"] == "floe"]
+            assert {str(told["floe"]) for told, _ in floes} == set(seen)
+            for told, ring in floes:
+                x, y, speed, ends = seen[str(told["floe"])]
+                assert math.dist((x, y), middle_of(ring)) < 0.1, (run, when, told, x, y, middle_of(ring))
+                close(speed, math.hypot(told["velocity_x"], told["velocity_y"]), 1e-3)
+                gone += ends and speed * 0.6 * 0.5 > 0.2
+        assert gone > 3, f"{gone} floes that are fast break in {run}"
+
+
 def check_viewer(data, run, rows):
     """The playback page reads of a record what the library reads of it."""
     import numpy
-    with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(pathlib.Path(os.environ["FRAM_SOURCE"]) / "viewer/src/record.js", f"{folder}/record.mjs")
-        (pathlib.Path(folder) / "read.mjs").write_text(READ_RECORD)
-        record = json.loads(subprocess.run(["node", f"{folder}/read.mjs", run / "record.fram"], check=True,
-                                           capture_output=True, text=True).stdout)
+    record = ask_viewer(READ_RECORD, run / "record.fram")
     frame, row = record["frames"][11], {int(n): k for k, n in enumerate(data["floe"].values)}
     assert [f["time"] for f in record["frames"]] == list(data["frame"].values)
     at, floes = {n: v.values[11] if v.ndim == 2 else v.values for n, v in data.items()}, 0
@@ -437,6 +495,8 @@ def main():
         done = [check_geojson(run, rows)]
         check_open_hull(pathlib.Path(folder))
         check_fine_hull(pathlib.Path(folder))
+        if shutil.which("node"):
+            check_between(pathlib.Path(folder), run)
         if have("vtkmodules"):
             done.append(check_vtk(run, rows))
             check_restart(pathlib.Path(folder), run)

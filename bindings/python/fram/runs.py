@@ -230,8 +230,9 @@ class Run:
         return sorted(found, key=lambda event: event.get("time_s", 0))
 
     def floes(self, time: float) -> list[Floe]:
-        """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation; a hull that
-        leaves water open between its parts has one for each, with the same properties."""
+        """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation (what breaks
+        or leaves before the next frame goes on with its velocity); a hull that leaves water open between its parts has
+        one for each, with the same properties."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "field.geojson")
             error = new_error()
