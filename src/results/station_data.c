@@ -128,5 +128,6 @@ void station_tell_event(const station_data *d, int32_t row, char *out, size_t si
 {
     const event_table *events = d->outcome->events;
     bool of_two = event_is_of_two((station_event)events->kind[row]);
-    event_text(events, row, of_two ? scenario_vessel_name(d->s, events->number[row]) : NULL, out, size);
+    event_text(events, row, of_two ? scenario_vessel_name(d->s, events->number[row]) : NULL,
+               scenario_vessel_entry(d->s, events->vessel[row]).keys->approach.look_ahead, out, size);
 }

@@ -352,7 +352,8 @@ static void add_events(context *ctx, text_buffer *b, const scenario *s, const ev
         bool of_two = event_is_of_two((station_event)events->kind[i]);
         const char *name = scenario_vessel_name(s, events->vessel[i]);
         const char *other = of_two ? scenario_vessel_name(s, events->number[i]) : NULL;
-        event_text(events, i, other, text, sizeof text);
+        event_text(events, i, other, scenario_vessel_entry(s, events->vessel[i]).keys->approach.look_ahead, text,
+                   sizeof text);
         text_format(ctx, b, "%s\n    {\"time_s\": %.17g, \"kind\": \"%s\", ", i > 0 ? "," : "", events->time[i],
                     event_name((station_event)events->kind[i]));
         if (name)

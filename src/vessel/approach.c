@@ -58,6 +58,25 @@ approach_prediction approach_predict(const approach_hull *a, const approach_hull
                                  distance_at(a->plan, b->plan, vec2_make(0, 0))};
 }
 
+/* What the last event of the pair predicted [m]. */
+static double told_gap(const event_table *events, int32_t vessel, int32_t other)
+{
+    for (int32_t i = events->count - 1; i >= 0; i--) {
+        if (events->kind[i] == EVENT_APPROACH && events->vessel[i] == vessel && events->number[i] == other)
+            return events->value[i];
+    }
+    return HUGE_VAL;
+}
+
+static bool tell_approach(context *ctx, const approach_table *t, int32_t row, const approach_prediction *predicted,
+                          double time, event_table *events)
+{
+    if (!event_add(ctx, events, EVENT_APPROACH, time, t->vessel[row], t->other[row], predicted->gap))
+        return false;
+    events->ahead[events->count - 1] = predicted->time;
+    return true;
+}
+
 bool approach_book(context *ctx, approach_table *t, int32_t row, const approach_settings *settings,
                    const approach_prediction *predicted, double time, double since, event_table *events)
 {
@@ -65,12 +84,9 @@ bool approach_book(context *ctx, approach_table *t, int32_t row, const approach_
     bool near = predicted->gap < settings->limit || !(predicted->gap > 0), began = near && !t->close[row];
     t->clear_time[row] = near ? 0 : t->clear_time[row] + since;
     t->nearest[row] = began ? predicted->distance : fmin(t->nearest[row], predicted->distance);
-    if (began) {
+    if (began || (near && predicted->gap < APPROACH_NEARER_PART * told_gap(events, t->vessel[row], t->other[row]))) {
         t->close[row] = 1;
-        if (!event_add(ctx, events, EVENT_APPROACH, time, t->vessel[row], t->other[row], predicted->gap))
-            return false;
-        events->ahead[events->count - 1] = predicted->time;
-        return true;
+        return tell_approach(ctx, t, row, predicted, time, events);
     }
     if (!t->close[row] || t->clear_time[row] < APPROACH_CLEAR_PART * settings->look_ahead)
         return true;

@@ -21,7 +21,7 @@ typedef struct approach_hull {
 
 typedef struct approach_prediction {
     double gap;      /* least clear distance, 0: they would touch [m] */
-    double time;     /* until then [s], the earliest where several are equal */
+    double time;     /* until then [s], the earliest where several are equal; look_ahead: they still come nearer */
     double distance; /* at present [m] */
 } approach_prediction;
 
@@ -40,9 +40,12 @@ TABLE_DECLARE(approach, APPROACH_FIELDS)
 /* How often it is looked: so many times a look-ahead; an approach is over when none was predicted for a part of it. */
 enum { APPROACH_LOOKS = 100 };
 #define APPROACH_CLEAR_PART 0.1
+/* It is told again as less than this part of what was told last is predicted, or hulls that are going to touch: a part
+   near 1 tells every look of one that is seen from afar, a small one little before they touch; 0.1 to 0.5. */
+#define APPROACH_NEARER_PART 0.25
 
-/* Books what was predicted: event_add when an approach begins (value: gap, ahead: time) and when it is over (value: the
-   nearest that there was).  since: the last look [s].  false: no memory. */
+/* Books what was predicted: event_add when an approach begins or gets much nearer (value: gap, ahead: time) and when it
+   is over (value: the nearest that there was).  since: the last look [s].  false: no memory. */
 bool approach_book(context *ctx, approach_table *approaches, int32_t row, const approach_settings *settings,
                    const approach_prediction *predicted, double time, double since, event_table *events);
 

@@ -47,7 +47,24 @@ const char *event_name(station_event kind)
 
 bool event_is_of_two(station_event kind) { return kind == EVENT_APPROACH || kind == EVENT_APPROACH_OVER; }
 
-void event_text(const event_table *events, int32_t row, const char *other, char *out, size_t size)
+/* Of hulls that still come nearer as the prediction ends, its number is no distance at which they pass. */
+static void approach_text(const event_table *events, int32_t row, const char *other, double look_ahead, char *out,
+                          size_t size)
+{
+    double gap = events->value[row], ahead = events->ahead[row];
+    /* What is nearest now is found by halving, to rounding. */
+    if (ahead < 1e-3)
+        snprintf(out, size, "vessel %s is at %.4g m, and comes no nearer at present velocities", other, gap);
+    else if (!(gap > 0))
+        snprintf(out, size, "the hull and vessel %s are going to touch, in %.4g s at present velocities", other, ahead);
+    else if (ahead < look_ahead)
+        snprintf(out, size, "vessel %s is going to pass at %.4g m, in %.4g s at present velocities", other, gap, ahead);
+    else
+        snprintf(out, size, "vessel %s comes within %.4g m in %.4g s at present velocities, and nearer after that",
+                 other, gap, ahead);
+}
+
+void event_text(const event_table *events, int32_t row, const char *other, double look_ahead, char *out, size_t size)
 {
     double value = events->value[row];
     int number = (int)events->number[row] + 1;
@@ -82,14 +99,7 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
         snprintf(out, size, "backed %.4g m, and rams", value);
         return;
     case EVENT_APPROACH:
-        /* What is nearest now is found by halving, to rounding. */
-        if (events->ahead[row] < 1e-3) {
-            snprintf(out, size, "vessel %s is at %.4g m, and comes no nearer at present velocities",
-                     other ? other : name, value);
-            return;
-        }
-        snprintf(out, size, "vessel %s is going to pass at %.4g m, in %.4g s at present velocities",
-                 other ? other : name, value, events->ahead[row]);
+        approach_text(events, row, other ? other : name, look_ahead, out, size);
         return;
     case EVENT_APPROACH_OVER:
         snprintf(out, size, "vessel %s is clear again: it came as near as %.4g m", other ? other : name, value);

@@ -14,7 +14,7 @@ typedef enum station_event {
     EVENT_HEADING_REGAINED,
     EVENT_BESET,         /* the ice stopped a ship that pushes; value: net thrust [N] */
     EVENT_RAM,           /* it has backed and comes again; value: how far it backed [m] */
-    EVENT_APPROACH,      /* another vessel is going to pass closer than the limit; value: predicted distance [m] */
+    EVENT_APPROACH,      /* another vessel is going to be nearer than the limit; value: predicted distance [m] */
     EVENT_APPROACH_OVER, /* value: least distance that there was [m] */
     EVENT_WALL,      /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
     EVENT_OFF_TRACK, /* a ship that drives itself came off its track; value: track error [m] */
@@ -38,8 +38,8 @@ bool event_add(context *ctx, event_table *events, station_event kind, double tim
 /* Whether its number is the row of another vessel. */
 bool event_is_of_two(station_event kind);
 /* "mooring line 3 broke at a tension of 2100 kN", for people; numbers count from 1.  other: how the other vessel of an
-   event of two is called; NULL: by its number. */
-void event_text(const event_table *events, int32_t row, const char *other, char *out, size_t size);
+   event of two is called; NULL: by its number.  look_ahead: approach_settings of its vessel [s]. */
+void event_text(const event_table *events, int32_t row, const char *other, double look_ahead, char *out, size_t size);
 /* "line_break", for machines. */
 const char *event_name(station_event kind);
 

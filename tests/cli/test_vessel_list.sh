@@ -27,7 +27,7 @@ import sys
 note = json.load(open(sys.argv[1] + "/run.json"))
 (event,) = [e for e in note["events"] if e["kind"] == "approach" and e["other"] == "ship"]
 assert event["vessel"] == "icebreaker" and 15.9 < event["value"] < 30 and event["ahead_s"] <= 100, event
-assert "vessel ship is going to pass at" in event["text"] and note["events_left_out"] == 0
+assert "vessel ship comes within" in event["text"] and note["events_left_out"] == 0
 END
 grep -q '"vessel": "ship"' "$run/station-ship.json" || fail "station-ship.json does not name its vessel"
 [ "$(grep -c '"number": [0-9]*, "parted"' "$run/station-ship.json")" = 6 ] || fail "the ship has not six lines"
@@ -51,7 +51,7 @@ for row in rows:
 END
 
 "$FRAM" report "$run" --quiet || fail "the report failed"
-for text in "vessel ship is going to pass at" 'time \[s\]</th><th class="w">vessel</th>' \
+for text in "vessel ship comes within" 'time \[s\]</th><th class="w">vessel</th>' \
     "Ice load, vessel icebreaker" "Station keeping, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done

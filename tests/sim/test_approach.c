@@ -93,13 +93,18 @@ START_TEST(an_approach_begins_and_ends)
     ck_assert_msg(e->time[1] > ends - 1 && e->time[1] < ends + 1, "over at %g s, expected %g", e->time[1], ends);
     assert_absolute(e->value[1], 40, 1e-6);
     char text[160];
-    event_text(e, 0, "west", text, sizeof text);
-    ck_assert_msg(strstr(text, "vessel west is going to pass at") != NULL, "%s", text);
+    /* They still come nearer as the look-ahead ends: that is not where they pass. */
+    event_text(e, 0, "west", 100, text, sizeof text);
+    ck_assert(strncmp(text, "vessel west comes within 4", 26) == 0);
+    ck_assert_msg(strstr(text, " m in 100 s at present velocities, and nearer after that") != NULL, "%s", text);
+    e->ahead[0] = 99;
+    event_text(e, 0, "west", 100, text, sizeof text);
+    ck_assert_msg(strstr(text, "vessel west is going to pass at 4") == text, "%s", text);
     e->ahead[0] = 3e-9;
     e->value[0] = 12;
-    event_text(e, 0, "west", text, sizeof text);
+    event_text(e, 0, "west", 100, text, sizeof text);
     ck_assert_str_eq(text, "vessel west is at 12 m, and comes no nearer at present velocities");
-    event_text(e, 1, NULL, text, sizeof text);
+    event_text(e, 1, NULL, 100, text, sizeof text);
     ck_assert_str_eq(text, "vessel 2 is clear again: it came as near as 40 m");
     scene_close(&k);
 }
@@ -140,6 +145,40 @@ START_TEST(a_limit_of_nothing_tells_collisions)
 }
 END_TEST
 
+/* Boxes that cross at right angles, 20 x 6 m with the bow at 10 m and 30 x 8 m with it at (60, -55), 2 m/s each: the
+   bow of the first is at the side of the second, x = 56, after 23 s, that of the second at the first's, y = -3, after
+   26.  It is told as less than a quarter of what was told is predicted, and once, 20 s before, that they touch. */
+START_TEST(what_comes_much_nearer_is_told_again)
+{
+    static const char crossing[] = "run: {duration: 30, time_step: 0.1}\n"
+                                   "vessels:\n"
+                                   "  - {name: a, mode: prescribed, speed: 2, approach: {limit: 12, look_ahead: 20},\n"
+                                   "     hull: {form: box, length: 20, beam: 6, draught: 3, freeboard: 2}}\n"
+                                   "  - {name: b, mode: prescribed, x: 60, y: -70, heading_deg: 90, speed: 2,\n"
+                                   "     hull: {form: box, length: 30, beam: 8, draught: 3, freeboard: 2}}\n"
+                                   "ice: {source: none}\n"
+                                   "domain: {x_min: -100, x_max: 200, y_min: -100, y_max: 100, boundary: open}\n";
+    scene k;
+    scene_open(&k, crossing);
+    scene_steps(&k, 250);
+    const event_table *e = &k.w.events;
+    ck_assert_int_ge(e->count, 3);
+    ck_assert_int_le(e->count, 5);
+    for (int32_t i = 0; i < e->count; i++) {
+        ck_assert_int_eq(e->kind[i], EVENT_APPROACH);
+        ck_assert(e->value[i] < (i > 0 ? 0.25 * e->value[i - 1] : 12));
+    }
+    const int32_t last = e->count - 1;
+    char text[160];
+    ck_assert_double_eq(e->value[last], 0);
+    ck_assert_msg(e->time[last] > 5.9 && e->time[last] < 6.3, "%g s", e->time[last]);
+    assert_absolute(e->time[last] + e->ahead[last], 26, 0.1);
+    event_text(e, last, "b", 20, text, sizeof text);
+    ck_assert_msg(strstr(text, "the hull and vessel b are going to touch, in ") == text, "%s", text);
+    scene_close(&k);
+}
+END_TEST
+
 START_TEST(refusals_name_their_key)
 {
     static const char *const bad[] = {"vessels.east.approach.limit=nan", "vessels.east.approach.limit=-1",
@@ -161,4 +200,5 @@ START_TEST(refusals_name_their_key)
 END_TEST
 
 TEST_MAIN("approach", distance_and_time_are_those_of_geometry, overlap_is_zero, an_approach_begins_and_ends,
-          who_keeps_clear_is_not_told, a_limit_of_nothing_tells_collisions, refusals_name_their_key)
+          who_keeps_clear_is_not_told, a_limit_of_nothing_tells_collisions, what_comes_much_nearer_is_told_again,
+          refusals_name_their_key)

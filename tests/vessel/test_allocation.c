@@ -145,7 +145,7 @@ START_TEST(shafts_lag_and_fail)
     ck_assert_int_eq(b.events.number[0], 4);
     assert_absolute(b.events.time[0], 0.5, 1e-12);
     char text[120];
-    event_text(&b.events, 0, NULL, text, sizeof text);
+    event_text(&b.events, 0, NULL, 300, text, sizeof text);
     ck_assert(strstr(text, "thruster 5 failed"));
     assert_vec3_close(loads.force, sum.force, 0);
     vec3 effect = thruster_effect(t, 0);

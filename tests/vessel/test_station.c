@@ -278,7 +278,7 @@ START_TEST(events_in_words)
         ck_assert(event_add(&ctx, &events, told[i].kind, 1, 0, 2, told[i].value));
         events.ahead[i] = 90;
         ck_assert_str_eq(event_name(told[i].kind), told[i].name);
-        event_text(&events, i, "tug", text, sizeof text);
+        event_text(&events, i, "tug", 300, text, sizeof text);
         ck_assert_str_eq(text, told[i].text);
         ck_assert(event_is_of_two(told[i].kind) == (strstr(text, "tug") != NULL));
     }
