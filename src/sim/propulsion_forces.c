@@ -63,11 +63,9 @@ static double away_from_place(const world *w, int32_t row)
     return vec2_length(vec2_make(at.x - s->x, at.y - s->y));
 }
 
-/* Velocity of the water, which stands still where there is none. */
-static vec2 water_now(const model *m, const world *w)
+vec2 propulsion_water(const model *m, const media *now, int32_t vessel)
 {
-    media now = media_now(m, &w->inputs, w->clock.time[0]);
-    vec3 current = media_current(&now, 0);
+    vec3 current = media_hull_current(now, m->vessels.data[vessel].hydrodynamics.depth);
     return m->forces == FORCES_NONE ? vec2_make(0, 0) : vec2_make(current.x, current.y);
 }
 
@@ -75,13 +73,14 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
 {
     if (w->propulsion.count == 0)
         return FRAM_OK;
-    vec2 water = water_now(m, w);
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
     bool drifts = m->boundary == DOMAIN_FEEDING;
     vec2 drift = drifts ? feed_drift(m, &w->inputs, w->clock.time[0]) : vec2_make(0, 0);
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
         int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
         double away = away_from_place(w, i);
+        vec2 water = propulsion_water(m, &now, vessel);
         vec3 ice = last_ice_load(w, vessel).force;
         propulsion_moment moment = {w->clock.time[0],
                                     m->time_step,

@@ -4,8 +4,11 @@
 
 #include "model/world.h"
 
-/* What the water takes of a vessel's thrust along its bow [N], its velocity at the surface being `water`: drag on the
-   hull, and linear damping. */
+/* Velocity of the water that a vessel with its propulsion goes through: the one current that its hull as a whole meets,
+   as its damping does; 0 where there is no water [m/s]. */
+vec2 propulsion_water(const model *m, const media *now, int32_t vessel);
+/* What the water takes of a vessel's thrust along its bow [N], `water` being the velocity of the one that it goes
+   through: drag on the hull, and linear damping. */
 double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water);
 /* What the linear damping does to a hull that goes through the water in its plane, `motion` being surge, sway and rate
    of turn [m/s, m/s, rad/s]: forces along these and moment about the centre of mass [N, N, N m]. */

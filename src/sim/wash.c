@@ -128,8 +128,7 @@ static fram_status wash_of_propulsion(context *ctx, const model *m, world *w, co
     const propulsion_table *t = &w->propulsion;
     int32_t vessel = t->vessel[row];
     const wash_model *wash = &m->vessels.data[vessel].wash;
-    vec3 current = media_current(now, 0);
-    double gross = t->thrust[row] + propulsion_resistance(m, w, vessel, vec2_make(current.x, current.y));
+    double gross = t->thrust[row] + propulsion_resistance(m, w, vessel, propulsion_water(m, now, vessel));
     /* A ship that brakes a little still pushes ahead against the water. */
     bool turns = t->phase[row] != PROPULSION_ASTERN && gross > 0;
     double angle = turns ? t->steering[row] : 0;

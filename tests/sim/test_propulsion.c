@@ -64,6 +64,38 @@ START_TEST(without_water_no_current)
 }
 END_TEST
 
+/* Half a minute of a ship at its open-water speed of 7 m/s where the current has this on top down to 1 m, and that
+   below 1.2 m: its speed over the ground, and its helm. */
+static double layered(vec3 top, vec3 below, double uniform, double *helm)
+{
+    char along[64];
+    const char *const sea[] = {"vessel.speed=7", "run.time_step=0.1", along};
+    scene k;
+    snprintf(along, sizeof along, "environment.current_speed=%g", uniform);
+    scene_open_with(&k, SHIP, sea, 3);
+    if (uniform == 0)
+        k.m.history.profile = (current_profile){2, {1, 1.2}, {top, below}};
+    scene_steps(&k, 300);
+    double speed = speed_of(&k);
+    *helm = k.w.propulsion.steering[0];
+    scene_close(&k);
+    return speed;
+}
+
+/* A hull of 5 m draught goes through the water at half of that: a current that is the same at all depths is a uniform
+   one, and what flows in the top metre alone neither helps it on nor turns it. */
+START_TEST(goes_through_the_water_at_half_its_draught)
+{
+    const vec3 none = {0, 0, 0}, ahead = {1, 0, 0}, across = {0, 1, 0};
+    double helm, uniform = layered(none, none, 1, &helm);
+    ck_assert(uniform > 7.5);
+    assert_relative(layered(ahead, ahead, 0, &helm), uniform, 1e-4);
+    assert_absolute(layered(ahead, none, 0, &helm), 7, 0.02);
+    assert_absolute(layered(across, none, 0, &helm), 7, 0.05);
+    ck_assert_msg(fabs(helm) < radians(2), "helm of %g degrees", degrees(helm));
+}
+END_TEST
+
 START_TEST(net_thrust_is_the_published_curve)
 {
     assert_relative(propulsion_net_thrust(1e6, 8, 0), 1e6, 1e-15);
@@ -391,7 +423,8 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
-TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current, net_thrust_is_the_published_curve,
+TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
+          goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
           keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
           speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
