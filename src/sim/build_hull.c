@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "io/hull_file.h"
 #include "model/scenario_schema.h"
+#include "vessel/hydrostatics.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -226,4 +227,22 @@ fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entr
     mesh_free(ctx, &h.surface);
     polyhedron_array_free(ctx, &h.pieces);
     return name_hull_key(s, entry, status, error);
+}
+
+fram_status build_upright(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,
+                          const solid *body, hull_hydrostatics *out, fram_error *error)
+{
+    double mass = automatic_or(entry->keys->mass, hull->displaced_mass), level = 0;
+    *out = hull->floats;
+    if (mass == hull->displaced_mass)
+        return FRAM_OK;
+    fram_status status =
+        hull_level_of(ctx, &body->surface, mass / s->environment.water_density, &level, error); /* about the centre */
+    if (status == FRAM_OK)
+        status = hull_hydrostatics_at(ctx, &body->surface, level, out, error);
+    out->centre_of_buoyancy = vec3_add(out->centre_of_buoyancy, hull->centre);
+    if (status != FRAM_ERROR_INPUT)
+        return status;
+    *out = (hull_hydrostatics){.volume = 0};
+    return FRAM_OK;
 }

@@ -28,4 +28,10 @@ void hull_store_free(context *ctx, hull_store *store);
 fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, hull_store *store,
                        solid_array *solids, vessel_model *out, fram_error *error);
 
+/* How the upright hull, which `hull` knows, floats with its own mass, ship coordinates: at its draught, or where it
+   moves up or down to; body: its solid.  Nothing is displaced where no mass floats, as by what the hull displaces as a
+   whole. */
+fram_status build_upright(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,
+                          const solid *body, hull_hydrostatics *out, fram_error *error);
+
 #endif

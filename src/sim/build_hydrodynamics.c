@@ -1,6 +1,7 @@
 #include "sim/build_hydrodynamics.h"
 
 #include "fluid/added_mass.h"
+#include "sim/build_hull.h"
 #include "sim/build_vessel.h"
 
 #include <string.h>
@@ -63,13 +64,16 @@ static fram_status given(const scenario *s, const vessel_entry *entry, vec3 cent
 
 /* ---- estimate ---- */
 
-static hydrodynamics estimate(const scenario *s, const scenario_vessel *v, const vessel_model *hull)
+/* upright: how the hull floats with its mass. */
+static hydrodynamics estimate(const scenario *s, const scenario_vessel *v, const vessel_model *hull,
+                              const hull_hydrostatics *upright)
 {
     const hull_particulars *p = &hull->particulars;
-    const hull_hydrostatics *f = &hull->floats;
+    /* What no water bears is refused, or does not move by itself. */
+    const hull_hydrostatics *f = upright->volume > 0 ? upright : &hull->floats;
     double density = s->environment.water_density, weight = density * s->environment.gravity;
     vec3 half = {0.5 * p->length, 0.5 * p->beam, p->draught}, arm = build_gyration(v, p);
-    matrix6 mass = ellipsoid_added_mass(half, f->volume, density);
+    matrix6 mass = ellipsoid_added_mass(half, hull->floats.volume, density);
     hydrodynamics out = {0};
     out.added_mass = matrix6_moved(&mass, vec3_sub(vec3_make(p->midships, 0, 0), hull->centre));
     double m = automatic_or(v->mass, hull->displaced_mass), lift = f->centre_of_buoyancy.z - hull->centre.z;
@@ -84,14 +88,19 @@ static hydrodynamics estimate(const scenario *s, const scenario_vessel *v, const
     return out;
 }
 
-fram_status build_hydrodynamics(const scenario *s, const vessel_entry *entry, vessel_model *vessel, fram_error *error)
+fram_status build_hydrodynamics(context *ctx, const scenario *s, const vessel_entry *entry, const solid *body,
+                                vessel_model *vessel, fram_error *error)
 {
     hydrodynamics_source source = entry->keys->hydrodynamics.source;
     vessel->has_hydrodynamics = source != HYDRODYNAMICS_NONE && s->environment.water;
     vessel->hydrodynamics = (hydrodynamics){0};
     if (source == HYDRODYNAMICS_GIVEN)
         return given(s, entry, vessel->centre, &vessel->hydrodynamics, error);
-    if (source == HYDRODYNAMICS_ESTIMATE)
-        vessel->hydrodynamics = estimate(s, entry->keys, vessel);
-    return FRAM_OK;
+    if (source != HYDRODYNAMICS_ESTIMATE)
+        return FRAM_OK;
+    hull_hydrostatics upright;
+    fram_status status = build_upright(ctx, s, entry, vessel, body, &upright, error);
+    if (status == FRAM_OK)
+        vessel->hydrodynamics = estimate(s, entry->keys, vessel, &upright);
+    return status;
 }

@@ -157,7 +157,7 @@ fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_ent
     if (status == FRAM_OK)
         status = approach_watch_model(ctx, s, entry, m, &v, error);
     if (status == FRAM_OK)
-        status = build_hydrodynamics(s, entry, &v, error);
+        status = build_hydrodynamics(ctx, s, entry, &m->solids.data[v.solid], &v, error);
     if (status == FRAM_OK)
         status = build_flows(ctx, s, entry, &v, error);
     v.hydrodynamics.measured = v.flows.water.count > 0;

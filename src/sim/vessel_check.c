@@ -4,12 +4,12 @@
 #include "base/transcendental.h"
 #include "geometry/polygon.h"
 #include "model/scenario_schema.h"
+#include "sim/build_hull.h"
 #include "sim/build_ice.h"
 #include "sim/build_vessel.h"
 #include "sim/meeting_check.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
-#include "vessel/hydrostatics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,26 +138,6 @@ static void warn_of_angle(context *ctx, const vessel_entry *e, const char *key, 
                   what, angle, fabs(arm));
 }
 
-/* How the upright hull floats with its own mass, ship coordinates: at its draught, or where it moves up or down to.
-   Nothing is displaced where no mass floats, as by what the hull displaces as a whole. */
-static fram_status find_upright(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
-                                const solid *body, hull_hydrostatics *out, fram_error *error)
-{
-    double mass = mass_of(e, hull), level = 0;
-    *out = hull->floats;
-    if (mass == hull->displaced_mass)
-        return FRAM_OK;
-    fram_status status =
-        hull_level_of(ctx, &body->surface, mass / s->environment.water_density, &level, error); /* about the centre */
-    if (status == FRAM_OK)
-        status = hull_hydrostatics_at(ctx, &body->surface, level, out, error);
-    out->centre_of_buoyancy = vec3_add(out->centre_of_buoyancy, hull->centre);
-    if (status != FRAM_ERROR_INPUT)
-        return status;
-    *out = (hull_hydrostatics){.volume = 0};
-    return FRAM_OK;
-}
-
 static void tell_stability(context *ctx, const vessel_entry *e, const vessel_model *hull, const hull_hydrostatics *f)
 {
     double lift = f->centre_of_buoyancy.z - hull->centre.z;
@@ -173,16 +153,11 @@ static void tell_stability(context *ctx, const vessel_entry *e, const vessel_mod
     }
 }
 
-static fram_status warn_of_stability(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
-                                     const solid *body, fram_error *error)
+static void warn_of_stability(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
+                              const hull_hydrostatics *upright)
 {
-    hull_hydrostatics upright;
-    if (e->keys->mode != VESSEL_FREE || !s->environment.water || !(hull->floats.volume > 0))
-        return FRAM_OK;
-    fram_status status = find_upright(ctx, s, e, hull, body, &upright, error);
-    if (status == FRAM_OK && upright.volume > 0)
-        tell_stability(ctx, e, hull, &upright);
-    return status;
+    if (e->keys->mode == VESSEL_FREE && s->environment.water && hull->floats.volume > 0 && upright->volume > 0)
+        tell_stability(ctx, e, hull, upright);
 }
 
 /* Towed hulls are free to heave. */
@@ -327,7 +302,7 @@ static void warn_of_lines(context *ctx, const scenario *s, const vessel_entry *e
     warn_of_stiffness(ctx, s, name, mean + sqrt(half * half + xy * xy), w->bodies.mass[body] + fmin(added.x, added.y));
 }
 
-static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
+static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry *e, const hull_hydrostatics *upright,
                             const world *w, int32_t row)
 {
     if (e->keys->mode == VESSEL_PRESCRIBED)
@@ -337,7 +312,7 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
     char name[64];
     snprintf(name, sizeof name, "the buoyancy of %s", vessel_title_of(e).text);
     if (s->environment.water)
-        warn_of_stiffness(ctx, s, name, weight * hull->floats.waterplane_area,
+        warn_of_stiffness(ctx, s, name, weight * upright->waterplane_area,
                           w->bodies.mass[body] + w->bodies.added_mass[body].z);
     warn_of_lines(ctx, s, e, w, row);
 }
@@ -455,11 +430,13 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
 {
     const vessel_model *hull = &m->vessels.data[row];
     fram_status status = warn_of_floes(ctx, s, e, w, row, error);
+    hull_hydrostatics upright = hull->floats;
     if (status == FRAM_OK)
-        status = warn_of_stability(ctx, s, e, hull, &m->solids.data[hull->solid], error);
+        status = build_upright(ctx, s, e, hull, &m->solids.data[hull->solid], &upright, error);
+    warn_of_stability(ctx, s, e, hull, &upright);
     warn_of_mass(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
-    warn_of_springs(ctx, s, e, hull, w, row);
+    warn_of_springs(ctx, s, e, &upright, w, row);
     wall_warnings(ctx, s, e, m, w, row);
     meeting_warnings(ctx, s, e, m, w, row);
     turning_tell(ctx, s, e, m, w, row);

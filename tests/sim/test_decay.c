@@ -197,5 +197,29 @@ START_TEST(estimated_damping)
 }
 END_TEST
 
+/* By hand for the box with 1.5 and 0.6 times the mass that it displaces at its draught of 4 m. */
+START_TEST(damping_is_of_the_hull_as_it_floats)
+{
+    static const double height[2] = {1, 3.5}, part[2] = {1.5, 0.6};
+    for (int i = 0; i < 2; i++) {
+        char vessel[400];
+        decay d;
+        snprintf(vessel, sizeof vessel,
+                 "vessel: {mode: free, centre_of_gravity_z: %g, mass: %.9g, "
+                 "hull: {form: box, length: 60, beam: 18, draught: 4, freeboard: 6}%%s}\n",
+                 height[i], part[i] * 1025 * 60 * 18 * 4);
+        open_vessel(&d, vessel, ", hydrodynamics: {source: estimate, roll_damping: 0.1, pitch_damping: 0.3}");
+        const hydrodynamics *h = &d.m.vessels.data[0].hydrodynamics;
+        double weight = 1025 * 9.81, draught = part[i] * 4, volume = 60 * 18 * draught;
+        double lift = 0.5 * draught - 4 - height[i];
+        double roll = weight * (60 * 18 * 18 * 18 / 12.0 + volume * lift);
+        double pitch = weight * (18 * 60 * 60 * 60 / 12.0 + volume * lift);
+        assert_relative(h->damping.m[3][3], 0.2 * sqrt(roll * d.mass.m[3][3]), 1e-4);
+        assert_relative(h->damping.m[4][4], 0.6 * sqrt(pitch * d.mass.m[4][4]), 1e-4);
+        decay_close(&d);
+    }
+}
+END_TEST
+
 TEST_MAIN("decay", box_periods, ship_periods, panel_periods, given_matrices_are_moved, supply_ship_of_the_scene,
-          wrong_matrices, estimated_damping)
+          wrong_matrices, estimated_damping, damping_is_of_the_hull_as_it_floats)
