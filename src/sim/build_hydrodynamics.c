@@ -3,12 +3,14 @@
 #include "fluid/added_mass.h"
 #include "sim/build_hull.h"
 #include "sim/build_vessel.h"
+#include "sim/matrix_check.h"
 
 #include <string.h>
 
 /* ---- matrices of the scenario ---- */
 
-/* Entries m[i][j] and m[j][i] of an added mass may differ by this part of the diagonal: published ones are rounded. */
+/* Entries m[i][j] and m[j][i] of an added mass may differ by this part of the diagonal, and its motions have so much
+   less mass than none: published ones are rounded. */
 #define ASYMMETRY 1e-3
 
 static const char MASS_KEY[] = "hydrodynamics.added_mass";
@@ -24,7 +26,7 @@ static matrix6 rows_of(const scenario_matrix_row_list *rows)
     return a;
 }
 
-/* Symmetric, nearly, and no negative diagonal; takes the mean of the two halves. */
+/* Symmetric, nearly, and of no motion a negative mass; takes the mean of the two halves. */
 static fram_status check_added_mass(const scenario *s, const vessel_entry *entry, matrix6 *a, fram_error *error)
 {
     for (int i = 0; i < 6; i++) {
@@ -41,6 +43,12 @@ static fram_status check_added_mass(const scenario *s, const vessel_entry *entry
             a->m[i][j] = a->m[j][i] = mean;
         }
     }
+    int row = matrix_failing_row(a, ASYMMETRY);
+    if (row >= 0)
+        return vessel_fault(s, entry, MASS_KEY, error,
+                            "expected a symmetric positive matrix, found in row %d couplings by which a motion of it "
+                            "with those before it has a negative mass",
+                            row + 1);
     return FRAM_OK;
 }
 

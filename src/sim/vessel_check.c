@@ -7,6 +7,7 @@
 #include "sim/build_hull.h"
 #include "sim/build_ice.h"
 #include "sim/build_vessel.h"
+#include "sim/matrix_check.h"
 #include "sim/meeting_check.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
@@ -179,32 +180,11 @@ static void warn_of_mass(context *ctx, const scenario *s, const vessel_entry *e,
 
 static const char *const motions[6] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
-/* Both halves of a coupling take power together, each force by the other one's motion. */
-static double coupling_of(const matrix6 *b, int i, int j) { return 0.5 * (b->m[i][j] + b->m[j][i]); }
-
-/* Beyond what the two motions damp: a motion of both gains. */
+/* Beyond what the two motions damp: a motion of both gains.  Both halves of a coupling take power together, each force
+   by the other one's motion. */
 static double coupling_excess(const matrix6 *b, int i, int j)
 {
-    return fabs(coupling_of(b, i, j)) / sqrt(b->m[i][i] * b->m[j][j]) - 1;
-}
-
-/* Whether no motion gains, by Cholesky's factors of the symmetric part over the roots of its diagonal, which has no
-   negative number; rounding is given to it. */
-static bool damps_all(const matrix6 *b)
-{
-    matrix6 l = {0};
-    for (int i = 0; i < 6; i++) {
-        for (int j = 0; j <= i; j++) {
-            double scale = sqrt(b->m[i][i] * b->m[j][j]);
-            double left = (scale > 0 ? coupling_of(b, i, j) / scale : 0) + (i == j ? ROUNDED_DAMPING : 0);
-            for (int k = 0; k < j; k++)
-                left -= l.m[i][k] * l.m[j][k];
-            if (i == j && !(left > 0))
-                return false;
-            l.m[i][j] = i == j ? sqrt(left) : left / l.m[j][j];
-        }
-    }
-    return true;
+    return fabs(matrix_coupling(b, i, j)) / sqrt(b->m[i][i] * b->m[j][j]) - 1;
 }
 
 /* A diagonal of good numbers damps each motion by itself; what drives is the coupling of two, or of more. */
@@ -224,9 +204,9 @@ static void warn_of_couplings(context *ctx, const vessel_entry *e, const matrix6
                   "%s.hydrodynamics.damping is not positive between %s and %s, %.4g in the mean of both sides beside "
                   "%.4g and %.4g on the diagonal about the centre of mass: it drives a motion of both instead of "
                   "damping it",
-                  e->path, motions[first], motions[second], coupling_of(b, first, second), b->m[first][first],
+                  e->path, motions[first], motions[second], matrix_coupling(b, first, second), b->m[first][first],
                   b->m[second][second]);
-    else if (!damps_all(b))
+    else if (matrix_failing_row(b, ROUNDED_DAMPING) >= 0)
         log_write(ctx, LOG_WARNING,
                   "%s.hydrodynamics.damping is not positive, by its couplings of more than two motions: it drives a "
                   "motion of them instead of damping it",

@@ -167,6 +167,10 @@ START_TEST(wrong_matrices)
          "vessel.hydrodynamics.added_mass"},
         {", hydrodynamics: {source: given, added_mass: [{surge: 1, sway: 0.5}, {sway: 1}, {}, {}, {}, {}]}",
          "symmetric", "vessel.hydrodynamics.added_mass"},
+        /* Each two of them could be: all three have a motion of mass 1 - 2 x 0.9. */
+        {", hydrodynamics: {source: given, added_mass: [{surge: 1, sway: 0.9, heave: -0.9}, "
+         "{surge: 0.9, sway: 1, heave: 0.9}, {surge: -0.9, sway: 0.9, heave: 1}, {}, {}, {}]}",
+         "in row 3 couplings", "vessel.hydrodynamics.added_mass"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         decay d;
