@@ -19,6 +19,8 @@ static const double EASED = 2.0 / 3, CUT = 0.25;
 /* No arc is tighter than this times the way in which the ship is to turn as it is told: on one that is, it has turned
    by half a radian before its helm has answered, and a helm that is slow swings to and fro. */
 static const double FORESEEN = 2;
+/* Coefficients of a table of the current that differ by less between its sides are alike. */
+static const double ALIKE = 1e-6;
 
 typedef struct turning_search {
     context *ctx;
@@ -27,24 +29,28 @@ typedef struct turning_search {
     const propulsion_settings *s;
     media water; /* at rest */
     double speed, angle;
+    double side; /* 1: it turns to port; -1: to starboard, of which all is told as if to port */
 } turning_search;
 
-/* Drag of the water on the hull without its lift, and linear damping; ship's axes. */
+/* Drag of the water on the hull without its lift, and linear damping; ship's axes.  All else that turns a ship has
+   equal sides. */
 static wrench drag_of(const turning_search *t, double sway, double rate)
 {
     if (t->m->forces != FORCES_FLUID || t->hull->solid < 0)
         return (wrench){{0, 0, 0}, {0, 0, 0}};
     const mat3 upright = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    fluid_motion moving = {t->hull->centre, upright, {t->speed, sway, 0}, {0, 0, rate}};
+    fluid_motion moving = {t->hull->centre, upright, {t->speed, t->side * sway, 0}, {0, 0, t->side * rate}};
     media panels = flows_media(&t->water, &t->hull->flows, moving.velocity);
     fluid_load load;
     fluid_load_solid(t->ctx, &panels, &t->m->drag[MATERIAL_HULL], &t->m->solids.data[t->hull->solid], &moving, &load);
     flows_add(&t->water, &t->hull->flows, upright, moving.velocity, &load);
     wrench out = load.water_drag;
-    vec3 damping = propulsion_damping(t->hull, vec3_make(t->speed, sway, rate));
+    vec3 damping = propulsion_damping(t->hull, vec3_make(t->speed, t->side * sway, t->side * rate));
     out.force.x += damping.x;
     out.force.y += damping.y;
     out.moment.z += damping.z;
+    out.force.y *= t->side;
+    out.moment.z *= t->side;
     return out;
 }
 
@@ -85,7 +91,7 @@ static double moment_at(const turning_search *t, double rate, double *sway_there
     return forces_of(t, sway, rate).moment;
 }
 
-/* Rate of the steady turn to port, and its sway; 0: none. */
+/* Rate of the steady turn, and its sway; 0: none. */
 static double steady_rate(const turning_search *t, double *sway)
 {
     double step = FASTEST * t->speed / t->hull->particulars.length / RATES, low = 0;
@@ -124,18 +130,24 @@ static double yaw_acceleration(const turning_search *t, double rate)
     return r / time;
 }
 
-turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
-                                   double speed)
+bool turning_sides_differ(const vessel_model *hull)
 {
-    const vessel_model *hull = &m->vessels.data[vessel];
-    double length = hull->particulars.length;
-    turning_search t = {ctx, m, hull, s, m->media, speed, s->steering_most};
-    t.water.current = t.water.wind = (vec3){0, 0, 0};
-    t.water.profile.count = 0;
+    const flow_table *f = &hull->flows.water;
+    for (int32_t i = 0; i < f->count; i++) {
+        vec3 one = f->coefficient[i], other = flow_coefficients(f, 2 * PI - f->angle[i]);
+        if (fabs(one.x - other.x) > ALIKE || fabs(one.y + other.y) > ALIKE || fabs(one.z + other.z) > ALIKE)
+            return true;
+    }
+    return false;
+}
+
+/* How it turns to the side of t. */
+static turning_ability ability_to(turning_search t)
+{
+    const vessel_model *hull = t.hull;
+    const propulsion_settings *s = t.s;
+    double length = hull->particulars.length, speed = t.speed;
     turning_ability out = {length, length, length, 0, speed};
-    /* Of a helm that does not move rounding alone would be followed. */
-    if (!(speed > 0 && s->steering_most > 0))
-        return out;
     double sway, full = steady_rate(&t, &sway);
     t.angle = EASED * s->steering_most;
     double eased = steady_rate(&t, &sway);
@@ -153,6 +165,29 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     double uncut = real_cbrt(square * square / (24 * CUT * hull->particulars.beam));
     double lag = autopilot_lag(&out, length, speed, s->steering_most, s->steering_rate);
     out.corner = fmax(fmax(eased_radius, uncut), FORESEEN * speed * lag);
+    return out;
+}
+
+turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
+                                   double speed)
+{
+    const vessel_model *hull = &m->vessels.data[vessel];
+    double length = hull->particulars.length;
+    turning_search t = {ctx, m, hull, s, m->media, speed, s->steering_most, 1};
+    t.water.current = t.water.wind = (vec3){0, 0, 0};
+    t.water.profile.count = 0;
+    /* Of a helm that does not move rounding alone would be followed. */
+    if (!(speed > 0 && s->steering_most > 0))
+        return (turning_ability){length, length, length, 0, speed};
+    turning_ability port = ability_to(t);
+    if (!turning_is_found(&port) || !turning_sides_differ(hull))
+        return port;
+    t.side = -1;
+    turning_ability starboard = ability_to(t), out = port;
+    if (!turning_is_found(&starboard) || starboard.radius > port.radius)
+        out = starboard;
+    if (turning_is_found(&out))
+        out.corner = fmax(port.corner, starboard.corner);
     return out;
 }
 

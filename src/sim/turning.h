@@ -6,11 +6,14 @@
 #include "model/model.h"
 #include "vessel/propulsion.h"
 
-/* Of a vessel with these settings (all but `turning` are used) at a speed ahead.  Without water, or without a helm that
-   turns the ship as it should, all distances are its length and the drift is 0. */
+/* Of a vessel with these settings (all but `turning` are used) at a speed ahead, to the side on which it turns wider
+   where a table of the current makes a difference.  Without water, or without a helm that turns the ship as it should,
+   to both sides, all distances are its length and the drift is 0. */
 turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                    double speed);
 /* Whether it was found: a hull is askew in every turn, and by which is found by halving, never to 0. */
 bool turning_is_found(const turning_ability *t);
+/* Whether a hull has a table of the current whose sides are not alike. */
+bool turning_sides_differ(const vessel_model *hull);
 
 #endif

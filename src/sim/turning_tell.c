@@ -136,18 +136,21 @@ static void tell_outside(const pattern_view *v, const model *m, const world *w, 
         }
 }
 
-static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const turning_ability *t)
+static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,
+                        const turning_ability *t)
 {
+    bool differ = turning_sides_differ(hull);
     if (turning_is_found(t))
         log_write(ctx, LOG_INFO,
-                  "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s; corners and loops of its "
+                  "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s%s; corners and loops of its "
                   "track have %.4g m",
                   vessel_title_of(entry).text, t->radius, t->speed,
+                  differ ? " to the side on which it turns wider, since those of its current_coefficients differ" : "",
                   s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
     else
         log_write(ctx, LOG_INFO,
-                  "%s does not turn by its helm at %.3g m/s; corners and loops of its track are taken as %.4g m",
-                  vessel_title_of(entry).text, t->speed, t->corner);
+                  "%s does not turn by its helm%s at %.3g m/s; corners and loops of its track are taken as %.4g m",
+                  vessel_title_of(entry).text, differ ? " to both sides" : "", t->speed, t->corner);
 }
 
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
@@ -160,7 +163,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     const turning_ability *t = &set->turning;
     pattern_view v = {
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
-    tell_radius(ctx, s, entry, t);
+    tell_radius(ctx, s, entry, &m->vessels.data[row], t);
     if (v.shape.kind == PATTERN_NONE)
         return;
     if (s->domain.boundary != DOMAIN_FEEDING)

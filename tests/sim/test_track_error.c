@@ -189,17 +189,24 @@ END_TEST
 enum { TABLE_LAST = 72 };
 #define SIDE (121 * 8.8)
 
-/* A table of the current: what goes with u v of this lift, and the cross flow's drag on the side. */
-static void write_table(char *text, size_t size, hull_lift l, double forward, double cross)
+/* Of the cross flow's drag on the side, where it comes from starboard and from port. */
+typedef struct side_drag {
+    double starboard, port;
+} side_drag;
+
+/* A table of the current: what goes with u v of this lift, and the cross flow's drag; with unequal sides all around. */
+static void write_table(char *text, size_t size, hull_lift l, double forward, side_drag cross)
 {
+    double turn = cross.starboard == cross.port ? PI : 2 * PI;
     const double unit = 0.5 * 1025 * SIDE;
     int at = snprintf(text, size, "  current_coefficients: {lateral_area: %g, length: 121, x: %.9g, table: [", SIDE,
                       forward);
     for (int i = 0; i <= TABLE_LAST; i++) {
-        double flow = PI * i / TABLE_LAST, s = real_sin(flow), both = s * real_cos(flow);
-        at +=
-            snprintf(text + at, size - (size_t)at, "{angle_deg: %g, cy: %.9g, cn: %.9g}%s", 180.0 * i / TABLE_LAST,
-                     l.y_v * both / unit + cross * s * s, l.n_v * both / (unit * 121), i < TABLE_LAST ? ", " : "]}\n");
+        double flow = turn * i / TABLE_LAST, s = real_sin(flow), both = s * real_cos(flow);
+        double drag = s > 0 ? cross.starboard * s * s : -cross.port * s * s;
+        at += snprintf(text + at, size - (size_t)at, "{angle_deg: %g, cy: %.9g, cn: %.9g}%s",
+                       degrees(turn) * i / TABLE_LAST, l.y_v * both / unit + drag, l.n_v * both / (unit * 121),
+                       i < TABLE_LAST ? ", " : "]}\n");
     }
 }
 
@@ -229,17 +236,25 @@ START_TEST(the_table_is_known_to_the_turn)
     hull_lift l, left;
     double forward;
     turning_ability without = ability_by("", &l, &forward);
-    write_table(table, sizeof table, l, forward, 0);
+    write_table(table, sizeof table, l, forward, (side_drag){0, 0});
     turning_ability same = ability_by(table, &left, &forward);
     ck_assert(left.y_v == 0 && left.n_v == 0 && left.y_r == l.y_r && left.n_r == l.n_r);
-    write_table(table, sizeof table, l, forward, 0.7);
+    write_table(table, sizeof table, l, forward, (side_drag){0.7, 0.7});
     turning_ability wider = ability_by(table, &left, &forward);
+    write_table(table, sizeof table, l, forward, (side_drag){0.7, 0});
+    turning_ability port = ability_by(table, &left, &forward);
+    write_table(table, sizeof table, l, forward, (side_drag){0, 0.7});
+    turning_ability starboard = ability_by(table, &left, &forward);
     printf("without a table %.2f and %.2f m, with it %.2f and %.2f, with drag of the side %.2f\n", without.radius,
            without.corner, same.radius, same.corner, wider.radius);
     assert_relative(same.radius, without.radius, 2e-3);
     assert_relative(same.corner, without.corner, 2e-3);
     assert_relative(same.drift, without.drift, 2e-3);
     ck_assert(wider.radius > 1.1 * without.radius);
+    /* With the drag of one side it turns as with that of both, to that side: a ship and its mirror image alike. */
+    assert_relative(port.radius, wider.radius, 0.02); /* rows are 5 degrees apart instead of 2.5 */
+    assert_relative(starboard.radius, port.radius, 1e-6);
+    assert_relative(starboard.corner, port.corner, 1e-6);
 }
 END_TEST
 
