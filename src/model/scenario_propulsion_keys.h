@@ -47,7 +47,8 @@
     X(propeller_diameter, AUTOMATIC(1e-3, 100), "m",                                                                 \
       "of each; auto: 45 kPa * scale / 30 of bollard pull on their discs")                                           \
     X(propeller_spacing, AUTOMATIC(0, 1e3), "m", "between their axes; auto: 1.5 diameters")                          \
-    X(propeller_z, AUTOMATIC(-1e3, 0), "m", "of their axes above the design waterline; auto: -0.6 draughts")         \
+    X(propeller_z, AUTOMATIC(-1e3, 0), "m",                                                                          \
+      "of their axes, at which rudders push too, above the design waterline; auto: -0.6 draughts")                   \
     X(waypoints, LIST(course_point, 1000), "",                                                                       \
       "steered for one after the other; after the last the leg goes on; none: the heading is kept")                  \
     X(pattern, SECTION(pattern), "", "of ice management, in place of way points; it turns with the drift")

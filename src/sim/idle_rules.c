@@ -341,7 +341,6 @@ static const idle_rule rules[] = {
     {"vessel.propulsion.speed", has_period, "propulsion.pattern.period gives the speed"},
     {"vessel.propulsion.propeller_spacing", has_no_wash, NO_WASH},
     {"vessel.propulsion.propeller_spacing", has_one_propeller, "propulsion.propellers is 1"},
-    {"vessel.propulsion.propeller_z", has_no_wash, NO_WASH},
     {"vessel.propulsion.pattern.", has_no_pattern, "propulsion.pattern.kind is none"},
     {"vessel.propulsion.pattern.distance", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},
     {"vessel.propulsion.pattern.width", goes_ahead, "the way ahead has none (propulsion.pattern.kind)"},

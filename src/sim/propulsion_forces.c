@@ -69,6 +69,30 @@ vec2 propulsion_water(const model *m, const media *now, int32_t vessel)
     return m->forces == FORCES_NONE ? vec2_make(0, 0) : vec2_make(current.x, current.y);
 }
 
+/* What the step looks like to a row's propulsion, `drift` being that of the ice. */
+static propulsion_moment moment_of(const model *m, const world *w, int32_t row, const media *now, vec2 drift)
+{
+    int32_t vessel = w->propulsion.vessel[row];
+    const vessel_model *hull = &m->vessels.data[vessel];
+    vec2 water = propulsion_water(m, now, vessel);
+    vec3 ice = last_ice_load(w, vessel).force;
+    double time = w->clock.time[0];
+    propulsion_moment out = {.time = time,
+                             .dt = m->time_step,
+                             .water = water,
+                             .drift = drift,
+                             .comes = propulsion_comes(m, w, row, time, away_from_place(w, row)),
+                             .drag = drag_now(m, w, vessel, water),
+                             .course_speed = m->course_speed,
+                             .ice = {ice.x, ice.y}};
+    if (m->forces == FORCES_FLUID) { /* nothing rights a ship without water */
+        out.resistance = propulsion_resistance(m, w, vessel, water);
+        out.lift_z = -hull->hydrodynamics.depth - hull->centre.z;
+        out.steering_z = hull->wash.z;
+    }
+    return out;
+}
+
 fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (w->propulsion.count == 0)
@@ -78,19 +102,8 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
     vec2 drift = drifts ? feed_drift(m, &w->inputs, w->clock.time[0]) : vec2_make(0, 0);
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
-        int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
-        double away = away_from_place(w, i);
-        vec2 water = propulsion_water(m, &now, vessel);
-        vec3 ice = last_ice_load(w, vessel).force;
-        propulsion_moment moment = {w->clock.time[0],
-                                    m->time_step,
-                                    water,
-                                    drift,
-                                    propulsion_comes(m, w, i, w->clock.time[0], away),
-                                    m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
-                                    drag_now(m, w, vessel, water),
-                                    m->course_speed,
-                                    {ice.x, ice.y}};
+        int32_t body = w->vessels.body[w->propulsion.vessel[i]];
+        propulsion_moment moment = moment_of(m, w, i, &now, drift);
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);
     }

@@ -367,10 +367,13 @@ fram_status propulsion_step(context *ctx, propulsion_table *propulsion, int32_t 
     double at_stern = p.aside + p.s->steering_x * p.turn;
     steering_force f = rudder_force(&p.s->rudder, p.through_water, at_stern, gross, angle);
     hull_lift l = manoeuvring_lift(&p.s->ship);
-    double aside = u * (l.y_v * p.aside + l.y_r * p.turn) + f.aside;
+    double lift = u * (l.y_v * p.aside + l.y_r * p.turn), aside = lift + f.aside;
+    double heel = -now->lift_z * lift - now->steering_z * f.aside;
     vec2 port = vec2_perp(p.bow);
     load->force.x += f.ahead * p.bow.x + aside * port.x;
     load->force.y += f.ahead * p.bow.y + aside * port.y;
+    load->moment.x += heel * p.bow.x;
+    load->moment.y += heel * p.bow.y;
     load->moment.z += u * (l.n_v * p.aside + l.n_r * p.turn) + p.s->steering_x * f.aside;
     return FRAM_OK;
 }

@@ -301,8 +301,9 @@ told field.yaml "vessel.positioning.frequency and 1 more: without effect" \
 told fleet.yaml "vessels[0].positioning.frequency: without effect"
 told fleet.yaml "vessels[1].positioning.frequency and 1 more: without effect"
 told fleet.yaml "vessels[1].approach.look_ahead: without effect, since there is no approach.limit"
-told fleet.yaml "vessels[1].propulsion.propeller_z: without effect, since wash.active is false" \
-    --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.propeller_z=-2
+told fleet.yaml "vessels[1].propulsion.propeller_spacing: without effect, since wash.active is false" \
+    --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.propulsion.propeller_spacing=5 \
+    --set vessels.two.propulsion.propellers=2 --set vessels.two.propulsion.propeller_z=-2
 told fleet.yaml "vessels[1].propulsion.propeller_spacing: without effect, since propulsion.propellers is 1" \
     --set vessels.two.propulsion.bollard_pull=5e5 --set vessels.two.wash.active=true \
     --set vessels.two.propulsion.propeller_spacing=5

@@ -146,6 +146,31 @@ START_TEST(lift_acts_against_sliding_and_turning)
 }
 END_TEST
 
+/* Lift, rudders and the drag of a hull that turns act under its centre of mass: with its helm held over to port it
+   leans outward, starboard down, by the moment of what holds it on its circle, about half its draught. */
+START_TEST(leans_outward_in_a_turn)
+{
+    static const char *const leaning[] = {"run.time_step=0.1", "vessel.speed=6", "vessel.hydrodynamics.source=estimate",
+                                          "vessel.hydrodynamics.roll_damping=0.3"};
+    scene k;
+    scene_open_with(&k, SHIP, leaning, 4);
+    int32_t body = k.w.vessels.body[0];
+    k.w.propulsion.settings[0].steering_rate = 0;
+    k.w.propulsion.steering[0] = radians(20);
+    scene_steps(&k, 1500);
+    const hull_hydrostatics *f = &k.m.vessels.data[0].floats;
+    double gm = f->waterplane_xx / f->volume + f->centre_of_buoyancy.z; /* of a centre of mass at 0 */
+    vec3 angles = quat_roll_pitch_yaw(k.w.bodies.orientation[body]), v = k.w.bodies.velocity[body];
+    double ahead = v.x * real_cos(angles.z) + v.y * real_sin(angles.z), turn = k.w.bodies.angular_velocity[body].z;
+    double expected = ahead * turn * 2.5 / (9.81 * gm);
+    printf("heel of %.3f degrees at %.3f m/s and %.3f deg/s, by hand %.3f\n", degrees(angles.x), ahead, degrees(turn),
+           degrees(expected));
+    ck_assert(expected > radians(0.5));
+    assert_relative(angles.x, expected, 0.15);
+    scene_close(&k);
+}
+END_TEST
+
 /* A wanted speed is kept within the band that full thrust needs. */
 START_TEST(keeps_the_speed_that_is_wanted)
 {
@@ -425,7 +450,7 @@ END_TEST
 
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
-          lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
+          lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
           keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
           speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
           a_wall_makes_no_ship_beset, refusals_name_their_key)
