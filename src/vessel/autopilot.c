@@ -42,6 +42,18 @@ static double rate_back(const autopilot_view *v, const turning_ability *t, doubl
     return error > 0 ? size : -size;
 }
 
+/* A heading is against the track from here on; from the second on it takes about as long to come about either way. */
+static const double AGAINST = 0.5 * PI, EITHER_WAY = 2 * PI / 3;
+
+/* Of a ship that heads against a bend.  By the shorter way, and with the bend where both are about as long: turning
+   against it, or with the bend's own rate on top, a ship may go round it against its sense for good. */
+static double rate_about(const autopilot_view *v, const turning_ability *t, double error, double curvature)
+{
+    if (fabs(error) > EITHER_WAY && error * curvature > 0)
+        error -= curvature > 0 ? 2 * PI : -2 * PI;
+    return limited_rate(v, t, -rate_back(v, t, error));
+}
+
 /* Over the ground, in the track's frame. */
 static vec2 ground_velocity(const autopilot_view *v, vec2 place, vec2 past)
 {
@@ -110,6 +122,8 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     crab lies = crab_of(v, t, over);
     double wanted = real_atan2(over.y, over.x) + lies.angle + t->drift * lies.bends * curvature - seen->drift;
     double error = plane_angle(v->heading + turn * v->lag - wanted);
+    if (fabs(error) > AGAINST && curvature != 0)
+        return rate_about(v, t, error, curvature);
     double round = speed * curvature / fmax(1 - curvature * off, LEAST_NEARNESS);
     double over_ground = v->frame_turn + turn_over_ground(v, there, &foot, speed, round);
     double rate = lies.turns * over_ground + speed * t->drift * change;

@@ -165,7 +165,8 @@ static void follow_track(const pilot *p, const autopilot_view *v, const track *p
         count_rounds(t, row, before, path->length);
     track_place foot = track_at(path, t->way[row]);
     double off = t->off[row] = track_off(&foot, v->place);
-    if (foot.turning || p->now->time < p->s->transient || (t->off_time[row] == 0 && fabs(off) > JOINED * p->length))
+    bool joins = fabs(off) <= JOINED * p->length && real_cos(v->heading - foot.heading) > 0;
+    if (foot.turning || p->now->time < p->s->transient || (t->off_time[row] == 0 && !joins))
         return;
     t->off_most[row] = fmax(t->off_most[row], fabs(off));
     t->off_square[row] += off * off * p->now->dt;

@@ -9,10 +9,10 @@
 
 #include <stdio.h>
 
-#define SEA                                                                            \
-    "ice: {source: none}\n"                                                            \
-    "domain: {x_min: -8000, x_max: 8000, y_min: -8000, y_max: 8000, boundary: open}\n" \
-    "environment: {hull_drag: {water_form: 1}}\n"
+#define SEA_AS_GIVEN        \
+    "ice: {source: none}\n" \
+    "domain: {x_min: -8000, x_max: 8000, y_min: -8000, y_max: 8000, boundary: open}\n"
+#define SEA SEA_AS_GIVEN "environment: {hull_drag: {water_form: 1}}\n"
 /* That of the ready scenes, and a small one. */
 #define LARGE_WITH(track)                                                                                 \
     "run: {duration: 9000, time_step: 0.25, scale: 30}\n"                                                 \
@@ -423,6 +423,37 @@ START_TEST(a_leg_along_a_current_is_kept_as_in_still_water)
 }
 END_TEST
 
+/* The hull of 60 m whose form is not given, beside a circle of 300 m and heading against it: whatever the drag of its
+   side it comes about, and is on its track when it heads along. */
+START_TEST(a_circle_is_not_sailed_against_its_sense)
+{
+#define AGAINST_SHIP                                                                  \
+    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"                             \
+    "vessel:\n  mode: free\n  speed: 3\n  hull: {length: 60, beam: 14, draught: 5}\n" \
+    "  hydrodynamics: {source: estimate}\n  propulsion: {bollard_pull: 8.0e5, open_water_speed: 8}\n"
+    static const char *const ship[] = {AGAINST_SHIP SEA, AGAINST_SHIP SEA_AS_GIVEN};
+    static const double away[] = {178, 150}, at[] = {125, 270};
+    for (int i = 0; i < (getenv("FRAM_TEST_SHORT") ? 1 : 2); i++) {
+        double turn = radians(at[i]), course = i == 0 ? 0 : PI;
+        const pattern_case circle = {"circle", 800, 300, 3, false, ship[i]};
+        const track_place start = {.at = {800 + away[i] * real_cos(turn), away[i] * real_sin(turn)}, .heading = course};
+        scene k;
+        open_case(&k, &circle, 1, &start);
+        k.m.boundary = DOMAIN_FEEDING;
+        k.m.drift_given = true;
+        const propulsion_table *p = &k.w.propulsion;
+        sail(&k, 0, 1, 0);
+        ck_assert_msg(p->off_time[0] == 0, "on its track, heading against it");
+        sail(&k, 1, 700, 0);
+        printf("against the circle at first: %d rounds in %g s on it, %.1f m off\n", (int)p->rounds[0], p->off_time[0],
+               p->off[0]);
+        ck_assert(p->off_time[0] > 300);
+        ck_assert_int_ge(p->rounds[0], 1);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* The place where a ship joins is where its rounds begin: nothing is one before it has been all the way, wherever on
    the pattern that is, and the seam of the track is no round. */
 START_TEST(rounds_begin_where_the_ship_joined)
@@ -580,6 +611,6 @@ END_TEST
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
           patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
           slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
-          rounds_begin_where_the_ship_joined, a_leg_along_a_current_is_kept_as_in_still_water,
-          a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes,
-          a_model_is_steered_as_its_ship)
+          a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
+          a_leg_along_a_current_is_kept_as_in_still_water, a_period_is_that_of_the_round_that_is_sailed,
+          ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes, a_model_is_steered_as_its_ship)
