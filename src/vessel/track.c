@@ -48,10 +48,11 @@ static track there_and_back(vec2 start, double heading, double length, double cu
 static track square_track(const pattern_shape *p, double radius)
 {
     double r = fmin(radius, 0.5 * p->width), half = 0.5 * p->width;
+    bool straight = p->width > 2 * r;
     track t = {.start = {p->distance + half, r - half}, .heading = 0.5 * PI, .closed = true};
     for (int side = 0; side < 4; side++) {
         add(&t, p->width - 2 * r, 0, false);
-        add(&t, 0.5 * PI * r, curvature_of(1, r), true);
+        add(&t, 0.5 * PI * r, curvature_of(1, r), straight);
     }
     return t;
 }

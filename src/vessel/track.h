@@ -35,9 +35,10 @@ typedef struct track_place {
 } track_place;
 
 /* The pattern as a ship can sail it, in the pattern's frame: the corners of a square are rounded by this radius [m], or
-   by half a side where that is less, and each end of a line or an arc is a loop of three arcs of that radius, on which
-   the ship comes back to the same point the other way.  A line is moved updrift by its loop, so that nothing of it is
-   nearer than `distance`.  A circle stays as it is.  The way ahead has none. */
+   by half a side where that is less (they are all of it then, and no room to turn), and each end of a line or an arc is
+   a loop of three arcs of that radius, on which the ship comes back to the same point the other way.  A line is moved
+   updrift by its loop, so that nothing of it is nearer than `distance`.  A circle stays as it is.  The way ahead has
+   none. */
 track track_of_pattern(const pattern_shape *p, double radius);
 /* An open track through a place at this heading [rad], *way [m] along it, that bends [1/m] before and after it for a
    quarter of a round. */

@@ -34,6 +34,19 @@ START_TEST(patterns_are_closed_and_smooth)
 }
 END_TEST
 
+/* A square that is all corners has no other way to be at work on. */
+START_TEST(corners_of_a_narrow_square_are_its_track)
+{
+    const pattern_shape wide = {PATTERN_SQUARE, 900, 250, 0}, narrow = {PATTERN_SQUARE, 900, 200, 0};
+    track with = track_of_pattern(&wide, 120), without = track_of_pattern(&narrow, 120);
+    ck_assert(with.count == 8 && with.piece[1].turning && !with.piece[0].turning);
+    ck_assert_int_eq(without.count, 4);
+    for (int i = 0; i < 4; i++)
+        ck_assert(!without.piece[i].turning);
+    assert_relative(without.length, PI * 200, 1e-12);
+}
+END_TEST
+
 /* What is asked for: circle, arc and straight parts lie where the pattern says, and nothing of a line is nearer than
    its distance, of nothing that goes to and fro across nearer than its ends. */
 START_TEST(patterns_lie_where_they_are_asked_for)
@@ -147,5 +160,6 @@ START_TEST(a_bend_goes_both_ways)
 }
 END_TEST
 
-TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for, feet_are_found,
-          joins_the_way_that_it_goes, corners_are_rounded, a_bend_goes_both_ways)
+TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for,
+          corners_of_a_narrow_square_are_its_track, feet_are_found, joins_the_way_that_it_goes, corners_are_rounded,
+          a_bend_goes_both_ways)
