@@ -90,8 +90,8 @@ static bool way_point(const course_table *course, int32_t vessel, int32_t n, vec
 }
 
 /* The pattern's axis turns with the drift; returns how fast [rad/s].  A drift that turns about at once takes the
-   pattern with it, faster than a ship could follow: such a turn is no rate. */
-static double turn_axis(const pilot *p)
+   pattern with it, faster than a ship could follow: such a turn is no rate, and *about is set. */
+static double turn_axis(const pilot *p, bool *about)
 {
     propulsion_table *t = p->table;
     vec2 comes = p->now->comes.at;
@@ -101,7 +101,8 @@ static double turn_axis(const pilot *p)
     double turn = plane_angle(axis - t->axis[p->row]) / p->now->dt;
     t->axis[p->row] = axis;
     double way = vec2_length(vec2_sub(p->place, vec2_make(p->s->x, p->s->y)));
-    return t->way[p->row] >= 0 && fabs(turn) * way < p->s->turning.speed ? turn : 0;
+    *about = t->way[p->row] >= 0 && fabs(turn) * way >= p->s->turning.speed;
+    return t->way[p->row] >= 0 && !*about ? turn : 0;
 }
 
 static vec2 turned(vec2 v, double angle)
@@ -151,8 +152,9 @@ static void count_rounds(propulsion_table *t, int32_t row, double before, double
 }
 
 /* Brings the foot of the ship on a track up to date, and its error, which counts after the transient, from when the
-   ship first is near its track, and not where the track turns about. */
-static void follow_track(const pilot *p, const autopilot_view *v, const track *path)
+   ship first is near its track and heads along it, and not where the track turns about.  about: the track was turned
+   about at once, which is no way that the ship went: it joined as much earlier as it had gone. */
+static void follow_track(const pilot *p, const autopilot_view *v, const track *path, bool about)
 {
     propulsion_table *t = p->table;
     int32_t row = p->row;
@@ -161,6 +163,8 @@ static void follow_track(const pilot *p, const autopilot_view *v, const track *p
                                              : track_foot(path, before, v->place);
     if (before < 0)
         t->joined[row] = t->way[row];
+    else if (path->closed && about)
+        t->joined[row] = since_joined(t->way[row], since_joined(before, t->joined[row], path->length), path->length);
     else if (path->closed)
         count_rounds(t, row, before, path->length);
     track_place foot = track_at(path, t->way[row]);
@@ -218,11 +222,11 @@ static void look_ahead(const pilot *p, double thrust, autopilot_view *v, track *
     v->current = vec2_sub(v->current, p->now->drift);
 }
 
-static void look_round(const pilot *p, double thrust, autopilot_view *v, track *sailed)
+static void look_round(const pilot *p, double thrust, autopilot_view *v, track *sailed, bool *about)
 {
     const propulsion_settings *s = p->s;
     pattern_shape shape = {(pattern_kind)p->table->pattern[p->row], s->distance, s->width, s->aside};
-    double turn = turn_axis(p);
+    double turn = turn_axis(p, about);
     *sailed = track_of_pattern(&shape, s->turning.corner);
     *v = view_of(p, vec2_make(s->x, s->y), p->table->axis[p->row], turn, thrust);
 }
@@ -231,17 +235,18 @@ static void look_round(const pilot *p, double thrust, autopilot_view *v, track *
 static bool look(const pilot *p, const course_table *course, double thrust, autopilot_view *v, track *sailed)
 {
     propulsion_table *t = p->table;
+    bool about = false;
     if (t->pattern[p->row] == PATTERN_AHEAD) {
         look_ahead(p, thrust, v, sailed);
     } else if (t->pattern[p->row] != PATTERN_NONE) {
-        look_round(p, thrust, v, sailed);
+        look_round(p, thrust, v, sailed, &about);
     } else {
         *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
         t->way[p->row] = fmax(t->way[p->row], 0);
         if (!leg_track(p, course, sailed))
             return false;
     }
-    follow_track(p, v, sailed);
+    follow_track(p, v, sailed, about);
     return true;
 }
 

@@ -485,6 +485,12 @@ START_TEST(rounds_begin_where_the_ship_joined)
     /* It came to the seam in the middle of a round. */
     ck_assert_msg(seam > 0.1 * round && seam < 0.9 * round, "%g m", seam);
     ck_assert_int_eq(p->rounds[0], 1);
+    /* A drift that turns about at once takes the pattern along, which is no way round it. */
+    for (int turn = 1; turn <= 24; turn++) {
+        k.m.drift = vec2_make(0.3 * real_cos(2.5 * turn), 0.3 * real_sin(2.5 * turn));
+        scene_steps(&k, 1);
+        ck_assert_msg(p->rounds[0] == 1, "%d rounds as the drift turns about", (int)p->rounds[0]);
+    }
     scene_close(&k);
 }
 END_TEST
