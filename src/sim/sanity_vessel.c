@@ -381,6 +381,23 @@ static void tell_current_across(const teller *t, int32_t vessel)
         t->e->path, across, n->hull_drag.water_form, t->e->path);
 }
 
+/* A ship that is to turn as its track does: without the drag of its side it slides outward, and swings about it. */
+static void tell_drag_of_turns(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_propulsion *p = &v->propulsion;
+    bool bends = p->waypoints.count > 1 || (p->pattern.kind != PATTERN_NONE && p->pattern.kind != PATTERN_AHEAD);
+    if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull) || !bends)
+        return;
+    double speed = fmin(p->open_water_speed, automatic_or(p->speed, HUGE_VAL));
+    if (sanity_drags_as_ahead(t->s, v, speed))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion: its track has turns, and environment.hull_drag.water_form is %.3g, of a hull that "
+                   "goes ahead: one that turns slides aside, and a ship's side has about 1; give that, or "
+                   "%s.current_coefficients, else it may swing about its track",
+                   t->e->path, t->s->environment.hull_drag.water_form, t->e->path);
+}
+
 static void tell_flows(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -406,5 +423,6 @@ void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, s
     tell_motion(&t);
     tell_dry(&t);
     tell_current_across(&t, vessel);
+    tell_drag_of_turns(&t);
     tell_flows(&t);
 }

@@ -94,6 +94,20 @@ for way in "$across=160" "$across=120 --set environment.hull_drag.water_form=1" 
     expect 0 "$FRAM" check ship.yaml --set $way $as_put
     grep 'comes across' err && fail "told of $way"
 done
+# Nor has a ship the drag of its side that is to turn as its track does.
+turns=vessel.propulsion.pattern.kind sides="its track has turns, and environment.hull_drag.water_form is 0.1"
+sed 's/waypoints: .*}]}/pattern: {kind: circle}}/' drive.yaml >round.yaml
+for way in circle square; do
+    told round.yaml "vessel.propulsion: $sides" --set $turns=$way
+done
+expect 0 "$FRAM" check drive.yaml
+grep 'its track has turns' err && fail "told of one leg"
+sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}/' drive.yaml >bends.yaml
+told bends.yaml "vessel.propulsion: $sides|vessel.current_coefficients" --set "vessel.propulsion.speed=auto"
+for way in $turns=ahead environment.hull_drag.water_form=1 vessel.propulsion.speed=0.1; do
+    expect 0 "$FRAM" check round.yaml --set $way
+    grep 'its track has turns' err && fail "told of $way"
+done
 # Those of files where they are read, as they begin and at half the draught.
 printf 'time,x,y\n0,0,-0.4\n600,0,0\n' >aside.csv
 printf 'depth,x,y\n0,0,0\n3,0,0.5\n' >below.csv
