@@ -19,6 +19,7 @@ typedef struct manage_moment {
     double speed;  /* at which it comes [m/s] */
     double reach;  /* of the hull updrift of its centre [m] */
     double width;  /* of the corridor: of the hull across the drift [m] */
+    double middle; /* of that, to port of updrift from its centre [m] */
     vec2 helper[MANAGE_HELPERS];
     /* Found in the second reading; those of the window that is at the vessel at this moment. */
     int32_t looked[MANAGE_PLACES]; /* moment at which it was at that place; -1: at none */

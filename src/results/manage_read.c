@@ -219,9 +219,8 @@ static manage_window window_at(const manage_run *m, int32_t k, int32_t i)
 {
     const manage_moment *at = &m->moments.data[k];
     double depth = depth_of(m, at);
-    vec2 centre = vec2_add(at->place, vec2_scale(at->updrift, at->reach + 0.5 * depth));
     vec2 back = vec2_sub(at->ice, m->moments.data[i].ice);
-    return (manage_window){vec2_sub(centre, back), at->updrift, depth, at->width};
+    return (manage_window){vec2_sub(middle_before(at, depth), back), at->updrift, depth, at->width};
 }
 
 static bool in_domain(const manage_run *m, const manage_window *w)
@@ -233,6 +232,13 @@ static bool in_domain(const manage_run *m, const manage_window *w)
 }
 
 static bool is_worked_on(const manage_run *m, const manage_window *w, int32_t i)
+/* The middle of what lies before the whole breadth of the hull, so deep. */
+static vec2 middle_before(const manage_moment *at, double depth)
+{
+    vec2 centre = vec2_add(at->place, vec2_scale(vec2_perp(at->updrift), at->middle));
+    return vec2_add(centre, vec2_scale(at->updrift, at->reach + 0.5 * depth));
+}
+
 {
     double half = 0.5 * sqrt(w->length * w->length + w->width * w->width);
     for (int32_t h = 0; h < m->helpers; h++) {
@@ -324,8 +330,7 @@ static fram_status look_at(manage_run *m, const look_list *looks, const ice_now 
     fram_status status = FRAM_OK;
     now->threat = (manage_threat){HUGE_VAL, HUGE_VAL, 0};
     if (now->looked[MANAGE_AT] >= 0) {
-        vec2 centre = vec2_add(now->place, vec2_scale(now->updrift, now->reach + 0.5 * far));
-        manage_window strip = {centre, now->updrift, far, now->width};
+        manage_window strip = {middle_before(now, far), now->updrift, far, now->width};
         status = manage_threat_in(m->ctx, ice->floes.data, ice->floes.count, &strip, m->limit, &now->threat, error);
     }
     for (int32_t w = looks->first.data[i]; w >= 0 && status == FRAM_OK; w = looks->next.data[w]) {
@@ -369,6 +374,7 @@ static fram_status read_frames(manage_run *m, const look_list *looks, fram_error
         if (!(r.frame.time >= m->moments.data[i].time))
             continue;
         if (!looks)
+    now->middle = 0.5 * (lo + hi);
             plan_windows(m, &r, i);
         else if ((status = list_floes(m, &r, &ice, error)) == FRAM_OK)
             status = look_at(m, looks, &ice, i, error);

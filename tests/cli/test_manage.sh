@@ -83,6 +83,14 @@ number "j['run']['upstream']['windows']" 4
 number "j['run']['behind']['windows']" 4
 number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
 
+# Across the drift, with its mass 8 m aft: the window lies before the whole hull, and a floe is in it that is 12 to 20 m
+# aside, forward.
+expect 0 "$FRAM" run scene.yaml -o across -q --set vessels.tender.present=false --set vessels.ship.heading_deg=90 \
+    --set vessels.ship.centre_of_gravity_x=-8 --set 'ice.floes[1].y=16' --set run.duration=4
+expect 0 "$FRAM" manage across --limit 5 --depth 40 --json -q
+number "j['run']['at_vessel']['concentration']" "$(python3 -c 'print((9 + 64) / 1600)')"
+number "j['run']['unmanaged_comes_in_least']" 54
+
 # A window of 2.2 m before the bow has no ice until the floe of 3 m, 4.5 m off at the start, has come into it at 4.6 s.
 expect 0 "$FRAM" manage alone --limit 5 --depth 2.2 --json -q
 number "j['run']['first_ice_at_time']" 5
