@@ -113,7 +113,7 @@ static bool sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
     return true;
 }
 
-static int32_t line_count(const scenario_vessel *keys)
+int32_t manage_line_count(const scenario_vessel *keys)
 {
     int32_t sum = 0;
     for (int32_t i = 0; i < keys->mooring.lines.count; i++)
@@ -133,7 +133,7 @@ fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *
     const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
     good = good && size_statistics(m, "ice_force_averaged_x", "ice_force_averaged_y", &load) &&
            size_statistics(m, "offset_x", "offset_y", &offset) &&
-           size_statistics(m, "line_tension_max", NULL, &tension) && sum_fatigue(m, line_count(keys), out);
+           size_statistics(m, "line_tension_max", NULL, &tension) && sum_fatigue(m, manage_line_count(keys), out);
     if (!good)
         return error_memory(error);
     out->load_mean = load.mean;

@@ -6,7 +6,7 @@
 #include "results/manage.h"
 #include "results/run_data.h"
 
-/* Other vessels that are followed. */
+/* Other vessels that are followed: those that keep no station. */
 enum { MANAGE_HELPERS = 31 };
 
 /* A frame of the record. */
@@ -31,7 +31,7 @@ typedef struct manage_run {
     context *ctx;
     run_data d;
     int32_t vessel, helpers;
-    double helper_reach[MANAGE_HELPERS]; /* half the length of each [m] */
+    double helper_reach[MANAGE_HELPERS]; /* half the length of each, 0: not seen yet [m] */
     double limit, depth, unit;
     ARRAY(manage_moment) moments;
     ARRAY(managed_cover) met; /* of each moment, where asked for: the ice at the place that manage_came_from tells */
@@ -44,6 +44,8 @@ void manage_free(manage_run *m);
 /* Where the ice of a moment's window is taken as that which came: the last place at which it was seen before the hull
    was upon it; -1: it was seen nowhere. */
 int manage_came_from(const manage_moment *at);
+/* Of a vessel's mooring, as its keys have it. */
+int32_t manage_line_count(const scenario_vessel *keys);
 /* Seconds until unmanaged ice comes: the nearest, or the largest of it. */
 double manage_alarm(const manage_moment *at, bool largest);
 fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *error);

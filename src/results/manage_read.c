@@ -79,10 +79,10 @@ static void extents(const replay *r, const replay_pose *pose, vec2 along, double
     }
 }
 
-/* A channel of the world at a time, between rows by a straight line. */
-static double channel_at(const run_data *d, const char *name, double time)
+/* A channel at a time, between rows by a straight line; 0 where the run does not have it. */
+static double channel_at(const run_data *d, const double *v, double time)
 {
-    const double *t = run_channel(d, "time"), *v = run_channel(d, name);
+    const double *t = run_channel(d, "time");
     int32_t n = d->series.rows, i = 0, end = n;
     if (!t || !v || n == 0)
         return 0;
@@ -105,7 +105,8 @@ static vec2 ice_velocity(const manage_run *m, const replay *r)
     vec2 sum = {0, 0};
     double area = 0;
     if (m->d.s.domain.boundary == DOMAIN_FEEDING)
-        return vec2_make(channel_at(&m->d, "drift_x", r->frame.time), channel_at(&m->d, "drift_y", r->frame.time));
+        return vec2_make(channel_at(&m->d, run_channel(&m->d, "drift_x"), r->frame.time),
+                         channel_at(&m->d, run_channel(&m->d, "drift_y"), r->frame.time));
     for (int32_t i = 0; i < r->frame.poses.count; i++) {
         const replay_pose *p = &r->frame.poses.data[i];
         const replay_body *b = &r->bodies.data[p->body];
@@ -124,6 +125,22 @@ static double beam_of(const manage_run *m, const replay *r)
     return hull->form == HULL_MESH ? replay_hull_size(r, m->vessel).y : hull->beam;
 }
 
+static bool is_positioned(const scenario_vessel *v)
+{
+    return v->positioning.active && v->positioning.waypoints.count == 0;
+}
+
+/* Who does that manages no ice, however near the ice passes. */
+static bool keeps_station(const scenario_vessel *v)
+{
+    return v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || is_positioned(v));
+}
+
+static bool is_helper(const manage_run *m, int32_t v)
+{
+    return v != m->vessel && !keeps_station(scenario_vessel_entry(&m->d.s, v).keys);
+}
+
 /* Places and velocities; what follows from those of other moments comes later. */
 static fram_status add_moment(manage_run *m, const replay *r, fram_error *error)
 {
@@ -135,9 +152,9 @@ static fram_status add_moment(manage_run *m, const replay *r, fram_error *error)
     if (is_automatic(m->limit))
         m->limit = beam_of(m, r);
     for (int32_t v = 0, k = 0; k < m->helpers; v++) {
-        const replay_pose *p = v == m->vessel ? NULL : pose_of(r, replay_hull(r, v));
-        if (v == m->vessel)
+        if (!is_helper(m, v))
             continue;
+        const replay_pose *p = pose_of(r, replay_hull(r, v));
         double lo = 0, hi = 0;
         now.helper[k] = p ? vec2_make(p->position.x, p->position.y) : vec2_make(1e12, 1e12);
         if (p && !(m->helper_reach[k] > 0)) {
@@ -155,10 +172,13 @@ static fram_status add_moment(manage_run *m, const replay *r, fram_error *error)
     return array_push(m->ctx, &m->moments, now) ? FRAM_OK : error_memory(error);
 }
 
-static bool keeps_station(const manage_run *m)
+/* Whether the protected vessel is held at a time: by positioning that leads it nowhere, or lines that are left. */
+static bool is_held(const manage_run *m, double time)
 {
     const scenario_vessel *v = scenario_vessel_entry(&m->d.s, m->vessel).keys;
-    return v->mooring.lines.count > 0 || v->positioning.active;
+    if (!keeps_station(v) || is_positioned(v))
+        return keeps_station(v);
+    return channel_at(&m->d, run_vessel_channel(&m->d, m->vessel, "lines_parted"), time) < manage_line_count(v);
 }
 
 /* Mean velocity of the vessel about a moment. */
@@ -180,10 +200,9 @@ static bool drifts(const manage_run *m, double speed) { return speed > STILL * s
 
 static void find_updrift(manage_run *m)
 {
-    bool held = keeps_station(m);
     for (int32_t i = 0; i < m->moments.count; i++) {
         manage_moment *now = &m->moments.data[i];
-        vec2 come = held ? now->velocity : vec2_sub(now->velocity, vessel_way(m, i));
+        vec2 come = is_held(m, now->time) ? now->velocity : vec2_sub(now->velocity, vessel_way(m, i));
         now->speed = vec2_length(come);
         if (drifts(m, now->speed))
             now->updrift = vec2_scale(come, -1 / now->speed);
@@ -214,6 +233,13 @@ static double depth_of(const manage_run *m, const manage_moment *at)
     return is_automatic(m->depth) ? at->width : m->depth;
 }
 
+/* The middle of what lies before the whole breadth of the hull, so deep. */
+static vec2 middle_before(const manage_moment *at, double depth)
+{
+    vec2 centre = vec2_add(at->place, vec2_scale(vec2_perp(at->updrift), at->middle));
+    return vec2_add(centre, vec2_scale(at->updrift, at->reach + 0.5 * depth));
+}
+
 /* The window that is at the vessel at moment k, where its ice was at moment i. */
 static manage_window window_at(const manage_run *m, int32_t k, int32_t i)
 {
@@ -232,13 +258,6 @@ static bool in_domain(const manage_run *m, const manage_window *w)
 }
 
 static bool is_worked_on(const manage_run *m, const manage_window *w, int32_t i)
-/* The middle of what lies before the whole breadth of the hull, so deep. */
-static vec2 middle_before(const manage_moment *at, double depth)
-{
-    vec2 centre = vec2_add(at->place, vec2_scale(vec2_perp(at->updrift), at->middle));
-    return vec2_add(centre, vec2_scale(at->updrift, at->reach + 0.5 * depth));
-}
-
 {
     double half = 0.5 * sqrt(w->length * w->length + w->width * w->width);
     for (int32_t h = 0; h < m->helpers; h++) {
@@ -355,6 +374,7 @@ static void plan_windows(manage_run *m, const replay *r, int32_t i)
     extents(r, own, now->updrift, &lo, &now->reach);
     extents(r, own, vec2_perp(now->updrift), &lo, &hi);
     now->width = hi - lo;
+    now->middle = 0.5 * (lo + hi);
 }
 
 /* Goes through the record; looks: at the ice; NULL: at the hull. */
@@ -374,7 +394,6 @@ static fram_status read_frames(manage_run *m, const look_list *looks, fram_error
         if (!(r.frame.time >= m->moments.data[i].time))
             continue;
         if (!looks)
-    now->middle = 0.5 * (lo + hi);
             plan_windows(m, &r, i);
         else if ((status = list_floes(m, &r, &ice, error)) == FRAM_OK)
             status = look_at(m, looks, &ice, i, error);
@@ -400,8 +419,8 @@ static fram_status read_all(manage_run *m, const manage_options *options, fram_e
     fram_status status = choose_vessel(m, options, error);
     if (status != FRAM_OK)
         return status;
-    int32_t others = scenario_vessel_count(&m->d.s) - 1;
-    m->helpers = others < MANAGE_HELPERS ? others : MANAGE_HELPERS;
+    for (int32_t v = 0; v < scenario_vessel_count(&m->d.s) && m->helpers < MANAGE_HELPERS; v++)
+        m->helpers += is_helper(m, v);
     m->limit = options->limit;
     m->depth = options->depth;
     m->unit = options->unit > 0 ? options->unit : scenario_size(&m->d.s);

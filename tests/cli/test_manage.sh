@@ -83,6 +83,18 @@ number "j['run']['upstream']['windows']" 4
 number "j['run']['behind']['windows']" 4
 number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
 
+# One that keeps a station beside it is no icebreaker: moored, or under positioning that leads it nowhere.
+sed '/name: tender/,/propulsion:/{s/mode: towed/mode: free/;s/propulsion: .*/@/}' scene.yaml >kept.yaml
+springs='mooring: {lines: [{kind: spring, count: 4, spacing_deg: 90, distance: 90, pretension: 1, stiffness: 1}]}'
+units='thrusters: [{x: 9, thrust: 1}, {x: -9, thrust: 1}]'
+for keeps in "$springs" "$units\n    positioning: {active: true}"; do
+    sed "s/@/$keeps/" kept.yaml >beside.yaml
+    expect 0 "$FRAM" run beside.yaml -o beside -q --force
+    expect 0 "$FRAM" manage beside --vessel ship --limit 5 --depth 20 --json -q
+    number "j['run']['upstream']['windows']" 8
+    number "j['run']['behind']['windows']" 0
+done
+
 # Across the drift, with its mass 8 m aft: the window lies before the whole hull, and a floe is in it that is 12 to 20 m
 # aside, forward.
 expect 0 "$FRAM" run scene.yaml -o across -q --set vessels.tender.present=false --set vessels.ship.heading_deg=90 \
@@ -90,6 +102,29 @@ expect 0 "$FRAM" run scene.yaml -o across -q --set vessels.tender.present=false 
 expect 0 "$FRAM" manage across --limit 5 --depth 40 --json -q
 number "j['run']['at_vessel']['concentration']" "$(python3 -c 'print((9 + 64) / 1600)')"
 number "j['run']['unmanaged_comes_in_least']" 54
+
+# Without a drift the ice comes by the vessel's own way: of one that positioning leads, and one whose lines are gone.
+cat >led.yaml <<'YAML'
+run: {duration: 2, time_step: 0.02, transient: 0.5}
+vessel:
+  mode: free
+  speed: 1
+  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+  hydrodynamics: {source: estimate}
+  @
+ice: {source: none}
+domain: {x_min: -300, x_max: 300, y_min: -300, y_max: 300, boundary: open}
+output: {frame_interval: 0.5}
+YAML
+line="kind: spring, distance: 90, pretension: 1, stiffness: 1, release_time: 1.1"
+let_go="mooring: {equilibrium: false, lines: [{$line}]}"
+goes="positioning: {active: true, waypoints: [{time: 0.1, x: 50}]}"
+for case in "0 $units\n  positioning: {active: true}" "3 $units\n  $goes" "2 $let_go"; do
+    sed "s/@/${case#* }/" led.yaml >goes.yaml
+    expect 0 "$FRAM" run goes.yaml -o goes -q --force
+    expect 0 "$FRAM" manage goes --json -q
+    number "j['run']['at_vessel']['windows']" "${case%% *}"
+done
 
 # A window of 2.2 m before the bow has no ice until the floe of 3 m, 4.5 m off at the start, has come into it at 4.6 s.
 expect 0 "$FRAM" manage alone --limit 5 --depth 2.2 --json -q
