@@ -360,6 +360,23 @@ static fram_status limit_concentration(context *ctx, scenario *met, fram_error *
     return FRAM_OK;
 }
 
+/* The domain is the window's, not the scenario's, and so is what to do. */
+static void blame_window(fram_error *error)
+{
+    static const char *const remedies[] = {": give such a band", "; make the domain larger", ": make it larger"};
+    if (strcmp(error->key, "domain") != 0 && strcmp(error->key, "domain.band") != 0 &&
+        strncmp(error->key, "domain.tile", 11) != 0)
+        return;
+    snprintf(error->key, sizeof error->key, "window");
+    error->file[0] = '\0';
+    error->line = error->column = 0;
+    for (size_t i = 0; i < sizeof remedies / sizeof *remedies; i++) {
+        char *at = strstr(error->message, remedies[i]);
+        if (at)
+            snprintf(at, sizeof error->message - (size_t)(at - error->message), ": take a larger --window");
+    }
+}
+
 static fram_status measure_met(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
 {
     const size_law sizes = managed_size_law(&c->options.met->law);
@@ -372,14 +389,8 @@ static fram_status measure_met(context *ctx, const scenario *s, const world *w, 
     status = limit_concentration(ctx, &met, error);
     if (status == FRAM_OK)
         status = capability_ice_measured(ctx, &met, c, error);
-    /* The window's, not the scenario's. */
-    bool input = status == FRAM_ERROR_INPUT && error;
-    if (input && (strcmp(error->key, "domain") == 0 || strcmp(error->key, "domain.band") == 0 ||
-                  strncmp(error->key, "domain.tile", 11) == 0)) {
-        snprintf(error->key, sizeof error->key, "window");
-        error->file[0] = '\0';
-        error->line = error->column = 0;
-    }
+    if (status == FRAM_ERROR_INPUT && error)
+        blame_window(error);
     return status;
 }
 

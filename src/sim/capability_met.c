@@ -1,21 +1,30 @@
 /* The scenario of a capability plot with ice that runs of ice management left before a vessel. */
 #include "sim/capability.h"
 
+#include <string.h>
+
 /* What the measured ice takes the place of: given over the scenario, it would go unheard. */
-static const char *const replaced[] = {"ice.source",         "ice.concentration", "ice.thickness", "ice.populations",
-                                       "ice.mean_floe_area", "domain.x_min",      "domain.x_max",  "domain.y_min",
-                                       "domain.y_max",       "domain.boundary"};
+static const char *const replaced[] = {
+    "ice.source",      "ice.concentration",   "ice.thickness", "ice.populations", "ice.mean_floe_area", "ice.roundness",
+    "ice.open_water",  "ice.open_water_file", "domain.x_min",  "domain.x_max",    "domain.y_min",       "domain.y_max",
+    "domain.boundary", "domain.band",         "domain.tile_x", "domain.tile_y"};
+
+/* Whether a key is another one or lies in that, which is a list. */
+static bool is_of(const char *key, const char *other)
+{
+    size_t n = strlen(other);
+    return strncmp(key, other, n) == 0 && (key[n] == '\0' || key[n] == '[' || key[n] == '.');
+}
 
 static fram_status refuse_overrides(const scenario *s, fram_error *error)
 {
-    for (size_t i = 0; i < sizeof replaced / sizeof *replaced; i++) {
-        const scenario_place *place = scenario_given(s, replaced[i]);
-        if (place && place->override)
-            return error_set(
-                error, FRAM_ERROR_USAGE, SCENARIO_OVERRIDE, 0, replaced[i],
-                "expected no override, since the ice and its window are those of the runs: leave it out, or "
-                "make runs with it");
-    }
+    for (size_t i = 0; i < sizeof replaced / sizeof *replaced; i++)
+        for (int32_t k = 0; k < s->places.count; k++)
+            if (s->places.data[k].override && is_of(s->places.data[k].key, replaced[i]))
+                return error_set(
+                    error, FRAM_ERROR_USAGE, SCENARIO_OVERRIDE, 0, replaced[i],
+                    "expected no override, since the ice and its window are those of the runs: leave it out, or "
+                    "make runs with it");
     return FRAM_OK;
 }
 

@@ -150,8 +150,14 @@ expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --fo
 says "formula: expected" err
 expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --window 10 "${ask[@]}"
 says "window: ice from" err
+says "take a larger --window" err
 expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --set ice.thickness=2 "${ask[@]}"
 says "set: ice.thickness: expected no override" err
+sed 's/source: level/source: voronoi, open_water: [{x: 9, length: 8, width: 8}]/' held.yaml >zones.yaml
+for key in domain.band=20 domain.tile_x=300 ice.roundness=0.5 "ice.open_water[0].length=9"; do
+    expect 2 "$FRAM" capability zones.yaml -o d --ice-from run --ice-vessel ship --set "$key" "${ask[@]}"
+    says "set: ${key%%[=[]*}: expected no override" err
+done
 expect 2 "$FRAM" capability held.yaml -o d --ice-from level --unbroken-as -3 "${ask[@]}"
 [ ! -e d ] || fail "a refused plot left a folder"
 finish "fram capability: in the ice of runs"
