@@ -27,9 +27,10 @@ static void limit_word(const capability_limit *l, word out)
         snprintf(out, WORD, "%s", l->at.item == HOLDING_NOTHING ? "no equilibrium" : holding_item_name(l->at.item));
 }
 
+/* Where the vessel is held after all of them none is the worst. */
 static void failure_word(const capability *c, const capability_limit *l, word out)
 {
-    if (l->failure < 0)
+    if (l->failure < 0 || l->beyond)
         snprintf(out, WORD, "none");
     else
         snprintf(out, WORD, "%s %d", c->failure[l->failure].line ? "line" : "thruster",
@@ -205,7 +206,7 @@ static void describe_least(context *ctx, const capability *c, const char *name, 
     limit_word(l, by);
     failure_word(c, l, failure);
     text_format(ctx, b, "%s: at least %.3g m/s, from %.0f deg", name, l->speed, degrees_of(c, (int32_t)(l - limits)));
-    if (l->failure >= 0)
+    if (l->failure >= 0 && !l->beyond)
         text_format(ctx, b, ",\n  without %s", failure);
     text_format(ctx, b, l->beyond ? ": no limit met\n" : ",\n  limit: %s\n", by);
 }
