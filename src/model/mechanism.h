@@ -49,7 +49,7 @@ typedef struct ice_share {
     int32_t floe;         /* running number of the floe, -1: no floe */
     int32_t patch;        /* crushing patch of this step that it is a point of, -1: none */
     uint8_t mechanism;    /* enum ice_mechanism, of the normal part; the other part is friction */
-    uint8_t zone;         /* enum hull_zone */
+    uint8_t zone;         /* enum hull_zone; a contact has a share in each that it reaches into */
     vec3 point;           /* global [m] */
     vec3 normal, friction;
 } ice_share;

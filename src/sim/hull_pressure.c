@@ -37,18 +37,13 @@ static vec3 ship_place(const hull_pose *pose, vec3 point)
 }
 
 /* What a point stands for: a part of its patch, whose other points may carry nothing in this step. */
-static pressure_area area_of(const world *w, const hull_pose *pose, const ice_share *share)
+static patch_area area_of(const world *w, const hull_pose *pose, const ice_share *share)
 {
-    enum { POINTS = 4 };
-    vec3 point[POINTS] = {ship_place(pose, share->point)};
-    if (share->patch < 0)
-        return pressure_area_of(point, 1);
-    const crushing_patch *patch = &w->scratch.patches.data[share->patch];
-    const contact *c = &w->scratch.contacts.data[patch->contact_first];
-    int32_t count = patch->contact_count < POINTS ? patch->contact_count : POINTS;
+    vec3 point[PATCH_AREA_POINTS];
+    int32_t count = patch_area_points(w, share->patch, share->point, point);
     for (int32_t i = 0; i < count; i++)
-        point[i] = ship_place(pose, c[i].point);
-    return pressure_area_of(point, count);
+        point[i] = ship_place(pose, point[i]);
+    return patch_area_of(point, count);
 }
 
 static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose, double time_step)
@@ -58,7 +53,7 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose,
     for (int32_t i = 0; i < w->scratch.shares.count && good; i++) {
         if (share[i].vessel != p->vessel)
             continue;
-        pressure_area area = area_of(w, pose, &share[i]);
+        patch_area area = area_of(w, pose, &share[i]);
         vec3 normal = mat3_tmul_vec(pose->rotation, share[i].normal);
         vec3 friction = mat3_tmul_vec(pose->rotation, share[i].friction);
         add_part(p, &share[i], normal, friction, time_step);

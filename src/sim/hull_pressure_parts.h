@@ -6,7 +6,7 @@
 #include "model/mechanism.h"
 #include "model/scenario.h"
 #include "sim/hull_pressure.h"
-#include "vessel/hull.h"
+#include "sim/patch_area.h"
 
 /* Of one panel. */
 typedef struct panel_load {
@@ -60,16 +60,9 @@ bool pressure_is_file(const char *name);
 /* The panels of the hull, and room for their loads. */
 fram_status pressure_begin(pressure_map *p, const mesh *hull, fram_error *error);
 void pressure_free(pressure_map *p);
-/* The rectangle of a contact that has the second moments of all its points, ship coordinates; they lie at its half
-   sides over sqrt(3). */
-typedef struct pressure_area {
-    vec3 middle, a, b; /* from the middle to the middles of two sides, 0: the contact is a line, or a point [m] */
-} pressure_area;
-/* Of 1, 2 or 4 points, loaded or not. */
-pressure_area pressure_area_of(const vec3 *point, int32_t count);
-/* A point of the contact in a step, in ship coordinates: where, its normal force and its friction (ship axes), spread
-   over the quarter of the rectangle, or the half of the line, that it lies in.  false: no memory. */
-bool pressure_add(pressure_map *p, const pressure_area *area, vec3 point, vec3 normal, vec3 friction);
+/* A point of a contact in a step, in ship coordinates: where, its normal force and its friction (ship axes), spread
+   over the part of the area that it stands for.  false: no memory. */
+bool pressure_add(pressure_map *p, const patch_area *area, vec3 point, vec3 normal, vec3 friction);
 /* At the end of a step, after all of its contacts. */
 void pressure_end_step(pressure_map *p, double time, double time_step);
 

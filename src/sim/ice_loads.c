@@ -16,12 +16,9 @@ static void add_contact(const world *w, const contact *c, int32_t vessel, double
     vec3 centre = w->bodies.position[w->vessels.body[vessel]];
     vec3 all = vec3_scale(contact_impulse(c), sign * per_time);
     vec3 normal = vec3_scale(c->normal, sign * per_time * c->impulse[0]);
-    hull_zone zone =
-        vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
     wrench_add(&load->total, centre, all, c->point);
     wrench_add(&load->friction, centre, vec3_sub(all, normal), c->point);
     wrench_add(contact_is_capped(c) ? &load->capped : &load->below_cap, centre, normal, c->point);
-    wrench_add(&load->zone[zone], centre, all, c->point);
     load->contacts++;
 }
 

@@ -2,6 +2,7 @@
 
 #include "sim/fenders.h"
 #include "sim/force_chain.h"
+#include "sim/patch_area.h"
 
 #include <string.h>
 
@@ -79,6 +80,27 @@ typedef struct search {
     bool web; /* is made for this step */
 } search;
 
+/* A share for each zone that bears some of it. */
+static bool add_by_zone(context *ctx, world *w, const ice_share *whole)
+{
+    double part[ZONE_COUNT];
+    patch_area_zones(w, whole->vessel, whole->patch, whole->point, part);
+    vec3 centre = w->bodies.position[w->vessels.body[whole->vessel]];
+    wrench *zone = w->scratch.ice_loads.data[whole->vessel].zone;
+    bool good = true;
+    for (int z = 0; z < ZONE_COUNT && good; z++) {
+        if (!(part[z] > 0))
+            continue;
+        ice_share share = *whole;
+        share.zone = (uint8_t)z;
+        share.normal = vec3_scale(whole->normal, part[z]);
+        share.friction = vec3_scale(whole->friction, part[z]);
+        wrench_add(&zone[z], centre, vec3_add(share.normal, share.friction), share.point);
+        good = array_push(ctx, &w->scratch.shares, share);
+    }
+    return good;
+}
+
 static fram_status add_contact_share(context *ctx, const model *m, world *w, const contact *c, int32_t hull, search *s,
                                      fram_error *error)
 {
@@ -91,8 +113,6 @@ static fram_status add_contact_share(context *ctx, const model *m, world *w, con
     share.patch = c->patch;
     share.normal = normal;
     share.friction = vec3_sub(all, normal);
-    share.zone =
-        (uint8_t)vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
     share.mechanism = MECHANISM_CHAIN;
     if (s->last.hull != hull || s->last.body != body)
         s->last = (reaction){hull, body, MECHANISM_COUNT, ice && can_bend(m, w, body)};
@@ -107,7 +127,7 @@ static fram_status add_contact_share(context *ctx, const model *m, world *w, con
             return status;
         share.mechanism = (uint8_t)s->last.mechanism;
     }
-    return array_push(ctx, &w->scratch.shares, share) ? FRAM_OK : error_memory(error);
+    return add_by_zone(ctx, w, &share) ? FRAM_OK : error_memory(error);
 }
 
 fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *error)

@@ -258,34 +258,10 @@ static bool add_spread(pressure_map *p, even_load whole)
     return good;
 }
 
-pressure_area pressure_area_of(const vec3 *point, int32_t count)
+bool pressure_add(pressure_map *p, const patch_area *area, vec3 point, vec3 normal, vec3 friction)
 {
-    /* Points at the half sides over sqrt(3) have the second moments of a rectangle. */
-    const double reach = 1.7320508075688772;
-    pressure_area area = {0};
-    for (int32_t i = 0; i < count; i++)
-        area.middle = vec3_mad(area.middle, point[i], 1.0 / count);
-    vec3 u = vec3_scale(vec3_sub(point[0], area.middle), reach);
-    if (count == 2)
-        area.a = u;
-    for (int32_t i = 1; i < 4 && count == 4; i++) {
-        /* Beside the first point, not across from it: half their sum and half their difference are the sides. */
-        vec3 v = vec3_scale(vec3_sub(point[i], area.middle), reach);
-        if (vec3_length(vec3_add(u, v)) < 1e-6 * vec3_length(u))
-            continue;
-        area.a = vec3_scale(vec3_add(u, v), 0.5);
-        area.b = vec3_scale(vec3_sub(u, v), 0.5);
-        break;
-    }
-    return area;
-}
-
-bool pressure_add(pressure_map *p, const pressure_area *area, vec3 point, vec3 normal, vec3 friction)
-{
-    vec3 u = vec3_sub(point, area->middle);
-    vec3 a = vec3_scale(area->a, vec3_dot(u, area->a) < 0 ? -1 : 1);
-    vec3 b = vec3_scale(area->b, vec3_dot(u, area->b) < 0 ? -1 : 1);
-    return add_spread(p, (even_load){area->middle, a, b, normal, friction, 1});
+    patch_area part = patch_area_part(area, point);
+    return add_spread(p, (even_load){part.middle, part.a, part.b, normal, friction, 1});
 }
 
 void pressure_end_step(pressure_map *p, double time, double time_step)

@@ -137,8 +137,3 @@ vec3 vessel_ship_coordinates(const vessel_table *vessels, const body_table *bodi
 {
     return vec3_add(body_to_local(bodies, vessels->body[row], point), vessels->centre[row]);
 }
-
-hull_zone vessel_zone(const vessel_table *vessels, int32_t row, vec3 ship_point)
-{
-    return hull_zone_at(&vessels->zones[row], ship_point);
-}

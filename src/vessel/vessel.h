@@ -52,7 +52,5 @@ fram_status vessel_create(context *ctx, const vessel_definition *d, body_table *
 void vessel_drive(const vessel_table *vessels, body_table *bodies, double time);
 /* Ship coordinates of a global point. */
 vec3 vessel_ship_coordinates(const vessel_table *vessels, const body_table *bodies, int32_t row, vec3 point);
-/* Zone of a point of the hull. */
-hull_zone vessel_zone(const vessel_table *vessels, int32_t row, vec3 ship_point);
 
 #endif

@@ -55,7 +55,7 @@ START_TEST(quarters)
     vec3 point[4], sum;
     for (int i = 0; i < 4; i++)
         point[i] = point_of(i);
-    pressure_area area = pressure_area_of(point, 4);
+    patch_area area = patch_area_of(point, 4);
     for (int loaded = 1; loaded < 16; loaded++) {
         bow b;
         int count = 0;
@@ -85,7 +85,7 @@ START_TEST(halves)
     vec3 sum, normal = {-8e5, 0, 0}, none = {0, 0, 0};
     const vec3 point[2] = {{3, WIDE / 2 / sqrt(3), MIDDLE_Z + PANEL / 2},
                            {3, -WIDE / 2 / sqrt(3), MIDDLE_Z + PANEL / 2}};
-    pressure_area area = pressure_area_of(point, 2);
+    patch_area area = patch_area_of(point, 2);
     bow_open(&b);
     ck_assert(pressure_add(&b.map, &area, point[1], normal, none));
     for (int i = 0; i < 4; i++) {
@@ -105,7 +105,7 @@ START_TEST(a_point)
     bow b;
     vec3 sum, at = {3, 0.2, -0.2};
     bow_open(&b);
-    pressure_area area = pressure_area_of(&at, 1);
+    patch_area area = patch_area_of(&at, 1);
     ck_assert(pressure_add(&b.map, &area, at, (vec3){-1e5, 0, 0}, (vec3){0, 0, 0}));
     assert_relative(end_step(&b, &sum), 1e5 / (PANEL * PANEL), 1e-9);
     bow_close(&b);

@@ -15,8 +15,13 @@ static const char still[] = "run: {duration: 1, time_step: 0.1}\n"
 
 static contact contact_of(int32_t a, int32_t b, double impulse, double limit)
 {
-    return (contact){
-        .a = a, .b = b, .point = {30, 2, -1}, .normal = {-1, 0, 0}, .impulse = {impulse, 0, 0}, .impulse_limit = limit};
+    return (contact){.a = a,
+                     .b = b,
+                     .point = {30, 2, -1},
+                     .normal = {-1, 0, 0},
+                     .impulse = {impulse, 0, 0},
+                     .impulse_limit = limit,
+                     .patch = -1};
 }
 
 /* The loads of one contact alone, on the first vessel. */
@@ -76,6 +81,46 @@ START_TEST(parts_of_the_load)
     contact c = contact_of(floe, hull, 50, HUGE_VAL);
     c.point.x = -20;
     assert_absolute(vec3_length(load_of(&k, c).zone[ZONE_STERN].force), 500, 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
+/* A patch that reaches over zones: a rectangle along the side from x = -18 to 18, 1 m high, of which all four points,
+   then only the two fore ones, carry. Each zone bears its length of it; shares add up to the load by zone. */
+START_TEST(a_wide_patch_loads_zones_by_their_length)
+{
+    const double half = 18, reach = half / sqrt(3), high = 0.5 / sqrt(3);
+    fram_error error = {0};
+    scene k;
+    scene_open(&k, still);
+    const hull_zones z = k.w.vessels.zones[0];
+    ck_assert(z.bow < half && z.shoulder > 0 && z.stern < 0 && z.stern > -half);
+    const crushing_patch patch = {.contact_count = 4};
+    ck_assert(array_push(&k.ctx, &k.w.scratch.patches, patch));
+    for (int carry = 2; carry <= 4; carry += 2) {
+        array_clear(&k.w.scratch.contacts);
+        for (int i = 0; i < 4; i++) {
+            contact c = contact_of(k.w.vessels.body[0], scene_floe(&k, 0), i < carry ? 100 : 0, HUGE_VAL);
+            c.point = vec3_make(i & 2 ? -reach : reach, 6, i & 1 ? -high : high);
+            c.normal = vec3_make(0, -1, 0);
+            c.patch = 0;
+            ck_assert(array_push(&k.ctx, &k.w.scratch.contacts, c));
+        }
+        assert_ok(sum_ice_loads(&k.ctx, &k.m, &k.w, &error), error);
+        ice_load l = k.w.scratch.ice_loads.data[0];
+        const double line = 4000 / (2 * half), aft = carry == 4 ? -half : 0;
+        const double wanted[ZONE_COUNT] = {line * (half - z.bow), line * (z.bow - z.shoulder),
+                                           line * (z.shoulder - fmax(z.stern, aft)), line * fmax(z.stern - aft, 0), 0};
+        double sum = 0, shares[ZONE_COUNT] = {0};
+        for (int32_t i = 0; i < k.w.scratch.shares.count; i++)
+            shares[k.w.scratch.shares.data[i].zone] += k.w.scratch.shares.data[i].normal.y;
+        for (int i = 0; i < ZONE_COUNT; i++) {
+            assert_absolute(l.zone[i].force.y, -wanted[i], 1e-6);
+            assert_absolute(shares[i], -wanted[i], 1e-6);
+            sum += l.zone[i].force.y;
+        }
+        assert_absolute(sum, l.total.force.y, 1e-9);
+    }
     scene_close(&k);
 }
 END_TEST
@@ -209,4 +254,4 @@ START_TEST(many_contacts)
 END_TEST
 
 TEST_MAIN("ice_loads", many_contacts, sums_of_a_floes_contacts, steady_loads_add_up, either_side_of_a_contact,
-          parts_of_the_load, work_at_the_cap, the_window_of_loads)
+          parts_of_the_load, a_wide_patch_loads_zones_by_their_length, work_at_the_cap, the_window_of_loads)

@@ -75,7 +75,7 @@ START_TEST(frames)
     assert_vec3_close(s.bodies.position[body], vec3_make(100, 49.5, -1), 1e-13);
     assert_vec3_close(vessel_ship_coordinates(&s.vessels, &s.bodies, row, vec3_make(97, 70, 2)), vec3_make(20, 3, 2),
                       1e-13);
-    ck_assert_int_eq(vessel_zone(&s.vessels, row, vec3_make(20, 3, 2)), ZONE_BOW);
+    ck_assert_int_eq(hull_zone_at(&s.vessels.zones[row], vec3_make(20, 3, 2)), ZONE_BOW);
     assert_vec3_close(s.bodies.velocity[body], d.tow_velocity, 0);
     assert_relative(s.bodies.inertia[body].yy, d.mass * 100, 1e-15);
     assert_bits(s.bodies.inertia[body].xz, 0);
