@@ -209,9 +209,11 @@ static void list_populations(const effective_list *t)
         size_words(p, sizes);
         sanity_say(
             t->tell, t->to,
-            "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, flexural strength %.4g kPa, %s",
+            "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, crushing strength %.4g kPa, flexural "
+            "strength %.4g kPa, %s",
             (int)k + 1, (int)i->populations.count, 100 * p->share / shares, sizes,
-            automatic_or(p->thickness, i->thickness), automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
+            automatic_or(p->thickness, i->thickness), automatic_or(p->crushing_strength, i->crushing_strength) * 1e-3,
+            automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
             i->breakable && p->breakable ? "breaks" : "does not break");
     }
 }

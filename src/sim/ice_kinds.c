@@ -1,13 +1,29 @@
 #include "sim/ice_kinds.h"
 
+#include "base/transcendental.h"
+
 #include <math.h>
 
-static void take_kind(ice_range *r, ice_kind k)
+static bool is_stronger(const ice_kind *a, const ice_kind *b) { return a->crushing_strength > b->crushing_strength; }
+
+/* Grows with how far ice is crushed before it breaks: sigma_f h^2 breaks it, and sigma_c (d h)^(1 + e) is what a patch
+   as wide as it is thick bears. */
+static double crushed_before(const ice_kind *k, double exponent)
 {
-    if (k.thickness < r->thinnest.thickness)
+    return k->flexural_strength * real_pow(k->thickness, 1 - exponent) / k->crushing_strength;
+}
+
+/* The same whichever comes first. */
+static void take_kind(const scenario_ice *i, ice_range *r, ice_kind k, bool breaks)
+{
+    double thin = r->thinnest.thickness, thick = r->thickest.thickness, e = i->crushing_exponent;
+    if (k.thickness < thin || (k.thickness == thin && is_stronger(&r->thinnest, &k)))
         r->thinnest = k;
-    if (k.thickness > r->thickest.thickness)
+    if (k.thickness > thick || (k.thickness == thick && is_stronger(&k, &r->thickest)))
         r->thickest = k;
+    bool first = !(r->soonest.thickness > 0);
+    if (breaks && (first || crushed_before(&k, e) < crushed_before(&r->soonest, e)))
+        r->soonest = k;
 }
 
 static bool is_populated(const scenario_ice *i)
@@ -18,24 +34,36 @@ static bool is_populated(const scenario_ice *i)
 /* Of no ice. */
 static const ice_range no_range = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
 
+/* Where nothing may break the thinnest stands for what would. */
+static ice_range with_soonest(ice_range r)
+{
+    if (!(r.soonest.thickness > 0))
+        r.soonest = r.thinnest;
+    return r;
+}
+
 /* By keys. */
 static ice_range ice_range_of(const scenario_ice *i)
 {
     const ice_kind own = {i->thickness, i->flexural_strength, i->crushing_strength};
     ice_range r = no_range;
     for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
-        take_kind(&r, (ice_kind){automatic_or(i->floes.data[k].thickness, own.thickness), own.flexural_strength,
-                                 own.crushing_strength});
+        take_kind(i, &r,
+                  (ice_kind){automatic_or(i->floes.data[k].thickness, own.thickness), own.flexural_strength,
+                             own.crushing_strength},
+                  true);
     for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
-        take_kind(&r, (ice_kind){automatic_or(p->thickness, own.thickness),
-                                 automatic_or(p->flexural_strength, own.flexural_strength),
-                                 automatic_or(p->crushing_strength, own.crushing_strength)});
+        take_kind(i, &r,
+                  (ice_kind){automatic_or(p->thickness, own.thickness),
+                             automatic_or(p->flexural_strength, own.flexural_strength),
+                             automatic_or(p->crushing_strength, own.crushing_strength)},
+                  p->breakable);
     }
     /* Those of a file are beside the populations that fill the water between them. */
     if (i->source == ICE_FILE || !(r.thickest.thickness > 0))
-        take_kind(&r, own);
-    return r;
+        take_kind(i, &r, own, true);
+    return with_soonest(r);
 }
 
 /* Populations in use whose floes may break, or may not. */
@@ -63,9 +91,10 @@ ice_range ice_range_made(const scenario_ice *i, const world *made)
     const floe_table *f = &made->floes;
     for (int32_t k = 0; k < f->count; k++)
         if (f->body[k] >= 0)
-            take_kind(&r,
-                      (ice_kind){f->thickness[k], f->material[k].flexural_strength, f->material[k].crushing_strength});
-    return r.thickest.thickness > 0 ? r : ice_range_of(i);
+            take_kind(i, &r,
+                      (ice_kind){f->thickness[k], f->material[k].flexural_strength, f->material[k].crushing_strength},
+                      f->breakable[k]);
+    return r.thickest.thickness > 0 ? with_soonest(r) : ice_range_of(i);
 }
 
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)

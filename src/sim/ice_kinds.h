@@ -11,9 +11,9 @@ typedef struct ice_kind {
     double thickness, flexural_strength, crushing_strength; /* [m], [Pa] */
 } ice_kind;
 
-/* The thinnest and the thickest kind of ice. */
 typedef struct ice_range {
-    ice_kind thinnest, thickest;
+    ice_kind thinnest, thickest; /* of equally thick ones the weakest and the strongest in crushing */
+    ice_kind soonest;            /* of what may break: breaks at its edge after the least of crushing */
 } ice_range;
 /* Whether any ice of the scenario, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);

@@ -74,7 +74,8 @@ static void note_ice(const note_taker *n, const scenario *s)
         return;
     double area = (s->domain.x_max - s->domain.x_min) * (s->domain.y_max - s->domain.y_min);
     note_kind(n, s, &n->ice.thinnest);
-    if (n->ice.thickest.thickness > n->ice.thinnest.thickness)
+    const ice_kind *thin = &n->ice.thinnest, *thick = &n->ice.thickest;
+    if (thick->thickness > thin->thickness || thick->crushing_strength > thin->crushing_strength)
         note_kind(n, s, &n->ice.thickest);
     if (i->source == ICE_FILE && !n->made)
         note_fact(n, "ice: thicknesses that its file gives to floes go before that; fram check --build tells by them");
@@ -141,8 +142,7 @@ static void note_fracture(const note_taker *n, const scenario *s)
         note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
         return;
     }
-    /* The thinnest ice breaks after the least of crushing. */
-    const ice_kind kind = n->ice.thinnest;
+    const ice_kind kind = n->ice.soonest;
     double h = kind.thickness, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = ice_kind_material(i, &kind);
     fracture_settings f = build_fracture_settings(s);

@@ -191,6 +191,29 @@ says "ice: 5 m thick, 4.488 m of it" err
 says "ice.populations[].thickness: 5 m is more than the draught" err
 expect 0 "$FRAM" check thin.yaml --set ice.thickness=9
 grep 'more than the draught' err && fail "told of a thickness that no floe has"
+# Of equally thick populations the strongest and the weakest are told, and the step is short for the one that breaks
+# first, whichever stands first; one that does not break asks for no short step.
+cat >strengths.yaml <<'END'
+run: {duration: 2, time_step: 0.01}
+vessel: {mode: prescribed, x: -15, speed: 2, hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+domain: {x_min: -30, x_max: 30, y_min: -20, y_max: 20}
+ice:
+  source: packed
+  breakable: true
+  populations:
+    - {size: constant, diameter: 9, crushing_strength: 5e5}
+    - {size: constant, diameter: 5, crushing_strength: 4e6, flexural_strength: 2e5}
+END
+sed '/diameter: 9/{h;d}; /diameter: 5/G' strengths.yaml >swapped.yaml
+for order in strengths swapped; do
+    expect 0 "$FRAM" check $order.yaml
+    says "a vertical face loads 500 kN per metre" err
+    says "a vertical face loads 4000 kN per metre" err
+    says "take run.time_step under 0.00315 s" err
+    says "crushing strength 4000 kPa, flexural strength 200 kPa, breaks" err
+done
+expect 0 "$FRAM" check strengths.yaml --set "ice.populations[1].breakable=false"
+grep 'take run.time_step' err && fail "ice that does not break asks for a shorter step"
 # Floes of a file have the thicknesses that it gives, which are known where they are made.
 python3 - <<'PY'
 import json

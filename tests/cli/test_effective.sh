@@ -42,9 +42,10 @@ told "of water, 1 thruster at setting 0"
 expect 0 "$FRAM" check ship.yaml --set vessel.positioning.active=false --set "vessel.thrusters[0].setting=0.5"
 holds "of water, 1 thruster\$" err
 expect 0 "$FRAM" check ship.yaml
-told "ice: population 1 of 2: 75 % of the ice area, diameter 20 m; 0.7 m thick, flexural strength 500 kPa, breaks"
-told "ice: population 2 of 2: 25 % of the ice area, diameters 5 to 12 m, N(>D) as D^-1.7; 0.4 m thick, flexural \
-strength 300 kPa, does not break"
+told "ice: population 1 of 2: 75 % of the ice area, diameter 20 m; 0.7 m thick, crushing strength 2000 \
+kPa, flexural strength 500 kPa, breaks"
+told "ice: population 2 of 2: 25 % of the ice area, diameters 5 to 12 m, N(>D) as D^-1.7; 0.4 m thick, crushing \
+strength 2000 kPa, flexural strength 300 kPa, does not break"
 # The bow points up: what goes up and to the right comes from the lower left, which is the port quarter.
 told "drift of the ice: 0.3 m/s towards 45 deg ↗, from the port quarter"
 told "current: by current.csv, 0.3 to 0.5 m/s in 2 rows to 400 s: 0.3 m/s towards 180 deg ←, from the starboard beam \
