@@ -151,8 +151,6 @@ wrench load_window_average(const world *w, int32_t vessel)
 {
     wrench sum = {0};
     int64_t steps = vessel < w->vessels.count ? load_window_length(w) : 0;
-    if (w->clock.step[0] < steps)
-        steps = w->clock.step[0];
     for (int64_t i = 0; i < steps; i++) {
         int64_t row = load_window_row(w, i, vessel);
         sum.force = vec3_add(sum.force, w->load_window.force[row]);

@@ -13,8 +13,8 @@ wrench last_ice_load(const world *w, int32_t vessel);
 /* The same with that of other hulls and of walls. */
 wrench last_contact_load(const world *w, int32_t vessel);
 
-/* Average of a vessel's load window [N], [N m] over the steps done so far in it, at most its whole length; zero for a
-   vessel that is not there. */
+/* Average of a vessel's load window [N], [N m] over its whole length; before the first step there was no load.  Zero
+   for a vessel that is not there. */
 wrench load_window_average(const world *w, int32_t vessel);
 
 #endif

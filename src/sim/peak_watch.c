@@ -351,7 +351,7 @@ static bool sum_window(const peak_watch *p, const world *w, int32_t vessel, vec3
             body_sum *b = sum_of(p->ctx, sums, &row->data[i], &last);
             if (!b)
                 return false;
-            add_share(b, &row->data[i], along, part / (double)(known < p->steps ? known : p->steps), d);
+            add_share(b, &row->data[i], along, part / (double)p->steps, d);
         }
     }
     return true;
