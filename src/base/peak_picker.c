@@ -100,11 +100,12 @@ static int32_t free_room(const peak_picker *p)
     return room;
 }
 
-/* Nothing within a window overtook the candidate.  One that is too small to be kept decides on smaller ones only. */
+/* Nothing within a window overtook the candidate.  One that is too small to be kept decides on smaller ones only, and
+   one from before the start on none. */
 static void confirm(peak_picker *p)
 {
     p->open = false;
-    if (!is_large(p, &p->candidate))
+    if (!peak_picker_may_keep(p, &p->candidate))
         return;
     if (p->awaited_count == PEAKS_AWAITED)
         stop_awaiting(p, 0, 1);

@@ -27,7 +27,7 @@ typedef struct load_value {
 
 typedef struct peak_picker {
     double separation; /* [unit of time] */
-    double from;       /* peaks up to it are not kept; what stands too near to a larger one of them is none */
+    double from; /* maxima up to it are no peaks, and keep none from being one; values up to it count as neighbours */
     int32_t count;
     load_peak kept[PEAKS_KEPT]; /* by falling value */
     int32_t awaited_count;

@@ -46,11 +46,12 @@ fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_e
                          "averaging window of %g s; name a moment by its time, which is computed again",
                          run_recorded_from(run), run->note.time, scenario_averaging_window(&run->s));
     if (y->peaks.count == 0)
-        return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
-                         "the run keeps no peaks of this vessel: it met no ice after its transient of %g s, it was "
-                         "stopped before its first checkpoint, or an earlier Fram made it; name a moment by its time, "
-                         "which is computed again",
-                         y->run.s.run.transient);
+        return error_set(
+            error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
+            "the run keeps no peaks of this vessel: it met no ice after its transient of %g s, or its load "
+            "only fell from then on, it was stopped before its first checkpoint, or an earlier Fram made "
+            "it; name a moment by its time, which is computed again",
+            y->run.s.run.transient);
     if (number < 1 || number > y->peaks.count)
         return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
                          "expected 1, the largest, to %d, found %lld; name another moment by its time",

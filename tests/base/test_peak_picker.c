@@ -74,15 +74,16 @@ START_TEST(ten_of_many)
 }
 END_TEST
 
-/* What is left of a larger peak from before the start is none: 40 at 21 belongs to 51 at 18; 20 at 26 stands apart. */
-START_TEST(the_rest_of_an_earlier_peak)
+/* A larger maximum from before the start, 51 at 18, leaves the one at 21 a peak; 35 at 23 belongs to that. */
+START_TEST(a_peak_beside_an_earlier_one)
 {
-    static const double value[30] = {[17] = 45, 51, 44, 39, 40, 30, 20, 10, 5, 20, 10};
+    static const double value[30] = {[17] = 45, 51, 44, 39, 40, 30, 35, 10, 5, 20, 10};
     peak_picker p;
     start(&p, 4, 20);
     feed(&p, value, 30);
-    ck_assert_int_eq(p.count, 1);
-    ck_assert(p.kept[0].value == 20 && p.kept[0].time == 26);
+    ck_assert_int_eq(p.count, 2);
+    ck_assert(p.kept[0].value == 40 && p.kept[0].time == 21);
+    ck_assert(p.kept[1].value == 20 && p.kept[1].time == 26);
     start(&p, 4, 20);
     ck_assert(!peak_picker_rises(&p, 19, 5) && !peak_picker_keeps(&p));
     ck_assert(!peak_picker_rises(&p, 20, 6) && peak_picker_rises(&p, 21, 7)); /* larger: the peak is after the start */
@@ -111,24 +112,21 @@ static bool is_maximum(const whole_series *s, int at)
     return true;
 }
 
-/* By falling value, those that stand apart from all before; of them the ones after `from`. */
+/* By falling value, of the maxima after `from` those that stand apart from all before. */
 static int choose_from_all(const whole_series *s, int from, int out[PEAKS_KEPT])
 {
-    static int chosen[SERIES];
-    int all = 0, count = 0;
+    int count = 0;
     for (;;) {
         int best = -1;
-        for (int i = 0; i < s->count; i++) {
+        for (int i = from > 0 ? from + 1 : 0; i < s->count; i++) {
             bool apart = is_maximum(s, i) && (best < 0 || s->value[i] > s->value[best]);
-            for (int k = 0; k < all && apart; k++)
-                apart = abs(i - chosen[k]) >= PEAK_SEPARATION * s->window;
+            for (int k = 0; k < count && apart; k++)
+                apart = abs(i - out[k]) >= PEAK_SEPARATION * s->window;
             best = apart ? i : best;
         }
         if (best < 0 || count == PEAKS_KEPT)
             return count;
-        chosen[all++] = best;
-        if (best > from || from == 0)
-            out[count++] = best;
+        out[count++] = best;
     }
 }
 
@@ -201,5 +199,5 @@ START_TEST(peaks_of_a_load_that_grows)
 }
 END_TEST
 
-TEST_MAIN("peak_picker", peaks_stand_apart, flanks_and_starts, ten_of_many, the_rest_of_an_earlier_peak,
+TEST_MAIN("peak_picker", peaks_stand_apart, flanks_and_starts, ten_of_many, a_peak_beside_an_earlier_one,
           peaks_are_those_of_the_whole_series, peaks_of_a_load_that_grows)

@@ -71,6 +71,19 @@ expect 0 "$FRAM" run blow.yaml -o blow --quiet
 expect 0 "$FRAM" why blow --peak 1 --json
 same "$(value "abs(j['computed_again']['half_step'] / j['load'] - 1) < 0.05")" True "a blow with half the step"
 
+# A larger peak of the transient, less than four windows before, takes no place.
+cat >settled.yaml <<'YAML'
+run: {duration: 3, time_step: 0.02, transient: 1}
+vessel: {mode: prescribed, x: -20, speed: 1, hull: {form: box, length: 30, beam: 10, draught: 3, freeboard: 3}}
+domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40, boundary: open}
+ice:
+  source: floes
+  floes: [{x: -2.5, y: 2.5, length: 4, width: 4}, {x: -2.2, y: -3, length: 2, width: 2}]
+YAML
+expect 0 "$FRAM" run settled.yaml -o settled --quiet
+expect 0 "$FRAM" why settled --peak 1 --no-rerun --json
+same "$(value "1.7 < j['time'] < 2.5 and j['floes'][0]['floe'] == 1")" True "a peak beside one of the transient"
+
 # A moment: at the peak it is the recorded one; elsewhere it is computed again, or refused.
 expect 0 "$FRAM" why run --time "$time" --json
 same "$(value "j['peak']")" 1 "peak at its time"
