@@ -63,8 +63,10 @@ static void note_kind(const note_taker *n, const scenario *s, const ice_kind *k)
               ice_characteristic_length(&m, k->thickness, e->water_density, e->gravity));
     double line = ice_crushing_pressure(&m, k->thickness) * k->thickness;
     load_unit unit = kilonewtons_or_less(line);
-    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g %s per metre of width",
-              ice_crushing_pressure(&m, 1), line * unit.factor, unit.name);
+    /* With an exponent a wider face loads less, or more, per metre than a narrow one. */
+    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face%s loads %.4g %s%s",
+              ice_crushing_pressure(&m, 1), m.crushing_exponent != 0 ? " 1 m wide" : "", line * unit.factor, unit.name,
+              m.crushing_exponent != 0 ? "" : " per metre of width");
 }
 
 static void note_ice(const note_taker *n, const scenario *s)

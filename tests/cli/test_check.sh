@@ -246,7 +246,8 @@ sed 's/0.002, scale: 1/0.008, scale: 16/; s/-1.5, speed: 0.4/-24, speed: 1.6/; s
     s/: 2.0e+4/: 5.12e+6/; s/area: 0.2/area: 51.2/; s/-4, x_max: 5/-64, x_max: 80/; s/-2, y_max: 2/-32, y_max: 32/' \
     tank.yaml >ship.yaml
 expect 0 "$FRAM" check tank.yaml
-says "a vertical face loads 3464 N per metre of width" err
+says "a vertical face 1 m wide loads 3464 N" err
+grep 'per metre of width' err && fail "the load of 1 m of a face is told of each metre of a wider one"
 short_up_to() {
     expect 0 "$FRAM" check "$@"
     sed -n 's/.*steps of .* s are short for the vessel up to \([0-9.e+-]*\) m.*/\1/p' err
