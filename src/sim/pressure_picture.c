@@ -175,10 +175,21 @@ static int32_t add_shapes(const pressure_map *p, const patch_view *view, const s
     return count;
 }
 
+/* "panels of 1 m", or by whose lines they are. */
+static void panel_words(const panel_rules *r, char *out, size_t room)
+{
+    if (r->frame_count > 0 && r->stringer_count > 0)
+        snprintf(out, room, "own frames and stringers");
+    else if (r->frame_count > 0 || r->stringer_count > 0)
+        snprintf(out, room, "own %s, else panels of %g m", r->frame_count > 0 ? "frames" : "stringers", r->size);
+    else
+        snprintf(out, room, "panels of %g m", r->size);
+}
+
 fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
 {
     const hull_panels *h = &p->panels;
-    char caption[200], title[200];
+    char caption[300], title[200], panels[120];
     vessel_entry vessel = scenario_vessel_entry(&p->s, p->vessel);
     double most = 0;
     sheet s = {0};
@@ -194,10 +205,11 @@ fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
         place(p, view, &s);
         int32_t count = add_shapes(p, view, &s, most, shapes, corners);
         snprintf(title, sizeof title, "Largest ice pressure on %s", vessel_title_of(&vessel).text);
+        panel_words(&p->o->rules, panels, sizeof panels);
         snprintf(caption, sizeof caption,
                  "the bow is to the right; bottom and deck with port up, bow and stern with port to the right; "
-                 "panels of %g m, %g s",
-                 p->o->rules.size, p->time);
+                 "%s, from %.10g to %.10g s",
+                 panels, p->o->from, p->end);
         const plan_view picture = {.window = s.window,
                                    .title = title,
                                    .caption = caption,

@@ -93,6 +93,15 @@ if built_with cairo; then
     expect 0 "$FRAM" pressure run -o coarse --panel 9 --from 2.9 --quiet
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" size map/pressure.png coarse/pressure.png || fail "coarse/pressure.png"
 fi
+# Pictures without any load differ by what they say: of which time, and whose lines.
+if built_with cairo; then
+    expect 0 "$FRAM" pressure run -o early --panel 2 --to 0.5 --quiet
+    expect 0 "$FRAM" pressure run -o later --panel 2 --from 0.5 --to 1 --quiet
+    expect 0 "$FRAM" pressure run -o framed --panel 2 --to 0.5 --frames -20:2:20 --quiet
+    for other in later framed; do
+        cmp -s early/pressure.png $other/pressure.png && fail "$other/pressure.png says the same as early/pressure.png"
+    done
+fi
 # A tank has panels of a metre of full size, and no pressures of the sea beside its own.
 cat >tank.yaml <<'YAML'
 run: {duration: 0.3, time_step: 0.01, scale: 3}
