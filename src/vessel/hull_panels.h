@@ -77,7 +77,8 @@ fram_status hull_panels_make(context *ctx, const mesh *hull, const panel_rules *
 void hull_panels_free(context *ctx, hull_panels *p);
 
 /* The panel whose surface is nearest to a point, of those that look along `outward` (within about 70 degrees; all where
-   there is none such nearby); -1 only for no panels. */
+   there is none such nearby); for a point that lies beside all of these what stands round their border, if anything
+   does. -1 only for no panels. */
 int32_t hull_panel_at(hull_panels *p, vec3 point, vec3 outward);
 
 #endif

@@ -4,6 +4,10 @@
 
 /* What looks along the direction: within about 70 degrees of it. */
 static const double FACING = 0.35;
+/* A point lies over a face when its distance is along the face's normal, to this part of it. */
+static const double OVER = 1e-6;
+/* What may stand round a corner looks along the direction at least as much: not a side along which a hull moves. */
+static const double ROUND = 0.02;
 /* As near, in the length of the hull and the way to it: a contact lies in the ice it crushed, centimetres to a few
    metres from the surface. */
 static const double NEARBY = 0.64;
@@ -84,6 +88,23 @@ static void search(panel_search *s)
     }
 }
 
+/* A patch around a corner is flat here, and reaches past what it mostly faces. What lies beside that is folded back
+   around its border, as far behind as it was beside, to what stands there nearer than that. */
+static int32_t face_round_corner(const panel_search *found)
+{
+    if (found->face < 0)
+        return -1;
+    vec3 c[3], n = mesh_area_vector(&found->panels->triangle, found->face), out = found->outward;
+    mesh_face_points(&found->panels->triangle, found->face, c);
+    vec3 border = triangle_nearest_point(c[0], c[1], c[2], found->point), way = vec3_sub(found->point, border);
+    if (vec3_length(vec3_cross(way, n)) <= OVER * vec3_length(way) * vec3_length(n))
+        return found->face;
+    double aside = vec3_length(vec3_mad(way, out, -vec3_dot(way, out)));
+    panel_search s = {found->panels, vec3_mad(border, out, -aside), out, ROUND, aside, -1};
+    search(&s);
+    return s.face >= 0 ? s.face : found->face;
+}
+
 int32_t hull_panel_at(hull_panels *p, vec3 point, vec3 outward)
 {
     box3 box = p->bounds;
@@ -93,12 +114,14 @@ int32_t hull_panel_at(hull_panels *p, vec3 point, vec3 outward)
     if (p->last_face < p->triangle.face.count)
         try_face(&s, p->last_face);
     search(&s);
-    if (s.face < 0) {
+    int32_t face = face_round_corner(&s);
+    if (face < 0) {
         s = (panel_search){p, point, outward, -2, 2 * whole, -1};
         search(&s);
+        face = s.face;
     }
-    if (s.face < 0)
+    if (face < 0)
         return -1;
-    p->last_face = s.face;
-    return p->triangle_panel.data[s.face];
+    p->last_face = face;
+    return p->triangle_panel.data[face];
 }

@@ -112,4 +112,31 @@ START_TEST(a_point)
 }
 END_TEST
 
-TEST_MAIN("hull pressure", quarters, halves, a_point)
+/* Around a corner of 4 m of the bow and 1 m of the side: the rectangle of both, which reaches 0.6 m past the corner.
+   That part falls on the side, spread along it, and no panel of the bow bears more than the law. */
+START_TEST(a_patch_around_a_corner)
+{
+    bow b;
+    const double width = 4.497, past = 0.599, root = sqrt(17);
+    const vec3 out = {4 / root, -1 / root, 0}, along = {1 / root, 4 / root, 0}, middle = {2.9, -1.4, MIDDLE_Z};
+    vec3 point[4], sum, normal = vec3_scale(out, -PRESSURE * root * HIGH / 4), none = {0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        point[i] = vec3_mad(middle, along, (i & 1 ? -1 : 1) * width / 2 / sqrt(3));
+        point[i].z += (i & 2 ? -1 : 1) * HIGH / 2 / sqrt(3);
+    }
+    patch_area area = patch_area_of(point, 4);
+    bow_open(&b);
+    for (int i = 0; i < 4; i++)
+        ck_assert(pressure_add(&b.map, &area, point[i], normal, none));
+    double side = 0;
+    for (int32_t i = 0; i < b.map.panels.panel.count; i++)
+        side += b.map.panels.panel.data[i].side == SIDE_STARBOARD ? b.map.load[i].step : 0;
+    assert_relative(side, PRESSURE * root * HIGH * past / width, 0.05);
+    double most = end_step(&b, &sum);
+    ck_assert_msg(most < PRESSURE, "a panel bears %g Pa", most);
+    assert_vec3_close(sum, vec3_scale(normal, 4), 1e-6);
+    bow_close(&b);
+}
+END_TEST
+
+TEST_MAIN("hull pressure", quarters, halves, a_point, a_patch_around_a_corner)
