@@ -29,14 +29,18 @@ static void split_head(char *head, char unit[UNIT_SIZE])
 }
 
 enum { NO_HEAD = -1, TWO_HEADS = -2 };
+#define CONDITION_HEAD "condition"
 
 typedef struct csv_want {
     const char *path;
     int time, value; /* columns; time -1: not read */
+    int condition;   /* column of maxima; -1: none */
     int width;       /* columns of the file */
     bool maxima;
     context *ctx;
     csv_cell *cell; /* room for one at a time */
+    /* In the column of the condition: of the row that was read, and of those before it that have a maximum. */
+    text_buffer own, first;
 } csv_want;
 
 /* Sets the width.  Behind it all cells of the head have room. */
@@ -93,12 +97,13 @@ static int find_head(const csv_want *head, const char *line, const char *name, b
 }
 
 /* Numbers of a line; *found false for an empty cell of maxima. */
-static fram_status read_line(const csv_want *want, const char *line, int number, double *time, double *value,
-                             bool *found, fram_error *error)
+static fram_status read_line(csv_want *want, const char *line, int number, double *time, double *value, bool *found,
+                             fram_error *error)
 {
     csv_cell *own = want->cell;
     int column = 0, seen = 0;
     *found = true;
+    want->own.count = 0;
     for (const char *c = line; c; column++) {
         c = csv_cell_next(want->ctx, c, own);
         fram_status status = csv_cell_check(want->path, number, NULL, column, own, error);
@@ -109,6 +114,8 @@ static fram_status read_line(const csv_want *want, const char *line, int number,
                              "the row has more cells than the header has columns, %d: is one of the commas a decimal "
                              "or a thousands mark?",
                              want->width);
+        if (column == want->condition)
+            text_add(want->ctx, &want->own, own->text.data);
         if (column != want->time && column != want->value)
             continue;
         if (!*own->text.data && want->maxima) {
@@ -135,6 +142,22 @@ static fram_status read_line(const csv_want *want, const char *line, int number,
     return FRAM_OK;
 }
 
+/* As in the table of all runs of a study.  Maxima of several conditions follow no law that a fit knows. */
+static fram_status check_condition(csv_want *want, int number, fram_error *error)
+{
+    if (want->first.count == 0 && want->own.count > 0)
+        text_add(want->ctx, &want->first, want->own.data);
+    if (want->own.failed || want->first.failed)
+        return error_memory(error);
+    if (want->own.count == 0 || strcmp(want->own.data, want->first.data) == 0)
+        return FRAM_OK;
+    return error_set(
+        error, FRAM_ERROR_INPUT, want->path, number, CONDITION_HEAD,
+        "holds maxima of conditions %.40s and %.40s, which are no sample of one law: give the rows of one, "
+        "or `extremes` in the study",
+        want->first.data, want->own.data);
+}
+
 /* Rows between two words about how far the reading is. */
 enum { ROWS_TOLD = 256 };
 
@@ -143,8 +166,8 @@ int series_line(const series_rows *rows, int32_t row)
     return row < rows->line.count ? rows->line.data[row] : row + 2;
 }
 
-static fram_status read_lines(context *ctx, const csv_want *want, const char *text, series_rows *rows,
-                              double_array *value, fram_error *error)
+static fram_status read_lines(context *ctx, csv_want *want, const char *text, series_rows *rows, double_array *value,
+                              fram_error *error)
 {
     const double size = (double)strlen(text);
     int number = 1;
@@ -159,6 +182,8 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
         if (line[1] == '\n' || line[1] == '\r' || line[1] == '#')
             continue;
         status = read_line(want, line + 1, number, &t, &x, &found, error);
+        if (status == FRAM_OK && found)
+            status = check_condition(want, number, error);
         if (status != FRAM_OK)
             return status;
         if (found && (!array_push(ctx, value, x) || !array_push(ctx, &rows->line, number) ||
@@ -180,7 +205,7 @@ fram_status series_read_csv(context *ctx, const char *path, const series_source 
     char *text = NULL, time_unit[UNIT_SIZE];
     size_t size = 0;
     csv_cell cell = {.flaw = CSV_CELL_SOUND};
-    csv_want want = {.path = path, .time = -1, .maxima = source->maxima, .ctx = ctx, .cell = &cell};
+    csv_want want = {.path = path, .time = -1, .condition = -1, .maxima = source->maxima, .ctx = ctx, .cell = &cell};
     fram_status readable = file_check(path, error);
     if (readable != FRAM_OK)
         return readable;
@@ -196,6 +221,10 @@ fram_status series_read_csv(context *ctx, const char *path, const series_source 
     if (status == FRAM_OK) {
         want.value = find_head(&want, text, source->channel, true, unit, error);
         status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
+    }
+    if (status == FRAM_OK && source->maxima) {
+        want.condition = find_head(&want, text, CONDITION_HEAD, false, time_unit, error);
+        status = want.condition == TWO_HEADS ? FRAM_ERROR_INPUT : FRAM_OK;
     }
     if (status == FRAM_OK && !source->maxima && source->step > 0 &&
         find_head(&want, text, "time", false, time_unit, error) != NO_HEAD)
@@ -214,6 +243,8 @@ fram_status series_read_csv(context *ctx, const char *path, const series_source 
     if (status == FRAM_OK)
         status = read_lines(ctx, &want, text, rows, value, error);
     text_free(ctx, &cell.text);
+    text_free(ctx, &want.own);
+    text_free(ctx, &want.first);
     memory_free(ctx, text);
     return status;
 }

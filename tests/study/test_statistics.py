@@ -155,6 +155,13 @@ class Statistics(unittest.TestCase):
             error = self.fram(command, copy, file, f"{file.parent}/./series.csv", "--channel", "x", code=2)["error"]
             self.assertIn("would count twice", error["message"])
 
+    def test_maxima_are_of_one_condition(self):
+        rows = [f"{1 if i < 40 else 2},{x},{'' if i < 40 else x}\n" for i, x in enumerate(sample())]
+        file = self.write("condition,load[N],of_2[N]\n" + "".join(rows), "summary.csv")
+        words = ("--maxima", "--block", "60", "--method", "gumbel", "--channel")
+        self.refused(("extremes", file, *words, "load"), "summary.csv:42: condition:", "conditions 1 and 2, which are")
+        self.assertEqual(self.fram("extremes", file, *words, "of_2")["series"]["values"], 40)
+
     def test_a_class_of_ranges_ends_with_its_end(self):
         # Ranges of 1, 2 ... 10: one in each class of `up to 1`, `up to 2` ...
         turns = [0]
