@@ -1,4 +1,5 @@
 #include "study/series_csv.h"
+#include "study/series_runs.h"
 
 #include "base/sort.h"
 #include "model/scenario_vessel.h"
@@ -90,9 +91,9 @@ static void note_lines(const run_data *d, const series_source *source, series_da
     }
 }
 
-static fram_status read_run(context *ctx, const char *folder, const series_source *source, double_array *time,
-                            double_array *value, series_data *out, char unit[UNIT_SIZE], double *from,
-                            fram_error *error)
+static fram_status read_run(context *ctx, const char *folder, const series_source *source, series_runs *runs,
+                            double_array *time, double_array *value, series_data *out, char unit[UNIT_SIZE],
+                            double *from, fram_error *error)
 {
     run_data d;
     if (source->step > 0)
@@ -118,6 +119,8 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     *from = d.s.run.transient;
     if (status == FRAM_OK)
         note_lines(&d, source, out);
+    if (status == FRAM_OK)
+        status = series_runs_add(ctx, runs, &d, folder, error);
     run_data_free(ctx, &d);
     return status;
 }
@@ -207,7 +210,8 @@ static double greatest_of(const double_array *value)
     return most;
 }
 
-static fram_status read_file(context *ctx, const series_source *source, int32_t i, series_data *out, fram_error *error)
+static fram_status read_file(context *ctx, const series_source *source, int32_t i, series_runs *runs, series_data *out,
+                             fram_error *error)
 {
     const char *path = source->files[i];
     series_rows rows = {0};
@@ -217,7 +221,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)
-        status = read_run(ctx, path, source, &rows.time, value, out, unit, &from, error);
+        status = read_run(ctx, path, source, runs, &rows.time, value, out, unit, &from, error);
     else
         status = series_read_csv(ctx, path, source, &rows, value, unit, error);
     if (status == FRAM_OK && i > 0 && strcmp(unit, out->unit) != 0)
@@ -240,7 +244,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     return status;
 }
 
-/* A realization that is given twice would count as two, and every interval be too narrow. */
+/* One file by two names; copies of a run are found as it is read. */
 static fram_status check_different(context *ctx, const series_source *source, fram_error *error)
 {
     struct stat *state = memory_array(ctx, (size_t)source->count, sizeof *state);
@@ -250,10 +254,7 @@ static fram_status check_different(context *ctx, const series_source *source, fr
             state[i].st_ino = 0;
         for (int32_t k = 0; k < i && state[i].st_ino != 0 && status == FRAM_OK; k++)
             if (state[k].st_ino == state[i].st_ino && state[k].st_dev == state[i].st_dev)
-                status = error_set(
-                    error, FRAM_ERROR_INPUT, source->files[i], 0, NULL,
-                    "is given twice (%.200s is the same), and would count twice: each is a realization of its own",
-                    source->files[k]);
+                status = series_refuse_twice(source->files[i], source->files[k], error);
     }
     memory_free(ctx, state);
     return status;
@@ -261,6 +262,7 @@ static fram_status check_different(context *ctx, const series_source *source, fr
 
 fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error)
 {
+    series_runs runs = {0};
     *out = (series_data){.count = source->count, .held = HUGE_VAL};
     if (source->channel && strcmp(source->channel, "time") == 0 && !source->maxima && !(source->step > 0))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel",
@@ -270,7 +272,8 @@ fram_status series_read(context *ctx, const series_source *source, series_data *
     fram_status status = out->parts && out->values ? check_different(ctx, source, error) : error_memory(error);
     out->set.step = source->step > 0 ? source->step : 0;
     for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
-        status = read_file(ctx, source, i, out, error);
+        status = read_file(ctx, source, i, &runs, out, error);
+    series_runs_free(ctx, &runs);
     int64_t values = 0;
     for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
         values += out->values[i].count;

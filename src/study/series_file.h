@@ -32,7 +32,8 @@ typedef struct series_data {
 } series_data;
 
 /* FRAM_ERROR_INPUT with file, line and channel: no such column (with the nearest one), a cell that is no number, times
-   that are not evenly spaced or differ between files, maxima of several conditions.  On success free with series_free. */
+   that are not evenly spaced or differ between files, a file or run that is given twice, maxima of several conditions.
+   Warns of runs of several conditions.  On success free with series_free. */
 fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error);
 void series_free(context *ctx, series_data *s);
 

@@ -155,6 +155,28 @@ class Statistics(unittest.TestCase):
             error = self.fram(command, copy, file, f"{file.parent}/./series.csv", "--channel", "x", code=2)["error"]
             self.assertIn("would count twice", error["message"])
 
+    def test_runs_are_realizations_of_one_condition(self):
+        scene = self.write(SCENE, "scene.yaml")
+        runs = {}
+        for name, *keys in (("first",), ("other", "run.seed=2", "run.duration=0.3", "output.frame_interval=0"),
+                            ("faster", "run.seed=3", "vessel.speed=1.5", "ice.thickness=2"),
+                            ("window", "run.seed=4", "output.averaging_window=0.1")):
+            runs[name] = self.at / name
+            self.fram("run", scene, "-o", runs[name], "--quiet", "--set", "run.duration=0.2",
+                      *(word for key in keys for word in ("--set", key)))
+        shutil.copytree(runs["first"], self.at / "copy")
+        for command in ("fatigue", "extremes"):
+            self.refused((command, runs["other"], runs["first"], self.at / "copy"),
+                         "copy:0:", f"is given twice ({runs['first']} is the same), and would count twice")
+            for others, told in ((("other",), None), (("other", "faster", "window"), "vessel.speed is 1 in one, 1.5"),
+                                 (("window",), "output.averaging_window is 0.5 in one, 0.1")):
+                done = subprocess.run([FRAM, command, runs["first"], *(runs[name] for name in others)],
+                                      capture_output=True, text=True, check=True)
+                self.assertEqual(done.stderr.count("one condition"), told is not None, done.stderr)
+                if told:
+                    self.assertIn(told, done.stderr)
+                    self.assertIn(f"{runs['first']} and {runs[others[-2:][0]]} are taken", done.stderr)
+
     def test_maxima_are_of_one_condition(self):
         rows = [f"{1 if i < 40 else 2},{x},{'' if i < 40 else x}\n" for i, x in enumerate(sample())]
         file = self.write("condition,load[N],of_2[N]\n" + "".join(rows), "summary.csv")
