@@ -3,16 +3,15 @@
 #include "study/student.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- which ---- */
 
-/* Number of keys in which two conditions differ; *key: the last of them. */
+/* Number of keys in which two conditions differ, 2 for more; *key: the last of them. */
 static int32_t keys_apart(const study *s, int32_t a, int32_t b, int32_t *key)
 {
     int32_t n = 0;
-    for (int32_t k = 0; k < s->keys.count; k++) {
-        if (strcmp(study_value(s, a, k), study_value(s, b, k)) == 0)
+    for (int32_t k = 0; k < s->keys.count && n < 2; k++) {
+        if (study_values_same(study_value(s, a, k), study_value(s, b, k)))
             continue;
         n++;
         *key = k;

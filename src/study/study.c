@@ -1,5 +1,7 @@
 #include "study/study.h"
 
+#include "base/number_text.h"
+
 #include <string.h>
 
 bool text_list_add(context *ctx, text_list *list, const char *text)
@@ -16,6 +18,14 @@ void text_list_free(context *ctx, text_list *list)
     for (int32_t i = 0; i < list->count; i++)
         memory_free(ctx, list->data[i]);
     array_free(ctx, list);
+}
+
+bool study_values_same(const char *a, const char *b)
+{
+    double x, y;
+    if (strcmp(a, b) == 0)
+        return true;
+    return real_from_text(a, &x) == NUMBER_GOOD && real_from_text(b, &y) == NUMBER_GOOD && x == y;
 }
 
 void study_free(context *ctx, study *s)

@@ -96,6 +96,8 @@ static inline const char *study_value(const study *s, int32_t condition, int32_t
 {
     return s->values.data[condition * s->keys.count + key];
 }
+/* Whether two values of a key are one: of numbers, 0.5 and 0.50 are. */
+bool study_values_same(const char *a, const char *b);
 
 bool text_list_add(context *ctx, text_list *list, const char *text);
 void text_list_free(context *ctx, text_list *list);

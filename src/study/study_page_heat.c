@@ -13,8 +13,8 @@ static int32_t place_of(const study *s, int32_t key, int32_t condition)
     for (int32_t c = 0; c <= condition; c++) {
         bool fresh = true;
         for (int32_t d = 0; d < c && fresh; d++)
-            fresh = strcmp(study_value(s, d, key), study_value(s, c, key)) != 0;
-        if (strcmp(study_value(s, c, key), study_value(s, condition, key)) == 0)
+            fresh = !study_values_same(study_value(s, d, key), study_value(s, c, key));
+        if (study_values_same(study_value(s, c, key), study_value(s, condition, key)))
             return place;
         place += fresh;
     }

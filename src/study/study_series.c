@@ -2,8 +2,6 @@
 
 #include "base/number_text.h"
 
-#include <string.h>
-
 bool study_series_number(const char *value, double *out) { return real_from_text(value, out) == NUMBER_GOOD; }
 
 /* Conditions from the first on along which the key's number rises. */
@@ -21,7 +19,7 @@ static int32_t rising(const study *s, int32_t key)
 static bool goes_with(const study *s, const study_series *of, int32_t key)
 {
     for (int32_t c = of->length; c < s->conditions; c++)
-        if (strcmp(study_value(s, c, key), study_value(s, c % of->length, key)) != 0)
+        if (!study_values_same(study_value(s, c, key), study_value(s, c % of->length, key)))
             return false;
     return true;
 }
@@ -29,7 +27,7 @@ static bool goes_with(const study *s, const study_series *of, int32_t key)
 static bool is_constant(const study *s, const study_series *of, int32_t key)
 {
     for (int32_t c = 0; c < s->conditions; c++)
-        if (strcmp(study_value(s, c, key), study_value(s, c - c % of->length, key)) != 0)
+        if (!study_values_same(study_value(s, c, key), study_value(s, c - c % of->length, key)))
             return false;
     return true;
 }

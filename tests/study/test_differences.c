@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "study/differences.h"
+#include "study/study_page_parts.h"
 
 /* Hours of sleep that each of ten patients gained by either drug (Cushny and Peebles 1905). */
 static const double left[10] = {0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
@@ -98,10 +99,28 @@ START_TEST(conditions_that_differ_in_one_key_are_compared)
     assert_pairs(fleet, 3, 3, of_fleet, 3);
     char *many[] = {"1", "a", "2", "b", "3", "c", "4", "d", "5", "e", "6", "f", "7", "g"};
     assert_pairs(many, 2, 7, NULL, 0);
+    /* Numbers are what they are, however they are written; words are not. */
+    char *written[] = {"3.2", "0.5", "100", "0.50", "1e2", "0.7"};
+    const condition_pair of_written[] = {{1, 0, 0}, {2, 1, 1}};
+    assert_pairs(written, 2, 3, of_written, 2);
+    char *names_alike[] = {"1", "x0.5", "2", "x0.50"};
+    assert_pairs(names_alike, 2, 2, of_two, 1);
     char *same[] = {"1", "x", "1", "x"};
     assert_pairs(same, 2, 2, NULL, 0);
 }
 END_TEST
 
+START_TEST(a_grid_is_one_however_its_numbers_are_written)
+{
+    char *names[] = {"a", "b"}, *values[] = {"0.5", "1", "0.50", "2", "5e-1", "3", "2", "1.0", "2", "2.0", "2", "3.0"};
+    const study s = {.conditions = 6, .keys = {.data = names, .count = 2}, .values = {.data = values, .count = 12}};
+    page_heat heat;
+    ck_assert(page_heat_find(&s, &heat));
+    ck_assert(heat.rows == 2 && heat.columns == 3);
+    values[9] = "2x";
+    ck_assert(!page_heat_find(&s, &heat));
+}
+END_TEST
+
 TEST_MAIN("differences", pairs_are_compared_one_by_one, means_without_pairs_are_compared_by_welch,
-          conditions_that_differ_in_one_key_are_compared)
+          conditions_that_differ_in_one_key_are_compared, a_grid_is_one_however_its_numbers_are_written)

@@ -34,6 +34,8 @@ START_TEST(a_grid_is_series_over_its_last_key)
     ck_assert(find(grid, 2, 6, &of, &s));
     ck_assert(of.key == 1 && of.groups == 2 && of.length == 3);
     ck_assert(study_series_is_group_key(&s, &of, 0) && !study_series_is_group_key(&s, &of, 1));
+    grid[9] = "2.0";
+    ck_assert(find(grid, 2, 6, &of, &s));
     /* Of other speeds in the second group. */
     grid[9] = "2.5";
     ck_assert(!find(grid, 2, 6, &of, &s));
