@@ -93,8 +93,7 @@ static fram_status note_fault(importing *m, import_event event, bool can_mend, v
         snprintf(what, sizeof what, "%s; cut its polygon in two that have none, for a repair would fill it",
                  import_event_text(event));
     else if (m->options->as_it_is)
-        snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" does with --bad repair and -o",
-                 import_event_text(event));
+        snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" can", import_event_text(event));
     else
         snprintf(what, sizeof what, "%s; bad rings can be dropped%s", import_event_text(event),
                  can_mend ? " or repaired" : "");

@@ -80,7 +80,8 @@ static void note_ice(const note_taker *n, const scenario *s)
     if (thick->thickness > thin->thickness || thick->crushing_strength > thin->crushing_strength)
         note_kind(n, s, &n->ice.thickest);
     if (i->source == ICE_FILE && !n->made)
-        note_fact(n, "ice: thicknesses that its file gives to floes go before that; fram check --build tells by them");
+        note_fact(n,
+                  "ice: thicknesses that its file gives to floes go before that, and are known when the ice is made");
     /* Those of a population are as large as its law says. */
     if (i->source == ICE_VORONOI && i->populations.count == 0)
         note_fact(n, "ice: about %.0f cells of %.4g m2 in a domain of %.4g m2", area / i->mean_floe_area,

@@ -483,7 +483,7 @@ expect 2 "$FRAM" field zones.yaml
 says "ring 2: the ring is a hole; cut its polygon in two that have none, for a repair would fill it" err
 sed 's/40, 99 49, 90 40), .*/40, 90 49, 99 49, 90 40))/' hole.wkt >crossed.wkt
 expect 2 "$FRAM" field zones.yaml --set ice.open_water_file=crossed.wkt
-says "crosses or touches itself; mend the file, as \"fram field\" does" err
+says "crosses or touches itself; mend the file, as \"fram field\" can" err
 expect 2 "$FRAM" field zones.yaml --set ice.open_water_file=arctic.geojson
 says "only lengths are taken here" err
 # An endless field is told as the tile that it is, and its zones are read as by a run.
