@@ -1,6 +1,7 @@
 /* The steps from a file's triangles to a sound solid; see hull_mend.h. */
 #include "io/hull_mend.h"
 
+#include "io/hull_digits.h"
 #include "io/hull_skin.h"
 
 #include <stdio.h>
@@ -19,6 +20,7 @@ typedef struct hull_reading {
     context *ctx;
     const char *name;
     mesh_file *file;
+    const mesh *given; /* its surface as it was read */
     const hull_file_options *options;
     double seal_width; /* [m] */
     bool fill;         /* holes */
@@ -80,6 +82,13 @@ static const char *work_for(mesh_defect defect)
 }
 
 enum { ADVICE_ROOM = 200 };
+
+/* false: it is not for its digits that the file is refused. */
+static bool advise_digits(const hull_reading *r, int32_t face, int32_t other, char text[ADVICE_ROOM])
+{
+    const int32_t faces[2] = {face, other};
+    return hull_lacks_digits(r->given, r->options->scale, &r->file->surface, faces, text, ADVICE_ROOM);
+}
 
 static void advise(const hull_reading *r, mesh_defect defect, char text[ADVICE_ROOM])
 {
@@ -151,7 +160,8 @@ static fram_status refuse_report(hull_reading *r, const mesh_report *report)
         snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
     else
         snprintf(text, sizeof text, "the %s", report->text);
-    advise(r, report->defect, advice);
+    if (report->defect != MESH_SELF_INTERSECTING || !advise_digits(r, report->face, report->other_face, advice))
+        advise(r, report->defect, advice);
     return refuse_face(r, report->face, text, advice);
 }
 
@@ -197,12 +207,11 @@ static fram_status drop_triangles(hull_reading *r)
         bool lid = lids && is_level(m, f, r->tolerance), flat = !lid && !mesh_has_area(m, f);
         if (flat && !r->options->repair) {
             vec3 p = m->vertex.data[m->face.data[f].v[0]];
-            char key[64];
+            char key[KEY_ROOM], advice[ADVICE_ROOM] = "move a corner of it, or leave it out";
             snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[f]);
+            advise_digits(r, f, -1, advice);
             return error_set(&r->out->error, FRAM_ERROR_INPUT, r->name, r->file->line.data[f], key,
-                             "a triangle at (%g, %g, %g) has no area; move a corner "
-                             "of it, or leave it out",
-                             p.x, p.y, p.z);
+                             "a triangle at (%g, %g, %g) has no area; %s", p.x, p.y, p.z, advice);
         }
         r->out->report.lids += lid;
         r->out->report.dropped += flat;
@@ -471,6 +480,7 @@ fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_
     hull_reading r = {.ctx = q->ctx,
                       .name = q->name,
                       .file = &file,
+                      .given = &q->file->surface,
                       .options = &q->options,
                       .seal_width = seal_width,
                       .fill = fill,
