@@ -12,6 +12,8 @@
 #include "sim/step.h"
 #include "sim/wall_check.h"
 
+#include <stdio.h>
+
 /* Everything a running simulation holds. */
 typedef struct run {
     context own;  /* a copy: other threads of a program may be at work in the one it comes from */
@@ -109,13 +111,33 @@ static void run_free(run *r)
 
 /* ---- start ---- */
 
+static int32_t count_floes(const world *w)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->floes.count; i++)
+        count += w->floes.body[i] >= 0;
+    return count;
+}
+
+/* What is told of an endless field is of the tile that it repeats; in the domain there are other floes. */
+static void log_ice(const run *r, const field_report *report)
+{
+    bool tile = r->record.s->domain.boundary == DOMAIN_FEEDING && !r->model.sheet.drifts;
+    int32_t floes = tile ? count_floes(&r->world) : report->floes;
+    char more[80] = "";
+    if (report->floes <= 0)
+        return;
+    if (tile)
+        snprintf(more, sizeof more, " (%d in the tile that repeats, concentration %.4f of it)", (int)report->floes,
+                 report->concentration);
+    else if (report->concentration > 0)
+        snprintf(more, sizeof more, ", concentration %.4f", report->concentration);
+    log_write(r->ctx, LOG_INFO, "%d floe%s%s", (int)floes, floes == 1 ? "" : "s", more);
+}
+
 static void log_start(const run *r, const field_report *report)
 {
-    if (report->floes > 0 && report->concentration <= 0)
-        log_write(r->ctx, LOG_INFO, "%d floe%s", (int)report->floes, report->floes == 1 ? "" : "s");
-    else if (report->floes > 0)
-        log_write(r->ctx, LOG_INFO, "%d floe%s, concentration %.4f", (int)report->floes, report->floes == 1 ? "" : "s",
-                  report->concentration);
+    log_ice(r, report);
     for (int32_t i = 0; i < r->model.vessels.count; i++) {
         const vessel_model *v = &r->model.vessels.data[i];
         log_write(r->ctx, LOG_INFO, "%s%s displaces %.6g t", v->name[0] ? "vessel " : "the hull", v->name,

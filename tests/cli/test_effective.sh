@@ -124,7 +124,12 @@ for how in "check boat.yaml --build" "run boat.yaml -o boat"; do
     # shellcheck disable=SC2086
     expect 0 "$FRAM" $how
     told "domain: its edge with the band is"
+    cp err "said.${how%% *}"
 done
+# Its ice is a tile that repeats, larger than the domain: the floes that are there are counted alike wherever they are.
+floes=$(sed -n 's/^built: \([0-9]*\) floes.*/\1/p' said.check)
+says "finished at t = 0.05 s after 1 step: $floes floes" said.run
+holds "^$floes floes ([0-9]* in the tile that repeats, concentration 0.1000 of it)" said.run
 
 # On a carriage.
 cat >tow.yaml <<'YAML'
