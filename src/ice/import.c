@@ -347,7 +347,7 @@ fram_status import_field_make(context *ctx, overlay *o, const import_rings *ring
 {
     importing m = {.ctx = ctx, .plane = o, .rings = rings, .options = options, .out = out, .error = error};
     bool whole = options->crop && options->tile, fits = true;
-    fram_status status = import_frame_make(rings, options, &m.frame, error);
+    fram_status status = import_frame_make(ctx, rings, options, &m.frame, error);
     if (status == FRAM_OK)
         status = import_all(&m, options->crop && !whole);
     if (status == FRAM_OK && whole)

@@ -60,13 +60,14 @@ static bool on_earth(polygon p, bool swapped)
     return true;
 }
 
+static bool is_icy(box2 box) { return box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST; }
+
 static bool is_plain_floe(polygon p, bool swapped)
 {
     box2 box = box_of(p, swapped);
-    bool icy = box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST;
     double narrow = real_cos(radians(0.5 * (box.lo.y + box.hi.y))); /* degrees of longitude, over those of latitude */
     double size = narrow * (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y);
-    return icy && size <= FLOE_MOST * FLOE_MOST;
+    return is_icy(box) && size <= FLOE_MOST * FLOE_MOST;
 }
 
 static bool look_like_degrees(const import_rings *r, bool swapped)
@@ -88,6 +89,15 @@ static bool look_swapped(const import_rings *r)
     return !on_earth(all_vertices(r), false) && on_earth(all_vertices(r), true);
 }
 
+/* Both numbers may be latitudes, but sea ice lies at one of them only. */
+static void warn_of_swapped(context *ctx, const import_rings *r, const import_options *o, box2 box)
+{
+    bool warm = box.lo.y > -LATITUDE_LEAST && box.hi.y < LATITUDE_LEAST;
+    if (warm && on_earth(all_vertices(r), true) && is_icy(box_of(all_vertices(r), true)))
+        log_write(ctx, LOG_WARNING, "%.200s: ice at latitude %.4g: longitude comes first; are they swapped?",
+                  o->name ? o->name : "degrees", 0.5 * (box.lo.y + box.hi.y));
+}
+
 /* Round everything in its place. */
 static box2 box_projected(const stereographic *s, polygon p)
 {
@@ -101,7 +111,8 @@ static box2 box_projected(const stereographic *s, polygon p)
     return box;
 }
 
-static fram_status project(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
+static fram_status project(context *ctx, const import_rings *r, const import_options *o, import_frame *out,
+                           fram_error *error)
 {
     if (o->scale != 1)
         return error_set(error, FRAM_ERROR_INPUT, o->name, 0, NULL,
@@ -118,6 +129,7 @@ static fram_status project(const import_rings *r, const import_options *o, impor
     if (r->rings.vertex.count == 0)
         return FRAM_OK;
     box2 box = box_of(all_vertices(r), false);
+    warn_of_swapped(ctx, r, o, box);
     out->projection = stereographic_make(ELLIPSOID_WGS84, vec2_scale(vec2_add(box.lo, box.hi), 0.5), 1);
     for (int32_t i = 0; i < r->place.count; i++) {
         polygon p = polygon_list_get(&r->rings, i);
@@ -147,11 +159,12 @@ static fram_status refuse_degrees(const import_rings *r, const import_options *o
     return fault(r, o, 0, error, what);
 }
 
-fram_status import_frame_make(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
+fram_status import_frame_make(context *ctx, const import_rings *r, const import_options *o, import_frame *out,
+                              fram_error *error)
 {
     *out = (import_frame){.degrees = o->degrees, .scale = o->scale, .shift = o->offset};
     if (o->degrees)
-        return project(r, o, out, error);
+        return project(ctx, r, o, out, error);
     bool in_question = !o->lengths && o->scale == 1, swapped = in_question && look_swapped(r);
     if (in_question && look_like_degrees(r, swapped))
         return refuse_degrees(r, o, swapped, error);

@@ -14,8 +14,10 @@ typedef struct import_frame {
 } import_frame;
 
 /* FRAM_ERROR_INPUT, naming the first ring at fault, for planar coordinates that are plainly degrees, degrees that are
-   none, and a field too wide to be laid flat. */
-fram_status import_frame_make(const import_rings *rings, const import_options *o, import_frame *out, fram_error *error);
+   none, and a field too wide to be laid flat.  Degrees that have ice where there is none, and have not with latitude
+   first, are warned of. */
+fram_status import_frame_make(context *ctx, const import_rings *rings, const import_options *o, import_frame *out,
+                              fram_error *error);
 vec2 import_frame_place(const import_frame *f, vec2 position);
 
 #endif

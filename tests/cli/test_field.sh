@@ -452,6 +452,16 @@ says "look like degrees of latitude and longitude, which are swapped (longitude 
 expect 2 "$FRAM" field swapped.geojson --degrees
 says "expected longitudes from -360 to 360 first, and latitudes" err
 expect 0 "$FRAM" field swapped.geojson --scale 1
+# Where both may be latitudes, what lies where there is no ice is warned of, and read as it stands; a lake is not.
+warm() { sed "s/119.5/$1/g; s/37.1/$2/g" bohai.geojson >warm.geojson && expect 0 "$FRAM" field warm.geojson --degrees; }
+warm 78.2 15.3
+says "warm.geojson: ice at latitude 15.3" err
+says "longitude comes first; are they swapped?" err
+for at in "15.3 78.2" "20.1 30.2" "110.3 30.2" "78.2 40.3"; do
+    # shellcheck disable=SC2086
+    warm $at
+    ! grep -q swapped err || fail "degrees at $at are taken for swapped"
+done
 # Floes of half a metre at 60 m of a tank: metres where that is said, of zones and floes of a scenario by its scale.
 cat >tank.geojson <<'END'
 {"type": "MultiPolygon", "coordinates": [[[[0, 60], [0.5, 60], [0.5, 60.5], [0, 60.5], [0, 60]]],
