@@ -30,6 +30,7 @@ static const char *const other_words[][2] = {
     {"course", "course_deg"},
     {"coverage", "concentration"},
     {"current", "current_speed"},
+    {"current_angle", "current_direction_deg"},
     {"current_dir", "current_direction_deg"},
     {"current_direction", "current_direction_deg"},
     {"current_velocity", "current_speed"},
@@ -39,6 +40,7 @@ static const char *const other_words[][2] = {
     {"dp", "positioning"},
     {"draft", "draught"},
     {"drift", "drift_speed"},
+    {"drift_angle", "drift_direction_deg"},
     {"drift_dir", "drift_direction_deg"},
     {"drift_direction", "drift_direction_deg"},
     {"drift_velocity", "drift_speed"},
@@ -64,8 +66,14 @@ static const char *const other_words[][2] = {
     {"kzz", "gyration_yaw"},
     {"L", "length"},
     {"lcg", "centre_of_gravity_x"},
+    {"LOA", "length"},
+    {"Loa", "length"},
     {"loa", "length"},
+    {"LPP", "length"},
+    {"Lpp", "length"},
     {"lpp", "length"},
+    {"LWL", "length"},
+    {"Lwl", "length"},
     {"lwl", "length"},
     {"max_thrust", "thrust"},
     {"MBL", "breaking_load"},
@@ -106,8 +114,10 @@ static const char *const other_words[][2] = {
     {"water_line_length", "length"},
     {"waterline_angle", "entrance_angle_deg"},
     {"weathervaning", "heading"},
+    {"weight", "mass"},
     {"width", "beam"},
     {"wind", "wind_speed"},
+    {"wind_angle", "wind_direction_deg"},
     {"wind_dir", "wind_direction_deg"},
     {"wind_direction", "wind_direction_deg"},
     {"wind_velocity", "wind_speed"},
@@ -116,12 +126,60 @@ static const char *const other_words[][2] = {
     {"youngs_modulus", "elastic_modulus"},
 };
 
-const char *key_other_name(const char *word, int32_t nth)
+/* A word may stand for several keys, of which nth counts from 0.  NULL past the last, and for a word that is not known.
+ */
+static const char *key_other_name(const char *word, int32_t nth)
 {
     for (size_t i = 0; i < sizeof other_words / sizeof *other_words; i++)
         if (strcmp(word, other_words[i][0]) == 0 && nth-- == 0)
             return other_words[i][1];
     return NULL;
+}
+
+void key_join(char out[KEY_SIZE], const char *path, const char *name)
+{
+    int head = snprintf(out, KEY_SIZE, "%s%s", path, *path ? "." : "");
+    if (head < 0 || head >= KEY_SIZE)
+        return;
+    snprintf(out + head, KEY_SIZE - (size_t)head, "%.*s", KEY_SIZE - 1 - head, name);
+}
+
+/* The full name of the first key of a section, or inside it, that is called so, for people who put a key in the wrong
+   section. */
+static bool find_anywhere(const scenario_section *section, const char *path, const char *name, char out[KEY_SIZE])
+{
+    for (int32_t k = 0; k < section->key_count; k++) {
+        const scenario_key *key = &section->keys[k];
+        char here[KEY_SIZE];
+        key_join(here, path, key->name);
+        if (strcmp(key->name, name) == 0) {
+            memcpy(out, here, KEY_SIZE);
+            return true;
+        }
+        if (key->section && find_anywhere(key->section, here, name, out))
+            return true;
+    }
+    return false;
+}
+
+const char *key_meant(const scenario_section *section, const char *path, const char *name, char out[KEY_SIZE])
+{
+    const char *known = key_other_name(name, 0), *word = known;
+    for (int32_t nth = 1; word; nth++) {
+        if (section_find(section, word) >= 0)
+            return word;
+        word = key_other_name(name, nth);
+    }
+    /* Inside the section a name is no other word: the weight of a mooring is that of its lines. */
+    if (*path && find_anywhere(section, path, name, out))
+        return out;
+    if (known && find_anywhere(&scenario_schema, "", known, out))
+        return out;
+    /* x and y have keys in many sections: in the domain they are its edges. */
+    const char *begun = section_begun(section, name);
+    if (begun)
+        return begun;
+    return find_anywhere(&scenario_schema, "", name, out) ? out : section_nearest(section, name);
 }
 
 bool key_nested(const scenario_section *section, const char *name, char out[KEY_NESTED_SIZE])

@@ -1,4 +1,4 @@
-/* Words of the field for keys that have another name in a scenario. */
+/* What was meant by names that no key of a scenario has: words of the field, keys of other sections, slips. */
 #ifndef IO_KEY_WORDS_H
 #define IO_KEY_WORDS_H
 
@@ -6,9 +6,15 @@
 
 #include <stdint.h>
 
-/* "draught" for "draft", "time_step" for "dt"; a word may stand for several keys, of which nth counts from 0.  NULL
-   past the last, and for a word that is not known. */
-const char *key_other_name(const char *word, int32_t nth);
+/* Room for the name of a key with those of its sections: "vessel.hull.draught". */
+enum { KEY_SIZE = sizeof((scenario_place *)0)->key };
+/* "path.name", cut to size: the names of the schema are short, only unknown ones are cut. */
+void key_join(char out[KEY_SIZE], const char *path, const char *name);
+
+/* The key that was meant by a name that is none of a section, which stands at `path`: "draught" for "draft", another
+   word of the field; what is called so exactly elsewhere; what is merely near in the section.  Of another section with
+   its path, in `out`.  NULL: nothing is like it. */
+const char *key_meant(const scenario_section *section, const char *path, const char *name, char out[KEY_SIZE]);
 
 /* How a key is written in a file whose name has points in it, as --set wants it: "run: {duration: ...}" of
    "run.duration" in the whole scenario.  false: it is none of the section. */

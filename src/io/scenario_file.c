@@ -11,8 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KEY_SIZE = sizeof((scenario_place *)0)->key };
-
 typedef struct scenario_reader {
     context *ctx;
     const char *file;
@@ -44,15 +42,6 @@ static fram_status refuse(const scenario_reader *r, const value_place *place, co
     if (r->error)
         r->error->column = place->column;
     return FRAM_ERROR_INPUT;
-}
-
-/* "path.name", cut to size: the names of the schema are short, only unknown ones are cut. */
-static void join(char out[KEY_SIZE], const char *path, const char *name)
-{
-    int head = snprintf(out, KEY_SIZE, "%s%s", path, *path ? "." : "");
-    if (head < 0 || head >= KEY_SIZE)
-        return;
-    snprintf(out + head, KEY_SIZE - (size_t)head, "%.*s", KEY_SIZE - 1 - head, name);
 }
 
 static fram_status remember(const scenario_reader *r, const value_place *place)
@@ -189,42 +178,15 @@ static fram_status read_scalar(const scenario_reader *r, const scenario_key *key
 
 /* ---- names ---- */
 
-/* The full name of the first key of the schema that is called so, for people who put a key in the wrong section. */
-static bool find_anywhere(const scenario_section *section, const char *path, const char *name, char out[KEY_SIZE])
-{
-    for (int32_t k = 0; k < section->key_count; k++) {
-        const scenario_key *key = &section->keys[k];
-        char here[KEY_SIZE];
-        join(here, path, key->name);
-        if (strcmp(key->name, name) == 0) {
-            memcpy(out, here, KEY_SIZE);
-            return true;
-        }
-        if (key->section && find_anywhere(key->section, here, name, out))
-            return true;
-    }
-    return false;
-}
-
 static fram_status unknown_key(const scenario_reader *r, const scenario_section *section, const char *path,
                                const char *name, const value_place *place)
 {
     char other[KEY_SIZE], nested[KEY_NESTED_SIZE];
-    const char *known = key_other_name(name, 0), *nearest = NULL, *word = known;
-    for (int32_t nth = 1; word && !nearest; nth++) {
-        nearest = section_find(section, word) >= 0 ? word : NULL;
-        word = key_other_name(name, nth);
-    }
-    if (!nearest && known && find_anywhere(&scenario_schema, "", known, other))
-        nearest = other;
-    nearest = nearest ? nearest : section_nearest(section, name);
-    const char *where = *path ? path : "the scenario";
+    const char *where = *path ? path : "the scenario", *meant = key_meant(section, path, name, other);
     if (key_nested(section, name, nested))
         return refuse(r, place, "expected a key of %s, found %s: write %s", where, shown(name).text, nested);
-    if (!nearest && find_anywhere(&scenario_schema, "", name, other))
-        nearest = other;
-    if (nearest)
-        return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, nearest);
+    if (meant)
+        return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, meant);
     return refuse(r, place, "expected a key of %s, found %s", where, shown(name).text);
 }
 
@@ -285,7 +247,7 @@ static fram_status read_section(const scenario_reader *r, const scenario_section
         const yaml_node *child = &r->tree->nodes.data[i];
         const char *name = yaml_text(r->tree, child->key);
         value_place at = {.line = child->key_line, .column = child->key_column};
-        join(at.key, place->key, name);
+        key_join(at.key, place->key, name);
         int32_t k = section_find(section, name);
         if (k < 0)
             return unknown_key(r, section, place->key, name, &at);
@@ -358,7 +320,7 @@ static fram_status set_path(const scenario_reader *r, value_place *place, const 
         const scenario_key *key = &section->keys[k];
         void *member = key_member(key, data);
         at += size;
-        join(full, path, name);
+        key_join(full, path, name);
         memcpy(path, full, sizeof path);
         if (key->kind == KEY_LIST) {
             int32_t item;

@@ -154,8 +154,7 @@ const scenario_key *scenario_key_find(const char *section, const char *name)
     return &of->keys[section_find(of, name)];
 }
 
-/* The first key that is called so up to a low line, x_min for x; NULL when there is none. */
-static const char *section_begun(const scenario_section *section, const char *name)
+const char *section_begun(const scenario_section *section, const char *name)
 {
     size_t length = strlen(name);
     for (int32_t k = 0; length > 0 && k < section->key_count; k++)

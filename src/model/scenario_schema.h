@@ -58,6 +58,8 @@ const scenario_key *scenario_key_find(const char *section, const char *name);
 /* The key whose name is nearest to a misspelt one (Damerau's distance), or else the first that begins with it and a low
    line; NULL when none is near. */
 const char *section_nearest(const scenario_section *section, const char *name);
+/* The first key that is called so up to a low line, x_min for x; NULL when there is none. */
+const char *section_begun(const scenario_section *section, const char *name);
 /* Default of a real key. */
 double key_default(const scenario_key *key, double scale);
 /* Every key of a section, and of those inside it, at its default; lists empty. */
