@@ -243,6 +243,26 @@ static fram_status check_condition(const fram_hull_condition *c, fram_error *err
     return FRAM_OK;
 }
 
+/* Says by what was given, if something was, that the water misses the hull or only touches it. */
+static fram_status check_cut(const fram_hull *h, const fram_hull_condition *c, const hull_attitude *a,
+                             fram_error *error)
+{
+    if ((isnan(c->draught) && isnan(c->mass)) || hull_is_cut(&h->surface, a))
+        return FRAM_OK;
+    double depth = h->about.hi[2] - h->about.lo[2], enclosed = mesh_solid_properties(&h->surface).volume;
+    if (!isnan(c->draught))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
+                         "the water at a draught of %.8g m does not cut the hull, which is %.8g m deep; give a %s one",
+                         c->draught, depth, c->draught > 0.5 * depth ? "smaller" : "larger");
+    if (c->mass > 0.5 * enclosed * c->water_density)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass",
+                         "the mass of %.9g kg is all that the hull, which encloses %.9g m3, can displace: give less",
+                         c->mass, enclosed);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass",
+                     "the mass of %.9g kg is next to nothing for a hull that encloses %.9g m3: give kilograms", c->mass,
+                     enclosed);
+}
+
 /* Upright level, then the centre of mass, then equilibrium where a mass is given. */
 static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *c, hull_attitude *a, vec3 *centre,
                                  fram_error *error)
@@ -253,12 +273,8 @@ static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *
     double volume = status == FRAM_OK ? c->mass / c->water_density : 0;
     if (status == FRAM_OK && !isnan(c->mass))
         status = hull_level_of(ctx, &h->surface, volume, &a->level, error);
-    double depth = h->about.hi[2] - h->about.lo[2];
-    if (status == FRAM_OK && c->draught >= depth)
-        status =
-            error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
-                      "the water at a draught of %g m does not cut the hull, which is %g m deep; give a smaller one",
-                      c->draught, depth);
+    if (status == FRAM_OK)
+        status = check_cut(h, c, a, error);
     hull_hydrostatics upright;
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, a->level, &upright, error);
@@ -267,7 +283,9 @@ static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *
     *centre = vec3_make(isnan(c->centre[0]) ? upright.centre_of_buoyancy.x : c->centre[0],
                         isnan(c->centre[1]) ? upright.centre_of_buoyancy.y : c->centre[1],
                         isnan(c->centre[2]) ? a->level : c->centre[2]);
-    return isnan(c->mass) ? FRAM_OK : hull_float(ctx, &h->surface, volume, *centre, a, error);
+    if (!isnan(c->mass))
+        status = hull_float(ctx, &h->surface, volume, *centre, a, error);
+    return status == FRAM_OK ? check_cut(h, c, a, error) : status;
 }
 
 static fram_status find_stability(const fram_hull *h, const fram_hull_condition *condition, fram_hull_condition *c,

@@ -399,9 +399,14 @@ static void warn_of_size(const common_options *common, const hull_words *w, cons
 /* As a scenario is told of such water [kg/m3]. */
 #define LIGHTEST_WATER 980.0
 #define HEAVIEST_WATER 1100.0
+/* Of all that the hull can displace: an empty one weighs more. */
+#define LIGHTEST_MASS 0.05
 
-static void warn_of_water(const common_options *common, const fram_hull_condition *c)
+static void warn_of_condition(const common_options *common, const fram_hull_condition *c, const fram_hull_floating *f)
 {
+    if (!isnan(c->mass) && f->volume < LIGHTEST_MASS * f->enclosed_volume && !common->quiet)
+        fprintf(stderr, "warning: --mass: %.6g kg is %.2g %% of what the hull can displace, %.6g kg: give kilograms\n",
+                c->mass, 100 * f->volume / f->enclosed_volume, c->water_density * f->enclosed_volume);
     if ((c->water_density < LIGHTEST_WATER || c->water_density > HEAVIEST_WATER) && !common->quiet)
         fprintf(stderr,
                 "warning: --water-density: %.4g kg/m3 is outside of %.4g to %.4g, fresh water to brine: give kg/m3\n",
@@ -472,7 +477,7 @@ int command_hull(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         warn_of_size(&common, &w, &floating);
-        warn_of_water(&common, &w.condition);
+        warn_of_condition(&common, &w.condition, &floating);
         warn_of_centre(&common, &surface, &floating);
         warn_of_half(&common, &surface);
         warn_of_well(&common, &surface);

@@ -290,8 +290,7 @@ static void set_lengths(hull_stability *s, const mesh *surface, const hull_attit
 
 static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
-/* Whether the water stands at the lowest or the highest point but for the digits of a file. */
-static bool only_touches(const mesh *surface, const hull_attitude *a)
+bool hull_is_cut(const mesh *surface, const hull_attitude *a)
 {
     box3 box = mesh_bounds(surface);
     mat3 rotation = hull_rotation(a);
@@ -301,7 +300,7 @@ static bool only_touches(const mesh *surface, const hull_attitude *a)
         lo = fmin(lo, z);
         hi = fmax(hi, z);
     }
-    return a->level - lo <= LEAST_IMMERSION * size || hi - a->level <= LEAST_IMMERSION * size;
+    return a->level - lo > LEAST_IMMERSION * size && hi - a->level > LEAST_IMMERSION * size;
 }
 
 static fram_status refuse_level(const mesh *surface, const hull_attitude *a, fram_error *error)
@@ -321,7 +320,7 @@ fram_status hull_stability_of(context *ctx, const mesh *surface, const hull_atti
     if (status != FRAM_OK)
         return status;
     const hull_hydrostatics *h = &out->at;
-    if (!(h->volume > 0 && h->waterplane_area > 0) || only_touches(surface, a))
+    if (!(h->volume > 0 && h->waterplane_area > 0) || !hull_is_cut(surface, a))
         return refuse_level(surface, a, error);
     mat3 rotation = hull_rotation(a);
     vec2 f = h->centre_of_flotation;

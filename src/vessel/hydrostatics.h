@@ -54,6 +54,9 @@ typedef struct hull_stability {
         prismatic; /* coefficients of the waterline's length and breadth, and the draught */
 } hull_stability;
 
+/* Whether the water stands between the lowest and the highest point, off both by more than the digits of a file. */
+bool hull_is_cut(const mesh *surface, const hull_attitude *a);
+
 /* FRAM_ERROR_INPUT when nothing floats at that attitude, or the surface is open; FRAM_ERROR_MEMORY. */
 fram_status hull_stability_of(context *ctx, const mesh *surface, const hull_attitude *a, vec3 centre,
                               hull_stability *out, fram_error *error);

@@ -267,6 +267,20 @@ says "give one of them" err
 expect 2 "$FRAM" hull ship.obj more.obj
 expect 2 "$FRAM" hull ship.obj --draught 100
 says "does not cut the hull, which is 11 m deep; give a smaller one" err
+# Of a box of 40 x 10 x 5 m, by what was given of it.
+expect 2 "$FRAM" hull box.stl --draught 4.9999999 --json
+says "the water at a draught of 4.9999999 m does not cut the hull, which is 5 m deep; give a smaller one" out
+expect 2 "$FRAM" hull box.stl --draught 1e-9
+says "does not cut the hull, which is 5 m deep; give a larger one" err
+expect 2 "$FRAM" hull box.stl --mass 1e-3 --json
+same "$(value 'j["error"]["key"]')" --mass "the key of no mass"
+says "the mass of 0.001 kg is next to nothing for a hull that encloses 2000 m3: give kilograms" out
+expect 2 "$FRAM" hull box.stl --mass 2049999.9
+says "the mass of 2049999.9 kg is all that the hull, which encloses 2000 m3, can displace: give less" err
+expect 0 "$FRAM" hull box.stl --mass 1e5
+says "warning: --mass: 100000 kg is 4.9 % of what the hull can displace, 2.05e+06 kg: give kilograms" err
+expect 0 "$FRAM" hull box.stl --mass 1.1e5
+! grep -q warning err || fail "a light hull is warned of: $(cat err)"
 expect 2 "$FRAM" hull ship.obj --mass 1e12
 says "encloses" err
 expect 2 "$FRAM" hull ship.obj --pieces 0
