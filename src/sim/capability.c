@@ -373,7 +373,7 @@ static void blame_window(fram_error *error)
     for (size_t i = 0; i < sizeof remedies / sizeof *remedies; i++) {
         char *at = strstr(error->message, remedies[i]);
         if (at)
-            snprintf(at, sizeof error->message - (size_t)(at - error->message), ": take a larger --window");
+            snprintf(at, sizeof error->message - (size_t)(at - error->message), ": take a larger window");
     }
 }
 

@@ -150,7 +150,7 @@ expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --fo
 says "formula: expected" err
 expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --window 10 "${ask[@]}"
 says "window: ice from" err
-says "take a larger --window" err
+says "take a larger window" err
 expect 2 "$FRAM" capability held.yaml -o d --ice-from run --ice-vessel ship --set ice.thickness=2 "${ask[@]}"
 says "set: ice.thickness: expected no override" err
 sed 's/source: level/source: voronoi, open_water: [{x: 9, length: 8, width: 8}]/' held.yaml >zones.yaml

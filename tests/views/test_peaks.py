@@ -183,7 +183,8 @@ def check_keys(browser):
                      windowsVirtualKeyCode={"Enter": 13, "Escape": 27}[code])
         browser.call("Input.dispatchKeyEvent", type="keyUp", code=code, key=code)
     browser.run("(fram.peaks.open(fram.peaks.vessel.peaks[0]), document.getElementById('smaller').focus())")
-    for rank in (2, 1):  # there are two, and after the last comes the first
+    count = browser.run("fram.peaks.vessel.peaks.length")
+    for rank in [*range(2, count + 1), 1]:  # after the last comes the first
         press("Enter", "\r")
         told = browser.run("[fram.peaks.peak.rank, document.activeElement.id]")
         assert told == [rank, "smaller"], f"after Enter on the button for smaller peaks: {told}"
