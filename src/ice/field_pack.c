@@ -163,26 +163,71 @@ static fram_status draw_shapes(context *ctx, const field_packed_request *r, int3
     return FRAM_OK;
 }
 
+static bool is_of_one_size(const field_packed_request *r, int32_t number, double *size)
+{
+    return size_law_is_one_size(&r->populations[number].size, size);
+}
+
+/* Whole floes of one size miss their part of the area: they are drawn first, the largest before the others. */
+static int32_t next_to_draw(const field_packed_request *r, const real_array *sizes)
+{
+    int32_t next = -1;
+    double largest = 0, size;
+    for (int32_t p = 0; p < r->population_count; p++) {
+        bool one = is_of_one_size(r, p, &size);
+        if (sizes[p].count > 0 || !(next < 0 || (one && size > largest)))
+            continue;
+        next = p;
+        largest = one ? size : 0;
+    }
+    return next;
+}
+
+/* Shares of those among which the area that is left goes. */
+static double shares_left(const field_packed_request *r, const real_array *sizes)
+{
+    double sum = 0, size;
+    for (int32_t p = 0; p < r->population_count; p++)
+        if (sizes[p].count == 0 || !is_of_one_size(r, p, &size))
+            sum += r->populations[p].share;
+    return sum;
+}
+
+/* sizes: of each population, empty. */
+static fram_status draw_sizes(context *ctx, const field_packed_request *r, double wanted, real_array *sizes,
+                              fram_error *error)
+{
+    double left = wanted, size;
+    fram_status status = FRAM_OK;
+    for (int32_t k = 0; status == FRAM_OK && k < r->population_count; k++) {
+        int32_t p = next_to_draw(r, sizes);
+        const field_population *one = &r->populations[p];
+        double area = left * one->share / shares_left(r, sizes);
+        double floe = is_of_one_size(r, p, &size) ? PI / 4 * size * size : 0;
+        /* Half a floe more would be drawn as a whole one, with no room for those that follow. */
+        if (floe > 0 && k + 1 < r->population_count)
+            area = fmin(area, left - floe / 2);
+        status = size_law_draw(ctx, &one->size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes[p], error);
+        left -= floe * sizes[p].count;
+    }
+    return status;
+}
+
 static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_state *s, fram_error *error)
 {
-    double wanted = r->concentration * s->free_area - s->present_area, shares = 0;
+    double wanted = r->concentration * s->free_area - s->present_area;
     if (!(wanted > 0))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "concentration",
                          "concentration %g is reached already: the floes that are there cover %.6f of %g m2 of free "
                          "area; ask for more",
                          r->concentration, s->free_area > 0 ? s->present_area / s->free_area : 0, s->free_area);
-    for (int32_t p = 0; p < r->population_count; p++)
-        shares += r->populations[p].share;
-    real_array sizes = {0};
-    fram_status status = FRAM_OK;
-    for (int32_t p = 0; status == FRAM_OK && p < r->population_count; p++) {
-        array_clear(&sizes);
-        double area = wanted * r->populations[p].share / shares;
-        status = size_law_draw(ctx, &r->populations[p].size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes, error);
-        if (status == FRAM_OK)
-            status = draw_shapes(ctx, r, p, &sizes, s, error);
-    }
-    array_free(ctx, &sizes);
+    real_array *sizes = memory_array(ctx, (size_t)r->population_count, sizeof *sizes);
+    fram_status status = sizes ? draw_sizes(ctx, r, wanted, sizes, error) : error_memory(error);
+    for (int32_t p = 0; status == FRAM_OK && p < r->population_count; p++)
+        status = draw_shapes(ctx, r, p, &sizes[p], s, error);
+    for (int32_t p = 0; sizes && p < r->population_count; p++)
+        array_free(ctx, &sizes[p]);
+    memory_free(ctx, sizes);
     if (status != FRAM_OK)
         return status;
     double narrow = fmin(r->domain.hi.x - r->domain.lo.x, r->domain.hi.y - r->domain.lo.y);

@@ -314,7 +314,7 @@ fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64
 }
 
 /* A law of one diameter is a step, where a sample that meets it but for rounding would be half of it off. */
-static bool law_is_one_size(const size_law *law, double *size)
+bool size_law_is_one_size(const size_law *law, double *size)
 {
     bool range = law->kind == SIZE_UNIFORM || law->kind == SIZE_POWER;
     *size = range ? law->lo : law->mean;
@@ -326,7 +326,7 @@ static bool is_of_size(double d, double size) { return fabs(d - size) <= ONE_SIZ
 double size_law_distance(const size_law *law, double *sample, int32_t count)
 {
     double most = 0, size;
-    bool one = law_is_one_size(law, &size);
+    bool one = size_law_is_one_size(law, &size);
     if (count > 0)
         numbers_sort(sample, count);
     for (int32_t i = 0; i < count; i++) {
@@ -343,7 +343,7 @@ double size_law_distance(const size_law *law, double *sample, int32_t count)
 void size_law_histogram(const size_law *law, const double *sample, int32_t count, size_histogram *out)
 {
     double lo = HUGE_VAL, hi = 0, size;
-    bool one = law_is_one_size(law, &size);
+    bool one = size_law_is_one_size(law, &size);
     for (int32_t i = 0; i < count; i++) {
         lo = fmin(lo, sample[i]);
         hi = fmax(hi, sample[i]);

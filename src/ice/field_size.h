@@ -32,6 +32,8 @@ const char *size_bins_fault(const double *edge, const double *weight, int32_t bi
 double size_law_quantile(const size_law *law, double u);
 /* Mean area of a floe [m2]. */
 double size_law_mean_area(const size_law *law);
+/* Whether all floes of the law have one diameter, which is `size`. */
+bool size_law_is_one_size(const size_law *law, double *size);
 /* The part of all floes that is no larger than d. */
 double size_law_part(const size_law *law, double d);
 

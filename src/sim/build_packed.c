@@ -1,5 +1,6 @@
 #include "sim/build_packed.h"
 
+#include "base/transcendental.h"
 #include "ice/field_pack.h"
 #include "io/csv_read.h"
 #include "io/template_file.h"
@@ -211,6 +212,34 @@ static void log_populations(context *ctx, const field_population_report *parts, 
               (int)report->rounds, report->field.largest_overlap);
 }
 
+/* Part of the concentration that is asked from which on it is told that whole floes miss it. */
+static const double MISSED = 0.005;
+
+/* populations: those of the scenario, as they were drawn. */
+static void tell_missed(context *ctx, const scenario *s, const field_population *populations, const drawn_ice *out)
+{
+    double asked = s->ice.concentration, reached = out->packed.field.concentration, least = HUGE_VAL, size;
+    int32_t floes = 0;
+    bool one = true;
+    if (fabs(reached - asked) <= MISSED * asked)
+        return;
+    for (int32_t i = 0; i < out->parts.count; i++) {
+        one = size_law_is_one_size(&populations[i].size, &size) && one;
+        floes = size < least ? out->parts.data[i].floes : floes;
+        least = fmin(least, size);
+    }
+    if (one && fabs(reached - asked) * out->packed.field.free_area <= PI / 4 * least * least)
+        log_write(ctx, LOG_WARNING,
+                  "ice.concentration: %.4g lies between %d and %d floes of %.4g m; it is %.4g with %d. A larger domain "
+                  "or smaller floes come nearer",
+                  asked, (int)floes - (reached > asked), (int)floes + (reached < asked), least, reached, (int)floes);
+    else
+        log_write(ctx, LOG_WARNING,
+                  "ice.concentration: %.4g was asked and %.4g reached: floes are whole, and each population has one at "
+                  "least. A larger domain or smaller floes come nearer",
+                  asked, reached);
+}
+
 /* The scenario's word for a part of what is asked of the room of the ice. */
 static const char *ice_key_of(const scenario *s, const char *member)
 {
@@ -266,6 +295,7 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
             status = error_memory(error);
     if (status == FRAM_OK) {
         log_populations(ctx, out->parts.data, count, &out->packed);
+        tell_missed(ctx, s, files.population, out);
         out->report = out->packed.field;
         out->report.floes += before;
     }

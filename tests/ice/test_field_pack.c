@@ -202,6 +202,32 @@ START_TEST(populations_keep_their_shares_and_laws)
 }
 END_TEST
 
+/* Two floes of 40 m are 2513 m2, three 3770. */
+START_TEST(what_whole_floes_of_one_size_miss_others_make_up)
+{
+    const size_law large = {.kind = SIZE_CONSTANT, .mean = 40};
+    const size_law small[] = {{.kind = SIZE_POWER, .lo = 4, .hi = 12, .exponent = 1.5},
+                              {.kind = SIZE_CONSTANT, .mean = 4}};
+    static const struct {
+        double share, concentration;
+        int32_t floes; /* large ones */
+    } cases[] = {{1, 0.4, 2}, {1, 0.28, 2}, {19, 0.22, 2}, {19, 0.243, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int k = 0; k < 4; k++) {
+            field_population p[2] = {{.share = 1, .size = small[k / 2], .shape = convex},
+                                     {.share = cases[i].share, .size = large, .shape = convex}};
+            const field_population first = p[0];
+            p[0] = k % 2 ? p[1] : first, p[1] = k % 2 ? first : p[1];
+            made_field f;
+            field_packed_request r = request_of(p, 2, cases[i].concentration, 120, 2);
+            assert_ok(make(&f, &r), f.error);
+            assert_relative(f.report.field.concentration, r.concentration, 0.003);
+            ck_assert_int_eq(f.parts[k % 2 ? 0 : 1].floes, cases[i].floes);
+            drop(&f);
+        }
+}
+END_TEST
+
 START_TEST(the_field_flows_around_zones_and_floes_that_are_there)
 {
     context ctx;
@@ -400,7 +426,7 @@ END_TEST
 TEST_MAIN("field_pack", wide_sizes_at_90_percent_for_every_seed, wide_sizes_at_85_percent_between_walls_for_every_seed,
           nearly_equal_sizes_at_80_percent_for_every_seed, concave_templates_at_75_percent_for_every_seed,
           brash_at_80_percent_for_every_seed, mixed_populations_at_85_percent_for_every_seed,
-          populations_keep_their_shares_and_laws, the_field_flows_around_zones_and_floes_that_are_there,
-          a_periodic_field_continues_with_itself, same_seed_same_bits_on_any_number_of_threads,
-          an_impossible_field_says_what_was_reached, wrong_requests_are_refused_by_name,
-          a_full_present_field_is_refused, memory_runs_out, the_cover_map_is_exact)
+          populations_keep_their_shares_and_laws, what_whole_floes_of_one_size_miss_others_make_up,
+          the_field_flows_around_zones_and_floes_that_are_there, a_periodic_field_continues_with_itself,
+          same_seed_same_bits_on_any_number_of_threads, an_impossible_field_says_what_was_reached,
+          wrong_requests_are_refused_by_name, a_full_present_field_is_refused, memory_runs_out, the_cover_map_is_exact)

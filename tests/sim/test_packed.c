@@ -227,6 +227,47 @@ START_TEST(what_cannot_be_packed_is_told)
 }
 END_TEST
 
+enum { WARNING_SIZE = 240 };
+
+/* user: WARNING_SIZE characters, for the last warning. */
+static void keep_warning(void *user, log_level level, const char *text)
+{
+    if (level == LOG_WARNING)
+        snprintf(user, WARNING_SIZE, "%s", text);
+}
+
+/* A floe of 60 m is 0.196 of the domain. */
+START_TEST(a_concentration_that_whole_floes_miss_is_told)
+{
+    static const struct {
+        double concentration;
+        const char *populations, *told;
+    } cases[] = {
+        {0.3, "{size: constant, diameter: 60}", "0.3 lies between 1 and 2 floes of 60 m; it is 0.3927 with 2."},
+        {0.28, "{size: uniform, diameter_min: 60, diameter_max: 60}", "between 1 and 2 floes of 60 m; it is 0.1963"},
+        {0.1, "{size: constant, diameter: 60}", "between 0 and 1 floes of 60 m"},
+        {0.1, "{size: constant, diameter: 60}, {size: constant, diameter: 8}", "0.1 was asked and 0.1998 reached"},
+        {0.196, "{size: constant, diameter: 60}", NULL},
+        {0.5, "{size: constant, diameter: 60}, {size: uniform, diameter_min: 6, diameter_max: 8}", NULL}};
+    char text[TEXT_SIZE], told[WARNING_SIZE];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        snprintf(text, sizeof text, "%sice: {source: packed, concentration: %g, populations: [%s]}\n", plain,
+                 cases[i].concentration, cases[i].populations);
+        scene k;
+        fram_error error = {0};
+        told[0] = '\0';
+        context_init(&k.ctx);
+        k.ctx.log = keep_warning;
+        k.ctx.log_user = told;
+        assert_ok(scenario_parse(&k.ctx, "scene.yaml", text, strlen(text), NULL, &k.s, &error), error);
+        assert_ok(scene_build(&k.ctx, &k.s, &k.m, &k.w, &error), error);
+        ck_assert_msg(cases[i].told ? strstr(told, cases[i].told) != NULL : !told[0], "%zu: %s", i, told);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 TEST_MAIN("packed", strengths_are_drawn_apart, bins_of_a_histogram_follow_one_another,
           populations_have_their_shares_thickness_and_strength, shapes_come_from_templates_and_sizes_from_a_histogram,
-          water_that_a_file_leaves_is_filled, a_packed_field_rests, what_cannot_be_packed_is_told)
+          water_that_a_file_leaves_is_filled, a_packed_field_rests, what_cannot_be_packed_is_told,
+          a_concentration_that_whole_floes_miss_is_told)
