@@ -19,6 +19,8 @@ load_unit kilonewtons_or_less(double newton)
     return is_small(newton) ? (load_unit){"N", 1} : (load_unit){"kN", 1e-3};
 }
 
+load_unit kilojoules_or_less(double joule) { return is_small(joule) ? (load_unit){"J", 1} : (load_unit){"kJ", 1e-3}; }
+
 load_unit megawatts_or_less(double watt) { return is_small(watt) ? (load_unit){"W", 1} : (load_unit){"MW", 1e-6}; }
 
 load_unit gigajoules_or_less(double joule, double watt)

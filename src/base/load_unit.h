@@ -10,9 +10,10 @@ typedef struct load_unit {
 /* N, kN or MN. */
 load_unit load_unit_for(double newton);
 
-/* What keeps to one unit at full size, whatever the size: kN, MW and GJ, and N, W and J (or kJ) of what is under 1e4 N
-   or W, but for nothing.  An energy goes with the power that it is of. */
+/* What keeps to one unit at full size, whatever the size: kN, kJ, MW and GJ, and N, J, W and J (or kJ) of what is under
+   1e4 N, J or W, but for nothing.  An energy in GJ goes with the power that it is of. */
 load_unit kilonewtons_or_less(double newton);
+load_unit kilojoules_or_less(double joule);
 load_unit megawatts_or_less(double watt);
 load_unit gigajoules_or_less(double joule, double watt);
 

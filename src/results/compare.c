@@ -17,8 +17,8 @@ typedef struct pair {
     run_data d[2];
     html_page page;
     compare_result *result;
-    load_unit load, tension, power; /* those of both runs */
-    char last_row[48];              /* "7 s", "7 and 12 s": of both; "" where both ended with it */
+    load_unit load, tension, power, work, energy; /* those of both runs */
+    char last_row[48];                            /* "7 s", "7 and 12 s": of both; "" where both ended with it */
 } pair;
 
 static void add_row(pair *p, const char *name, const char *unit, bool is_place, const double value[2])
@@ -78,14 +78,19 @@ static const struct {
     {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
 };
 
-/* Of a force or power that of both runs. */
+/* Of a force, power or energy that of both runs. */
 static load_unit row_unit(const pair *p, size_t i)
 {
-    if (strncmp(rows[i].channel, "ice_force_averaged_", 19) == 0)
-        return p->load;
-    return strcmp(rows[i].channel, "line_tension_max") == 0 ? p->tension
-           : strcmp(rows[i].channel, "thruster_power") == 0 ? p->power
-                                                            : (load_unit){rows[i].unit, rows[i].factor};
+    const struct {
+        const char *channel;
+        load_unit unit;
+    } of_both[] = {{"ice_force_averaged_x", p->load}, {"ice_force_averaged_y", p->load},
+                   {"line_tension_max", p->tension},  {"thruster_power", p->power},
+                   {"crushing_work", p->work},        {"kinetic_energy", p->energy}};
+    for (size_t k = 0; k < sizeof of_both / sizeof *of_both; k++)
+        if (strcmp(rows[i].channel, of_both[k].channel) == 0)
+            return of_both[k].unit;
+    return (load_unit){rows[i].unit, rows[i].factor};
 }
 
 /* Where the last row is not of the end, what was then is not told as of the end. */
@@ -171,6 +176,8 @@ static void choose_units(pair *p)
     p->load = kilonewtons_or_less(load);
     p->tension = kilonewtons_or_less(largest_measure(p, "line_tension_max", GREATEST));
     p->power = megawatts_or_less(largest_measure(p, "thruster_power", MEAN));
+    p->work = kilojoules_or_less(largest_measure(p, "crushing_work", LAST));
+    p->energy = kilojoules_or_less(largest_measure(p, "kinetic_energy", LAST));
 }
 
 /* The hash has files by their names alone; what is in them is told beside it. */
@@ -285,7 +292,7 @@ static fram_status compose_comparison(pair *p, fram_error *error)
                               {"floes", "Floes", "floes", {"", 1}, false},
                               {"bendings", "Floes broken in bending", "floes so far", {"", 1}, false},
                               {"line_tension_max", "Largest line tension", "tension", p->tension, false},
-                              {"crushing_work", "Work of crushing", "work", {"kJ", 1e-3}, false}};
+                              {"crushing_work", "Work of crushing", "work", p->work, false}};
     html_begin(&p->page, "Comparison of two runs", "");
     html_table_begin(&p->page, NULL, 0);
     for (int k = 0; k < 2; k++)

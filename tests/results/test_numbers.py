@@ -67,12 +67,12 @@ def column(folder, name, transient):
 
 
 def shrink_loads(folder, factor):
-    """The same run with smaller loads, as of a model."""
+    """The same run with smaller loads, and works a quarter of that, as of a model."""
     head, *rows = (line.split(",") for line in (folder / "series.csv").read_text().splitlines())
-    loads = [i for i, name in enumerate(head) if name.startswith("ice_force_averaged_")]
-    for row in rows:
-        for i in loads:
-            row[i] = repr(factor * float(row[i]))
+    for i, name in enumerate(head):
+        less = factor if name.startswith("ice_force_averaged_") else factor / 4 if name == "crushing_work[J]" else None
+        for row in rows if less else []:
+            row[i] = repr(less * float(row[i]))
     (folder / "series.csv").write_text("\n".join(map(",".join, [head, *rows])) + "\n")
 
 
@@ -152,13 +152,14 @@ def main():
         # A vertical face is pushed through ice that crushes: strength x beam x thickness.
         close(rows["ice load along X, minimum"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
         close(rows["ice load along X, minimum"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)
-        # Under 10 kN loads are told in newtons, those of both runs.
-        for factor, unit in ((2e-3, "kN"), (0.4, "N")):
+        # Under 10 kN loads are told in newtons, those of both runs, and under 10 kJ works in joules.
+        for factor, unit, of_work in ((2e-3, "kN", "kJ"), (0.4, "N", "J")):
             shrink_loads(box, factor)
             shrink_loads(soft, factor)
             told, small = compare(box, soft)
             units = {row["unit"] for row in told["rows"] if row["name"].startswith("ice load")}
             assert units == {unit}, (factor, units)
+            assert next(row["unit"] for row in told["rows"] if row["name"] == "work of crushing") == of_work, told
         close(small["ice load along X, minimum"][1], 0.8 * rows["ice load along X, minimum"][1], 1e-9)
     print("floes, crushed ice and loads as counted by hand")
 

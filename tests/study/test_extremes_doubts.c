@@ -455,8 +455,8 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
     static const extreme_result found = {.answered = true,
                                          .most_probable = {2e5, 1e5, 3e5},
                                          .level = {{2.9e5, 1e5, 4e5}, {3e5, 1e5, 4e5}, {4e5, 3e5, 6e5}}};
-    static extreme_result r[4];
-    for (int i = 0; i < 4; i++)
+    static extreme_result r[5];
+    for (int i = 0; i < 5; i++)
         r[i] = found;
     extremes_cut_parted(&r[0], 3, 0, 5, false, HUGE_VAL);
     ck_assert(r[0].answered && isfinite(r[0].level[2].level) && r[0].note[0] == '\0');
@@ -469,6 +469,9 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
     /* Least tensions have no such end. */
     extremes_cut_parted(&r[3], 3, 2, 5, false, HUGE_VAL);
     ck_assert(r[3].answered && isfinite(r[3].level[2].level) && strstr(r[3].note, "fewer lines."));
+    /* Those of a model are in newtons. */
+    extremes_cut_parted(&r[4], 3, 2, 5, false, 3.5);
+    ck_assert_msg(strstr(r[4].note, "levels from 3.5 N on"), "%s", r[4].note);
 }
 END_TEST
 
