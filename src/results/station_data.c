@@ -103,11 +103,20 @@ double station_exceedance(const station_data *d, const double_array *of, double 
     return all > 0 ? (double)beyond / all : (double)NAN;
 }
 
+/* What the first row of a series is of began an interval before it: a program may have begun to record late. */
+static double first_row_since(const station_data *d)
+{
+    double step = d->s->run.time_step, steps = floor(d->s->output.csv_interval / step + 0.5);
+    return d->column[TIME].data[0] - fmax(steps, 1) * step;
+}
+
 double station_energy(const station_data *d, double transient)
 {
     double sum = 0, since = transient;
     const double *t = d->column[TIME].data, *p = d->column[POWER].data;
     int32_t first = station_first_row(d, transient);
+    if (first == 0 && d->rows > 0)
+        since = fmax(transient, first_row_since(d));
     for (int32_t i = first; i < d->rows; since = t[i++])
         sum += p[i] * (t[i] - since);
     if (first == d->rows)

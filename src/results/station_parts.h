@@ -35,7 +35,8 @@ channel_statistics station_statistics(const station_data *d, const double_array 
 /* Part of the rows after the transient beyond a limit; NaN without any. */
 double station_exceedance(const station_data *d, const double_array *of, double limit, double transient);
 /* Of the thrusters after the transient [J], of which a row tells the power since the one before, the first one since
-   the transient, and the last one until the end as well.  NaN without any. */
+   the transient or, of a recording that began later, over one interval of rows, and the last one until the end as well.
+   NaN without any. */
 double station_energy(const station_data *d, double transient);
 /* Lines that parted or were let go. */
 int32_t station_lines_gone(const station_data *d);

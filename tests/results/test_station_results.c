@@ -78,6 +78,33 @@ static void check_told(const char *text, const char *expected)
         ck_abort_msg("station-b.json lacks %s:\n%s", expected, text);
 }
 
+static char *told_of(context *ctx, const scenario *s, const station_outcome *o, scratch *f, const char *series)
+{
+    fram_error error = {0};
+    size_t size;
+    scratch_write(scratch_path(f, "series.csv"), series, strlen(series));
+    assert_ok(station_results_write(ctx, s, 1, o, f->folder, &error), error);
+    char *text = scratch_read(scratch_path(f, "station-b.json"), &size);
+    text[size] = '\0';
+    return text;
+}
+
+/* Rows from 3 s on of a run to 4.5 s: the first one is of one interval, here of 1 s in whole steps, then of a step. */
+static void check_late_energy(context *ctx, scenario *s, const station_outcome *o, scratch *f)
+{
+    char late[sizeof two_series];
+    snprintf(late, sizeof late, "%.*s%s", (int)(strchr(two_series, '\n') - two_series), two_series,
+             strstr(two_series, "\n3,"));
+    const double interval[] = {1.05, 0}, energy[] = {6 * 2.5, 6 * 1.7};
+    for (int i = 0; i < 2; i++) {
+        s->output.csv_interval = interval[i];
+        char *text = told_of(ctx, s, o, f, late), *at = strstr(text, "\"energy_J\": ");
+        ck_assert_ptr_nonnull(at);
+        assert_relative(strtod(at + 12, NULL), energy[i], 1e-9);
+        free(text);
+    }
+}
+
 /* Its lines, thrusters and events stand behind those of the first in the tables; its line was used up as it parted. */
 START_TEST(results_of_the_second_vessel)
 {
@@ -103,11 +130,7 @@ START_TEST(results_of_the_second_vessel)
     ck_assert(event_add(&ctx, &events, EVENT_LINE_BREAK, 1.5, 0, 0, 444) &&
               event_add(&ctx, &events, EVENT_LINE_BREAK, 2.5, 1, 0, 950));
     const station_outcome o = {4.5, &lines, &thrusters, &events};
-    scratch_write(scratch_path(&f, "series.csv"), two_series, strlen(two_series));
-    assert_ok(station_results_write(&ctx, &s, 1, &o, f.folder, &error), error);
-    size_t size;
-    char *text = scratch_read(scratch_path(&f, "station-b.json"), &size);
-    text[size] = '\0';
+    char *text = told_of(&ctx, &s, &o, &f, two_series);
     static const char *const told[] = {
         "\"vessel\": \"b\"",
         "\"averaging_window_s\": 0.8,", /* in whole steps */
@@ -124,6 +147,7 @@ START_TEST(results_of_the_second_vessel)
         check_told(text, told[i]);
     ck_assert_ptr_null(strstr(text, "444"));
     free(text);
+    check_late_energy(&ctx, &s, &o, &f);
     unlink(scratch_path(&f, "series.csv"));
     scratch_remove(&f, "station-b.json");
     table_free(&ctx, &lines, &line_table_info);
