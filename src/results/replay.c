@@ -374,15 +374,16 @@ static bool sheet_velocity(const replay *r, vec3 *out)
     return false;
 }
 
-/* A floe that this frame alone has goes on as that did from which it broke. */
-static vec3 inherited_velocity(const replay *r, int32_t body)
+/* A floe that this frame alone has goes on as that did from which it broke, or as the sheet where no frame has that: it
+   broke twice since the frame before.  sheet: 0 without one that drifts. */
+static vec3 inherited_velocity(const replay *r, int32_t body, vec3 sheet)
 {
     const replay_body *b = &r->bodies.data[body];
     for (int32_t i = body - 1; i >= 0 && b->parent >= 0; i--) {
         if (r->bodies.data[i].number == b->parent)
             return r->bodies.data[i].velocity;
     }
-    return b->velocity;
+    return sheet;
 }
 
 /* Bodies that the next frame lacks: tiles go on with their sheet, floes as they came. */
@@ -398,7 +399,7 @@ static void carry_on(replay *r)
         if (b->level && drifts)
             b->velocity = sheet;
         else if (b->born == r->frame.number)
-            b->velocity = inherited_velocity(r, body);
+            b->velocity = inherited_velocity(r, body, sheet);
         r->frame.poses.data[i].velocity = b->velocity;
     }
 }

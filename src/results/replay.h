@@ -34,7 +34,8 @@ typedef struct replay_pose {
     vec3 position;
     quat orientation;
     vec3 velocity;        /* way to the next frame over its time; in a body's last frame that of its sheet (a tile), of
-                             the way from the frame before, or of what it broke from [m/s] */
+                             the way from the frame before, of what it broke from, or, where no frame has that, of the
+                             sheet that drifts, 0 without one [m/s] */
     double contact_force; /* sum of the magnitudes at its contacts; 0 for a body that does not move [N] */
 } replay_pose;
 

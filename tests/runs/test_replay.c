@@ -267,7 +267,8 @@ START_TEST(a_moment_lies_between_its_frames)
 END_TEST
 
 /* A ship in a sheet that drifts: tiles that are gone by the next frame, those of one frame alone too, lie at any time
-   where the sheet is, beside their neighbours; floes that break go on as they came. */
+   where the sheet is, beside their neighbours; floes that break go on as they came, and none rests, of those too that
+   broke twice between two frames. */
 START_TEST(what_breaks_between_frames_goes_on)
 {
     static const char drifting[] =
@@ -275,7 +276,7 @@ START_TEST(what_breaks_between_frames_goes_on)
         "vessel: {mode: prescribed, x: -12, speed: 3, hull: {length: 40, beam: 10, draught: 4, freeboard: 2}}\n"
         "ice: {source: level, thickness: 0.4, breakable: true, level: {x_min: 10, tile_size: 10}}\n"
         "domain: {x_min: -40, x_max: 60, y_min: -30, y_max: 30, boundary: feeding, drift_speed: 1,\n"
-        "         drift_direction_deg: 180}\noutput: {frame_interval: 0.5}\n";
+        "         drift_direction_deg: 180}\noutput: {frame_interval: 1}\n";
     context ctx;
     char folder[PATH];
     replay r;
@@ -284,8 +285,8 @@ START_TEST(what_breaks_between_frames_goes_on)
     int32_t gone = 0, alone = 0, floes = 0;
     context_init(&ctx);
     run_and_open(&ctx, drifting, folder, &r);
-    for (int i = 0; i < 8; i++) {
-        assert_ok(replay_moment_at(&r, 0.5 * i + 0.3, &m, &error), error);
+    for (int i = 0; i < 4; i++) {
+        assert_ok(replay_moment_at(&r, i + 0.3, &m, &error), error);
         for (int32_t k = 0; k < m.poses.count; k++) {
             const replay_pose *from = &r.frame.poses.data[k], *p = &m.poses.data[k];
             const replay_body *b = &r.bodies.data[p->body];
@@ -296,6 +297,7 @@ START_TEST(what_breaks_between_frames_goes_on)
                               b->number, way.x, way.y);
             if (last)
                 ck_assert_double_le(vec3_length(vec3_sub(way, vec3_scale(p->velocity, 0.3))), 1e-9);
+            ck_assert_msg(b->solid || !b->moves || vec3_length(way) > 0, "floe %d of %d rests", b->number, b->parent);
             gone += b->level && last;
             alone += b->level && last && b->born == r.frame.number && b->parent >= 0;
             floes += !b->level && !b->solid && last && vec3_length(way) > 0.05;

@@ -25,7 +25,7 @@ export class Poses {
         this.frame = -1;
         this.floes = this.tiles = 0; // that are there: floes, and tiles of level ice
         for (const b of record.bodies) if (b.pose) this.pose.set(b.pose, 7 * b.index);
-        this.numbered = new Map(record.bodies.map((b) => [b.number, b]));
+        this.numbered = new Map(record.bodies.filter((b) => b.number >= 0).map((b) => [b.number, b]));
     }
 
     /** Whether the file with a frame is asked for in vain. */
@@ -74,7 +74,8 @@ export class Poses {
 
     /** Velocities [m/s] by body of those of frame f that have no place in frame g, as in src/results/replay.c: of a
      *  tile of level ice that of its sheet, of a floe that of its way from the frame before, and of one that was not
-     *  there that of what it broke from.  Frames that are on their way are `wanted`. */
+     *  there that of what it broke from or, where no frame has that, of a sheet that drifts.  Frames that are on their
+     *  way are `wanted`. */
     endsOf(f, g) {
         const { frames, bodies } = this.record, ends = new Map();
         if (f < g && frames[f].order === frames[g].order) return ends;
@@ -96,6 +97,7 @@ export class Poses {
             const sheet = b.level ? this.velocity(this.tileOf(at), at, at + 1) : null;
             if (sheet || b.birth < at) return sheet ?? this.velocity(b, at - 1, at);
             b = this.numbered.get(b.parent);
+            if (!b) return this.velocity(this.tileOf(at), at, at + 1);
         }
         return null;
     }
