@@ -28,6 +28,11 @@ static void say_lack(const annual_lack *lack, annual_answer *out)
             "No answer: the data do not carry this level by gev: it is so rare that %d runs of condition %d, which "
             "has %d, would tell the shape of its tail; more seeds, or gumbel.",
             (int)lack->runs, (int)lack->condition + 1, (int)lack->there);
+    else if (lack->same)
+        snprintf(out->why, sizeof out->why,
+                 "No answer: condition %d occurs and has no fit: its %d runs are the same; the seed changes nothing in "
+                 "it: vary the ice.",
+                 (int)lack->condition + 1, (int)lack->there);
     else if (lack->tied > 0)
         snprintf(out->why, sizeof out->why,
                  "No answer: condition %d occurs and has no fit: %d of %d largest values are equal, the least; longer "
@@ -72,6 +77,15 @@ static bool any_seen(const study_extremes *x, const condition_maxima *of, int32_
     return false;
 }
 
+/* Whether no run of a condition met ice. */
+static bool is_idle(const condition_rows *of)
+{
+    for (int32_t i = 0; i < of->rows.count; i++)
+        if (of->rows.data[i].figure[ROW_load_largest] > 0)
+            return false;
+    return true;
+}
+
 /* Levels of a year know no more than the fits of their conditions. */
 static void doubt_gumbel(const study_extremes *x, const condition_maxima *of, int32_t count, annual_answer *out)
 {
@@ -98,6 +112,7 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
     fram_status status = of ? FRAM_OK : error_memory(error);
     for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
         of[c].block = block[c];
+        of[c].idle = is_idle(&conditions[c]);
         status = study_values(f, conditions, c, figure, &of[c].value, error);
     }
     if (status == FRAM_OK)
@@ -109,6 +124,10 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
         } else if (!any_seen(x, of, count)) {
             out[i].level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
             snprintf(out[i].why, sizeof out[i].why, "No answer: all runs saw none; longer runs, or more seeds.");
+        } else if (isnan(level[i].level)) {
+            snprintf(out[i].why, sizeof out[i].why,
+                     "No answer: no condition that occurs met ice, and the runs of each are the same: nothing is left "
+                     "to chance.");
         } else if (!x->gev) {
             doubt_gumbel(x, of, count, &out[i]);
         }

@@ -197,7 +197,7 @@ typedef struct year_work {
     const study_extremes *ask;
     int32_t conditions;
     int32_t occur; /* conditions that do, and whose runs did not all come out the same */
-    double least;  /* the largest value of those whose runs did */
+    double least;  /* the largest value of those whose runs did, without any ice */
     year_part *part;
     year_source *source;
     double_array drawn, level[STUDY_LEVELS_MOST]; /* level: of all replicates */
@@ -235,8 +235,9 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
             w->part[c].blocks = 0;
             continue;
         }
-        /* Where nothing is left to chance, as in open water or without any load, that is met and never exceeded. */
-        if (s->value[0] == s->value[n - 1]) {
+        /* Where no ice is met, as in open water, nothing is left to chance: that is reached and never exceeded.  Runs
+           that meet ice and come out the same were of one draw of it. */
+        if (of[c].idle && s->value[0] == s->value[n - 1]) {
             w->part[c].blocks = 0;
             w->least = fmax(w->least, s->value[0]);
         } else if ((w->ask->gev && extreme_law_tied(s->value, n, PROFILE_SHAPE_MOST) > 0) ||
@@ -351,7 +352,10 @@ static annual_lack lack_of_fit(const year_work *w, const condition_maxima *of, i
 {
     const double_array *value = &of[condition].value;
     annual_lack out = {.condition = condition, .there = value->count};
-    if (value->count >= LAW_VALUES_LEAST)
+    if (value->count < LAW_VALUES_LEAST)
+        return out;
+    out.same = value->data[0] == value->data[value->count - 1];
+    if (!out.same)
         out.tied = extreme_law_tied(value->data, value->count, w->ask->gev ? PROFILE_SHAPE_MOST : FIT_SHAPE_MOST);
     return out;
 }
@@ -408,13 +412,11 @@ static fram_status answer_year(year_work *w, const condition_maxima *of, level_i
     for (int i = 0; i < w->ask->annuals; i++) {
         exponent[i] = -real_log(1 - w->ask->annual[i]);
         lack[i] = missing >= 0 ? lack_of_fit(w, of, missing) : lack_of_shape(w, exponent[i]);
-        if (missing < 0)
+        if (missing < 0 && w->occur > 0)
             out[i].level = solve_year(w->part, w->conditions, exponent[i]);
     }
-    if (missing >= 0)
+    if (missing >= 0 || w->occur == 0)
         return FRAM_OK;
-    for (int i = 0; i < w->ask->annuals && w->occur == 0; i++)
-        out[i].low = out[i].high = out[i].level;
     while (only < w->conditions && !w->source[only].occurs)
         only++;
     /* Of one condition the interval is exact. */

@@ -17,6 +17,7 @@ fram_status study_extremes_check(context *ctx, study *s, fram_error *error);
 typedef struct condition_maxima {
     double_array value;
     double block;
+    bool idle; /* none of the runs saw any ice load */
 } condition_maxima;
 
 /* Why there is no level: a condition has no fit, or by gev fewer runs than the level takes. */
@@ -24,6 +25,7 @@ typedef struct annual_lack {
     int32_t condition;   /* from 0; -1: the level is there */
     int32_t runs, there; /* that it takes and has; 0: no fit at all */
     int32_t tied;        /* of those without a fit: how many are equal, the least, which is too many */
+    bool same;           /* of those without a fit: all are, under ice */
 } annual_lack;
 
 /* Levels that are exceeded with the probabilities ask->annual in a year, where conditions last their hours in it: the
@@ -31,10 +33,10 @@ typedef struct annual_lack {
    1993, J. Am. Stat. Assoc. 88, 899) from the exact joint law of location and scale of each condition, widened to what
    a studentized bootstrap from the fits allows (Davison and Hinkley 1997, 5.2.1), and the exact ones where one
    condition alone occurs; by the generalized law they are a bootstrap over the runs, of those levels that enough runs
-   carry.  A condition whose runs all came out the same meets that value and never exceeds it: it adds no rate, and no
-   level or end of an interval is lower.  Conditions of the same values and block are one of all their hours, others
-   independent samples.  out and lack: ask->annuals each; NaN where lack says why.  The values of `of` are left in
-   ascending order. */
+   carry.  An idle condition whose runs all came out the same meets that value and never exceeds it: it adds no rate,
+   and no level or end of an interval is lower; under ice runs that are all the same carry no fit.  Conditions of the
+   same values and block are one of all their hours, others independent samples.  out and lack: ask->annuals each; NaN
+   where lack says why, or where nothing is left to chance.  The values of `of` are left in ascending order. */
 fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
                           level_interval *out, annual_lack *lack, fram_error *error);
 

@@ -278,7 +278,7 @@ START_TEST(a_condition_without_chance_adds_no_rate)
     double value[2][RUNS_MOST], hours[2] = {500, 4000};
     condition_maxima of[2];
     for (int32_t c = 0; c < 2; c++)
-        of[c] = (condition_maxima){.value = {.data = value[c], .count = d->runs}, .block = BLOCK};
+        of[c] = (condition_maxima){.value = {.data = value[c], .count = d->runs}, .block = BLOCK, .idle = c == 1};
     draw(d, 0, of);
     study_extremes ask = {.confidence = 0.95, .annual = {0.01}, .annuals = 1, .hours = {.data = hours, .count = 2}};
     level_interval alone, got;
@@ -296,6 +296,16 @@ START_TEST(a_condition_without_chance_adds_no_rate)
         ck_assert(got.level == fmax(alone.level, constant[k]));
         ck_assert(got.low == fmax(alone.low, constant[k]) && got.high == fmax(alone.high, constant[k]));
     }
+    /* By itself it leaves nothing to chance, and runs that met ice and are the same carry no fit. */
+    ask.hours.data = &hours[1];
+    ask.hours.count = 1;
+    assert_ok(annual_levels(&ctx, &ask, &of[1], 1, &got, &lack, &error), error);
+    ck_assert(lack.condition == -1 && isnan(got.level) && isnan(got.low));
+    of[1].idle = false;
+    assert_ok(annual_levels(&ctx, &ask, &of[1], 1, &got, &lack, &error), error);
+    ck_assert(lack.condition == 0 && lack.same && lack.tied == 0 && isnan(got.level));
+    ask.hours.data = hours;
+    ask.hours.count = 2;
     /* Where all but one are the same no law fits, however many there are. */
     value[1][d->runs - 1] *= 2;
     assert_ok(annual_levels(&ctx, &ask, of, 2, &got, &lack, &error), error);

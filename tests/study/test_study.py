@@ -575,6 +575,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual((load["most_probable"], year["level"]), ("", ""))
         self.assertIn("11 of 12 maxima are equal, 0, the least", load["note"])
         self.assertIn("condition 1 occurs and has no fit: 11 of 12 largest values are equal", year["note"])
+        load, year = told([5000] * 12)
+        self.assertIn("its 12 runs are the same; the seed changes nothing in it", year["level"] or year["note"])
         load, year = told([2 ** k for k in range(12)])
         self.assertIn("speak against Gumbel's law", load["note"])
         self.assertGreater(float(year["level"]), float(load["most_probable"]))
