@@ -250,7 +250,7 @@ static fram_status scene_options(const fram_bench_scene_definition *given, bench
 fram_status(fram_bench_scene)(fram_context *c, const char *path, const fram_bench_scene_definition *definition,
                               fram_bench_result *result, fram_error *error, size_t size)
 {
-    bench_scene_options options;
+    bench_scene_options options = {0};
     scene_text scene;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"result", result});
     if (status == FRAM_OK)

@@ -103,7 +103,7 @@ static fram_status prepare(context *ctx, const char *path, netcdf_file *f, fram_
 fram_status netcdf_begin_in_memory(context *ctx, const char *path, netcdf_file *f, fram_error *error)
 {
     fram_status status = prepare(ctx, path, f, error);
-    if (status != FRAM_OK)
+    if (status != FRAM_OK || !f->nc)
         return status;
     int code = f->nc->create_mem(f->path, NC_NETCDF4 | NC_CLOBBER, MEMORY_BYTES, &f->id);
     if (code != NC_NOERR) {

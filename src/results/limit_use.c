@@ -43,7 +43,12 @@ limit_use limit_use_of(const run_data *d, int32_t vessel, const char *x_name, co
     limited of = {run_channel(d, "time"), run_vessel_channel(d, vessel, x_name),
                   y_name ? run_vessel_channel(d, vessel, y_name) : NULL};
     limit_use u = limit_between(d, vessel, lost, regained);
-    int32_t first = run_first_row(d), rows = of.time && of.x ? d->series.rows : 0, beyond = 0;
+    u.since = HUGE_VAL;
+    if (!of.time || !of.x) {
+        u.unsure = u.unsure && !isfinite(u.first);
+        return u;
+    }
+    int32_t first = run_first_row(d), rows = d->series.rows, beyond = 0;
     for (int32_t i = first; i < rows; i++) {
         double size = limited_size(&of, i);
         u.most = fmax(u.most, size);
@@ -53,7 +58,6 @@ limit_use limit_use_of(const run_data *d, int32_t vessel, const char *x_name, co
     }
     u.part = rows > first ? (double)beyond / (rows - first) : 0;
     u.unsure = u.unsure && !isfinite(u.first);
-    u.since = HUGE_VAL;
     if (first < rows && limited_size(&of, first) > limit)
         u.since = beyond_since(d, &of, vessel, lost, limit, first);
     if (time_is_after(u.since, d->s.run.transient))
