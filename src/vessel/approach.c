@@ -39,6 +39,10 @@ static double distance_at(polygon a, polygon b, vec2 shift)
     return fmin(corners_distance(b, shift, a), corners_distance(a, back, b));
 }
 
+/* What is nearest so close to the end of the look-ahead is so at its end, as a part of it [1]: above the rounding of
+   places 1e7 m away at 0.1 mm/s, and below what anybody steers by. */
+static const double AT_THE_END = 1e-6;
+
 /* The distance of convex bodies that move straight is a convex function of time, so that halving finds its least
    value; of several least ones the earliest, since equal values drop the later part. */
 approach_prediction approach_predict(const approach_hull *a, const approach_hull *b, double look_ahead)
@@ -54,6 +58,9 @@ approach_prediction approach_predict(const approach_hull *a, const approach_hull
         else
             lo = first;
     }
+    /* Far from the origin distances round, so that equal ones drop the end of an approach that goes on beyond it. */
+    if (look_ahead - hi < AT_THE_END * look_ahead)
+        hi = look_ahead;
     return (approach_prediction){distance_at(a->plan, b->plan, vec2_scale(relative, hi)), hi,
                                  distance_at(a->plan, b->plan, vec2_make(0, 0))};
 }

@@ -49,6 +49,20 @@ START_TEST(distance_and_time_are_those_of_geometry)
 }
 END_TEST
 
+/* Of places of a map projection the distances round, and what goes on beyond the look-ahead is at its end all the
+   same. */
+START_TEST(the_end_of_the_look_ahead_is_told_far_from_the_origin)
+{
+    for (int i = 0; i < 8; i++) {
+        vec2 first[4], second[4];
+        approach_hull a = box_at(first, 1.4e6, 2e6, 0.02, 0), b = box_at(second, 1.4e6 + 60 + i / 7.0, 2e6, -0.02, 0);
+        approach_prediction p = approach_predict(&a, &b, 300);
+        ck_assert_double_eq(p.time, 300);
+        assert_absolute(p.gap, 28 + i / 7.0, 1e-8);
+    }
+}
+END_TEST
+
 /* Overlap is no distance, and never negative. */
 START_TEST(overlap_is_zero)
 {
@@ -199,6 +213,6 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
-TEST_MAIN("approach", distance_and_time_are_those_of_geometry, overlap_is_zero, an_approach_begins_and_ends,
-          who_keeps_clear_is_not_told, a_limit_of_nothing_tells_collisions, what_comes_much_nearer_is_told_again,
-          refusals_name_their_key)
+TEST_MAIN("approach", distance_and_time_are_those_of_geometry, the_end_of_the_look_ahead_is_told_far_from_the_origin,
+          overlap_is_zero, an_approach_begins_and_ends, who_keeps_clear_is_not_told,
+          a_limit_of_nothing_tells_collisions, what_comes_much_nearer_is_told_again, refusals_name_their_key)
