@@ -92,6 +92,23 @@ static fram_status need_thickness(double thickness, fram_error *error)
     return need(thickness >= key->lo && thickness <= key->hi, "thickness", range, thickness, error);
 }
 
+/* Of the two densities the one that was given is named; the other one may be the usual one.  That of the ice counts by
+   its inertia alone. */
+static fram_status check_densities(const fram_ice_edge *l, fram_error *error)
+{
+    fram_ice_edge usual;
+    char range[64];
+    if (l->rise_time == 0 || l->ice_density < l->water_density)
+        return FRAM_OK;
+    fram_ice_edge_fill(&usual);
+    bool of_water = l->ice_density == usual.ice_density;
+    snprintf(range, sizeof range,
+             of_water ? "more than the density of the ice, %g" : "less than the density of the water, %g",
+             of_water ? l->ice_density : l->water_density);
+    return error_value(error, of_water ? "water_density" : "ice_density", range,
+                       of_water ? l->water_density : l->ice_density);
+}
+
 static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 {
     const struct {
@@ -124,10 +141,8 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
                       l->included_angle, error);
     if (status == FRAM_OK)
         status = need_thickness(l->thickness, error);
-    /* The density of the ice counts by its inertia alone. */
     if (status == FRAM_OK)
-        status = need(l->rise_time == 0 || l->ice_density < l->water_density, "ice_density",
-                      "less than the density of the water", l->ice_density, error);
+        status = check_densities(l, error);
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
 }
 

@@ -71,7 +71,9 @@ expect 0 "$FRAM" ice break --contact-area 100 --contact-width 80
 expect 2 "$FRAM" ice break --thickness 1e-300
 says "1e-06 to 100 m" err
 expect 2 "$FRAM" ice break --rise-time 0.1 --ice-density 1030
-says "less than the density of the water" err
+says "--ice-density: expected less than the density of the water, 1025, found 1030" err
+expect 2 "$FRAM" ice break --rise-time 1 --water-density 900
+says "--water-density: expected more than the density of the ice, 920, found 900" err
 expect 0 "$FRAM" ice break --water-density 900
 
 expect 0 "$FRAM" ice split --length 75 --width 50 --json
