@@ -232,7 +232,9 @@ static fram_status check_folder(const char *path, fram_error *error)
 fram_status why_picture_check(const why *y, const char *path, fram_error *error)
 {
     replay r;
-    fram_status status = replay_open(y->ctx, y->run.folder, &r, error);
+    fram_status status = path_refuse_read(y->run.folder, path, "picture", error);
+    if (status == FRAM_OK)
+        status = replay_open(y->ctx, y->run.folder, &r, error);
     if (status != FRAM_OK)
         return status;
     replay_close(&r);

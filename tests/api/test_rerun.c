@@ -310,6 +310,11 @@ START_TEST(before_a_window_has_passed)
     ck_assert_double_gt(told_number(text, "half_step"), 0.5 * load);
     ck_assert_double_gt(told_number(text, "accurate"), 0.5 * load);
     fram_text_free(ctx, text);
+    char own[300]; /* no picture is drawn over what the run is made of */
+    snprintf(own, sizeof own, "%s/series.csv", run);
+    d.picture = own;
+    assert_fails(fram_why(ctx, run, &d, &text, &e), e, FRAM_ERROR_USAGE, "found one that is read");
+    ck_assert_str_eq(e.key, "picture");
     close_all();
 }
 END_TEST
