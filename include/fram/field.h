@@ -151,7 +151,7 @@ FRAM_API fram_status fram_field_population_get(const fram_field *field, int numb
 
 /* --- Drawings, files --- */
 
-/* Not over the file that floes are of: FRAM_ERROR_USAGE, key "path". */
+/* Not over a file that the field is made of, the scenario that it is of among them: FRAM_ERROR_USAGE, key "path". */
 
 /* Seen from above, as SVG when path ends in .svg, else as PNG; title may be NULL.  FRAM_ERROR_UNSUPPORTED in a build
    without pictures. */

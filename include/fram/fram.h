@@ -251,7 +251,9 @@ typedef struct fram_run_result {
 
 FRAM_API void fram_run_default(fram_run_definition *definition, size_t size);
 #define fram_run_default(definition) fram_run_default((definition), sizeof *(definition))
-/* Run a scenario from its start and write time series, record, pictures and checkpoints to definition->folder. */
+/* Run a scenario from its start and write time series, record, pictures and checkpoints to definition->folder.
+   FRAM_ERROR_USAGE, key "output", also with `force`, where that would be written over the file that the scenario was
+   read from, or one that it names. */
 FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_definition *definition,
                               fram_run_result *result, fram_error *error, size_t size);
 #define fram_run(...) fram_run(__VA_ARGS__, sizeof(fram_run_result))

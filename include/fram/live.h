@@ -76,7 +76,8 @@ FRAM_API fram_status fram_world_save_memory(const fram_world *world, void **data
    FRAM_ERROR_INPUT, and the world stays as it is, for any other and for damaged bytes.  FRAM_ERROR_USAGE while the
    world is recorded.  A run is not resumed from a state that was saved here. */
 FRAM_API fram_status fram_world_load_memory(fram_world *world, const void *data, size_t size, fram_error *error);
-/* The same in a file, which is there whole or not at all. */
+/* The same in a file, which is there whole or not at all.  Not over the scenario's own file, nor one that it names:
+   FRAM_ERROR_USAGE, key "path". */
 FRAM_API fram_status fram_world_save(const fram_world *world, const char *path, fram_error *error);
 FRAM_API fram_status fram_world_load(fram_world *world, const char *path, fram_error *error);
 FRAM_API void fram_data_free(fram_context *context, void *data);

@@ -104,8 +104,12 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
                                     .simplify = d->simplify,
                                     .bad = (import_bad)d->bad,
                                     .smallest_area = d->smallest_area};
-    (void)path_absolute(path, f->path, sizeof f->path);
-    fram_status status = outline_file_read(ctx, path, &f->source, error);
+    char read[PATH_ROOM];
+    if (path_absolute(path, read, sizeof read))
+        text_add_bytes(ctx, &f->read, read, strlen(read) + 1);
+    fram_status status = f->read.failed ? error_memory(error) : FRAM_OK;
+    if (status == FRAM_OK)
+        status = outline_file_read(ctx, path, &f->source, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
     return status == FRAM_OK ? field_describe(f, plane, path, error) : status;
@@ -149,6 +153,7 @@ void fram_field_destroy(fram_field *f)
     import_rings_free(ctx, &f->source);
     import_field_free(ctx, &f->floes);
     drawn_ice_free(ctx, &f->drawn);
+    text_free(ctx, &f->read);
     memory_free(ctx, f);
 }
 
@@ -196,7 +201,7 @@ int fram_field_outline(const fram_field *f, int floe, double *vertices, int room
 
 fram_status field_check_output(const fram_field *f, const char *path, fram_error *error)
 {
-    return path_refuse_read(f->path, path, "path", error);
+    return list_refuse_read(&f->read, path, "path", error);
 }
 
 fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)

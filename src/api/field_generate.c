@@ -21,9 +21,6 @@ static bool is_other_ice(const scenario *s, const floe_traits *t)
 static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fram_error *error)
 {
     context *ctx = &f->context->inner;
-    char path[PATH_ROOM];
-    if (s->ice.source == ICE_FILE && scenario_resolve_path(s, s->ice.file, path, sizeof path))
-        (void)path_absolute(path, f->path, sizeof f->path);
     fram_status status = build_outlines(ctx, s, &f->drawn, &f->window, error);
     f->source = f->drawn.source;
     f->floes = f->drawn.file;
@@ -59,8 +56,11 @@ fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_e
     if (f) {
         *f = (fram_field){.context = s->context, .generated = true};
         fram_field_default(&f->made);
+        /* The field may outlive the scenario. */
+        if (s->read.count > 0)
+            text_add_bytes(ctx, &f->read, s->read.data, (size_t)s->read.count);
     }
-    status = plane ? generate(f, &s->inner, plane, error) : error_memory(error);
+    status = plane && !f->read.failed ? generate(f, &s->inner, plane, error) : error_memory(error);
     if (plane)
         overlay_free(plane);
     if (status == FRAM_OK)

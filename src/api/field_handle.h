@@ -20,12 +20,12 @@ struct fram_field {
     vec2 period;         /* of an endless field, whose tile is the window; 0, 0: it ends [m] */
     fram_field_definition made;
     fram_field_summary about;
-    char path[PATH_ROOM]; /* from the root, of the file that floes are of; empty: none */
+    text_buffer read; /* paths from the root of the files that it is made of, each ended by a NUL */
 };
 
 /* Measures the outlines: window (unless given by a scenario) and summary. */
 fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error);
-/* Nothing is written over the file that the floes are of: FRAM_ERROR_USAGE, key "path". */
+/* Nothing is written over a file that the field is made of: FRAM_ERROR_USAGE, key "path". */
 fram_status field_check_output(const fram_field *f, const char *path, fram_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "io/path.h"
 #include "sim/fmu.h"
 
 static void fram_fmu_fill(fram_fmu_definition *definition)
@@ -42,6 +43,10 @@ fram_status(fram_fmu)(const fram_scenario *s, const fram_fmu_definition *definit
     if (status == FRAM_OK && d.version != 2 && d.version != 3)
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "version",
                            "expected 2 for FMI 2.0 or 3 for FMI 3.0, found %d", d.version);
+    if (status == FRAM_OK)
+        status = list_refuse_read(&s->read, d.output, "output", error);
+    if (status == FRAM_OK)
+        status = path_refuse_read(d.binary, d.output, "output", error);
     if (status != FRAM_OK)
         return status;
     const fmu_options options = {d.output,      d.binary,       d.inputs,  d.outputs,

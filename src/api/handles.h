@@ -28,6 +28,7 @@ struct fram_scenario {
     text_buffer text, notes;
     text_buffer files; /* of the scenario: key, path, each ended by a NUL, one after the other */
     int32_t file_count;
+    text_buffer read; /* paths from the root of its own file and of those, each ended by a NUL */
     char hash[SHA256_TEXT_SIZE];
 };
 
@@ -63,6 +64,9 @@ struct fram_world {
     world_aside *aside;   /* what const functions may change */
 };
 
+/* FRAM_ERROR_USAGE, with the key, where the path is one of a list as fram_scenario has it of what was read: nothing is
+   written over that. */
+fram_status list_refuse_read(const text_buffer *read, const char *path, const char *key, fram_error *error);
 /* A handle without a state, of a base that gets a user more; NULL without memory. */
 fram_world *world_handle(const fram_scenario *s, world_base *base);
 /* The handle, and the base with its last user; not the state. */

@@ -309,6 +309,14 @@ static fram_status read_met_ice(context *ctx, const scenario *s, const fram_capa
     return status;
 }
 
+/* Of the tables the one that a scenario can name. */
+static fram_status check_tables(const fram_scenario *s, const char *folder, fram_error *error)
+{
+    char floes[PATH_ROOM];
+    fram_status status = path_join(folder, "capability_floes.csv", floes, error);
+    return status == FRAM_OK ? list_refuse_read(&s->read, floes, "folder", error) : status;
+}
+
 fram_status(fram_capability)(const fram_scenario *from, const fram_capability_definition *definition,
                              fram_result *result, fram_error *error, size_t size)
 {
@@ -324,7 +332,9 @@ fram_status(fram_capability)(const fram_scenario *from, const fram_capability_de
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     capability_met_ice met;
-    status = check_ice_from(d, error);
+    status = check_tables(from, d->folder, error);
+    if (status == FRAM_OK)
+        status = check_ice_from(d, error);
     if (status == FRAM_OK && d->ice_from_count > 0)
         status = read_met_ice(&from->context->inner, &from->inner, d, &met, error);
     if (status != FRAM_OK)

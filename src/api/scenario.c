@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "fram/live.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "model/scenario_schema.h"
 #include "sim/build.h"
@@ -57,6 +58,7 @@ static fram_status add_file(void *user, const scenario_key *key, const void *mem
         return status;
     text_add_bytes(list->ctx, &list->s->files, name, strlen(name) + 1);
     text_add_bytes(list->ctx, &list->s->files, path, strlen(path) + 1);
+    text_add_bytes(list->ctx, &list->s->read, path, strlen(path) + 1);
     list->s->file_count++;
     return FRAM_OK;
 }
@@ -75,6 +77,21 @@ static const char *file_text(const fram_scenario *s, int number, int which)
 const char *fram_scenario_file(const fram_scenario *s, int number) { return file_text(s, number, 1); }
 const char *fram_scenario_file_key(const fram_scenario *s, int number) { return file_text(s, number, 0); }
 
+static void add_own_file(context *ctx, fram_scenario *s)
+{
+    char own[PATH_ROOM], path[PATH_ROOM];
+    if (scenario_own_file(&s->inner, own, sizeof own) && path_absolute(own, path, sizeof path))
+        text_add_bytes(ctx, &s->read, path, strlen(path) + 1);
+}
+
+fram_status list_refuse_read(const text_buffer *read, const char *path, const char *key, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t at = 0; status == FRAM_OK && at < read->count; at += (int32_t)strlen(read->data + at) + 1)
+        status = path_refuse_read(read->data + at, path, key, error);
+    return status;
+}
+
 /* A scenario that was read becomes a handle, or is freed. */
 static fram_status finish(fram_scenario *s, fram_scenario **out, fram_error *error)
 {
@@ -83,7 +100,9 @@ static fram_status finish(fram_scenario *s, fram_scenario **out, fram_error *err
     file_list list = {ctx, s};
     if (status == FRAM_OK)
         status = scenario_walk(&s->inner, add_file, &list, error);
-    if (status == FRAM_OK && s->files.failed)
+    if (status == FRAM_OK)
+        add_own_file(ctx, s);
+    if (status == FRAM_OK && (s->files.failed || s->read.failed))
         status = error_memory(error);
     if (status != FRAM_OK) {
         fram_scenario_destroy(s);
@@ -165,6 +184,7 @@ void fram_scenario_destroy(fram_scenario *s)
     text_free(ctx, &s->text);
     text_free(ctx, &s->notes);
     text_free(ctx, &s->files);
+    text_free(ctx, &s->read);
     memory_free(ctx, s);
 }
 

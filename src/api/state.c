@@ -138,6 +138,8 @@ fram_status fram_world_save(const fram_world *w, const char *path, fram_error *e
     size_t size;
     fram_status status = REFUSE_NULL(error, {"world", w}, {"path", path});
     if (status == FRAM_OK)
+        status = list_refuse_read(&w->scenario->read, path, "path", error);
+    if (status == FRAM_OK)
         status = fram_world_save_memory(w, &data, &size, error);
     if (status != FRAM_OK)
         return status;

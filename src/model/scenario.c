@@ -114,6 +114,12 @@ bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_
     return length >= 0 && (size_t)length < size;
 }
 
+bool scenario_own_file(const scenario *s, char *out, size_t size)
+{
+    const char *slash = strrchr(s->file, '/');
+    return s->file[0] && scenario_resolve_path(s, slash ? slash + 1 : s->file, out, size);
+}
+
 /* The most steps that loads are averaged over. */
 enum { AVERAGING_STEPS_MOST = 1000000 };
 

@@ -110,5 +110,7 @@ const scenario_place *scenario_given(const scenario *s, const char *key);
 /* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it
    does not fit. */
 bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size);
+/* The same of the file that the scenario was read from; false, too, where there is none. */
+bool scenario_own_file(const scenario *s, char *out, size_t size);
 
 #endif

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/pool.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "sim/pictures.h"
 #include "sim/run_folder.h"
@@ -268,9 +269,22 @@ fram_status recording_init(context *ctx, const scenario *s, const char *folder, 
     return FRAM_OK;
 }
 
+/* With overrides another scenario would stand where it was read from. */
+static fram_status refuse_own_scenario(const recording *r, fram_error *error)
+{
+    char own[PATH_ROOM];
+    if (!scenario_own_file(r->s, own, sizeof own) || !path_is_own(r->folder, own))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, own, 0, "output",
+                     "expected a folder in which the run does not write over the scenario that it reads; write into "
+                     "another folder");
+}
+
 fram_status recording_prepare(recording *r, fram_error *error)
 {
     fram_status status = run_folder_check(r->folder, r->force, error);
+    if (status == FRAM_OK)
+        status = refuse_own_scenario(r, error);
     if (status == FRAM_OK)
         status = identify(r, error);
     return status == FRAM_OK ? run_folder_refuse_inputs(r->folder, r->inputs.data, error) : status;

@@ -95,6 +95,9 @@ START_TEST(units_are_written_and_mistakes_refused)
     write_binary(binary, true);
     assert_ok(fram_fmu(s, &d, &result, &e), e);
     ck_assert(result.inputs > 5 && result.outputs == 3);
+    d.binary = output;
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "found one that is read");
+    d.binary = binary;
     static const char *const bad[] = {"", "ship", "1ship.fmu", "ship.zip", "a ship.fmu", "s.h.fmu", ".fmu"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         d.output = bad[i];

@@ -3,6 +3,7 @@
 #include "fram/field.h"
 #include "fram/hull.h"
 #include "fram/ice.h"
+#include "fram/live.h"
 #include "fram/results.h"
 #include "fram/version.h"
 #include "testing.h"
@@ -205,6 +206,7 @@ START_TEST(worlds)
         REFUSED(fram_world_ice_load(w, id, &load, &e));
     }
     ck_assert_int_eq(floes, 1);
+    REFUSED_KEY(fram_world_save(w, scene, &e), "path");
     fram_world_destroy(w);
     fram_world_destroy(NULL);
     close_all();
@@ -622,6 +624,16 @@ START_TEST(fields)
     REFUSED_KEY(fram_field_save(f, run, &e), "path");
     fram_field_destroy(f);
     fram_field_destroy(NULL);
+
+    /* What a scenario's is made of stays too, when the scenario is gone. */
+    static const char *const opened[] = {"ice.open_water_file=output"};
+    fram_scenario *s;
+    assert_ok(fram_scenario_load(c, scene, opened, 1, &s, &e), e);
+    assert_ok(fram_field_generate(s, &f, &e), e);
+    fram_scenario_destroy(s);
+    REFUSED_KEY(fram_field_save(f, run, &e), "path");
+    REFUSED_KEY(fram_field_save(f, scene, &e), "path");
+    fram_field_destroy(f);
 
     /* No floe is left: nothing to map, and no undefined size of a picture. */
     fram_field_default(&d);

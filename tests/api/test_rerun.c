@@ -361,6 +361,30 @@ START_TEST(up_to_a_failure)
 }
 END_TEST
 
+/* Nothing of a run or recording goes over the scenario that it is made of. */
+static void assert_scenario_stays(void)
+{
+    static const char *const faster[] = {"vessel.speed=2"};
+    fram_run_definition d;
+    fram_record_definition r;
+    fram_scenario *s;
+    fram_world *w;
+    char own[300];
+    snprintf(own, sizeof own, "%s/scenario.yaml", run);
+    assert_ok(fram_scenario_load(ctx, own, faster, 1, &s, &e), e);
+    fram_run_default(&d);
+    d.folder = run;
+    d.force = true;
+    assert_fails(fram_run(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "the scenario that it reads");
+    assert_ok(fram_world_create(s, &w, &e), e);
+    fram_record_default(&r);
+    r.folder = run;
+    r.force = true;
+    assert_fails(fram_world_record(w, &r, &e), e, FRAM_ERROR_USAGE, "the scenario that it reads");
+    fram_world_destroy(w);
+    fram_scenario_destroy(s);
+}
+
 /* A run that a program ended before its first step has nothing to be computed again. */
 START_TEST(no_step)
 {
@@ -370,6 +394,7 @@ START_TEST(no_step)
     steps = 150;
     assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "no step ends after 0 s and up to 0 s");
     assert_fails(why(1, 0), e, FRAM_ERROR_INPUT, "up to 0 s");
+    assert_scenario_stays();
     close_all();
 }
 END_TEST
