@@ -455,9 +455,9 @@ compared with the smooth body. Times are seconds of processor time of the whole 
 
 A hull with hollows takes far longer: its cutting into convex pieces takes most of the time. An ellipsoid of
 100 x 20 x 10 m whose heights are times 1 + 0.2 sin 3 phi, round its axis, ends at the most pieces, 64, and took
-5.3 s with 12,640 triangles, 11.2 s with 28,560 and 39.8 s with 114,720;
-with `--pieces 1` the last two took 0.8 and 2.5 s. A semi-submersible of round columns of 2,000 sides, 48,000 triangles in 8 pieces, took 3.9 s. `--pieces 1` shows the
-hydrostatics of such a file at once, and a coarser file loads as fast as a coarse one: pieces are within
+5.3 s with 12,640 triangles, 11.2 s with 28,560 and 39.8 s with 114,720; with `--pieces 1` the last two took 0.8
+and 2.5 s. A semi-submersible of round columns of 2,000 sides, 48,000 triangles in 8 pieces, took 3.9 s. `--pieces 1`
+shows the hydrostatics of such a file at once, and a coarser file loads as fast as a coarse one: pieces are within
 a hundredth of the breadth of the surface at best, however fine it is.
 
 | file | what | options | outcome | closed form | s |
