@@ -69,6 +69,13 @@ vec2 propulsion_water(const model *m, const media *now, int32_t vessel)
     return m->forces == FORCES_NONE ? vec2_make(0, 0) : vec2_make(current.x, current.y);
 }
 
+/* Over the centre of mass, by the matrix: there Kirchhoff's -a11 u r acts. */
+static double surge_height(const vessel_model *hull)
+{
+    const matrix6 *a = &hull->hydrodynamics.added_mass;
+    return hull->has_hydrodynamics && a->m[0][0] > 0 ? a->m[0][4] / a->m[0][0] : 0;
+}
+
 /* What the step looks like to a row's propulsion, `drift` being that of the ice. */
 static propulsion_moment moment_of(const model *m, const world *w, int32_t row, const media *now, vec2 drift)
 {
@@ -89,6 +96,7 @@ static propulsion_moment moment_of(const model *m, const world *w, int32_t row, 
         out.resistance = propulsion_resistance(m, w, vessel, water);
         out.lift_z = -hull->hydrodynamics.depth - hull->centre.z;
         out.steering_z = hull->wash.z;
+        out.surge_z = surge_height(hull);
     }
     return out;
 }

@@ -374,7 +374,9 @@ fram_status propulsion_step(context *ctx, propulsion_table *propulsion, int32_t 
     steering_force f = rudder_force(&p.s->rudder, p.through_water, at_stern, gross, angle);
     hull_lift l = manoeuvring_lift(&p.s->ship);
     double lift = u * (l.y_v * p.aside + l.y_r * p.turn), aside = lift + f.aside;
-    double heel = -now->lift_z * lift - now->steering_z * f.aside;
+    /* What takes Kirchhoff's -a11 u r back acts where that does, and leans the ship no more than it held. */
+    double held = u * p.s->ship.a11 * p.turn;
+    double heel = -now->lift_z * (lift - held) - now->surge_z * held - now->steering_z * f.aside;
     vec2 port = vec2_perp(p.bow);
     load->force.x += f.ahead * p.bow.x + aside * port.x;
     load->force.y += f.ahead * p.bow.y + aside * port.y;

@@ -96,7 +96,8 @@ typedef struct propulsion_moment {
     double course_speed; /* slower over the ground a ship has a heading and no course [m/s] */
     vec2 ice;            /* force of the ice on the hull in the step before [N] */
     double lift_z;       /* how high over the centre of mass the hull's lift acts ... [m] */
-    double steering_z;   /* ... and rudders and thrust do where they push it aside [m] */
+    double steering_z;   /* ... rudders and thrust do where they push it aside ... [m] */
+    double surge_z;      /* ... and the added mass of surge does [m] */
 } propulsion_moment;
 
 /* Steer, set the thrust, and add it to the load on the hull (about its centre of mass). */

@@ -148,12 +148,11 @@ END_TEST
 
 /* Lift, rudders and the drag of a hull that turns act under its centre of mass: with its helm held over to port it
    leans outward, starboard down, by the moment of what holds it on its circle, about half its draught. */
-START_TEST(leans_outward_in_a_turn)
+static void check_leaning(const char *ship, const char *water, const char *more)
 {
-    static const char *const leaning[] = {"run.time_step=0.1", "vessel.speed=6", "vessel.hydrodynamics.source=estimate",
-                                          "vessel.hydrodynamics.roll_damping=0.3"};
+    const char *const leaning[] = {"run.time_step=0.1", "vessel.speed=6", water, more};
     scene k;
-    scene_open_with(&k, SHIP, leaning, 4);
+    scene_open_with(&k, ship, leaning, 4);
     int32_t body = k.w.vessels.body[0];
     k.w.propulsion.settings[0].steering_rate = 0;
     k.w.propulsion.steering[0] = radians(20);
@@ -168,6 +167,18 @@ START_TEST(leans_outward_in_a_turn)
     ck_assert(expected > radians(0.5));
     assert_relative(angles.x, expected, 0.15);
     scene_close(&k);
+}
+
+/* Added mass, here of half the ship in surge, is no part of what holds her, wherever it is. */
+START_TEST(leans_outward_in_a_turn)
+{
+    static const char *const heavy = SHIP_WITH(
+        "}\n  hydrodynamics: {source: given,\n"
+        "    added_mass: [{surge: 1.1e6}, {sway: 1.1e6}, {heave: 2e6}, {roll: 2e7}, {pitch: 4e8}, {yaw: 3e8}],\n"
+        "    damping: [{}, {}, {heave: 1e6}, {roll: 3e7}, {pitch: 2e8}, {}]");
+    check_leaning(SHIP, "vessel.hydrodynamics.source=estimate", "vessel.hydrodynamics.roll_damping=0.3");
+    check_leaning(heavy, "vessel.hydrodynamics.z=0", "vessel.hydrodynamics.x=0");
+    check_leaning(heavy, "vessel.hydrodynamics.z=-3", "vessel.hydrodynamics.x=0");
 }
 END_TEST
 
