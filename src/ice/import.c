@@ -274,25 +274,35 @@ static fram_status import_ring(importing *m)
 
 /* ---- all rings ---- */
 
-/* What most rings and pieces were left out for, and how many: 0 where all were mended to nothing.  A hole is never why
-   no floe is left, and what lies outside is not where ice in the domain is only in the way of something. */
-static import_event commonest_loss(const import_field *field, int32_t *most)
+typedef struct import_loss {
+    import_event event;
+    int32_t count, outside; /* rings and pieces: of the event, and of those outside that it is told in place of */
+} import_loss;
+
+static import_event commonest_event(const int32_t count[IMPORT_EVENT_COUNT])
 {
-    int32_t count[IMPORT_EVENT_COUNT] = {0};
     import_event event = IMPORT_NOTE_FLAT;
-    *most = 0;
-    for (int32_t i = 0; i < field->notes.count; i++) {
-        const import_note *n = &field->notes.data[i];
-        if (n->dropped && n->event != IMPORT_NOTE_HOLE && ++count[n->event] > *most) {
-            event = n->event;
-            *most = count[event];
-        }
-    }
-    if (event == IMPORT_NOTE_OUTSIDE && count[IMPORT_NOTE_KEPT_OUT] > 0) {
-        event = IMPORT_NOTE_KEPT_OUT;
-        *most = count[event];
-    }
+    for (int e = 0; e < IMPORT_EVENT_COUNT; e++)
+        if (count[e] > count[event])
+            event = (import_event)e;
     return event;
+}
+
+/* What most rings and pieces were left out for, and how many: 0 where all were mended to nothing.  A hole is never why
+   no floe is left, and what lies outside is not by itself where ice in the domain was in the way of something. */
+static import_loss commonest_loss(const import_field *field)
+{
+    int32_t count[IMPORT_EVENT_COUNT] = {0}, outside = 0;
+    for (int32_t i = 0; i < field->notes.count; i++)
+        count[field->notes.data[i].event] += field->notes.data[i].dropped;
+    count[IMPORT_NOTE_HOLE] = 0;
+    import_event event = commonest_event(count);
+    if (event == IMPORT_NOTE_OUTSIDE && count[IMPORT_NOTE_KEPT_OUT] > 0) {
+        outside = count[IMPORT_NOTE_OUTSIDE];
+        count[IMPORT_NOTE_OUTSIDE] = 0;
+        event = commonest_event(count);
+    }
+    return (import_loss){event, count[event], outside};
 }
 
 static fram_status refuse_without_rings(const importing *m)
@@ -304,6 +314,9 @@ static fram_status refuse_without_rings(const importing *m)
                      "the file has no floes; %d features of kind vessel or wall were passed over",
                      (int)m->rings->passed_over);
 }
+
+/* Room for what is told of the rings outside. */
+#define OUTSIDE_TEXT 96
 
 /* What to look at where all of a file was left out for one reason; "" where its words say all. */
 static const char *remedy_of(import_event event)
@@ -317,16 +330,19 @@ static fram_status refuse_empty(const importing *m)
 {
     const char *name = m->options->name;
     int rings = (int)m->rings->place.count;
-    int32_t most;
-    import_event event = commonest_loss(m->out, &most);
+    import_loss loss = commonest_loss(m->out);
+    char others[OUTSIDE_TEXT] = "";
     if (rings == 0)
         return refuse_without_rings(m);
-    if (most == 0)
+    if (loss.outside > 0)
+        snprintf(others, sizeof others, "; %d lie outside the domain: look at scale, offset and domain",
+                 (int)loss.outside);
+    if (loss.count == 0)
         return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "no floe is left of %d rings: none winds round an area", rings);
     return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
-                     "no floe is left of %d rings: %d of them or of their pieces were left out because each %s%s",
-                     rings, (int)most, import_event_text(event), remedy_of(event));
+                     "no floe is left of %d rings: %d of them or of their pieces were left out because each %s%s%s",
+                     rings, (int)loss.count, import_event_text(loss.event), remedy_of(loss.event), others);
 }
 
 static fram_status import_all(importing *m, bool crops)

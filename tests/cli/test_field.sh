@@ -352,7 +352,13 @@ vessel: {hull: {length: 20, beam: 6, draught: 2, freeboard: 2}}
 ice: {source: file, file: wide.wkt}
 domain: {x_min: -40, x_max: 40, y_min: -40, y_max: 40}
 END
-none_left "of 14 rings: 1 of them or of their pieces were left out because each is in the way of a vessel" wide.yaml
+none_left "at ice.keep_out_margin; 13 lie outside the domain: look at scale, offset and domain" wide.yaml
+says "of 14 rings: 1 of them or of their pieces were left out because each is in the way of a vessel" err
+# With twelve under the smallest area too, those are the most of what is in the domain.
+cp wide.wkt small.wkt
+for y in {-30..-19}; do echo "POLYGON ((20 $y, 20.5 $y, 20.5 $y.5, 20 $y.5, 20 $y))"; done >>small.wkt
+expect 2 "$FRAM" field wide.yaml --set ice.file=small.wkt --set ice.smallest_floe_area=1
+says "12 of them or of their pieces were left out because each is under the smallest area; 13 lie outside" err
 echo 'POLYGON ((20 20, 30 20, 30 30, 20 30, 20 20))' >>wide.wkt
 expect 0 "$FRAM" field wide.yaml
 says "left out: feature 14, polygon 1, ring 1 (line 14): is in the way" out
