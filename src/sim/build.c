@@ -76,11 +76,13 @@ static fram_status build_before_ice(context *ctx, const scenario *s, const model
     if (status != FRAM_OK)
         return status;
     int32_t vessels = scenario_vessel_count(s);
+    vessel_pose_array put = {0};
     status = build_load_window(ctx, s, vessels, w, error);
     for (int32_t i = 0; i < vessels && status == FRAM_OK; i++) {
         vessel_entry entry = scenario_vessel_entry(s, i);
-        status = build_vessel(ctx, s, &entry, m, w, error);
+        status = build_vessel(ctx, s, &entry, m, w, &put, error);
     }
+    array_free(ctx, &put);
     if (status == FRAM_OK)
         status = approach_watch_begin(ctx, m, w, error);
     if (status != FRAM_OK)

@@ -144,70 +144,114 @@ static double plans_overlap(const polygon_list *a, const polygon_list *b)
     return common;
 }
 
-/* Two hulls that are in each other would be thrown apart by the first step.  Seen from above, decks and overhangs
-   included. */
-static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
-                                          int32_t row, fram_error *error)
+/* How much of two hulls is in each other, seen from above, decks and overhangs included [m2]; 0: they touch at most. */
+static fram_status hulls_overlap(context *ctx, const world *w, int32_t a, int32_t b, double *common, fram_error *error)
 {
-    polygon_list own = {0}, other = {0};
-    fram_status status = FRAM_OK;
-    if (row > 0)
-        status = build_plan(ctx, w, w->vessels.body[row], build_slab_all(), &own, error);
-    for (int32_t v = 0; v < row && status == FRAM_OK; v++) {
-        polygon_list_clear(&other);
-        status = build_plan(ctx, w, w->vessels.body[v], build_slab_all(), &other, error);
-        double common = status == FRAM_OK ? plans_overlap(&own, &other) : 0;
-        if (common > TOUCHING * fmin(build_plan_area(&own), build_plan_area(&other)))
-            status = vessel_fault(s, entry, "x", error,
-                                  "the hull lies in that of %s at the start, by %.4g m2 as seen from above: move one "
-                                  "of them",
-                                  title_of_row(s, v).text, common);
+    polygon_list one = {0}, other = {0};
+    fram_status status = build_plan(ctx, w, w->vessels.body[a], build_slab_all(), &one, error);
+    if (status == FRAM_OK)
+        status = build_plan(ctx, w, w->vessels.body[b], build_slab_all(), &other, error);
+    if (status == FRAM_OK) {
+        *common = plans_overlap(&one, &other);
+        if (!(*common > TOUCHING * fmin(build_plan_area(&one), build_plan_area(&other))))
+            *common = 0;
     }
-    polygon_list_free(ctx, &own);
+    polygon_list_free(ctx, &one);
     polygon_list_free(ctx, &other);
     return status;
 }
 
-typedef fram_status (*place_check)(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
-                                   int32_t row, fram_error *error);
-
-typedef struct vessel_pose {
-    vec3 position;
-    quat orientation;
-} vessel_pose;
-
-static vessel_pose trade_pose(body_table *bodies, int32_t body, vessel_pose next)
-{
-    vessel_pose had = {bodies->position[body], bodies->orientation[body]};
-    bodies->position[body] = next.position;
-    bodies->orientation[body] = next.orientation;
-    return had;
-}
-
-/* Who is put well and moved by lines into what the check finds has to look at the lines, not at the place. */
-static fram_status check_moored_place(context *ctx, const scenario *s, const vessel_entry *entry, world *w, int32_t row,
-                                      vessel_pose put, place_check check, const char *found_in, fram_error *error)
+static void trade_pose(world *w, int32_t row, vessel_pose *other)
 {
     int32_t body = w->vessels.body[row];
-    fram_status status = check(ctx, s, entry, w, row, error);
-    if (status != FRAM_ERROR_INPUT)
-        return status;
-    vessel_pose moored = trade_pose(&w->bodies, body, put);
-    status = check(ctx, s, entry, w, row, error);
-    trade_pose(&w->bodies, body, moored);
-    if (status != FRAM_OK)
-        return status;
-    vec3 by = vec3_sub(moored.position, put.position);
-    double turn = plane_angle(quat_roll_pitch_yaw(moored.orientation).z - quat_roll_pitch_yaw(put.orientation).z);
-    return vessel_fault(s, entry, "mooring.lines", error,
+    vessel_pose had = {w->bodies.position[body], w->bodies.orientation[body]};
+    w->bodies.position[body] = other->position;
+    w->bodies.orientation[body] = other->orientation;
+    *other = had;
+}
+
+/* Who is put well and moved by lines into something has to look at the lines, not at the place. */
+static fram_status lines_fault(const scenario *s, const world *w, int32_t row, vessel_pose put, const char *found_in,
+                               fram_error *error)
+{
+    const vessel_entry entry = scenario_vessel_entry(s, row);
+    int32_t body = w->vessels.body[row];
+    vec3 by = vec3_sub(w->bodies.position[body], put.position);
+    quat moored = w->bodies.orientation[body];
+    double turn = plane_angle(quat_roll_pitch_yaw(moored).z - quat_roll_pitch_yaw(put.orientation).z);
+    return vessel_fault(s, &entry, "mooring.lines", error,
                         "where they balance current and wind, (%.4g, %.4g) m from where it is put and turned by %.3g "
                         "degrees, the hull stands in %s: look at their count, spacing_deg, direction_deg and "
                         "pretension, or take mooring.equilibrium: false",
                         by.x, by.y, degrees(turn), found_in);
 }
 
+static fram_status check_walls(context *ctx, const scenario *s, const vessel_entry *entry, world *w, int32_t row,
+                               const vessel_pose_array *put, fram_error *error)
+{
+    vessel_pose pose = put->data[row];
+    fram_status status = check_clear_of_walls(ctx, s, entry, w, row, error);
+    if (status != FRAM_ERROR_INPUT)
+        return status;
+    trade_pose(w, row, &pose);
+    status = check_clear_of_walls(ctx, s, entry, w, row, error);
+    trade_pose(w, row, &pose);
+    return status == FRAM_OK ? lines_fault(s, w, row, pose, "the walls of the domain", error) : status;
+}
+
+/* Of two hulls that are in each other the one whose lines moved it there, the later one where those of both did; -1:
+   they are where they are put. */
+static fram_status find_moved(context *ctx, world *w, int32_t row, int32_t v, const vessel_pose_array *put,
+                              int32_t *moved, fram_error *error)
+{
+    static const struct {
+        bool own, other;
+    } tries[] = {{true, false}, {false, true}, {true, true}};
+    fram_status status = FRAM_OK;
+    *moved = -1;
+    for (size_t i = 0; i < sizeof tries / sizeof *tries && status == FRAM_OK && *moved < 0; i++) {
+        vessel_pose own = put->data[row], other = put->data[v];
+        double common = 0;
+        if (tries[i].own)
+            trade_pose(w, row, &own);
+        if (tries[i].other)
+            trade_pose(w, v, &other);
+        status = hulls_overlap(ctx, w, row, v, &common, error);
+        if (status == FRAM_OK && common == 0)
+            *moved = tries[i].own ? row : v;
+        if (tries[i].own)
+            trade_pose(w, row, &own);
+        if (tries[i].other)
+            trade_pose(w, v, &other);
+    }
+    return status;
+}
+
+/* Two hulls that are in each other would be thrown apart by the first step. */
+static fram_status check_vessels(context *ctx, const scenario *s, const vessel_entry *entry, world *w, int32_t row,
+                                 const vessel_pose_array *put, fram_error *error)
+{
+    for (int32_t v = 0; v < row; v++) {
+        double common = 0;
+        int32_t moved;
+        fram_status status = hulls_overlap(ctx, w, row, v, &common, error);
+        if (status == FRAM_OK && common == 0)
+            continue;
+        if (status == FRAM_OK)
+            status = find_moved(ctx, w, row, v, put, &moved, error);
+        if (status != FRAM_OK)
+            return status;
+        if (moved >= 0)
+            return lines_fault(s, w, moved, put->data[moved], "another vessel", error);
+        return vessel_fault(s, entry, "x", error,
+                            "the hull lies in that of %s at the start, by %.4g m2 as seen from above: move one of them",
+                            title_of_row(s, v).text, common);
+    }
+    return FRAM_OK;
+}
+
 fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, world *w,
-                         fram_error *error)
+                         vessel_pose_array *put, fram_error *error)
 {
     int32_t row = w->vessels.count;
     vessel_mesh_warnings(ctx, s, entry, &m->vessels.data[row]);
@@ -219,14 +263,16 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
     if (status != FRAM_OK)
         return status;
     int32_t body = w->vessels.body[row];
-    const vessel_pose put = {w->bodies.position[body], w->bodies.orientation[body]};
+    const vessel_pose own = {w->bodies.position[body], w->bodies.orientation[body]};
+    if (!array_push(ctx, put, own))
+        return error_memory(error);
     status = build_station(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
         status = build_propulsion(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
-        status = check_moored_place(ctx, s, entry, w, row, put, check_clear_of_walls, "the walls of the domain", error);
+        status = check_walls(ctx, s, entry, w, row, put, error);
     if (status == FRAM_OK)
-        status = check_moored_place(ctx, s, entry, w, row, put, check_clear_of_vessels, "another vessel", error);
+        status = check_vessels(ctx, s, entry, w, row, put, error);
     if (status == FRAM_OK)
         status = vessel_warnings(ctx, s, entry, m, w, row, error);
     return status;

@@ -53,6 +53,23 @@ refused ship.yaml "vessel.mooring.lines: where they balance current and wind, ("
 says "the hull stands in the walls of the domain: look at their count, spacing_deg" err
 refused ship.yaml "vessel.x: the hull covers x from 1" --set "$alone" --set domain.boundary=walls --set vessel.x=150
 expect 0 "$FRAM" check ship.yaml --set "$alone" --set domain.boundary=walls --set vessel.mooring.equilibrium=false
+# Of two hulls the one is told that its lines move, whichever stands first.
+cat >pair.yaml <<'END'
+run: {duration: 5, time_step: 0.05}
+vessels:
+  - {name: ship, mode: free, hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3},
+     hydrodynamics: {source: estimate}, mooring: {depth: 80, lines: [{kind: spring, count: 4, spacing_deg: 90,
+     direction_deg: 45, distance: 300, stiffness: 2.0e3, pretension: 5.0e4}]}}
+  - {name: barge, mode: towed, x: 42.5, hull: {form: box, length: 20, beam: 12, draught: 4, freeboard: 3}}
+ice: {source: none}
+environment: {current_speed: 2}
+END
+awk '/name: barge/ { next } /name: ship/ { print barge } { print }' \
+    barge="$(grep 'name: barge' pair.yaml)" pair.yaml >pair_turned.yaml
+refused pair.yaml "vessels[0].mooring.lines: where they balance current and wind, ("
+refused pair_turned.yaml "vessels[1].mooring.lines: where they balance current and wind, ("
+says "the hull stands in another vessel" err
+refused pair.yaml "vessels[1].x: the hull lies in that of vessel ship" --set vessels.barge.x=35
 spring="vessel.mooring.lines[0].kind=spring"
 told ship.yaml "lines[0].pretension: 8e+05 N is over the breaking load of 7e+05 N" --set "$spring" \
     --set "vessel.mooring.lines[0].stiffness=5e4" --set "vessel.mooring.lines[0].breaking_load=7e5"
