@@ -213,23 +213,29 @@ static void warn_of_couplings(context *ctx, const vessel_entry *e, const matrix6
                   e->path);
 }
 
+/* A carriage leaves heave alone to the water. */
+static bool moves_freely(vessel_mode mode, int motion)
+{
+    return mode == VESSEL_FREE || (mode == VESSEL_TOWED && motion == 2);
+}
+
 /* Of a given matrix: a negative number on its diagonal drives the motion that it should damp. */
-static void warn_of_damping(context *ctx, const vessel_entry *e, const vessel_model *hull)
+static void warn_of_damping(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
 {
     bool damps_each = true;
     const matrix6 *b = &hull->hydrodynamics.damping;
-    if (e->keys->hydrodynamics.source != HYDRODYNAMICS_GIVEN)
+    if (e->keys->hydrodynamics.source != HYDRODYNAMICS_GIVEN || !s->environment.water)
         return;
     for (int i = 0; i < 6; i++) {
         double c = b->m[i][i];
         damps_each = damps_each && c >= 0;
-        if (c < 0)
+        if (c < 0 && moves_freely(e->keys->mode, i))
             log_write(ctx, LOG_WARNING,
                       "%s.hydrodynamics.damping is negative in %s, %.4g about the centre of mass: it drives that "
                       "motion instead of damping it",
                       e->path, motions[i], c);
     }
-    if (damps_each)
+    if (damps_each && e->keys->mode == VESSEL_FREE)
         warn_of_couplings(ctx, e, b);
 }
 
@@ -415,7 +421,7 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
         status = build_upright(ctx, s, e, hull, &m->solids.data[hull->solid], &upright, error);
     warn_of_stability(ctx, s, e, hull, &upright);
     warn_of_mass(ctx, s, e, hull);
-    warn_of_damping(ctx, e, hull);
+    warn_of_damping(ctx, s, e, hull);
     warn_of_springs(ctx, s, e, &upright, w, row);
     wall_warnings(ctx, s, e, m, w, row);
     meeting_warnings(ctx, s, e, m, w, row);

@@ -94,6 +94,20 @@ told damped.yaml "vessel.hydrodynamics.damping is not positive between sway and 
 three="{surge: 5, sway: 3, heave: 3}, {surge: 3, sway: 5, heave: -3}, {surge: 3, sway: -3, heave: 5}"
 damped "$three, $turns, {yaw: 1e9}"
 told damped.yaml "hydrodynamics.damping is not positive, by its couplings of more than two motions"
+# A carriage leaves heave alone to the water, and a path nothing.
+led() { # MODE DAMPING...
+    damped "$2"
+    sed "s/mode: free/mode: $1/; /^  mooring:/,/^[a-z]/ { /^[a-z]/!d }" damped.yaml >led.yaml
+    expect 0 "$FRAM" check led.yaml
+}
+for mode in towed prescribed; do
+    for rows in "$three, $turns, {yaw: 1e9}" "{surge: -1e4}, {}, {}, {}, {}, {}"; do
+        led $mode "$rows"
+        grep 'damping is' err && fail "damping of what a carriage holds is told: $mode, $rows"
+    done
+done
+led towed "{}, {}, {heave: -1e6}, {}, {}, {}"
+says "damping is negative in heave" err
 for rows in "{surge: 1e4}, {sway: 1e5, yaw: 5e6}, {heave: 1e6}, $turns, {sway: -5e6, yaw: 2e7}" \
     "{surge: 1e4}, {sway: 1e5}, {}, {}, {}, {}"; do
     damped "$rows"
