@@ -339,6 +339,7 @@ static const idle_rule rules[] = {
     {"vessel.positioning.vaning_load", keeps_heading, NO_VANING},
     {"vessel.propulsion.", drives_not, "there is no propulsion.bollard_pull"},
     {"vessel.propulsion.speed", has_period, "propulsion.pattern.period gives the speed"},
+    {"vessel.propulsion.propeller_z", is_dry, DRY},
     {"vessel.propulsion.propeller_spacing", has_no_wash, NO_WASH},
     {"vessel.propulsion.propeller_spacing", has_one_propeller, "propulsion.propellers is 1"},
     {"vessel.propulsion.pattern.", has_no_pattern, "propulsion.pattern.kind is none"},

@@ -97,6 +97,8 @@ for key in current_speed=0.5 current_file=drift.csv wind_speed=20 wind_file=drif
     printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv
     idle dry.yaml environment.$key "environment.water is false"
 done
+told dry.yaml "vessel.propulsion.propeller_z: without effect, since environment.water is false" \
+    --set vessel.mode=free --set vessel.propulsion.bollard_pull=5e5 --set vessel.propulsion.propeller_z=-3
 silent dry.yaml --set domain.boundary=feeding --set environment.current_speed=0.5
 told dry.yaml "environment.current_speed: without effect" --set domain.boundary=feeding --set domain.drift_speed=0.2 \
     --set environment.current_speed=0.5
