@@ -136,10 +136,10 @@ static void tell_outside(const pattern_view *v, const model *m, const world *w, 
         }
 }
 
-static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,
+static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull, bool wet,
                         const turning_ability *t)
 {
-    bool differ = turning_sides_differ(hull);
+    bool differ = wet && turning_sides_differ(hull);
     if (turning_is_found(t))
         log_write(ctx, LOG_INFO,
                   "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s%s; corners and loops of its "
@@ -163,7 +163,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     const turning_ability *t = &set->turning;
     pattern_view v = {
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
-    tell_radius(ctx, s, entry, &m->vessels.data[row], t);
+    tell_radius(ctx, s, entry, &m->vessels.data[row], m->forces == FORCES_FLUID, t);
     if (v.shape.kind == PATTERN_NONE)
         return;
     if (s->domain.boundary != DOMAIN_FEEDING)

@@ -174,6 +174,11 @@ told flow.yaml "vessel.current_coefficients: on a ship with propulsion|it has no
 sed -i 's/cy: 0.7}/cy: 0.7, cn: -0.05}/' flow.yaml
 expect 0 "$FRAM" check flow.yaml --set $drives
 grep 'for the lift' err && fail "told of a table with cy and cn"
+# Of a table with unequal sides nothing is left without water, on which side a ship turns wider neither.
+sed -i 's/{angle_deg: 180, cx: -0.03}/&, {angle_deg: 270, cy: -0.5}, {angle_deg: 360, cx: 0.02}/' flow.yaml
+expect 0 "$FRAM" check flow.yaml --set $drives --set environment.water=false
+cat out err >both
+says "does not turn by its helm at" both
 refused ship.yaml "hull.block_coefficient: expected 1, that of a box, or none" --set vessel.hull.form=box \
     --set vessel.hull.block_coefficient=0.6
 refused ship.yaml "thrusters[0].setting: expected 0 to 1: a unit that turns pushes the other way" \
