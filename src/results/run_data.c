@@ -163,6 +163,7 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
         {"threads", NULL, 0, &n->threads},
         {"steps", NULL, 0, &n->steps},
         {"time_s", NULL, 0, &n->time},
+        {"good_until_s", NULL, 0, &n->good_until},
         {"wall_s", NULL, 0, &n->wall},
         {"recording_s", NULL, 0, &n->recording},
         {"step_wall_median_ms", NULL, 0, &n->step_median},

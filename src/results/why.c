@@ -70,12 +70,15 @@ const peak_detail *why_recorded_at(const why *y, double time)
     return NULL;
 }
 
-/* Where the run stands; that of one that failed is mostly of the step that went wrong, which has no row. */
+/* Where the run stands; that of one that failed is mostly of the step that went wrong, which has no row, and earlier
+   versions told no other. */
 static double last_time(const run_data *d)
 {
     const double *time = run_channel(d, "time");
     if (strcmp(d->note.status, "failed") != 0)
         return d->note.time;
+    if (d->note.good_until > 0)
+        return d->note.good_until;
     return fmax(d->note.time - d->s.run.time_step, time && d->series.rows > 0 ? time[d->series.rows - 1] : 0);
 }
 

@@ -48,6 +48,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
 {
     run_summary summary = {.status = state,
                            .message = message,
+                           .good_until = r->good_until,
                            .inputs = r->inputs.data,
                            .threads = context_threads(r->ctx),
                            .wall = clock_wall() - r->started,
@@ -300,7 +301,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
 {
     double began = clock_wall();
     r->w = w;
-    r->began_at = w->clock.time[0];
+    r->began_at = r->good_until = w->clock.time[0];
     fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, r->inputs.data, &r->lock, error);
     if (status == FRAM_OK)
         status = write_scenario(r, error);
@@ -317,7 +318,7 @@ fram_status recording_read_state(recording *r, const model *m, world *w, recorde
     fram_status status = checkpoint_read_newest(r->ctx, r->folder, m, w, &note, error);
     *lengths = (recorder_lengths){note.series_length, note.record_length, note.fractures_length};
     r->w = w;
-    r->began_at = w->clock.time[0];
+    r->began_at = r->good_until = w->clock.time[0];
     return status;
 }
 
@@ -351,6 +352,7 @@ fram_status recording_step(recording *r, double step_wall, fram_error *error)
 {
     double began = clock_wall();
     time_ranks_add(&r->steps, step_wall);
+    r->good_until = r->w->clock.time[0];
     fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
     r->record_time += clock_wall() - began;
     return status;

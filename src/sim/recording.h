@@ -34,6 +34,7 @@ typedef struct recording {
     char hash[SHA256_TEXT_SIZE];
     double started;     /* wall clock [s] */
     double began_at;    /* simulated time at which this call began [s] */
+    double good_until;  /* simulated time of the last step that was made whole [s] */
     double record_time; /* for all that was written so far [s] */
     double end_time;    /* of it at the end [s] */
     time_ranks steps;   /* wall times of the steps of this call, recording apart */

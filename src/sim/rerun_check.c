@@ -195,7 +195,8 @@ bool rerun_check_awaits(const rerun_check *c, double time)
 
 typedef struct run_end {
     char status[WORD_SIZE], hash[WORD_SIZE];
-    double time, steps; /* steps -1: nothing tells */
+    double time, steps; /* steps -1: nothing tells; time -1: neither does the note of a failure */
+    double good_until;
 } run_end;
 
 static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
@@ -215,21 +216,23 @@ static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
             status = json_walk_number(w, &e->time, error);
         else if (strcmp(key, "steps") == 0)
             status = json_walk_number(w, &e->steps, error);
+        else if (strcmp(key, "good_until_s") == 0)
+            status = json_walk_number(w, &e->good_until, error);
         else
             status = json_walk_skip(w, error);
     }
     return status;
 }
 
-/* Of a run that came to an end of its own; a file that is not there, is damaged, or of one that was killed or failed
-   tells nothing. */
+/* Of a run that came to an end of its own; of one that failed only how far it went; a file that is not there, is
+   damaged, or of one that was killed tells nothing. */
 static fram_status find_end(context *ctx, const char *folder, run_end *e, fram_error *error)
 {
     char path[PATH_ROOM];
     char *text = NULL;
     size_t size = 0;
     fram_status status = path_join(folder, "run.json", path, NULL);
-    *e = (run_end){.steps = -1};
+    *e = (run_end){.time = -1, .steps = -1, .good_until = -1};
     if (status == FRAM_OK)
         status = file_read(ctx, path, SUMMARY_MOST, &text, &size, NULL);
     if (status == FRAM_OK) {
@@ -242,7 +245,7 @@ static fram_status find_end(context *ctx, const char *folder, run_end *e, fram_e
     bool ended = strcmp(e->status, "finished") == 0 || strcmp(e->status, "stopped") == 0 ||
                  strcmp(e->status, "interrupted") == 0;
     if (status != FRAM_OK || !ended)
-        *e = (run_end){.steps = -1};
+        *e = (run_end){.steps = -1, .time = status == FRAM_OK ? e->good_until : -1};
     return FRAM_OK;
 }
 
@@ -274,13 +277,16 @@ fram_status rerun_run_end(context *ctx, const char *folder, double *time, fram_e
     run_end e;
     rerun_check c;
     fram_status status = find_end(ctx, folder, &e, error);
-    *time = e.steps < 0 ? -1 : e.time;
-    if (status != FRAM_OK || e.steps >= 0)
+    *time = e.time;
+    if (status != FRAM_OK || e.time >= 0)
         return status;
     fram_error reason = {0};
     status = open_series(ctx, folder, &c, &reason);
     if (status == FRAM_OK)
         status = next_line(&c, &reason);
+    /* The line of names is no row. */
+    if (status == FRAM_OK)
+        status = next_row(&c, &reason);
     while (status == FRAM_OK && c.row) {
         *time = c.time;
         status = next_row(&c, &reason);

@@ -35,8 +35,8 @@ bool rerun_check_awaits(const rerun_check *c, double time);
    another state; the log says where it ended elsewhere, and nothing tells. */
 fram_status rerun_check_end(const rerun_check *c, const world *w, double time, fram_error *error);
 
-/* Where the run stands: its end, or the last row of one that was cut short or failed; 0: it has made no step, or none
-   that a row tells of; -1: nothing tells [s]. */
+/* Where the run stands: its end, the last good step of one that failed, or the last row of one that was cut short; 0:
+   it has made no step; -1: nothing tells, as where there is no row yet [s]. */
 fram_status rerun_run_end(context *ctx, const char *folder, double *time, fram_error *error);
 
 #endif

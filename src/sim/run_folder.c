@@ -418,8 +418,10 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     add_text_member(ctx, &b, "scenario_hash", summary->scenario_hash);
     add_inputs(ctx, &b, summary->inputs);
     add_text_member(ctx, &b, "status", summary->status);
-    if (summary->message)
+    if (summary->message) {
         add_text_member(ctx, &b, "message", summary->message);
+        text_format(ctx, &b, "  \"good_until_s\": %.17g,\n", summary->good_until);
+    }
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
     add_events(ctx, &b, s, &w->events);
     add_tracks(ctx, &b, s, &w->propulsion);

@@ -40,6 +40,7 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
 typedef struct run_summary {
     const char *status;  /* "running", "stopped", "finished", "interrupted", "failed" */
     const char *message; /* of a failure, or NULL */
+    double good_until;   /* with a message: the end of the last step before the one that failed [s] */
     char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs;
     int threads;

@@ -110,6 +110,21 @@ static fram_status why(double time, int peak)
 
 static void assert_told(const char *words) { ck_assert_msg(strstr(answer, words), "no \"%s\" in %s", words, answer); }
 
+/* As a run that was killed leaves it. */
+static void forget_end(void)
+{
+    char path[300], buffer[1 << 15];
+    snprintf(path, sizeof path, "%s/run.json", run);
+    FILE *file = fopen(path, "r+");
+    ck_assert_ptr_nonnull(file);
+    buffer[fread(buffer, 1, sizeof buffer - 1, file)] = '\0';
+    const char *found = strstr(buffer, "\"finished\",");
+    ck_assert_ptr_nonnull(found);
+    ck_assert_int_eq(fseek(file, found - buffer, SEEK_SET), 0);
+    fputs("\"running\", ", file);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
 static void remove_rows(void)
 {
     char path[300];
@@ -233,12 +248,19 @@ END_TEST
 START_TEST(no_row_behind)
 {
     static const char *const words[] = {"output.checkpoint_interval=0", "output.csv_interval=2"};
+    static const char *const no_row[] = {"output.checkpoint_interval=0", "output.csv_interval=2", "run.duration=0.3"};
     open_all();
     record(words, 2, 125);
     assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "ended in another state");
     record(words, 2, -1);
     assert_ok(pressure(0, 0), e);
     remove_rows();
+    assert_ok(pressure(0, 0), e);
+    /* Without a row at all and without an end it may have gone as far as its scenario. */
+    steps = 15;
+    record(no_row, 3, -1);
+    steps = 150;
+    forget_end();
     assert_ok(pressure(0, 0), e);
     close_all();
 }
@@ -320,7 +342,7 @@ START_TEST(before_a_window_has_passed)
 END_TEST
 
 /* A ship that is faster than it may be when it has met a floe. */
-static void run_until_it_fails(const char *speed_limit)
+static void run_until_it_fails(const char *const *overrides, int count)
 {
     static const char ship[] = "run: {duration: 20, time_step: 0.02, transient: 0}\n"
                                "vessel:\n  mode: free\n  x: -30\n  speed: 1\n"
@@ -332,7 +354,7 @@ static void run_until_it_fails(const char *speed_limit)
     fram_scenario *s;
     fram_run_definition d;
     fram_run_result result;
-    assert_ok(fram_scenario_parse(ctx, ship, NULL, &speed_limit, 1, &s, &e), e);
+    assert_ok(fram_scenario_parse(ctx, ship, NULL, overrides, count, &s, &e), e);
     fram_run_default(&d);
     d.folder = run;
     d.force = true;
@@ -344,19 +366,26 @@ static void run_until_it_fails(const char *speed_limit)
    sooner. */
 START_TEST(up_to_a_failure)
 {
+    static const char *const sooner[] = {"run.speed_limit=1.5"};
+    static const char *const later[] = {"run.speed_limit=1.545", "output.csv_interval=5"};
     open_all();
-    run_until_it_fails("run.speed_limit=1.5");
+    run_until_it_fails(sooner, 1);
     assert_ok(why(0, 1), e);
     assert_told("Peak 1 of 1: t = 1.92 s");
     assert_ok(why(1.9, 0), e);
     assert_fails(why(1.94, 0), e, FRAM_ERROR_INPUT, "up to 1.92 s");
-    run_until_it_fails("run.speed_limit=1.545");
+    run_until_it_fails(later, 1);
     assert_ok(why(0, 1), e);
     assert_told("half the time step       went wrong at t = 2.07 s\n");
     as_json = true;
     assert_ok(why(0, 1), e);
     assert_told("\"half_step\": null, \"half_step_went_wrong_at\": 2.07, \"accurate\": ");
     as_json = false;
+    /* Without a row too. */
+    run_until_it_fails(later, 2);
+    assert_ok(pressure(0, 0), e);
+    assert_fails(why(2.12, 0), e, FRAM_ERROR_INPUT, "up to 2.1 s");
+    assert_fails(pressure(2.11, 0), e, FRAM_ERROR_INPUT, "no step ends after 2.11 s and up to 2.1 s");
     close_all();
 }
 END_TEST
