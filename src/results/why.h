@@ -9,7 +9,7 @@
 /* What a second computed again by other methods came to; sim/rerun.h. */
 typedef struct why_method {
     double load;  /* largest averaged load from the fork on [N] */
-    double wrong; /* when it went wrong by this method [s]; 0: it did not */
+    double wrong; /* end of the step in which it went wrong by this method [s]; 0: it did not */
 } why_method;
 typedef struct why_check {
     bool done;

@@ -52,13 +52,15 @@ static fram_status step_same(rerun *r, const model *m, world *w, fram_error *err
     return status == FRAM_OK ? rerun_check_step(&r->check, w, error) : status;
 }
 
-/* By another method, which may go wrong where the run did not: that is an answer. */
+/* By another method, which may go wrong where the run did not: that is an answer.  The time is the end of the step that
+   goes wrong, whether or not the world counted it: above 0 in the first step too. */
 static fram_status step_other(rerun *r, const model *m, world *w, double *wrong, fram_error *error)
 {
     fram_error reason = {0};
+    double end = (double)(w->clock.step[0] + 1) * m->time_step;
     fram_status status = step_once(r, m, w, &reason);
     if (status == FRAM_ERROR_SIMULATION) {
-        *wrong = w->clock.time[0];
+        *wrong = end;
         return FRAM_OK;
     }
     if (status != FRAM_OK && error)

@@ -9,7 +9,7 @@
 
 typedef struct rerun_method {
     double load;  /* largest averaged load from the fork on [N] */
-    double wrong; /* when the simulation went wrong by this method [s]; 0: it did not */
+    double wrong; /* end of the step in which the simulation went wrong by this method [s]; 0: it did not */
 } rerun_method;
 
 typedef struct rerun_result {
