@@ -6,20 +6,20 @@ static int32_t number_at(const world *w, int32_t body)
     return ice && body_is_alive(&w->bodies, body) ? w->floes.number[w->bodies.owner[body]] : -1;
 }
 
-/* Behind a floe that lost crushed ice in this step, whose contacts are of the slot that it had.  Held ice is the end.
- */
-static bool follow_trimmed(const world *w, double time_step, int32_t hull, const floe_trim *t, force_chain *chain)
+/* Held ice that lost crushed ice in this step is the end, wherever it stands: its contacts are of the slot that it had,
+   which by now is nobody's, or another's. */
+static void end_at_trimmed(const world *w, const floe_trim_array *trims, force_chain *chain)
 {
-    if (t->had < 0)
-        return false;
-    force_chain_follow(w, time_step, hull, t->had, chain);
-    motion kind = (motion)w->bodies.motion[t->slot];
-    if (kind == MOTION_STATIC || kind == MOTION_CARRIED) {
-        chain->count = 1;
+    for (int32_t i = 0; i < chain->count; i++) {
+        chain_link *l = &chain->link[i];
+        const floe_trim *t = floe_trims_find_slot(trims, w->clock.step[0], l->body);
+        motion kind = t ? (motion)w->bodies.motion[t->slot] : MOTION_DYNAMIC;
+        if (kind != MOTION_STATIC && kind != MOTION_CARRIED)
+            continue;
+        chain->count = i + 1;
         chain->end = kind == MOTION_STATIC ? CHAIN_SHEET : CHAIN_DRIVEN;
-        chain->link[0].others = chain->link[0].water = chain->link[0].inertia = 0;
+        l->others = l->water = l->inertia = 0;
     }
-    return true;
 }
 
 /* A link to a floe that was trimmed in this step is to what it is now. */
@@ -42,10 +42,10 @@ void peak_chain_add(const world *w, double time_step, const floe_trim_array *tri
         return;
     int32_t hull = w->vessels.body[d->vessel];
     const floe_trim *t = floe_trims_find(trims, w->clock.step[0], f->number);
-    if (!t)
-        force_chain_follow(w, time_step, hull, f->slot, chain);
-    else if (!follow_trimmed(w, time_step, hull, t, chain))
+    if (t && t->had < 0)
         return;
+    force_chain_follow(w, time_step, hull, t ? t->had : f->slot, chain);
+    end_at_trimmed(w, trims, chain);
     if (vec3_length(chain->link[0].push) == 0)
         return;
     int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS;

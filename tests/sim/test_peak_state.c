@@ -1,5 +1,6 @@
 /* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm.  Beside
    a world that has come some way it tells no peak by a part of it, and parts of one in a long window add up too. */
+#include "sim/peak_chain.h"
 #include "sim/peak_state.h"
 #include "sim/recording.h"
 #include "sim/scene.h"
@@ -11,7 +12,8 @@
     "ice: {source: floes, thickness: 0.5, breakable: true,\n"                        \
     "  floes: [" others "{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}\n" \
     "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n"
-static const char text[] = SCENE(""), beside[] = SCENE("{x: -50, y: -30, length: 2, width: 2}, ");
+static const char text[] = SCENE(""), beside[] = SCENE("{x: -50, y: -30, length: 2, width: 2}, "
+                                                       "{x: -50, y: 30, length: 2, width: 2}, ");
 
 static fram_error e;
 
@@ -165,6 +167,31 @@ static int32_t last_number(const world *w)
     return last;
 }
 
+/* As if the hull pushed a small floe, and that one the fixed floe, which lost crushed ice in this step and is the end.
+ */
+static void check_chain_to_trimmed(scene *k, const peak_watch *p)
+{
+    const floe_trim *t = &p->trims.data[p->trims.count - 1];
+    int32_t hull = k->w.vessels.body[0], small = k->w.floes.body[1];
+    contact_array *all = &k->w.scratch.contacts;
+    contact pushes = {.a = hull, .b = small, .normal = vec3_make(-1, 0, 0), .impulse = {1e6, 0, 0}};
+    contact hands_on = pushes;
+    hands_on.a = small;
+    hands_on.b = t->had;
+    ck_assert(array_push(&k->ctx, all, pushes) && array_push(&k->ctx, all, hands_on));
+    ck_assert(contact_web_make(&k->ctx, &k->w));
+    force_chain chain;
+    peak_detail d = {.vessel = 0};
+    peak_floe f = {.slot = small, .number = k->w.floes.number[1]};
+    peak_chain_add(&k->w, 0.02, &p->trims, &chain, &f, &d);
+    all->count -= 2;
+    ck_assert_int_eq(f.links, 2);
+    ck_assert_int_eq(f.end, CHAIN_SHEET);
+    ck_assert_int_eq(d.link[1].slot, t->slot);
+    assert_relative(d.link[1].push.x, 1e6 / 0.02, 1e-9);
+    ck_assert(d.link[1].others == 0 && d.link[1].water == 0 && d.link[1].inertia == 0);
+}
+
 /* The hull crushes its way into a fixed floe, which has a new number each few steps and is one body, also beside a
    watch that takes the state up in a window of such steps, and whether or not the step of the peak is one. */
 START_TEST(a_floe_that_is_crushed_is_one_body)
@@ -190,6 +217,8 @@ START_TEST(a_floe_that_is_crushed_is_one_body)
         assert_ok(peak_watch_explain(&q, &k.w, 0, &other, &e), e);
         int32_t number = last_number(&k.w);
         trimmed += number != before;
+        if (number != before)
+            check_chain_to_trimmed(&k, &p);
         ck_assert_int_eq(one.bodies, 1);
         ck_assert_int_eq(one.floe[0].number, number);
         assert_relative(hypot(one.floe[0].force.x, one.floe[0].force.y), one.load, 1e-9);
