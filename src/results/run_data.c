@@ -163,6 +163,7 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
         {"threads", NULL, 0, &n->threads},
         {"steps", NULL, 0, &n->steps},
         {"time_s", NULL, 0, &n->time},
+        {"recorded_from_s", NULL, 0, &n->recorded_from},
         {"good_until_s", NULL, 0, &n->good_until},
         {"wall_s", NULL, 0, &n->wall},
         {"recording_s", NULL, 0, &n->recording},
@@ -318,6 +319,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
 {
     char path[PATH_ROOM];
     memset(d, 0, sizeof *d);
+    d->note.recorded_from = -1;
     fram_status status = path_given_or(folder, NULL, NULL, d->folder, error);
     if (status == FRAM_OK)
         status = read_note(ctx, folder, &d->note, error);

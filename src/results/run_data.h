@@ -29,7 +29,8 @@ typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
     char scenario_hash[SHA256_TEXT_SIZE], state_hash[17];
     double threads, steps, time, wall, recording, events_left_out;
-    double good_until; /* of a run that failed: the end of its last good step [s]; 0: not told, or there is none */
+    double recorded_from; /* when its recording began [s]; -1: not told, by earlier versions */
+    double good_until;    /* of a run that failed: the end of its last good step [s]; 0: not told, or there is none */
     double step_median, step_p99, step_p999, step_longest; /* wall time [ms]; 0: not told */
     ARRAY(run_event) events;
     ARRAY(run_track) tracks;

@@ -19,6 +19,9 @@ int32_t run_first_row(const run_data *d)
 
 double run_recorded_from(const run_data *d)
 {
+    if (d->note.recorded_from >= 0)
+        return d->note.recorded_from;
+    /* An earlier version tells it by what was recorded first. */
     const double *time = run_channel(d, "time");
     double step = d->s.run.time_step, first = time && d->series.rows > 0 ? time[0] : 0;
     /* Recorded from its start a run has a frame of that.  Later ones come at multiples of their interval, as rows do.

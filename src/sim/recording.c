@@ -48,6 +48,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
 {
     run_summary summary = {.status = state,
                            .message = message,
+                           .recorded_from = r->recorded_from,
                            .good_until = r->good_until,
                            .inputs = r->inputs.data,
                            .threads = context_threads(r->ctx),
@@ -301,7 +302,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
 {
     double began = clock_wall();
     r->w = w;
-    r->began_at = r->good_until = w->clock.time[0];
+    r->recorded_from = r->began_at = r->good_until = w->clock.time[0];
     fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, r->inputs.data, &r->lock, error);
     if (status == FRAM_OK)
         status = write_scenario(r, error);
@@ -319,7 +320,7 @@ fram_status recording_read_state(recording *r, const model *m, world *w, recorde
     *lengths = (recorder_lengths){note.series_length, note.record_length, note.fractures_length};
     r->w = w;
     r->began_at = r->good_until = w->clock.time[0];
-    return status;
+    return status == FRAM_OK ? run_folder_recorded_from(r->ctx, r->folder, &r->recorded_from, error) : status;
 }
 
 /* Peaks that do not fit are lost, and the run is not. */

@@ -32,14 +32,15 @@ typedef struct recording {
     text_buffer inputs;
     byte_array peaks; /* of the checkpoint that was read or written last */
     char hash[SHA256_TEXT_SIZE];
-    double started;     /* wall clock [s] */
-    double began_at;    /* simulated time at which this call began [s] */
-    double good_until;  /* simulated time of the last step that was made whole [s] */
-    double record_time; /* for all that was written so far [s] */
-    double end_time;    /* of it at the end [s] */
-    time_ranks steps;   /* wall times of the steps of this call, recording apart */
-    int64_t end_step;   /* of the scenario */
-    int64_t stop_step;  /* at which its maker ends it: a checkpoint that is due then is that of the end; -1: none */
+    double started;       /* wall clock [s] */
+    double began_at;      /* simulated time at which this call began [s] */
+    double recorded_from; /* at which the recording began, before any resume [s]; -1: not known */
+    double good_until;    /* simulated time of the last step that was made whole [s] */
+    double record_time;   /* for all that was written so far [s] */
+    double end_time;      /* of it at the end [s] */
+    time_ranks steps;     /* wall times of the steps of this call, recording apart */
+    int64_t end_step;     /* of the scenario */
+    int64_t stop_step;    /* at which its maker ends it: a checkpoint that is due then is that of the end; -1: none */
     int64_t checkpoint_every, picture_every;
     bool open;
     int lock; /* on the folder, -1 */

@@ -2,6 +2,7 @@
 
 #include "base/build.h"
 #include "base/hash.h"
+#include "base/number_text.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
 #include "io/file.h"
@@ -317,6 +318,21 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
     return status;
 }
 
+fram_status run_folder_recorded_from(context *ctx, const char *folder, double *time, fram_error *error)
+{
+    static const char key[] = "\"recorded_from_s\": ";
+    char path[PATH_ROOM], *text = NULL, *end;
+    size_t size = 0;
+    fram_status status = path_join(folder, "run.json", path, NULL);
+    if (status == FRAM_OK)
+        status = file_read(ctx, path, RUN_NOTE_MOST, &text, &size, NULL);
+    /* No text of the file has its quotes. */
+    const char *found = status == FRAM_OK ? strstr(text, key) : NULL;
+    *time = found ? real_read(found + sizeof key - 1, &end) : -1;
+    memory_free(ctx, text);
+    return status == FRAM_ERROR_MEMORY ? error_memory(error) : FRAM_OK;
+}
+
 /* ---- summary ---- */
 
 static void add_text_member(context *ctx, text_buffer *b, const char *key, const char *value)
@@ -422,6 +438,8 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
         add_text_member(ctx, &b, "message", summary->message);
         text_format(ctx, &b, "  \"good_until_s\": %.17g,\n", summary->good_until);
     }
+    if (summary->recorded_from >= 0)
+        text_format(ctx, &b, "  \"recorded_from_s\": %.17g,\n", summary->recorded_from);
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
     add_events(ctx, &b, s, &w->events);
     add_tracks(ctx, &b, s, &w->propulsion);

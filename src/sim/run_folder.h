@@ -36,11 +36,15 @@ enum { RUN_NOTE_MOST = 1 << 26 };
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
                                  fram_error *error);
 
+/* When its recording began, by its run.json [s]; -1: that does not tell. */
+fram_status run_folder_recorded_from(context *ctx, const char *folder, double *time, fram_error *error);
+
 /* How a run stands, for run.json. */
 typedef struct run_summary {
-    const char *status;  /* "running", "stopped", "finished", "interrupted", "failed" */
-    const char *message; /* of a failure, or NULL */
-    double good_until;   /* with a message: the end of the last step before the one that failed [s] */
+    const char *status;   /* "running", "stopped", "finished", "interrupted", "failed" */
+    const char *message;  /* of a failure, or NULL */
+    double recorded_from; /* when its recording began [s]; -1: not known */
+    double good_until;    /* with a message: the end of the last step before the one that failed [s] */
     char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs;
     int threads;

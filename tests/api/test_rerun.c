@@ -299,6 +299,7 @@ START_TEST(beyond_the_end)
     assert_ok(fram_resume(ctx, &d, &result, &e), e);
     ck_assert(result.finished);
     ck_assert_int_eq(result.steps, 150);
+    ck_assert(run_file_has("run.json", "\"recorded_from_s\": 0,"));
     close_all();
 }
 END_TEST
@@ -441,6 +442,10 @@ START_TEST(recorded_from_later_on)
     assert_ok(why(2.9, 0), e);
     ck_assert_double_eq_tol(told_number(answer, "span_before"), 1.4, 1e-9);
     as_json = false;
+    unrecorded = 60; /* 1.2 s, with the first row at 2 s */
+    record(far_apart, 2, -1);
+    assert_ok(why(2.9, 0), e);
+    assert_told("\nSince the recording began, 1.7 s before, in all of the ice: 0 breaks");
     unrecorded = 130;
     record(no_checkpoints, 1, -1);
     assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "recorded from 2.6 s to 3 s, and a peak is told of a whole averaging");

@@ -53,6 +53,7 @@ START_TEST(breaks_before_a_recording_are_not_known)
     csv_table_column row = {.name = "time", .value = {time, 2, 2}};
     csv_table_column columns[] = {{.name = "time", .value = {broke, 1, 1}}, {.name = "kind", .value = {kind, 1, 1}}};
     run_data d = {.s.run = {.scale = 30, .time_step = 0.02},
+                  .note.recorded_from = -1, /* as an earlier version left it */
                   .series = {.columns = {&row, 1, 1}, .rows = 2},
                   .fractures = {.columns = {columns, 2, 2}, .rows = 1}};
     context ctx;

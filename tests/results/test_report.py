@@ -402,7 +402,7 @@ def check_late(folder):
         events = [] if lost is None else [{"time_s": lost, "kind": "position_lost", "value": 60, "text": "lost"},
                                           {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"},
                                           {"time_s": 9, "kind": "band", "value": 0, "text": "-"}]
-        note.write_text(json.dumps({**json.loads(note.read_text()), "events": events}))
+        note.write_text(json.dumps({**json.loads(note.read_text()), "recorded_from_s": 5, "events": events}))
         subprocess.run([FRAM, "report", run, "-q"], check=True)
         page = (run / "report.html").read_text()
         assert told in page, (lost, page[page.index("verdict"):][:900])
@@ -429,9 +429,12 @@ def drop_frame(record):
 
 
 def check_late_frames(folder):
-    """The first frame tells whether a recording began late, however far apart rows are; the first frame or row tells
-    when."""
+    """Of runs of earlier versions the first frame tells whether a recording began late, however far apart rows are; the
+    first frame or row tells when."""
     run = folder / "water"
+    note = json.loads((run / "run.json").read_text())
+    assert note.pop("recorded_from_s") == 0
+    (run / "run.json").write_text(json.dumps(note))
     scenario, series, record = run / "scenario.yaml", run / "series.csv", run / "record.fram"
     rows = series.read_text()
     scenario.write_text(re.sub("csv_interval: 0 ", "csv_interval: 1.8 ", scenario.read_text()))
