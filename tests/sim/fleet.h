@@ -34,10 +34,12 @@ static inline void fleet_open(fleet *f, const char *const *text, int32_t count, 
     }
     assert_ok(world_init(c, &f->m, &f->w, &error), error);
     assert_ok(build_load_window(c, &f->s[0], count, &f->w, &error), error);
+    vessel_pose_array put = {0};
     for (int32_t i = 0; i < count; i++) {
         vessel_entry entry = scenario_vessel_entry(&f->s[i], 0);
-        assert_ok(build_vessel(c, &f->s[i], &entry, &f->m, &f->w, &error), error);
+        assert_ok(build_vessel(c, &f->s[i], &entry, &f->m, &f->w, &put, &error), error);
     }
+    array_free(c, &put);
     for (int32_t i = 0; i < count; i++) {
         field_report report;
         assert_ok(build_ice(c, &f->s[i], &f->w, &report, &error), error);
