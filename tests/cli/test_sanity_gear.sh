@@ -136,7 +136,7 @@ grep 'its track has turns' err && fail "told of one leg"
 sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}/' drive.yaml >bends.yaml
 told bends.yaml "vessel.propulsion: $sides|vessel.current_coefficients" --set "vessel.propulsion.speed=auto"
 for way in $turns=ahead environment.hull_drag.water_form=1 vessel.propulsion.speed=0.1; do
-    expect 0 "$FRAM" check round.yaml --set $way
+    expect 0 "$FRAM" check round.yaml --set "$way"
     grep 'its track has turns' err && fail "told of $way"
 done
 # Those of files where they are read, as they begin and at half the draught.
