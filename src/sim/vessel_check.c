@@ -184,7 +184,8 @@ static const char *const motions[6] = {"surge", "sway", "heave", "roll", "pitch"
    by the other one's motion. */
 static double coupling_excess(const matrix6 *b, int i, int j)
 {
-    return fabs(matrix_coupling(b, i, j)) / sqrt(b->m[i][i] * b->m[j][j]) - 1;
+    double coupling = fabs(matrix_coupling(b, i, j)), damped = sqrt(b->m[i][i] * b->m[j][j]);
+    return damped > 0 ? coupling / damped - 1 : coupling > 0 ? HUGE_VAL : -1;
 }
 
 /* A diagonal of good numbers damps each motion by itself; what drives is the coupling of two, or of more. */
@@ -195,7 +196,7 @@ static void warn_of_couplings(context *ctx, const vessel_entry *e, const matrix6
     for (int i = 0; i < 6; i++) {
         for (int j = i + 1; j < 6; j++) {
             double excess = coupling_excess(b, i, j);
-            if (excess > most) /* no number where nothing couples what nothing damps */
+            if (excess > most)
                 most = excess, first = i, second = j;
         }
     }

@@ -154,7 +154,7 @@ static void check_leaning(const char *ship, const char *water, const char *more)
     scene k;
     scene_open_with(&k, ship, leaning, 4);
     int32_t body = k.w.vessels.body[0];
-    k.w.propulsion.settings[0].steering_rate = 0;
+    k.w.propulsion.settings[0].steering_rate = 1e-9; /* it stays over */
     k.w.propulsion.steering[0] = radians(20);
     scene_steps(&k, 1500);
     const hull_hydrostatics *f = &k.m.vessels.data[0].floats;
