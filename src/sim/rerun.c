@@ -128,7 +128,9 @@ static fram_status follow_other(rerun *r, const world *from, int32_t parts, bool
         s.run.solver.kind = SOLVER_ACCURATE;
         s.run.solver.most_iterations = ACCURATE_SWEEPS;
     }
-    fram_status status = build_model(r->ctx, &s, &m, error);
+    context quiet = *r->ctx; /* what a model warns of was told with the first */
+    quiet.verbosity = LOG_ERROR;
+    fram_status status = build_model(&quiet, &s, &m, error);
     if (status != FRAM_OK)
         return status;
     status = world_copy(r->ctx, from, &w, error);

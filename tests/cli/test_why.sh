@@ -2,13 +2,14 @@
 # fram why: a ship that is driven by thrusters and current against three floes and a wall has a chain of three floes to
 # the wall, which the command finds; moments and refusals; JSON; nothing in the folder changes.
 . "$FRAM_SOURCE/tests/cli/common.sh"
+printf 'time[s],x[m/s],y[m/s]\n20,0,0\n' >calm.csv
 cat >chain.yaml <<'YAML'
 run: {duration: 12, time_step: 0.02, transient: 2}
 vessel:
   mode: free
   hull: {form: box, length: 40, beam: 20, draught: 4, freeboard: 3}
   hydrodynamics: {source: none}
-environment: {current_speed: 2}
+environment: {current_speed: 2, wind_file: calm.csv}
 domain: {boundary: walls, x_min: -60, x_max: 44.02, y_min: -40, y_max: 40}
 ice:
   source: floes
@@ -24,6 +25,7 @@ find run -type f -exec cksum {} + | sort >before
 picture=()
 ! built_with cairo || picture=(-o peak.png)
 expect 0 "$FRAM" why run --peak 1 "${picture[@]}"
+same "$(grep -c "the first row of" err)" 1 "warnings of a run that is computed four times"
 find run -type f -exec cksum {} + | sort >after
 cmp -s before after || fail "fram why changes the run's folder"
 says "Peak 1 of" out
