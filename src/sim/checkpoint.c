@@ -245,8 +245,11 @@ static fram_status check_origin(context *ctx, const char *path, const table_file
     if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                         alone ? "the state belongs to another scenario; load it into a world of the one it is of"
-                               : "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
+                         alone ? "the state belongs to another scenario, or another Fram saved it: load it into a "
+                                 "world of the one it is of, by that Fram"
+                               : "the checkpoint belongs to another scenario: scenario.yaml in the folder was "
+                                 "changed, or the run was begun by another Fram: restore it, continue with that "
+                                 "Fram, or start the run again");
     }
     return check_inputs(ctx, path, &bytes[BYTES_INPUTS], note->inputs, alone, other, error);
 }

@@ -286,7 +286,7 @@ class Worlds(unittest.TestCase):
             self.assertEqual(caught.exception.key, "until")
         with self.assertRaisesRegex(fram.InputError, "empty text"):
             world.save("")
-        with self.assertRaisesRegex(fram.InputError, "state belongs to another scenario"):
+        with self.assertRaisesRegex(fram.InputError, "another scenario, or another Fram saved it"):
             world.from_bytes(towed(overrides="run.seed=8").world().to_bytes())
         state = world.to_bytes()
         for form in (bytearray(state), memoryview(state), np.frombuffer(state, np.uint8).reshape(1, -1)):

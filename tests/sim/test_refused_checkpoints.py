@@ -193,6 +193,7 @@ def main():
         assert (run / "scenario.yaml").read_text() != text
         code, told = resume(run)
         assert code == 2 and "another scenario" in told, (code, told)
+        assert "begun by another Fram: restore it, continue with that Fram" in told, told
         for name in run.glob("checkpoint-*.fram"):
             name.unlink()
         code, told = resume(run)
