@@ -100,6 +100,8 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     if (d->stop)
         ctx->stop = d->stop;
     status = explain(ctx, &y, d, &out, error);
+    if (status == FRAM_OK) /* what computes again refuses such a run */
+        run_warn_change(ctx, &y.run);
     why_close(&y);
     if (status == FRAM_OK)
         *text = out.data;

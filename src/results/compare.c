@@ -299,6 +299,9 @@ static fram_status compose_comparison(pair *p, fram_error *error)
         html_fact(&p->page, k ? "B" : "A", "%s: %s, %s, scenario %.12s, state %s", p->d[k].folder,
                   p->d[k].s.title[0] ? p->d[k].s.title : "no title", p->d[k].note.status, p->d[k].note.scenario_hash,
                   p->d[k].note.state_hash);
+    for (int k = 0; k < 2; k++)
+        if (p->d[k].is_changed)
+            html_fact(&p->page, k ? "of B" : "of A", RUN_IS_CHANGED);
     html_fact(&p->page, "scenarios", "%s",
               p->result->same_scenario       ? "the same"
               : p->result->only_files_differ ? "the same but for the files that they name"
@@ -330,6 +333,8 @@ fram_status compare_runs(context *ctx, const char *a, const char *b, const char 
         run_data_free(ctx, &p.d[0]);
         return status;
     }
+    for (int k = 0; k < 2; k++)
+        run_warn_change(ctx, &p.d[k]);
     find_rows(&p);
     if (output) {
         status = compose_comparison(&p, error);

@@ -450,6 +450,7 @@ fram_status manage_read(context *ctx, const char *folder, const manage_options *
     fram_status status = run_data_read(ctx, folder, false, &m->d, error);
     if (status != FRAM_OK)
         return status;
+    run_warn_change(ctx, &m->d);
     status = read_all(m, options, error);
     if (status != FRAM_OK)
         manage_free(m);

@@ -173,6 +173,7 @@ fram_status playback_explain(context *ctx, const char *folder, const char *press
     why y = {.ctx = ctx};
     fram_status status = run_data_read(ctx, folder, false, &y.run, &reason);
     if (status == FRAM_OK) {
+        run_warn_change(ctx, &y.run);
         status = explain(&y, pressure, blocks, &reason);
         why_close(&y);
     }

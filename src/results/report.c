@@ -371,6 +371,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
         status = run_data_read(ctx, folder, true, &r.d, error);
     if (status != FRAM_OK)
         return status;
+    run_warn_change(ctx, &r.d);
     status = compose_report(&r, error);
     if (status == FRAM_OK)
         status = atomic_file_write(ctx, path, r.page.text.data, (size_t)r.page.text.count, error);

@@ -42,6 +42,14 @@ const char *verdict_force(double newton, char out[40])
     return out;
 }
 
+/* ---- the run's folder ---- */
+
+static void judge_folder(verdict *v)
+{
+    if (v->r->d.is_changed)
+        verdict_find(v, VERDICT_CAUTION, "Restore it, or make the run again.", "The run's " RUN_IS_CHANGED ".");
+}
+
 /* ---- the end of the run ---- */
 
 static void judge_end(verdict *v)
@@ -321,6 +329,7 @@ fram_status report_verdict(report *r, fram_error *error)
     char title[VERDICT_TEXT_SIZE];
     verdict v = {.r = r};
     fram_status status = FRAM_OK;
+    judge_folder(&v);
     judge_end(&v);
     judge_walls(&v);
     judge_tracks(&v);

@@ -331,7 +331,9 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
         note_free(ctx, &d->note);
         return status;
     }
-    status = path_join(folder, "series.csv", path, error);
+    status = run_find_change(ctx, d, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->series, error);
     if (status == FRAM_OK && !csv_table_find(&d->series, "time"))

@@ -53,6 +53,8 @@ typedef struct field_state {
 typedef struct run_data {
     char folder[PATH_ROOM];
     scenario s;
+    char scenario_hash[SHA256_TEXT_SIZE]; /* of s, that is as scenario.yaml stands now and this program reads it */
+    bool is_changed;                      /* it is not the one that the run was made of, or another Fram made it */
     run_note note;
     csv_table series, fractures;
     field_state before, after; /* empty without a record */
@@ -63,6 +65,14 @@ typedef struct run_data {
    leaves the fields empty. */
 fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error);
 void run_data_free(context *ctx, run_data *d);
+
+/* Finds whether the scenario is still the one of run.json; as run_data_read did. */
+fram_status run_find_change(context *ctx, run_data *d, fram_error *error);
+/* What is told where it is not, and the warning in the log of who tells something of the scenario. */
+#define RUN_IS_CHANGED                                                                                            \
+    "scenario.yaml was changed since the run was made, or another Fram made it: what is told of the scenario is " \
+    "what stands there now"
+void run_warn_change(context *ctx, const run_data *d);
 
 /* Whether the run has no end: it goes on, or was killed. */
 bool run_is_open(const run_data *d);

@@ -351,6 +351,17 @@ expect 0 "$FRAM" compare run thin -o both.html
 holds "scenarios: different" out
 holds "ice load along X, mean" out
 holds "Comparison of two runs" both.html
+# Of a scenario that was changed since, and is not that of the run, who tells something of it says so.
+cp -r thin edited
+sed -i 's/thickness: 0.4 /thickness: 1.4 /' edited/scenario.yaml
+for words in "compare thin edited -o both.html" "manage edited" "why edited --peak 1 --no-rerun"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $words
+    says "warning: edited: scenario.yaml was changed since the run was made" err
+    same "$(grep -c "warning" err)" 1 "warnings of $words"
+done
+holds "of B.*scenario.yaml was changed" both.html
+grep -q "of A" both.html && fail "a scenario that was not changed is told as changed"
 
 # A run that was killed has come as far as its series; of its track and its state nothing is known.
 cp -r run killed

@@ -36,6 +36,8 @@ ice:
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
+CHANGED = ("scenario.yaml was changed since the run was made, or another Fram made it: what is told of the scenario is "
+           "what stands there now")
 TRANSIENT = {"feeding": 2, "level": 1}
 # Under tow, and no ice to meet.
 WATER = f"""
@@ -154,6 +156,7 @@ def check(name, run, pictures):
     check_channels(series, TRANSIENT[name], rows, {**ROWS, **(MOORED_ROWS if name == "feeding" else TOWED_ROWS)}, page)
     check_breaks(run, rows, page)
     check_heads(page)
+    assert CHANGED not in page
     assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
     mean_x, mean_y = (abs(number(rows[f"averaged, along {axis}"][0])) for axis in "XY")
     assert ("bow, along Y" in rows) == (mean_y > mean_x) == (name == "feeding"), (mean_x, mean_y)
@@ -403,8 +406,9 @@ def check_late(folder):
                                           {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"},
                                           {"time_s": 9, "kind": "band", "value": 0, "text": "-"}]
         note.write_text(json.dumps({**json.loads(note.read_text()), "recorded_from_s": 5, "events": events}))
-        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        done = subprocess.run([FRAM, "report", run], check=True, capture_output=True, text=True)
         page = (run / "report.html").read_text()
+        assert CHANGED in done.stderr and CHANGED in page, done.stderr
         assert told in page, (lost, page[page.index("verdict"):][:900])
         assert "recorded from 5 to 14 s of 14; Fram" in page and "5 to 14" in page
         band = "The vessel reached the band of the ice field, whose floes nothing pushes aside, at 9 s." in page
