@@ -68,6 +68,8 @@ typedef struct fram_comparison {
     bool same_scenario, same_state; /* by hash, the files that a scenario names too */
     void *inside;
     bool only_files_differ; /* the scenarios are the same but for what is in the files that they name */
+    bool same_as_read; /* not by hash, but as this Fram reads both: another one made a run, or scenario.yaml was changed
+                        */
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,

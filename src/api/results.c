@@ -159,7 +159,8 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
                                   .same_scenario = in->result.same_scenario,
                                   .same_state = in->result.same_state,
                                   .inside = in,
-                                  .only_files_differ = in->result.only_files_differ};
+                                  .only_files_differ = in->result.only_files_differ,
+                                  .same_as_read = in->result.same_as_read};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

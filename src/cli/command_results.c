@@ -176,6 +176,7 @@ static void print_compared(const fram_comparison *c)
     }
     printf("scenarios: %s; final states: %s\n",
            c->same_scenario       ? "the same"
+           : c->same_as_read      ? "the same, as this Fram reads them"
            : c->only_files_differ ? "the same but for the files that they name"
                                   : "different",
            c->same_state ? "identical to the bit" : "different");
@@ -191,6 +192,7 @@ static void print_comparison(const common_options *common, const fram_comparison
     }
     json j = json_begin();
     json_boolean(&j, "same_scenario", c->same_scenario);
+    json_boolean(&j, "same_as_read", c->same_as_read);
     json_boolean(&j, "only_files_differ", c->only_files_differ);
     json_boolean(&j, "same_state", c->same_state);
     json_open_list(&j, "rows");

@@ -180,13 +180,17 @@ static void choose_units(pair *p)
     p->energy = kilojoules_or_less(largest_measure(p, "kinetic_energy", LAST));
 }
 
-/* The hash has files by their names alone; what is in them is told beside it. */
-static void compare_scenarios(const run_note *a, const run_note *b, compare_result *out)
+/* The hash has files by their names alone; what is in them is told beside it.  A run of a Fram that lacked a key has
+   another hash than one of the same scenario by this: there is what this one reads of both. */
+static void compare_scenarios(const run_data *d, compare_result *out)
 {
-    bool names = strcmp(a->scenario_hash, b->scenario_hash) == 0;
+    const run_note *a = &d[0].note, *b = &d[1].note;
+    bool noted = strcmp(a->scenario_hash, b->scenario_hash) == 0;
+    bool names = noted || strcmp(d[0].scenario_hash, d[1].scenario_hash) == 0;
     bool files = a->inputs.count == b->inputs.count &&
                  (a->inputs.count == 0 || memcmp(a->inputs.data, b->inputs.data, (size_t)a->inputs.count) == 0);
-    out->same_scenario = names && files;
+    out->same_scenario = noted && files;
+    out->same_as_read = names && files && !noted;
     out->only_files_differ = names && !files;
 }
 
@@ -202,7 +206,7 @@ static void find_rows(pair *p)
         for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
             find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_name(s, v));
     }
-    compare_scenarios(&p->d[0].note, &p->d[1].note, p->result);
+    compare_scenarios(p->d, p->result);
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
     /* Without an end there is no final state. */
     p->result->same_state = p->result->same_state && !run_is_open(&p->d[0]);
@@ -304,6 +308,7 @@ static fram_status compose_comparison(pair *p, fram_error *error)
             html_fact(&p->page, k ? "of B" : "of A", RUN_IS_CHANGED);
     html_fact(&p->page, "scenarios", "%s",
               p->result->same_scenario       ? "the same"
+              : p->result->same_as_read      ? "the same, as this Fram reads them"
               : p->result->only_files_differ ? "the same but for the files that they name"
                                              : "different");
     html_fact(&p->page, "final states", "%s", p->result->same_state ? "identical to the bit" : "different");

@@ -362,6 +362,15 @@ for words in "compare thin edited -o both.html" "manage edited" "why edited --pe
 done
 holds "of B.*scenario.yaml was changed" both.html
 grep -q "of A" both.html && fail "a scenario that was not changed is told as changed"
+# One of a Fram that lacked a key has another hash, and is read as the same.
+cp -r run older
+sed -i 's/"scenario_hash": "......../"scenario_hash": "01234567/' older/run.json
+expect 0 "$FRAM" compare run older -o both.html
+for file in out both.html; do holds "the same, as this Fram reads them" $file; done
+expect 0 "$FRAM" compare older run --json
+same "$(value 'j["same_scenario"], j["same_as_read"]')" "False True" "scenarios that are read as the same"
+expect 0 "$FRAM" compare run edited --json
+same "$(value 'j["same_scenario"], j["same_as_read"]')" "False False" "scenarios that are not"
 
 # A run that was killed has come as far as its series; of its track and its state nothing is known.
 cp -r run killed
