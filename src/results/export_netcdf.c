@@ -8,6 +8,7 @@
 #include "io/file.h"
 #include "io/netcdf_file.h"
 #include "results/replay.h"
+#include "results/run_record.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -184,10 +185,14 @@ static fram_status put_frames(floe_tracks *t, netcdf_file *f, const char *folder
     return status;
 }
 
-/* Of a run without frames nothing. */
+/* Of a run without frames or record nothing. */
 static fram_status put_floes(context *ctx, netcdf_file *f, const char *folder, export_report *report, fram_error *error)
 {
     floe_tracks t = {.ctx = ctx};
+    if (run_lacks_record(folder)) {
+        log_write(ctx, LOG_WARNING, "%s: " RUN_WITHOUT_RECORD ": no floes are written", folder);
+        return FRAM_OK;
+    }
     fram_status status = count_floes(&t, folder, error);
     bool frames = t.time.count > 0;
     if (status == FRAM_OK && frames) {

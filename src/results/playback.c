@@ -1,9 +1,9 @@
 #include "results/playback.h"
 
-#include "io/record.h"
 #include "io/record_layout.h"
 #include "results/playback_chunks.h"
 #include "results/playback_explained.h"
+#include "results/run_record.h"
 
 #include <errno.h>
 #include <string.h>
@@ -298,9 +298,7 @@ fram_status playback_write(context *ctx, const char *folder, const playback_opti
     char path[PATH_ROOM];
     record_reader r;
     *report = (playback_report){0};
-    if (path_join(folder, "record.fram", path, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = record_open(ctx, path, &r, error);
+    fram_status status = run_record_open(ctx, folder, path, &r, error);
     if (status != FRAM_OK)
         return status;
     page_writer w = {.r = &r, .path = path, .report = report};

@@ -1,8 +1,7 @@
 #include "results/replay.h"
 
-#include "io/path.h"
-
 #include "io/record_pose.h"
+#include "results/run_record.h"
 
 #include <math.h>
 #include <string.h>
@@ -340,9 +339,7 @@ fram_status replay_open_any(context *ctx, const char *folder, replay *r, fram_er
     char path[PATH_ROOM];
     memset(r, 0, sizeof *r);
     r->ctx = ctx;
-    if (path_join(folder, "record.fram", path, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    fram_status status = record_open(ctx, path, &r->reader, error);
+    fram_status status = run_record_open(ctx, folder, path, &r->reader, error);
     if (status != FRAM_OK)
         return status;
     status = read_ahead(r, error);

@@ -83,8 +83,9 @@ typedef struct replay {
     int32_array next_row; /* scratch: row of each body in `next`, -1 */
 } replay;
 
-/* The record of a run's folder.  FRAM_ERROR_INPUT when there is none, when it holds no frame, or when an earlier Fram
-   wrote it.  A record that is damaged or was cut short is read up to there, with a warning in the log. */
+/* The record of a run's folder.  FRAM_ERROR_INPUT when there is none (results/run_record.h), when it holds no frame, or
+   when an earlier Fram wrote it.  A record that is damaged or was cut short is read up to there, with a warning in the
+   log. */
 fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error);
 /* The same, but that a record which holds no frame is none that fails: there is no first frame. */
 fram_status replay_open_any(context *ctx, const char *folder, replay *r, fram_error *error);

@@ -5,6 +5,7 @@
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/peaks.h"
+#include "results/run_record.h"
 #include "results/track_results.h"
 
 #include <math.h>
@@ -48,6 +49,9 @@ static void judge_folder(verdict *v)
 {
     if (v->r->d.is_changed)
         verdict_find(v, VERDICT_CAUTION, "Restore it, or make the run again.", "The run's " RUN_IS_CHANGED ".");
+    if (v->r->d.lacks_record)
+        verdict_find(v, VERDICT_NOTE, "fram run with its scenario.yaml makes it again, with one.",
+                     RUN_WITHOUT_RECORD ": nothing is told of its ice field.");
 }
 
 /* ---- the end of the run ---- */

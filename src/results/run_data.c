@@ -8,6 +8,7 @@
 #include "model/scenario_vessel.h"
 #include "results/manage_ice.h"
 #include "results/replay_moment.h"
+#include "results/run_record.h"
 
 #include <math.h>
 #include <string.h>
@@ -279,6 +280,11 @@ static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
     bool found = true;
     if (d->s.output.frame_interval <= 0)
         return FRAM_OK;
+    d->lacks_record = run_lacks_record(d->folder);
+    if (d->lacks_record) {
+        log_write(ctx, LOG_WARNING, "%s: " RUN_WITHOUT_RECORD ": nothing is told of its ice field", d->folder);
+        return FRAM_OK;
+    }
     /* A recording that met no frame's time has a record without any. */
     fram_status status = replay_open_any(ctx, d->folder, &r, error);
     if (status != FRAM_OK)

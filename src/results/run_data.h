@@ -59,10 +59,11 @@ typedef struct run_data {
     csv_table series, fractures;
     field_state before, after; /* empty without a record */
     int64_t frames;
+    bool lacks_record; /* though the fields were asked for and its scenario has frames */
 } run_data;
 
-/* FRAM_ERROR_INPUT when the folder is not that of a run. with_field: read the record too; a record without frames
-   leaves the fields empty. */
+/* FRAM_ERROR_INPUT when the folder is not that of a run. with_field: read the record too; a record without frames,
+   or none, leaves the fields empty. */
 fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error);
 void run_data_free(context *ctx, run_data *d);
 

@@ -49,8 +49,8 @@ fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_e
         return error_set(
             error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
             "the run keeps no peaks of this vessel: it met no ice after its transient of %g s, or its load "
-            "only fell from then on, it was stopped before its first checkpoint, or an earlier Fram made "
-            "it; name a moment by its time, which is computed again",
+            "only fell from then on, it was stopped before its first checkpoint, a study kept its series alone, or an "
+            "earlier Fram made it; name a moment by its time, which is computed again",
             y->run.s.run.transient);
     if (number < 1 || number > y->peaks.count)
         return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",

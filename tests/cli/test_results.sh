@@ -200,6 +200,21 @@ says "--solver: is of one solver" err
 expect 2 "$FRAM" export run --vtk --every 0
 expect 2 "$FRAM" export scene.yaml --vtk
 
+# What needs the record that a study did not keep tells how to have it.
+mkdir series
+cp thin/{scenario.yaml,run.json,series.csv,fractures.csv} series
+for words in "video series --pictures" "view series --page page.html" "manage series" "export series --vtk" \
+    "export series --geojson --time 1" "why series --time 1 -o new.svg"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words
+    says "series: the run has no record, as a study keeps with \`series\`: make it again with" err
+    says "\`fram run series/scenario.yaml -o DIR\`" err
+done
+expect 2 "$FRAM" why series --peak 1
+says "a study kept its series alone" err
+expect 2 "$FRAM" export nowhere --vtk
+says "record.fram: cannot read" err
+
 # Export.
 expect 0 "$FRAM" export run --vtk --json
 holds '"frames":7' out
@@ -226,7 +241,7 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
-    # A run without frames has its columns; one without a record is refused.
+    # A run without frames has its columns; so has one without a record, of which a study kept the series.
     # Many columns, as of a list of vessels, take each their room and no more.
     expect 0 "$FRAM" run scene.yaml -o bare --quiet --until 0.1 --set output.frame_interval=0
     awk '{ for (i = 1; i <= 600; i++) $0 = $0 (NR == 1 ? ",more_" i "[N]" : "," i); print }' \
@@ -238,8 +253,10 @@ if "$FRAM" --version | grep -q netcdf; then
     grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without frames has no columns of its fractures"
     grep -q floe_thickness bare/run.nc && fail "run.nc of a run without frames has floes"
     rm bare/run.nc bare/record.fram
-    expect 2 "$FRAM" export bare --netcdf
-    [ ! -e bare/run.nc ] || fail "a refused export left a file"
+    expect 0 "$FRAM" export bare --netcdf --json
+    says "bare: the run has no record, as a study keeps with \`series\`: no floes are written" err
+    same "$(value 'j["frames"]')" 0 "frames of a run without a record"
+    grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without a record has no columns of its fractures"
     # SIGTERM, as Ctrl-C, as soon as the file has begun leaves nothing half-written; where it is whole by then, that.
     "$FRAM" export run --netcdf -o stopped.nc 2>err >out &
     until compgen -G 'stopped.nc*' >found || ! kill -0 $!; do :; done 2>kills

@@ -398,7 +398,7 @@ def check_late(folder):
     keep_rows(series, 5)
     shrink_loads(series)
     (run / "record.fram").unlink()
-    scenario.write_text(re.sub("frame_interval: .*", "frame_interval: 0", scenario.read_text()))
+    lacking = "he run has no record, as a study keeps with `series`: nothing is told of its ice field"
     for lost, told in ((None, "The vessel held its station from 5 s on."),
                        (1.5, "The vessel held its station from 5 s on."),
                        (3, "The offset passed its limit of 50 m at 3 s, before the recording began; the rows reach")):
@@ -409,6 +409,8 @@ def check_late(folder):
         done = subprocess.run([FRAM, "report", run], check=True, capture_output=True, text=True)
         page = (run / "report.html").read_text()
         assert CHANGED in done.stderr and CHANGED in page, done.stderr
+        assert (lacking in done.stderr) == (lacking in page) == (lost is None), done.stderr
+        scenario.write_text(re.sub("frame_interval: .*", "frame_interval: 0", scenario.read_text()))
         assert told in page, (lost, page[page.index("verdict"):][:900])
         assert "recorded from 5 to 14 s of 14; Fram" in page and "5 to 14" in page
         band = "The vessel reached the band of the ice field, whose floes nothing pushes aside, at 9 s." in page
