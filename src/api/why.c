@@ -44,6 +44,8 @@ static fram_status find(const why *y, const fram_why_definition *d, const peak_d
     *found = why_recorded_at(y, d->time);
     if (*found || d->rerun)
         return FRAM_OK;
+    if (y->unread.status != FRAM_OK)
+        return why_peak(y, 1, found, error);
     return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "time",
                      "contacts are kept of the %d largest peaks, and %g s is at none of them; name a peak, or let the "
                      "moment be computed again",

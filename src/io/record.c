@@ -50,8 +50,11 @@ static fram_status check_record_head(int descriptor, const char *path, uint64_t 
     if (head.byte_order != FILE_BYTE_ORDER || head.crc != record_head_crc(&head))
         return refuse_record(error, path, "expected a record, found one with a damaged head");
     if (head.version != RECORD_VERSION)
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a record of version %d, found version %u",
-                         RECORD_VERSION, head.version);
+        return error_set(
+            error, FRAM_ERROR_INPUT, path, 0, NULL,
+            "expected a record of version %d, found version %u: another version of Fram wrote it: read it with that "
+            "one, or run the scenario again",
+            RECORD_VERSION, head.version);
     return FRAM_OK;
 }
 

@@ -281,8 +281,11 @@ static fram_status check_table_head(const char *name, const void *data, size_t s
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "expected a checkpoint, found one with a damaged head");
     if (head.version != TABLE_FILE_VERSION)
-        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
-                         "expected a checkpoint of version %d, found version %u", TABLE_FILE_VERSION, head.version);
+        return error_set(
+            error, FRAM_ERROR_INPUT, name, 0, NULL,
+            "expected a checkpoint of version %d, found version %u: another version of Fram wrote it: go on with "
+            "that one, or start the run again",
+            TABLE_FILE_VERSION, head.version);
     if (head.size != size)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of %llu bytes, found %zu",
                          (unsigned long long)head.size, size);

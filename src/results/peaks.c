@@ -1,8 +1,9 @@
 #include "results/peaks.h"
 
+#include "base/load_unit.h"
+#include "ice/fracture.h"
 #include "io/record_layout.h"
 #include "io/text_buffer.h"
-#include "results/report_parts.h"
 #include "vessel/hull.h"
 
 #include <errno.h>

@@ -3,7 +3,6 @@
 
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
-#include "results/peaks.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -172,7 +171,9 @@ static fram_status peak_table(report *r, fram_error *error)
 {
     const char *const heads[] = {"peak", "time [s]", "what it was"};
     peak_list list;
-    fram_status status = peak_list_read(r->ctx, r->d.folder, r->vessel, &list, error);
+    fram_status status = report_peaks(r, &list, error);
+    if (r->peaks_unread)
+        html_paragraph(&r->page, "The largest peaks are not told: peaks.fram cannot be read.");
     if (status != FRAM_OK || list.count == 0)
         return status;
     html_paragraph(&r->page,

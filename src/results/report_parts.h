@@ -7,6 +7,7 @@
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
 #include "results/load_statistics.h"
+#include "results/peaks.h"
 #include "results/report.h"
 #include "results/run_data.h"
 
@@ -18,11 +19,14 @@ typedef struct report {
     html_page page;
     int32_t vessel;       /* row of the one that is reported now */
     ARRAY(double *) kept; /* scaled columns that charts point to, freed at the end */
+    bool peaks_unread;    /* another Fram wrote them, or they are damaged: told in the log */
     double_array load;    /* horizontal magnitude of its averaged ice load, every row [N] */
 } report;
 
 /* The vessel that is reported from now on, its load. */
 fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error);
+/* Its recorded peaks; none where they cannot be read, which peaks_unread tells then. */
+fram_status report_peaks(report *r, peak_list *list, fram_error *error);
 /* How the report calls it: "the vessel" or "vessel NAME". */
 vessel_title report_vessel(const report *r);
 /* A heading, with the vessel's name where there are names. */

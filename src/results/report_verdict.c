@@ -4,7 +4,6 @@
 #include "base/channel_statistics.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
-#include "results/peaks.h"
 #include "results/run_record.h"
 #include "results/track_results.h"
 
@@ -148,7 +147,7 @@ static fram_status judge_no_load(verdict *v, const char *name, fram_error *error
 {
     const report *r = v->r;
     peak_list list;
-    fram_status status = peak_list_read(r->ctx, r->d.folder, r->vessel, &list, error);
+    fram_status status = report_peaks(v->r, &list, error);
     if (status != FRAM_OK)
         return status;
     if (list.count > 0) {
@@ -158,7 +157,12 @@ static fram_status judge_no_load(verdict *v, const char *name, fram_error *error
         verdict_find(v, VERDICT_CAUTION, "Make output.csv_interval shorter: figures here are those of the series.",
                      "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name, load,
                      most->time);
-    } else
+    } else if (r->peaks_unread && run_leaves_out_steps(&r->d))
+        verdict_find(v, VERDICT_CAUTION, "Run the scenario again, or read the run with the Fram that made it.",
+                     "%sno row of the series has an ice load; whether one came between them is not known, since "
+                     "peaks.fram cannot be read.",
+                     name);
+    else
         verdict_find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?",
                      "%sno ice load occurred.", name);
     peak_list_free(r->ctx, &list);

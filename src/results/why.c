@@ -10,6 +10,17 @@
 /* Differences under this part of the load matter to nobody: within what chance does from one second to the next. */
 static const double MATTERS = 0.05;
 
+/* Those of another Fram are no reason not to look at a moment, which is computed again. */
+static fram_status read_peaks(why *y, fram_error *error)
+{
+    fram_status status = peak_list_read(y->ctx, y->run.folder, y->vessel, &y->peaks, &y->unread);
+    if (status == FRAM_ERROR_INPUT)
+        return FRAM_OK;
+    if (status != FRAM_OK && error)
+        *error = y->unread;
+    return status;
+}
+
 fram_status why_open(context *ctx, const char *folder, const char *vessel, why *y, fram_error *error)
 {
     *y = (why){.ctx = ctx};
@@ -18,7 +29,7 @@ fram_status why_open(context *ctx, const char *folder, const char *vessel, why *
         return status;
     status = scenario_choose_vessel(&y->run.s, folder, vessel, &y->vessel, error);
     if (status == FRAM_OK)
-        status = peak_list_read(ctx, folder, y->vessel, &y->peaks, error);
+        status = read_peaks(y, error);
     if (status != FRAM_OK)
         run_data_free(ctx, &y->run);
     return status;
@@ -40,6 +51,11 @@ static bool is_shorter_than_a_window(const run_data *d)
 fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error)
 {
     const run_data *run = &y->run;
+    if (y->unread.status != FRAM_OK) {
+        if (error)
+            *error = y->unread;
+        return y->unread.status;
+    }
     if (y->peaks.count == 0 && is_shorter_than_a_window(run))
         return error_set(error, FRAM_ERROR_INPUT, run->folder, 0, "peak",
                          "the run keeps no peaks: it was recorded from %g s to %g s, and a peak is told of a whole "

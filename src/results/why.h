@@ -22,13 +22,16 @@ typedef struct why {
     context *ctx;
     run_data run;
     int32_t vessel;
-    peak_list peaks; /* of the vessel */
+    peak_list peaks;   /* of the vessel */
+    fram_error unread; /* why those of its file cannot be read; its status FRAM_OK: they can */
 } why;
 
-/* The run and its peaks; FRAM_ERROR_INPUT when the folder is not that of a run. */
+/* The run and its peaks; FRAM_ERROR_INPUT when the folder is not that of a run.  Peaks that cannot be read are none,
+   and their moments can be computed again. */
 fram_status why_open(context *ctx, const char *folder, const char *vessel, why *y, fram_error *error);
 void why_close(why *y);
-/* Peak 1 is the largest.  FRAM_ERROR_INPUT says how many there are, and what to do when there are none. */
+/* Peak 1 is the largest.  FRAM_ERROR_INPUT says how many there are, and what to do when there are none or
+   they cannot be read. */
 fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error);
 /* The recorded peak whose window has the time in its middle half; NULL: the moment must be computed again. */
 const peak_detail *why_recorded_at(const why *y, double time);

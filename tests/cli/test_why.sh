@@ -143,11 +143,14 @@ cmp run/peaks.fram before.fram || fail "peaks of a finished run after a resume"
 rm run/peaks.fram
 expect 2 "$FRAM" why run --peak 1 --no-rerun
 says "keeps no peaks" err
-expect 0 "$FRAM" why run --time "$time" --json
-same "$(value "abs(j['load'] / $load - 1) < 1e-6")" True "peak computed again without the file"
 printf 'not peaks at all' >run/peaks.fram
-expect 2 "$FRAM" why run --peak 1
-says "peaks.fram" err
+for words in "--peak 1" "--time $time --no-rerun"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" why run $words
+    says "peaks.fram: expected a record" err
+done
+expect 0 "$FRAM" why run --time "$time" --json
+same "$(value "abs(j['load'] / $load - 1) < 1e-6")" True "peak computed again where the file is none"
 expect 0 "$FRAM" run chain.yaml -o bare --quiet --set vessel.present=false
 expect 2 "$FRAM" why bare --peak 1
 says "no vessel" err

@@ -14,6 +14,7 @@ import re
 import struct
 import subprocess
 import tempfile
+import zlib
 
 FRAM = os.environ["FRAM"]
 VESSEL = "hull: {length: 48, beam: 12, draught: 4, freeboard: 2}"
@@ -390,6 +391,44 @@ def shrink_loads(series):
     series.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
 
 
+def with_head(data, at, size, *fields):
+    """A head with other fields, and its checksum after them (layout: io/record.h)."""
+    for form, offset, value in fields:
+        struct.pack_into(form, data, at + offset, value)
+    struct.pack_into("<I", data, at + size - 4, zlib.crc32(data[at:at + size - 4]))
+
+
+def other_version(data):
+    with_head(data, 0, 24, ("<I", 8, 99))
+    return data
+
+
+def shorter_peak(data):
+    """The first peak has four bytes less, as of another layout; every checksum fits."""
+    at, kind, length = 24, None, 0
+    while kind != 12:
+        at += kind is not None and 24 + (length + 7) // 8 * 8
+        kind, length = struct.unpack_from("<IQ", data, at + 4)
+    end, rest = at + 24 + length - 4, data[at + 24 + (length + 7) // 8 * 8:]
+    with_head(data, at, 24, ("<Q", 8, length - 4), ("<I", 16, zlib.crc32(data[at + 24:end])))
+    return data[:end] + bytes(-(length - 4) % 8) + rest
+
+
+def check_peaks(folder):
+    """A report lacks only the peaks that another version of Fram wrote."""
+    run = folder / "feeding"
+    peaks, page = run / "peaks.fram", run / "report.html"
+    kept = peaks.read_bytes()
+    peaks.write_bytes(other_version(bytearray(kept)))
+    done = subprocess.run([FRAM, "why", run, "--peak", "1"], capture_output=True, text=True)
+    assert done.returncode == 2 and "another version of Fram wrote it: read it with that one" in done.stderr, done
+    peaks.write_bytes(shorter_peak(bytearray(kept)))
+    done = subprocess.run([FRAM, "report", run], check=True, capture_output=True, text=True)
+    assert done.stderr.count("warning: the report tells no peaks: ") == 1 and "does not fit" in done.stderr, done.stderr
+    assert "The largest peaks are not told: peaks.fram cannot be read." in page.read_text()
+    peaks.write_bytes(kept)
+
+
 def check_late(folder):
     """A recording that began on the way, as one of a program does: from when on, and what was lost before it."""
     run = folder / "feeding"
@@ -514,6 +553,7 @@ def main():
         check_late_frames(pathlib.Path(folder))
         check_loose(pathlib.Path(folder))
         check_ice(pathlib.Path(folder))
+        check_peaks(pathlib.Path(folder))
         check_late(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))
 
