@@ -179,7 +179,8 @@ static fram_status write_condition(study_folder *f, int32_t condition, hull_stor
 }
 
 /* A study of another scenario in the folder: nothing that was computed is lost, but the tables are.  The record of the
-   study before has the whole path of its scenario, its file only that from where it lay. */
+   study before has the whole path of its scenario, its file only that from where it lay; one that was moved with its
+   files has its conditions still. */
 static void tell_other(const study_folder *f)
 {
     study other;
@@ -191,7 +192,7 @@ static void tell_other(const study_folder *f)
     if (whole && !path.failed && file_is_readable(path.data) &&
         file_read(f->ctx, path.data, STUDY_FILE_LIMIT, &data, &size, NULL) == FRAM_OK &&
         study_parse(f->ctx, path.data, data, size, &other, NULL) == FRAM_OK) {
-        if (strcmp(other.scenario, whole) != 0)
+        if (strcmp(other.scenario, whole) != 0 && !study_index_is_within(f))
             log_write(
                 f->ctx, LOG_WARNING,
                 "%s was of a study of %s: its runs stay, but the tables and the page are of this study now; give the "
@@ -213,8 +214,6 @@ static fram_status copy_study(const study_folder *f, fram_error *error)
     fram_status status = path.failed ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
         status = file_read(f->ctx, f->s->file, STUDY_FILE_LIMIT, &data, &size, error);
-    if (status == FRAM_OK)
-        tell_other(f);
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, data, size, error);
     memory_free(f->ctx, data);
@@ -282,8 +281,10 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, bo
         status = write_conditions(f, error);
     if (status == FRAM_OK)
         status = study_folder_check_inputs(f, error);
-    if (status == FRAM_OK && !stays)
+    if (status == FRAM_OK && !stays) {
+        tell_other(f);
         status = study_record_write(f, error);
+    }
     text_free(ctx, &f->index);
     text_free(ctx, &f->inputs);
     if (status != FRAM_OK)

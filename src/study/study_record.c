@@ -12,6 +12,7 @@
 #include "sim/run_inputs.h"
 #include "study/study_file.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,45 @@ void study_index_row(study_folder *f, int32_t condition, const char *scenario_ha
     for (const char *end = inputs + strlen(inputs); run_inputs_next(&inputs, end, &file); blank = " ")
         text_format(f->ctx, &f->index, "%s%s", blank, file.digest);
     text_add(f->ctx, &f->index, "\n");
+}
+
+static int by_id(const void *a, const void *b) { return memcmp(a, b, CONDITION_ID); }
+
+/* Whether every row of an index, after its heads, has one of these names, which are sorted, in its second column. */
+static bool has_only(const char *row, char (*id)[CONDITION_ID], int32_t count)
+{
+    while (row && *row) {
+        char found[CONDITION_ID];
+        const char *cell = strchr(row, ',');
+        snprintf(found, sizeof found, "%.*s", CONDITION_ID - 1, cell ? cell + 1 : "");
+        if (!bsearch(found, id, (size_t)count, sizeof *id, by_id))
+            return false;
+        row = strchr(row, '\n');
+        row = row ? row + 1 : NULL;
+    }
+    return true;
+}
+
+bool study_index_is_within(const study_folder *f)
+{
+    static const char heads[] = INDEX_HEADS;
+    char *data = NULL;
+    size_t size = 0, count = (size_t)f->s->conditions;
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/index.csv", f->path);
+    char(*id)[CONDITION_ID] = memory_array(f->ctx, count, sizeof *id);
+    bool within = id && !path.failed && file_is_readable(path.data) &&
+                  file_read(f->ctx, path.data, STUDY_FILE_LIMIT, &data, &size, NULL) == FRAM_OK &&
+                  strncmp(data, heads, sizeof heads - 1) == 0;
+    if (within) {
+        memcpy(id, f->id, count * sizeof *id);
+        qsort(id, count, sizeof *id, by_id);
+        within = has_only(data + sizeof heads - 1, id, f->s->conditions);
+    }
+    memory_free(f->ctx, id);
+    memory_free(f->ctx, data);
+    text_free(f->ctx, &path);
+    return within;
 }
 
 /* ---- effective.yaml ---- */

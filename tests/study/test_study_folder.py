@@ -30,7 +30,8 @@ class Folders(StudyTest):
     def test_a_folder_of_a_study_of_another_scenario_is_told(self):
         short = "set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n"
         self.fram(self.write(short), "-o", self.at / "out")
-        (self.at / "other.yaml").write_text((self.at / "base.yaml").read_text())
+        base = (self.at / "base.yaml").read_text()
+        (self.at / "other.yaml").write_text(base + "title: another\n")
         study = self.write(short)
         for name, tells in (("base.yaml", False), ("other.yaml", True), ("other.yaml", False)):
             study.write_text(f"scenario: {name}\n{short}# {name}\n")
@@ -38,16 +39,25 @@ class Folders(StudyTest):
                                   text=True)
             self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
             self.assertEqual("base.yaml" in done.stderr, tells)
-        # The study as it was read is of the same scenario, one of the same name elsewhere is of another.
+        # The study as it was read is of the same scenario, one of the same name elsewhere is of another; where it is
+        # the same there too it was moved, here with a seed and a condition more.
         record, away = self.at / "out" / "effective.yaml", self.at / "away"
         away.mkdir()
-        (away / "other.yaml").write_text((self.at / "base.yaml").read_text())
+        (away / "other.yaml").write_text(base + "title: elsewhere\n")
         (away / "study.yaml").write_text(study.read_text())
         for path, tells in ((record, False), (study, False), (away / "study.yaml", True)):
             done = subprocess.run([FRAM, "study", path, "-o", self.at / "out"], check=True, capture_output=True,
                                   text=True)
             self.assertEqual(f"was of a study of {self.at}/other.yaml" in done.stderr, tells, done.stderr)
             self.assertEqual("warning" in done.stderr, tells, done.stderr)
+        moved = self.at / "moved"
+        shutil.copytree(away, moved)
+        (moved / "study.yaml").write_text(study.read_text().replace("seeds: 1", "seeds: 2")
+                                          + "vary: {grid: {vessel.speed: [1, 2]}}\n")
+        done = subprocess.run([FRAM, "study", moved / "study.yaml", "-o", self.at / "out"], check=True,
+                              capture_output=True, text=True)
+        self.assertNotIn("warning", done.stderr)
+        self.assertIn("3 carried out now", done.stderr)
         # One of something else is left alone, --force or not.
         (self.at / "mine").mkdir()
         (self.at / "mine" / "letter").write_text("")
