@@ -87,13 +87,16 @@ fram_status manage_measure(context *ctx, const manage_floe *floes, int32_t count
     return good ? FRAM_OK : error_memory(error);
 }
 
-/* Way from the near end of a strip to the nearest point of a ring. */
+/* Part of a strip's length, and of its place, that rounding may put ice at its near end beyond it. */
+#define WAY_ROUNDING 1e-12
+
+/* Way from the near end of a strip to the nearest point of a ring, which was cut at that end. */
 static double way_to(const manage_window *strip, polygon ring)
 {
     double least = HUGE_VAL, begin = vec2_dot(strip->along, strip->centre) - 0.5 * strip->length;
     for (int32_t i = 0; i < ring.count; i++)
         least = fmin(least, vec2_dot(strip->along, ring.vertex[i]) - begin);
-    return fmax(least, 0);
+    return least > WAY_ROUNDING * (fabs(begin) + strip->length) ? least : 0;
 }
 
 fram_status manage_threat_in(context *ctx, const manage_floe *floes, int32_t count, const manage_window *strip,

@@ -152,5 +152,23 @@ START_TEST(threats_are_the_nearest_and_the_largest)
 }
 END_TEST
 
+/* A sheet that reaches to the vessel is no rounding away, however the strip is turned and wherever it begins. */
+START_TEST(ice_at_the_vessel_is_at_no_distance)
+{
+    field f = {.count = 0};
+    context_init(&f.ctx);
+    fram_error error = {0};
+    add(&f, 0, 0, 200, true);
+    for (int i = 1; i < 40; i++) {
+        vec2 along = {cos(0.1 * i), sin(0.1 * i)};
+        manage_threat t;
+        manage_window strip = {{0.7 * i + 150 * along.x, -i / 3.0 + 150 * along.y}, along, 300, 50};
+        assert_ok(manage_threat_in(&f.ctx, f.floe, f.count, &strip, 20, &t, &error), error);
+        ck_assert_double_eq(t.nearest, 0);
+    }
+}
+END_TEST
+
 TEST_MAIN("manage_ice", size_is_that_of_a_disc, covers_are_areas_in_the_window, sizes_of_a_model_are_told_apart,
-          windows_turn_and_the_sheet_is_no_floe, concave_floes_count_by_area, threats_are_the_nearest_and_the_largest)
+          windows_turn_and_the_sheet_is_no_floe, concave_floes_count_by_area, threats_are_the_nearest_and_the_largest,
+          ice_at_the_vessel_is_at_no_distance)
