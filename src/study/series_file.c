@@ -17,17 +17,6 @@
 
 /* ---- runs ---- */
 
-static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
-{
-    bool vessels = scenario_vessel_count(&d->s) > 0;
-    const vessel_channel of_first = vessel_channel_name(&d->s, 0, "load");
-    /* In a list of vessels nothing is nearer to `load` than the load of one. */
-    if (vessels && strcmp(name, "load") == 0 && strcmp(of_first.text, name) != 0)
-        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name, "each vessel has its own; did you mean %s?",
-                         of_first.text);
-    return run_refuse_channel(d, name, vessels ? of_first.text : NULL, error);
-}
-
 /* The vessel whose `load` this is: NAME.load in a list of vessels; -1: no vessel's. */
 static int32_t load_of(const run_data *d, const char *name)
 {
@@ -35,6 +24,21 @@ static int32_t load_of(const run_data *d, const char *name)
         if (strcmp(vessel_channel_name(&d->s, v, "load").text, name) == 0)
             return v;
     return -1;
+}
+
+static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
+{
+    bool vessels = scenario_vessel_count(&d->s) > 0;
+    const vessel_channel of_first = vessel_channel_name(&d->s, 0, "load");
+    if (load_of(d, name) >= 0)
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name,
+                         "the load is made of ice_force_averaged_x and ice_force_averaged_y, of which the run's series "
+                         "lacks one");
+    /* In a list of vessels nothing is nearer to `load` than the load of one. */
+    if (vessels && strcmp(name, "load") == 0 && strcmp(of_first.text, name) != 0)
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name, "each vessel has its own; did you mean %s?",
+                         of_first.text);
+    return run_refuse_channel(d, name, vessels ? of_first.text : NULL, error);
 }
 
 static fram_status take_channel(context *ctx, const run_data *d, const char *name, double_array *value,

@@ -361,6 +361,12 @@ head -n 1 run/series.csv >rare/series.csv
 expect 2 "$FRAM" plot rare roll -o none.png
 says "no rows" err
 
+sed -i '1s/ice_force_averaged_x/another_x/' rare/series.csv
+sed -n '2,$p' run/series.csv >>rare/series.csv
+expect 2 "$FRAM" extremes rare
+says "the load is made of ice_force_averaged_x and ice_force_averaged_y" err
+grep -q "did you mean load" err && fail "the name that was asked for is offered: $(cat err)"
+
 # Two runs.
 expect 0 "$FRAM" compare run run --json
 holds '"same_state":true' out
