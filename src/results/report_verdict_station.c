@@ -55,7 +55,7 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
         judge_beyond(v, what, unit, u, limit);
     else
         verdict_find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what,
-                     most, unit, limit, unit, 100 * u.most / limit);
+                     most, unit, limit, unit, limit > 0 ? 100 * u.most / limit : 0);
 }
 
 /* Of the breaking load of a line: 1 / 1.67, the factor of safety of an intact mooring (API RP 2SK). */

@@ -62,6 +62,20 @@ assert int(told[1]) == used["number"] and abs(float(told[3]) - 100 * used["utili
 assert abs(float(told[2]) * 1e3 / used["greatest"] - 1) < 7e-4, (told[0], used)  # at the start it was 0.14 % larger
 PY
 
+# A limit of 0 is one that a vessel keeps which does not move that way.
+cp -r held still
+sed -i 's/^\(  *heading_limit_deg: \).*/\10/' still/scenario.yaml
+python3 - <<'PY'
+import csv
+rows = list(csv.reader(open("still/series.csv")))
+turn = [c.split("[")[0] for c in rows[0]].index("heading_deviation")
+for row in rows[1:]:
+    row[turn] = "0"
+csv.writer(open("still/series.csv", "w"), lineterminator="\n").writerows(rows)
+PY
+verdict still
+says "Largest heading deviation 0 deg, within its limit of 0 deg (0 %)" verdict.txt
+
 # One line is told in the singular.
 sed '/count: 4/d; s/^         breaking_load.*//' ship.yaml >hawser.yaml
 expect 0 "$FRAM" run hawser.yaml -o hawser --quiet --set run.duration=4.1
