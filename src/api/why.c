@@ -32,6 +32,25 @@ static int32_t rank_of(const why *y, const peak_detail *d)
     return 0;
 }
 
+/* A moment that must be computed again, where that may not be done. */
+static fram_status refuse_unrecorded(const why *y, double time, fram_error *error)
+{
+    const char *folder = y->run.folder;
+    int count = (int)y->peaks.count;
+    if (count == 0)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, "time",
+                         "the run keeps no peaks of this vessel: let the moment be computed again");
+    if (count == 1)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, "time",
+                         "contacts are kept of the largest peak, and %g s is not at it; name that peak, or let the "
+                         "moment be computed again",
+                         time);
+    return error_set(error, FRAM_ERROR_INPUT, folder, 0, "time",
+                     "contacts are kept of the %d largest peaks, and %g s is at none of them; name a peak, or let the "
+                     "moment be computed again",
+                     count, time);
+}
+
 /* What is recorded of the moment; NULL: it must be computed again. */
 static fram_status find(const why *y, const fram_why_definition *d, const peak_detail **found, fram_error *error)
 {
@@ -46,10 +65,7 @@ static fram_status find(const why *y, const fram_why_definition *d, const peak_d
         return FRAM_OK;
     if (y->unread.status != FRAM_OK)
         return why_peak(y, 1, found, error);
-    return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "time",
-                     "contacts are kept of the %d largest peaks, and %g s is at none of them; name a peak, or let the "
-                     "moment be computed again",
-                     (int)y->peaks.count, d->time);
+    return refuse_unrecorded(y, d->time, error);
 }
 
 static fram_status explain(context *ctx, const why *y, const fram_why_definition *d, text_buffer *out,

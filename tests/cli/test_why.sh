@@ -85,6 +85,8 @@ YAML
 expect 0 "$FRAM" run settled.yaml -o settled --quiet
 expect 0 "$FRAM" why settled --peak 1 --no-rerun --json
 same "$(value "1.7 < j['time'] < 2.5 and j['floes'][0]['floe'] == 1")" True "a peak beside one of the transient"
+expect 2 "$FRAM" why settled --time 2.9 --no-rerun
+says "contacts are kept of the largest peak, and 2.9 s is not at it; name that peak, or let the moment" err
 
 # A moment: at the peak it is the recorded one; elsewhere it is computed again, or refused.
 expect 0 "$FRAM" why run --time "$time" --json
@@ -143,6 +145,10 @@ cmp run/peaks.fram before.fram || fail "peaks of a finished run after a resume"
 rm run/peaks.fram
 expect 2 "$FRAM" why run --peak 1 --no-rerun
 says "keeps no peaks" err
+expect 2 "$FRAM" why run --time 3.5 --no-rerun
+says "time: the run keeps no peaks of this vessel: let the moment be computed again" err
+expect 0 "$FRAM" why run --time "$time" --json
+same "$(value "abs(j['load'] / $load - 1) < 1e-6")" True "peak computed again without the file"
 printf 'not peaks at all' >run/peaks.fram
 for words in "--peak 1" "--time $time --no-rerun"; do
     # shellcheck disable=SC2086
