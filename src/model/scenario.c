@@ -135,6 +135,15 @@ double scenario_averaging_window(const scenario *s)
     return fabs(made - asked) <= 1e-9 * asked ? asked : made;
 }
 
+/* Part of the span that a window may have. */
+#define SHORT_WINDOW 0.1
+
+bool scenario_averages_begin_early(const scenario *s, double first, double span)
+{
+    double window = scenario_averaging_window(s);
+    return window > first * (1 + 1e-9) && window > SHORT_WINDOW * span;
+}
+
 vec3 scenario_velocity(double speed, double direction_deg)
 {
     double angle = radians(direction_deg);

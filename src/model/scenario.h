@@ -103,6 +103,9 @@ vec3 scenario_velocity(double speed, double direction_deg);
    is whole steps, within rounding. */
 int64_t scenario_averaging_steps(const scenario *s);
 double scenario_averaging_window(const scenario *s);
+/* Whether averages, the first one at this time [s], reach back to before the start of the run, where there is no load,
+   and the window is a part that matters of the span [s] that they are of. */
+bool scenario_averages_begin_early(const scenario *s, double first, double span);
 
 /* Where a key, section or list was given; NULL when it was not. */
 const scenario_place *scenario_given(const scenario *s, const char *key);

@@ -439,7 +439,8 @@
     X(checkpoint_interval, REAL(60, 0, 1e7), "s", "between checkpoints, in whole steps; 0: only at the end")    \
     X(picture_interval, REAL(0, 0, 1e7), "s", "between plan-view pictures, in whole steps; 0: only at the end") \
     X(averaging_window, SCALED(0.5, 30, 0.5, 0, 1e5), "s",                                                      \
-      "window over which loads are averaged for statistics, in whole steps, a million at most")
+      "window over which loads are averaged for statistics, in whole steps, a million at most; longer than "    \
+      "run.transient it takes in the time before the start, without load")
 
 /* Every section, inner ones before those that hold them: S(noun, rows). */
 #define SCENARIO_SECTIONS(S)                  \

@@ -72,12 +72,13 @@ static bool find_histogram(context *ctx, const double *sorted, int32_t count, lo
     return true;
 }
 
-bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out)
+bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, double window,
+                          load_distribution *out)
 {
     *out = (load_distribution){.independent = 1};
     if (count < 1)
         return true;
-    out->time_scale = integral_time_scale(value, count, step);
+    out->time_scale = fmax(integral_time_scale(value, count, step), 0.5 * window);
     out->independent = fmax(1, count * step / (2 * out->time_scale));
     double *sorted = memory_array(ctx, (size_t)count, sizeof *sorted);
     if (!sorted)

@@ -6,7 +6,8 @@
 
 /* The band is Wilson's score interval (Wilson 1927) at 95 %, with the number of independent values that the series is
    worth in place of its length: duration over twice the integral time scale (Bartlett 1946), the integral of the
-   autocorrelation up to its first zero. */
+   autocorrelation up to its first zero.  Of values that are means over a window, half of it is the least scale: that of
+   a mean of white noise, where the series itself tells less. */
 typedef struct load_distribution {
     double_array level;               /* ascending, from the least to the greatest value */
     double_array exceeded, low, high; /* part of the time above each level, and its band */
@@ -27,8 +28,10 @@ typedef enum load_cut {
    largest size before that, 0 without any. */
 double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut);
 
-/* Values at equal distances `step` in time.  Without values all is empty.  false: no memory. */
-bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out);
+/* Values at equal distances `step` in time, each a mean over a window that ends there, 0: none.  Without values all is
+   empty.  false: no memory. */
+bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, double window,
+                          load_distribution *out);
 void load_distribution_free(context *ctx, load_distribution *d);
 
 #endif

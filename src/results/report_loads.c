@@ -66,7 +66,8 @@ static fram_status distribution(report *r, load_unit unit, fram_error *error)
         most = fmax(most, r->load.data[i]);
     if (!(most > 0)) /* of no load there is no distribution */
         return FRAM_OK;
-    if (!load_distribution_of(r->ctx, r->load.data + first, r->load.count - first, step_of(r), &d)) {
+    if (!load_distribution_of(r->ctx, r->load.data + first, r->load.count - first, step_of(r),
+                              scenario_averaging_window(&r->d.s), &d)) {
         load_distribution_free(r->ctx, &d);
         return error_memory(error);
     }

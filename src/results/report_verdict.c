@@ -169,6 +169,17 @@ static fram_status judge_no_load(verdict *v, const char *name, fram_error *error
     return FRAM_OK;
 }
 
+/* Rows count from the first one on, for a span [s]. */
+static void judge_window(verdict *v, const char *name, double first, double span)
+{
+    const scenario *s = &v->r->d.s;
+    if (scenario_averages_begin_early(s, first, span))
+        verdict_find(v, VERDICT_CAUTION, "Make output.averaging_window shorter, or run.transient longer.",
+                     "%sthe averaging window of %.4g s is longer than the transient of %.4g s: the mean contains what "
+                     "was before it, and before the start no load.",
+                     name, scenario_averaging_window(s), s->run.transient);
+}
+
 static fram_status judge_load(verdict *v, fram_error *error)
 {
     const report *r = v->r;
@@ -188,7 +199,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
     if (!(s.greatest > 0))
         return judge_no_load(v, name, error);
     load_distribution d;
-    if (!load_distribution_of(r->ctx, r->load.data + first, rows, step, &d)) {
+    if (!load_distribution_of(r->ctx, r->load.data + first, rows, step, scenario_averaging_window(&r->d.s), &d)) {
         load_distribution_free(r->ctx, &d);
         return error_memory(error);
     }
@@ -202,11 +213,12 @@ static fram_status judge_load(verdict *v, fram_error *error)
     snprintf(remedy, sizeof remedy,
              "About %s s after the transient, or as much over several seeds (fram study), would give %s.", needed, aim);
     verdict_find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
-                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent values in %.4g s): %s.",
-                 name, mean, fmin(100 * part, 999), d.independent, span,
+                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent value%s in %.4g s): %s.",
+                 name, mean, fmin(100 * part, 999), d.independent, d.independent < 1.5 ? "" : "s", span,
                  enough           ? "enough for a mean"
                  : part <= ENOUGH ? "too few values to trust that"
                                   : "too short for a mean");
+    judge_window(v, name, time[first], span);
     verdict_find(
         v, VERDICT_NOTE,
         "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",

@@ -47,6 +47,15 @@ static void tell_all_rounded(const teller *t)
     tell_rounded(t, "output.averaging_window", o->averaging_window, scenario_averaging_steps(t->s), SHORTEST_WINDOW);
 }
 
+/* The averages that statistics are of, of loads that there may be. */
+static bool averages_begin_early(const scenario *s)
+{
+    const scenario_run *r = &s->run;
+    double first = fmax(r->transient + r->time_step, s->output.csv_interval);
+    return s->ice.source != ICE_NONE && scenario_vessel_count(s) > 0 &&
+           scenario_averages_begin_early(s, first, r->duration - r->transient);
+}
+
 static void tell_times(const teller *t)
 {
     const scenario_run *r = &t->s->run;
@@ -88,7 +97,13 @@ static void tell_times(const teller *t)
         sanity_say(t->tell, t->to,
                    "output.averaging_window: %g s is less than run.time_step, %g s: averaged loads are those of a step",
                    o->averaging_window, r->time_step);
-    if (o->averaging_window > LONGEST_WINDOW * r->duration)
+    if (averages_begin_early(t->s))
+        sanity_say(
+            t->tell, t->to,
+            "output.averaging_window: %g s is longer than run.transient, %g s: statistics of averaged loads "
+            "contain what was before it, and before the start no load; give a shorter one, or a longer transient",
+            o->averaging_window, r->transient);
+    else if (o->averaging_window > LONGEST_WINDOW * r->duration)
         sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
     double pictures = r->duration / fmax(o->picture_interval, r->time_step); /* no more than steps */
     if (o->picture_interval > 0 && pictures > MOST_PICTURES)

@@ -206,8 +206,12 @@ all_told ship.yaml output.csv_interval=0.12 output.frame_interval=0.131 output.c
     "csv_interval: 0.12 s is 2.4 steps of run.time_step, 0.05 s, and counts as 2: 0.1 s" \
     "frame_interval: 0.131 s is 2.62 steps" "checkpoint_interval: 0.23 s is 4.6" "picture_interval: 0.18 s is 3.6" \
     "averaging_window: 0.125 s is 2.5 steps of run.time_step, 0.05 s, and counts as 3: 0.15 s"
-all_told towed.yaml output.averaging_window=20000 -- "averaging_window: 20000 s is more than half" \
+all_told towed.yaml output.averaging_window=20000 -- \
+    "averaging_window: 20000 s is longer than run.transient, 0 s: statistics|before the start no load" \
     "averaging_window: 20000 s is 2e+06 steps of run.time_step, 0.01 s, and counts as 1000000: 10000 s; no more are"
+all_told ship.yaml run.transient=320 output.averaging_window=310 -- "averaging_window: 310 s is more than half"
+all_told ship.yaml run.transient=5 output.averaging_window=59 --
+all_told ship.yaml run.transient=5 output.averaging_window=60 -- "averaging_window: 60 s is longer than run.tran"
 all_told ship.yaml output.csv_interval=5.02 output.frame_interval=0.15 output.averaging_window=0 --
 
 # Histories in minutes, in knots, of a date; hulls in millimetres, athwartships, from the keel or the stern up.

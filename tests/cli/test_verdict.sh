@@ -62,6 +62,15 @@ assert int(told[1]) == used["number"] and abs(float(told[3]) - 100 * used["utili
 assert abs(float(told[2]) * 1e3 / used["greatest"] - 1) < 7e-4, (told[0], used)  # at the start it was 0.14 % larger
 PY
 
+# Averages over half of what is left after the transient are two values; here they reach back to before the start.
+grep -q 'averaging window' verdict.txt && fail "a window that is shorter than the transient is told"
+cp -r held wide
+sed -i 's/averaging_window: 0.5/averaging_window: 6/' wide/scenario.yaml
+verdict wide
+says "2 independent values in 12 s): too short for a mean" verdict.txt
+says "The averaging window of 6 s is longer than the transient of 4 s: the mean contains what was before it" verdict.txt
+says "Make output.averaging_window shorter, or run.transient longer" verdict.txt
+
 # A limit of 0 is one that a vessel keeps which does not move that way.
 cp -r held still
 sed -i 's/^\(  *heading_limit_deg: \).*/\10/' still/scenario.yaml

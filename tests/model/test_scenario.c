@@ -75,6 +75,18 @@ START_TEST(loads_are_averaged_over_whole_steps)
 }
 END_TEST
 
+/* A window of 6 s has nothing of what was before the start from 6 s on, and little matters beside more than 60 s. */
+START_TEST(averages_tell_of_the_time_before_the_start)
+{
+    scenario s = good();
+    s.run.time_step = 0.1;
+    s.output.averaging_window = 6;
+    ck_assert(scenario_averages_begin_early(&s, 5.9, 59));
+    ck_assert(!scenario_averages_begin_early(&s, 60 * 0.1, 59));
+    ck_assert(!scenario_averages_begin_early(&s, 0.1, 61));
+}
+END_TEST
+
 START_TEST(defaults_of_the_specification)
 {
     scenario s = good();
@@ -394,7 +406,7 @@ START_TEST(paths_are_relative_to_the_scenario)
 END_TEST
 
 TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, loads_are_averaged_over_whole_steps,
-          defaults_of_the_specification, every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour,
-          walking_meets_every_key_once, ranges_are_checked, keys_must_go_together, stations_are_whole,
-          what_is_absent_is_not_checked, floes_stay_in_the_domain, errors_find_their_place,
-          paths_are_relative_to_the_scenario)
+          averages_tell_of_the_time_before_the_start, defaults_of_the_specification, every_row_is_complete,
+          choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once, ranges_are_checked,
+          keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked, floes_stay_in_the_domain,
+          errors_find_their_place, paths_are_relative_to_the_scenario)

@@ -27,7 +27,7 @@ START_TEST(a_series_is_worth_its_independent_values)
     for (double a = 0; a < 0.95; a += 0.3) {
         load_distribution d;
         fill(value, LONG, a, 1);
-        ck_assert(load_distribution_of(&ctx, value, LONG, 0.1, &d));
+        ck_assert(load_distribution_of(&ctx, value, LONG, 0.1, 0, &d));
         double expected = LONG * (1 - a) / (1 + a);
         ck_assert_msg(fabs(d.independent / expected - 1) < 0.25, "a %g: %g values instead of %g", a, d.independent,
                       expected);
@@ -46,7 +46,7 @@ START_TEST(the_band_holds_the_truth_as_often_as_it_says)
     for (uint32_t k = 0; k < SERIES; k++) {
         load_distribution d;
         fill(value, SHORT, 0.8, 100 + k);
-        ck_assert(load_distribution_of(&ctx, value, SHORT, 1, &d));
+        ck_assert(load_distribution_of(&ctx, value, SHORT, 1, 0, &d));
         int32_t i = 1;
         while (d.level.data[i] < 0)
             i++;
@@ -68,7 +68,7 @@ START_TEST(histogram_and_exceedance_count_every_value)
     context ctx;
     load_distribution d;
     context_init(&ctx);
-    ck_assert(load_distribution_of(&ctx, value, 8, 1, &d));
+    ck_assert(load_distribution_of(&ctx, value, 8, 1, 0, &d));
     double sum = 0;
     for (int32_t i = 0; i < d.density.count; i++)
         sum += d.density.data[i];
@@ -83,10 +83,13 @@ START_TEST(histogram_and_exceedance_count_every_value)
         ck_assert(d.low.data[i] <= d.exceeded.data[i] && d.exceeded.data[i] <= d.high.data[i]);
     }
     load_distribution_free(&ctx, &d);
-    ck_assert(load_distribution_of(&ctx, value, 0, 1, &d));
+    ck_assert(load_distribution_of(&ctx, value, 0, 1, 0, &d));
     ck_assert_int_eq(d.level.count, 0);
-    ck_assert(load_distribution_of(&ctx, value, 2, 1, &d)); /* constant */
+    ck_assert(load_distribution_of(&ctx, value, 2, 1, 0, &d)); /* constant */
     ck_assert_double_eq(d.exceeded.data[0], 0);
+    load_distribution_free(&ctx, &d);
+    ck_assert(load_distribution_of(&ctx, value, 8, 1, 4, &d)); /* means over half of all */
+    ck_assert_double_eq(d.independent, 2);
     load_distribution_free(&ctx, &d);
 }
 END_TEST
@@ -101,7 +104,7 @@ START_TEST(bars_hold_their_own_values)
     context_init(&ctx);
     for (int32_t i = 0; i < COUNT; i++)
         value[i] = (i * 7) % COUNT;
-    ck_assert(load_distribution_of(&ctx, value, COUNT, 0.1, &d));
+    ck_assert(load_distribution_of(&ctx, value, COUNT, 0.1, 0, &d));
     for (int32_t i = 0; i < ALL_BARS; i++) {
         double begin = d.bar.data[i], end = i + 1 < ALL_BARS ? d.bar.data[i + 1] : HUGE_VAL;
         int32_t own = 0;
