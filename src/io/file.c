@@ -1,4 +1,5 @@
 /* Files through the calls of POSIX, so that every failure is seen where it happens. */
+#include "io/fill.h"
 #include "io/temporary.h"
 
 #include <errno.h>
@@ -144,11 +145,13 @@ static fram_status make_room(context *ctx, const char *path, file_writer *w, fra
     return (w->path || !path) && w->buffer ? FRAM_OK : error_memory(error);
 }
 
-static fram_status begin(context *ctx, const char *path, int flags, file_writer *w, fram_error *error)
+static fram_status begin(context *ctx, const char *path, bool anew, file_writer *w, fram_error *error)
 {
     fram_status status = make_room(ctx, path, w, error);
-    if (status == FRAM_OK) {
-        w->descriptor = open_file(path, flags);
+    if (status == FRAM_OK && anew) {
+        status = fill_open(path, &w->descriptor, error);
+    } else if (status == FRAM_OK) {
+        w->descriptor = open_file(path, O_RDWR);
         if (w->descriptor < 0)
             status = file_error(error, path, "open for writing", errno);
     }
@@ -169,13 +172,12 @@ fram_status file_create_temporary(context *ctx, const char *path, file_writer *w
 
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error)
 {
-    /* For writing alone: who could read from a pipe too would never be told that its reader has gone, and wait. */
-    return begin(ctx, path, O_WRONLY | O_CREAT | O_TRUNC, w, error);
+    return begin(ctx, path, true, w, error);
 }
 
 fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error)
 {
-    fram_status status = begin(ctx, path, O_RDWR, w, error);
+    fram_status status = begin(ctx, path, false, w, error);
     if (status != FRAM_OK)
         return status;
     off_t end = lseek(w->descriptor, 0, SEEK_END);

@@ -44,7 +44,8 @@ typedef struct file_writer {
     int failed;      /* errno of the first write that failed, 0 */
 } file_writer;
 
-/* An empty file, whatever was there.  When this or file_open fails, nothing is left to close. */
+/* An empty file, whatever was there, but what has no beginning of its own (io/fill.h).  When this or file_open fails,
+   nothing is left to close. */
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error);
 /* The same in a temporary file (io/temporary.h) beside `path`; its name is w->path. */
 fram_status file_create_temporary(context *ctx, const char *path, file_writer *w, fram_error *error);

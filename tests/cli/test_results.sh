@@ -157,6 +157,11 @@ for _ in 1 2; do
     expect 0 "$FRAM" report run -o again.HTML -q
     expect 0 "$FRAM" report run -o /dev/null -q
 done
+# The command's own streams are gone on with, wherever the shell leads them: into a file too.
+expect 0 "$FRAM" fatigue run -o cycles.csv
+cat cycles.csv out >wanted
+"$FRAM" fatigue run -o /dev/stdout >found
+cmp wanted found || fail "an output and the answer behind it write over each other"
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300

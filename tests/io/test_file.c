@@ -126,6 +126,32 @@ START_TEST(a_reader_that_goes_ends_the_writing)
 }
 END_TEST
 
+/* As `fram fatigue RUN -o /dev/stdout >> FILE` has it: what is there stays, and each write has its turn. */
+START_TEST(a_descriptor_that_has_a_name_goes_on)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char name[64], link[320];
+    scratch_write(scratch_path(&s, "a"), "old", 3);
+    int own = open(s.path, O_WRONLY);
+    ck_assert_int_eq(lseek(own, 0, SEEK_END), 3);
+    snprintf(name, sizeof name, "/dev/fd/%d", own);
+    if (access(name, F_OK) == 0) {
+        snprintf(link, sizeof link, "%s", scratch_path(&s, "link"));
+        ck_assert_int_eq(symlink(name, link), 0);
+        assert_ok(atomic_file_write(&ctx, name, " one", 4, &error), error);
+        ck_assert_int_eq(write(own, " two", 4), 4);
+        snprintf(name, sizeof name, "/proc/self/fd/%d", own);
+        assert_ok(atomic_file_write(&ctx, name, " three", 6, &error), error);
+        assert_ok(atomic_file_write(&ctx, link, " four", 5, &error), error);
+        assert_content(scratch_path(&s, "a"), "old one two three four");
+        ck_assert_int_eq(unlink(link), 0);
+    }
+    ck_assert_int_eq(close(own), 0);
+    scratch_remove(&s, "a");
+}
+END_TEST
+
 START_TEST(a_full_disk_is_seen_at_once)
 {
     context_init(&ctx);
@@ -306,7 +332,7 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
-          a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_full_disk_is_seen_at_once,
-          a_partial_write_is_seen, replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place,
-          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
-          memory_runs_out)
+          a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_descriptor_that_has_a_name_goes_on,
+          a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
+          a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
+          devices_and_links_are_written_through, a_bare_name_is_here, memory_runs_out)

@@ -1,0 +1,16 @@
+/* Opening what is to be filled with bytes from its beginning.  What lies behind the name decides how: a file is
+   emptied, a stream of this program goes on.  Knows names; must not know what is written.
+   One module with file, which writes, and temporary, which makes files that take a name's place. */
+#ifndef IO_FILL_H
+#define IO_FILL_H
+
+#include "base/context.h"
+
+/* *descriptor for the caller to close, for writing alone: who could read from a pipe too would never be told that its
+   reader has gone, and wait.
+   - A name that leads to a descriptor of this program (/dev/stdout, /dev/stderr, /dev/fd/3, /proc/self/fd/3) is that
+   one once more, behind all that went into it, standard output's buffer too; nothing is emptied.
+   - Anything else is emptied, or made. */
+fram_status fill_open(const char *path, int *descriptor, fram_error *error);
+
+#endif
