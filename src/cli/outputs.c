@@ -50,16 +50,26 @@ static bool has_ending(const char *path, const char *endings)
     return false;
 }
 
-/* Pictures, pages and videos are of the kind that their name tells; what goes into a device has no kind.  What the name
-   was expected to be, NULL where it is. */
+/* What goes into a device or a pipe has no kind, nor what goes where the command's own streams go: of these the name
+   tells, for a shell may have led them into a file. */
+static bool has_no_kind(const char *path)
+{
+    static const char *const streams[] = {"/dev/std", "/dev/fd/", "/proc/"};
+    struct stat about;
+    for (size_t i = 0; i < sizeof streams / sizeof *streams; i++)
+        if (strncmp(path, streams[i], strlen(streams[i])) == 0)
+            return true;
+    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
+}
+
+/* Pictures, pages and videos are of the kind that their name tells.  What the name was expected to be, NULL where it
+   is. */
 static const char *expected_name(const output_file *o)
 {
     static const char *const kinds[][2] = {{PICTURE_ENDINGS, "expected a picture's name that ends in .png or .svg"},
                                            {PAGE_ENDINGS, "expected a page's name that ends in .html or .htm"},
                                            {VIDEO_ENDINGS, "expected a video's name that ends in .mp4"}};
-    struct stat about;
-    bool device = stat(o->path, &about) == 0 && !S_ISREG(about.st_mode);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && o->endings && !device; i++)
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && o->endings && !has_no_kind(o->path); i++)
         if (strcmp(o->endings, kinds[i][0]) == 0 && !has_ending(o->path, o->endings))
             return kinds[i][1];
     return NULL;
@@ -69,7 +79,7 @@ static const char *expected_name(const output_file *o)
 static bool is_of_another_kind(const output_file *o)
 {
     struct stat about;
-    return o->endings && stat(o->path, &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0 &&
+    return o->endings && !has_no_kind(o->path) && stat(o->path, &about) == 0 && about.st_size > 0 &&
            !has_ending(o->path, o->endings);
 }
 

@@ -162,6 +162,15 @@ expect 0 "$FRAM" fatigue run -o cycles.csv
 cat cycles.csv out >wanted
 "$FRAM" fatigue run -o /dev/stdout >found
 cmp wanted found || fail "an output and the answer behind it write over each other"
+expect 0 "$FRAM" export run --geojson --time 1 -o one.geojson -q
+{ echo mine && cat one.geojson one.geojson; } >wanted
+echo mine >found
+for name in /dev/stdout /dev/fd/1; do
+    "$FRAM" export run --geojson --time 1 -o $name -q >>found || fail "nothing more goes to $name"
+done
+cmp wanted found || fail "what stood in a file is lost to /dev/stdout"
+"$FRAM" report run -o /dev/stdout -q >streamed || fail "a page for /dev/stdout has no kind"
+holds "<html" streamed
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300
