@@ -149,7 +149,7 @@ static fram_status begin(context *ctx, const char *path, bool anew, file_writer 
 {
     fram_status status = make_room(ctx, path, w, error);
     if (status == FRAM_OK && anew) {
-        status = fill_open(path, &w->descriptor, error);
+        status = fill_open(ctx, path, &w->descriptor, error);
     } else if (status == FRAM_OK) {
         w->descriptor = open_file(path, O_RDWR);
         if (w->descriptor < 0)
@@ -190,10 +190,30 @@ fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error
     return FRAM_OK;
 }
 
+/* What the first failure was. */
+static fram_status refuse_writing(const file_writer *w, fram_error *error)
+{
+    if (w->failed == EINTR)
+        return error_set(error, FRAM_INTERRUPTED, w->path, 0, NULL, "interrupted while writing into a pipe");
+    return file_error(error, w->path, "write", w->failed);
+}
+
+/* Whether no more is to be written: the reader of a pipe may never take what there is no room for.  A file's bytes are
+   written all the same. */
+static bool is_stopped_pipe(const file_writer *w)
+{
+    struct stat about;
+    return stop_is_asked(w->ctx->stop) && fstat(w->descriptor, &about) == 0 && S_ISFIFO(about.st_mode);
+}
+
 /* Bytes to the system; remembers the first failure. */
 static fram_status write_out(file_writer *w, const char *data, size_t size, fram_error *error)
 {
     for (size_t done = 0; done < size && !w->failed;) {
+        if (is_stopped_pipe(w)) {
+            w->failed = EINTR;
+            break;
+        }
         ssize_t put_now = write(w->descriptor, data + done, size - done);
         if (put_now > 0)
             done += (size_t)put_now;
@@ -202,7 +222,7 @@ static fram_status write_out(file_writer *w, const char *data, size_t size, fram
         else if (errno != EINTR)
             w->failed = errno;
     }
-    return w->failed ? file_error(error, w->path, "write", w->failed) : FRAM_OK;
+    return w->failed ? refuse_writing(w, error) : FRAM_OK;
 }
 
 bool file_is_in_place(const file_writer *w)
@@ -229,7 +249,7 @@ fram_status file_cut(file_writer *w, uint64_t length, fram_error *error)
 fram_status file_write(file_writer *w, const void *data, size_t size, fram_error *error)
 {
     if (w->failed)
-        return file_error(error, w->path, "write", w->failed);
+        return refuse_writing(w, error);
     if (size == 0)
         return FRAM_OK;
     if (size > BUFFER_SIZE - w->filled) {

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* ---- descriptors that have a name ---- */
@@ -51,16 +52,51 @@ static int descriptor_of(const char *path)
     return -1;
 }
 
-fram_status fill_open(const char *path, int *descriptor, fram_error *error)
+/* ---- files and pipes ---- */
+
+/* Before a pipe without a reader is tried again [ns]. */
+enum { READER_PAUSE = 10 * 1000 * 1000 };
+
+static bool is_named_pipe(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISFIFO(about.st_mode);
+}
+
+/* -1 with EINTR: a stop was asked for.  The system would wait for a reader without an end, and not hear of a wish to
+   stop that came just before. */
+static int open_named(const context *ctx, const char *path)
+{
+    for (;;) {
+        const bool pipe = is_named_pipe(path);
+        int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (pipe ? O_NONBLOCK : 0), 0666);
+        if (descriptor >= 0 && pipe)
+            fcntl(descriptor, F_SETFL, O_WRONLY); /* from here on it waits */
+        const bool no_reader = descriptor < 0 && pipe && errno == ENXIO;
+        if (descriptor >= 0 || !(no_reader || errno == EINTR))
+            return descriptor;
+        if (stop_is_asked(ctx->stop)) {
+            errno = EINTR;
+            return -1;
+        }
+        if (no_reader)
+            nanosleep(&(struct timespec){.tv_nsec = READER_PAUSE}, NULL);
+    }
+}
+
+fram_status fill_open(context *ctx, const char *path, int *descriptor, fram_error *error)
 {
     const int own = descriptor_of(path);
     if (own >= 0) {
         fflush(stdout);
         *descriptor = fcntl(own, F_DUPFD_CLOEXEC, 0);
     } else {
-        do
-            *descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-        while (*descriptor < 0 && errno == EINTR);
+        *descriptor = open_named(ctx, path);
     }
-    return *descriptor < 0 ? file_error(error, path, "open for writing", errno) : FRAM_OK;
+    if (*descriptor >= 0)
+        return FRAM_OK;
+    if (errno == EINTR)
+        return error_set(error, FRAM_INTERRUPTED, path, 0, NULL,
+                         "interrupted while waiting for a reader of the pipe; nothing was written");
+    return file_error(error, path, "open for writing", errno);
 }

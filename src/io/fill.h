@@ -1,5 +1,5 @@
 /* Opening what is to be filled with bytes from its beginning.  What lies behind the name decides how: a file is
-   emptied, a stream of this program goes on.  Knows names; must not know what is written.
+   emptied, a stream of this program goes on, a pipe is waited for.  Knows names; must not know what is written.
    One module with file, which writes, and temporary, which makes files that take a name's place. */
 #ifndef IO_FILL_H
 #define IO_FILL_H
@@ -10,7 +10,8 @@
    reader has gone, and wait.
    - A name that leads to a descriptor of this program (/dev/stdout, /dev/stderr, /dev/fd/3, /proc/self/fd/3) is that
    one once more, behind all that went into it, standard output's buffer too; nothing is emptied.
+   - A named pipe is waited for until it has a reader; FRAM_INTERRUPTED when the stop flag is set meanwhile.
    - Anything else is emptied, or made. */
-fram_status fill_open(const char *path, int *descriptor, fram_error *error);
+fram_status fill_open(context *ctx, const char *path, int *descriptor, fram_error *error);
 
 #endif

@@ -171,6 +171,9 @@ done
 cmp wanted found || fail "what stood in a file is lost to /dev/stdout"
 "$FRAM" report run -o /dev/stdout -q >streamed || fail "a page for /dev/stdout has no kind"
 holds "<html" streamed
+# A pipe that nobody reads is waited for until the first wish to stop.
+mkfifo pipe.html
+expect 130 timeout --preserve-status -s INT -k 5 0.3 "$FRAM" report run -q -o pipe.html
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300

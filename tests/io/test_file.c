@@ -5,6 +5,9 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <time.h>
 
 static context ctx;
 static fram_error error;
@@ -122,6 +125,63 @@ START_TEST(a_reader_that_goes_ends_the_writing)
     ck_assert(signal(SIGPIPE, SIG_IGN) != SIG_ERR);
     assert_ok(file_write(&w, "a", 1, &error), error);
     assert_fails(file_close(&w, &error), error, FRAM_ERROR_IO, "Broken pipe");
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+static volatile int stop;
+static void ask_to_stop(int number) { stop = number; }
+
+/* A stop by a signal, as Ctrl-C is one, while the system waits. */
+static void stop_soon(void)
+{
+    struct sigaction action = {.sa_handler = ask_to_stop};
+    stop = 0;
+    ck_assert_int_eq(sigaction(SIGALRM, &action, NULL), 0);
+    ck_assert_int_eq(setitimer(ITIMER_REAL, &(struct itimerval){.it_value.tv_usec = 20000}, NULL), 0);
+}
+
+/* Neither a pipe without a reader is waited for then, nor one whose reader takes nothing. */
+START_TEST(a_stop_ends_the_waiting_for_a_reader)
+{
+    context_init(&ctx);
+    ctx.stop = &stop;
+    scratch s = scratch_make();
+    file_writer w;
+    static const char large[200000];
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    stop_soon();
+    assert_fails(file_create(&ctx, s.path, &w, &error), error, FRAM_INTERRUPTED, "waiting for a reader");
+    int reader = open(s.path, O_RDONLY | O_NONBLOCK);
+    stop_soon();
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    assert_fails(file_write(&w, large, sizeof large, &error), error, FRAM_INTERRUPTED, "writing into a pipe");
+    assert_fails(file_close(&w, &error), error, FRAM_INTERRUPTED, "writing into a pipe");
+    ck_assert_int_eq(close(reader), 0);
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+START_TEST(a_pipe_waits_for_its_reader)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    static char large[200000];
+    int state = 0;
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    pid_t reader = fork();
+    if (reader == 0) {
+        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+        FILE *pipe = fopen(s.path, "rb");
+        size_t got = pipe ? fread(large, 1, sizeof large, pipe) : 0;
+        _exit(got == sizeof large && fgetc(pipe) == EOF ? 0 : 1);
+    }
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    assert_ok(file_write(&w, large, sizeof large, &error), error);
+    assert_ok(file_close(&w, &error), error);
+    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
+    ck_assert_int_eq(state, 0);
     scratch_remove(&s, "pipe");
 }
 END_TEST
@@ -332,7 +392,8 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
-          a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_descriptor_that_has_a_name_goes_on,
-          a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
-          a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
-          devices_and_links_are_written_through, a_bare_name_is_here, memory_runs_out)
+          a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_stop_ends_the_waiting_for_a_reader,
+          a_pipe_waits_for_its_reader, a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once,
+          a_partial_write_is_seen, replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place,
+          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
+          memory_runs_out)
