@@ -115,30 +115,46 @@ fram_status netcdf_begin_in_memory(context *ctx, const char *path, netcdf_file *
     return FRAM_OK;
 }
 
+/* NetCDF takes a name, and reads it as one of any system: a backslash as a slash, "C:" as a drive.  So it is given that
+   of the open descriptor, where the system has such names. */
+static int create_named(netcdf_file *f, int descriptor)
+{
+    char name[32];
+    snprintf(name, sizeof name, "/proc/self/fd/%d", descriptor);
+    return f->nc->create(access(name, F_OK) == 0 ? name : f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
+}
+
+/* That NetCDF says "permission denied" for whatever HDF5 met in a file that could be made misleads: what the system
+   says of a first block is the reason. */
+static fram_status refuse_beginning(const netcdf_file *f, int code, int descriptor, fram_error *error)
+{
+    static const char block[4096];
+    ssize_t put = pwrite(descriptor, block, sizeof block, 0);
+    if (put != (ssize_t)sizeof block)
+        return file_error(error, f->path, "write the beginning of the file", put < 0 ? errno : ENOSPC);
+    return error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: NetCDF does not begin the file%s%s",
+                     code == EACCES ? "" : ": ", code == EACCES ? "" : f->nc->strerror(code));
+}
+
 fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error)
 {
     int descriptor = -1;
-    fram_status made = prepare(ctx, path, f, error);
-    if (made != FRAM_OK)
-        return made;
-    made = temporary_file(ctx, path, &f->temporary, &descriptor, error);
-    if (made != FRAM_OK) {
-        forget_netcdf(f);
-        return made;
-    }
-    close(descriptor); /* NetCDF takes a name */
-    int code = f->nc->create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
-    if (code != NC_NOERR) {
-        /* The file could be made; that NetCDF says "permission denied" for whatever HDF5 met then misleads. */
-        fram_status status =
-            error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s",
-                      code == EACCES ? "no room for the beginning of the file" : f->nc->strerror(code));
-        unlink(f->temporary);
-        forget_netcdf(f);
+    fram_status status = prepare(ctx, path, f, error);
+    if (status != FRAM_OK)
         return status;
+    status = temporary_file(ctx, path, &f->temporary, &descriptor, error);
+    if (status == FRAM_OK) {
+        int code = create_named(f, descriptor);
+        f->open = code == NC_NOERR;
+        if (!f->open) {
+            status = refuse_beginning(f, code, descriptor, error);
+            unlink(f->temporary);
+        }
+        close(descriptor);
     }
-    f->open = true;
-    return FRAM_OK;
+    if (status != FRAM_OK)
+        forget_netcdf(f);
+    return status;
 }
 
 int netcdf_dimension(netcdf_file *f, const char *name, size_t length)

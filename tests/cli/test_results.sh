@@ -258,6 +258,9 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+    # In a name a backslash is a letter.
+    expect 0 "$FRAM" export run --netcdf -q -o 'run/a\b.nc'
+    [ -s 'run/a\b.nc' ] || fail "no file is named with a backslash"
     # A run without frames has its columns; so has one without a record, of which a study kept the series.
     # Many columns, as of a list of vessels, take each their room and no more.
     expect 0 "$FRAM" run scene.yaml -o bare --quiet --until 0.1 --set output.frame_interval=0
@@ -295,7 +298,8 @@ if "$FRAM" --version | grep -q netcdf; then
     # No room at all, so that the words go into a pipe.
     code=0
     told=$(bash -c 'ulimit -f 0 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc 2>&1) || code=$?
-    same "$code $told" "1 fram: full.nc: cannot write: no room for the beginning of the file" "an export without room"
+    same "$code $told" "1 fram: full.nc: cannot write the beginning of the file: File too large" \
+        "an export without room"
     [ -z "$(ls full.nc* 2>/dev/null)" ] || fail "an export that found no room left $(ls full.nc*)"
     # The library is opened for a .nc file alone, and may be gone by then; one that has a place of its own is not looked
     # for by its name.
