@@ -2,8 +2,12 @@
 #include "cli/cli.h"
 
 #include "fram/results.h"
+#include <limits.h>
 #include <math.h>
 #include <unistd.h>
+
+/* --every was not given. */
+enum { EVERY_NONE = INT_MIN };
 
 static void print_export(const common_options *common, const fram_result *r, const char *advice)
 {
@@ -24,7 +28,7 @@ int command_export(const command_row *self, int argc, char **argv)
     const char *run = NULL, *output = NULL;
     bool vtk = false, geojson = false, netcdf = false;
     double time = (double)NAN;
-    int every = 1;
+    int every = EVERY_NONE;
     const option_row rows[] = {
         {"--vtk", NULL, OPTION_FLAG, &vtk, NULL,
          "for ParaView: floes, hull and forces of every frame (RUN/vtk/run.pvd)"},
@@ -43,6 +47,10 @@ int command_export(const command_row *self, int argc, char **argv)
     if (geojson == isnan(time))
         return answer_usage(&common, "--time",
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
+    if (every != EVERY_NONE && !vtk)
+        return answer_usage(&common, "--every", "goes with --vtk only");
+    if (every == EVERY_NONE)
+        every = 1;
     if (every < 1)
         return answer_usage(&common, "--every", "must be at least 1");
     const command_files files = {.runs = {run},

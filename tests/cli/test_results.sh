@@ -215,6 +215,11 @@ says "--step: is for a series" err
 expect 2 "$FRAM" bench --scene none --solvers --solver fast
 says "--solver: is of one solver" err
 expect 2 "$FRAM" export run --vtk --every 0
+for words in --netcdf "--geojson --time 1"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" export run $words --every 2
+    says "--every: goes with --vtk only" err
+done
 expect 2 "$FRAM" export scene.yaml --vtk
 
 # What needs the record that a study did not keep tells how to have it.
