@@ -146,7 +146,8 @@ static double usual_step(context *ctx, const double_array *time)
     return middle;
 }
 
-/* The first step that is another than the usual one; else what has gone wrong by row i. */
+/* The first step that is another than the usual one; else, of times that do not rise on the whole, the first that does
+   not; else what has gone wrong by row i. */
 static fram_status refuse_times(context *ctx, const char *path, const series_rows *rows, int32_t i, double own,
                                 fram_error *error)
 {
@@ -159,6 +160,12 @@ static fram_status refuse_times(context *ctx, const char *path, const series_row
                              "expected times at equal distances, %.6g s as most are, found one of %.6g s, to %.9g: "
                              "interpolate the series first",
                              usual, step, time->data[k]);
+    }
+    for (int32_t k = 1; k < time->count && !(own > 0); k++) {
+        if (!(time->data[k] > time->data[k - 1]))
+            return error_set(error, FRAM_ERROR_INPUT, path, series_line(rows, k), "time",
+                             "expected rising times, in seconds, found %.9g after %.9g", time->data[k],
+                             time->data[k - 1]);
     }
     return error_set(error, FRAM_ERROR_INPUT, path, series_line(rows, i), "time",
                      "expected times at equal distances, %.6g s on the average; found %.9g where %.9g was due: "
@@ -175,7 +182,7 @@ static fram_status check_times(context *ctx, const char *path, const series_rows
         return FRAM_OK;
     double own = (time->data[n - 1] - time->data[0]) / (n - 1);
     if (!(own > 0))
-        return error_set(error, FRAM_ERROR_INPUT, path, 2, "time", "expected rising times, in seconds");
+        return refuse_times(ctx, path, rows, n - 1, own, error);
     for (int32_t i = 0; i < n; i++) {
         if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + LAST_DIGIT * fabs(time->data[i]))
             continue;

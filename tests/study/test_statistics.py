@@ -367,6 +367,11 @@ class Statistics(unittest.TestCase):
         rows = "".join(f"{0.5 * i + (400 if i > 700 else 0)},{i % 7}\n" for i in range(1000))
         gap = self.write("time,x\n" + rows, "gap.csv")
         self.refused(("extremes", gap, "--channel", "x"), "gap.csv:703:", "0.5 s as most are", "found one of 400.5 s")
+        # However far a single row goes back, it is that one; else the first that does not rise.
+        back = self.write("time,x\n" + "".join(f"{i},{i % 7}\n" for i in range(1000)) + "-5,3\n", "back.csv")
+        self.refused(("extremes", back, "--channel", "x"), "back.csv:1002:", "found one of -1004 s, to -5")
+        falls = self.write("time,x\n# down\n3,1\n2,2\n1,1\n0,2\n", "falls.csv")
+        self.refused(("fatigue", falls, "--channel", "x"), "falls.csv:4:", "rising times", "found 2 after 3")
         self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"), ":1: time:", "step")
         self.refused(("extremes", self.write("time[s],x\n1,1\n2,2\n", "timed.csv"), "--channel", "x", "--step", "2"),
                      "timed.csv:0: --step:", "column `time`")
