@@ -56,38 +56,21 @@ enum { LOOKS = 2 };
 static const double looks_after[LOOKS] = {0, 5};
 /* A program that starts, reads, and writes what a run leaves: what a run of no steps takes [s]. */
 #define PROGRAM_SECONDS 0.1
-/* A number of series.csv with its comma, and of a row of a summary. */
-enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
-/* Columns of series.csv, about; and bytes of a floe in a frame and in the last checkpoint, of the pictures of a run,
-   and of the page that plays it without its record. */
-enum { SERIES_COLUMNS = 120, POSE_BYTES = 18, CHECKPOINT_BYTES = 1500, PICTURE_BYTES = 160000, PAGE_BYTES = 670000 };
-/* What output.record_limit counts in [bytes]. */
-#define MEGABYTE 1e6
+/* A row of a summary, and the page that plays a run without its record [bytes]. */
+enum { ROW_BYTES = 1200, PAGE_BYTES = 670000 };
 
-/* Of the record, with a frame every `interval` seconds [bytes]: thinned out as output.record_limit says. */
-static double frames_bytes(const scenario *s, double interval, int32_t floes)
+static double bytes_of(const scenario *s, study_keep keep, int32_t floes)
 {
-    double all = interval > 0 ? s->run.duration / interval * floes * POSE_BYTES : 0, limit = s->output.record_limit;
-    return limit > 0 ? fmin(all, limit * MEGABYTE) : all;
-}
-
-static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t floes)
-{
-    double rows = s->output.csv_interval > 0 ? s->run.duration / s->output.csv_interval : steps;
-    double bytes = ROW_BYTES;
-    if (keep != KEEP_SUMMARY)
-        bytes += rows * SERIES_COLUMNS * NUMBER_BYTES;
-    if (keep == KEEP_ALL)
-        bytes += frames_bytes(s, s->output.frame_interval, floes) + (double)floes * CHECKPOINT_BYTES + PICTURE_BYTES;
-    return bytes;
+    scene_disk folder = scene_disk_of(s, floes);
+    return ROW_BYTES + (keep == KEEP_ALL ? folder.all : keep == KEEP_SERIES ? folder.rows : 0);
 }
 
 /* The whole folder of a run with a record, which its playback has once more. */
-static double record_bytes_of(const scenario *s, double steps, int32_t floes)
+static double record_bytes_of(const scenario *s, int32_t floes)
 {
     scenario one = *s;
     one.output.frame_interval = study_worst_frames(s);
-    return bytes_of(&one, KEEP_ALL, steps, floes) + frames_bytes(&one, one.output.frame_interval, floes) + PAGE_BYTES;
+    return bytes_of(&one, KEEP_ALL, floes) + scene_disk_of(&one, floes).frames + PAGE_BYTES;
 }
 
 /* Steps that the ice stays in a domain that it drifts through. */
@@ -122,8 +105,8 @@ static fram_status measure_condition(context *ctx, const fram_study *s, int32_t 
         double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
         out->run_seconds += PROGRAM_SECONDS + build + steps * late.time;
         out->run_seconds_packed += PROGRAM_SECONDS + build + steps * fmax(packed_step_time(&early, &late), breaking);
-        out->run_bytes += bytes_of(&one, s->inner.keep, steps, late.floes);
-        out->record_bytes += record_bytes_of(&one, steps, late.floes);
+        out->run_bytes += bytes_of(&one, s->inner.keep, late.floes);
+        out->record_bytes += record_bytes_of(&one, late.floes);
         out->seen = fmin(out->seen, (double)(found[1].at + found[1].steps) / steps);
     } else if (status == FRAM_ERROR_INPUT) {
         study_place_error(&s->inner, condition, error);

@@ -14,11 +14,13 @@
    3.1 kB for each of 10,000 and 40,000 Voronoi floes at 90 and 97 %; 5.7 and 9.2 kB for 12,800 and 2,600 packed ones.
  */
 static const double PROGRAM_BYTES = 15e6, TILE_BYTES = 2e3, CELL_BYTES = 4e3, PACKED_BYTES = 10e3;
-/* The folder, measured on the ready scenes: a row of series.csv 690 to 1,050 bytes, a floe in a frame of the
-   record 17.5 to 17.9, in a checkpoint about 1,050, of which two are kept, a picture from above 0.1 to 0.3 MB,
-   of open water 15 kB. */
-static const double ROW_BYTES = 900, FRAME_BYTES = 18, CHECKPOINT_BYTES = 2 * 1050, PICTURE_BYTES = 2e5,
-                    EMPTY_BYTES = 2e4, FEW_BYTES = 7e4;
+/* The folder, measured on the ready scenes: a row of series.csv 690 to 1,050 bytes, the texts beside it about 30 kB, a
+   floe in a frame of the record 17.5 to 17.9, in a checkpoint about 1,050, of which two are kept, the chart of the
+   loads about 40 kB, a picture from above 0.1 to 0.3 MB, of open water 15 kB. */
+static const double ROW_BYTES = 900, TEXT_BYTES = 3e4, FRAME_BYTES = 18, CHECKPOINT_BYTES = 2 * 1050, CHART_BYTES = 4e4,
+                    PICTURE_BYTES = 2e5, EMPTY_BYTES = 2e4;
+/* What output.record_limit counts in [bytes]. */
+static const double MEGABYTE = 1e6;
 /* Vertices are numbered in 32 bits, and a floe has up to a hundred. */
 static const double MOST_FLOES = 20e6;
 /* Slices of a law of size, for its mean area: within a few per cent. */
@@ -80,15 +82,19 @@ static double times_within(const scenario *s, double interval)
     return 1 + (interval > 0 ? s->run.duration / fmax(interval, s->run.time_step) : 0);
 }
 
-static double disk_bytes(const scenario *s, double floes)
+scene_disk scene_disk_of(const scenario *s, double floes)
 {
     const scenario_output *o = &s->output;
     double rows = s->run.duration / fmax(o->csv_interval, s->run.time_step);
-    double record = o->frame_interval > 0 ? times_within(s, o->frame_interval) * FRAME_BYTES * floes : 0;
+    scene_disk d = {.rows = TEXT_BYTES + rows * ROW_BYTES * fmax(1, scenario_vessel_count(s)),
+                    .frames = o->frame_interval > 0 ? times_within(s, o->frame_interval) * FRAME_BYTES * floes : 0,
+                    .checkpoints = CHECKPOINT_BYTES * floes,
+                    .pictures =
+                        CHART_BYTES + times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES)};
     if (o->record_limit > 0)
-        record = fmin(record, o->record_limit * 1e6);
-    return FEW_BYTES + rows * ROW_BYTES * fmax(1, scenario_vessel_count(s)) + record + CHECKPOINT_BYTES * floes +
-           times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES);
+        d.frames = fmin(d.frames, o->record_limit * MEGABYTE);
+    d.all = d.rows + d.frames + d.checkpoints + d.pictures;
+    return d;
 }
 
 static double floe_bytes(ice_source source)
@@ -100,7 +106,7 @@ static double floe_bytes(ice_source source)
 
 static scene_size size_of_floes(const scenario *s, double floes)
 {
-    return (scene_size){floes, PROGRAM_BYTES + floe_bytes(s->ice.source) * floes, disk_bytes(s, floes), NULL};
+    return (scene_size){floes, PROGRAM_BYTES + floe_bytes(s->ice.source) * floes, scene_disk_of(s, floes).all, NULL};
 }
 
 static const char *uncounted_floes(const scenario *s)

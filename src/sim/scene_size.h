@@ -1,14 +1,25 @@
-/* How large a scenario is before anything of it is built: floes and memory, from its keys alone. One module with build,
-   which asks before it makes anything. */
+/* How large a scenario is before anything of it is built: floes, memory and disk, from its keys alone. One module with
+   build, which asks before it makes anything. */
 #ifndef SIM_SCENE_SIZE_H
 #define SIM_SCENE_SIZE_H
 
 #include "model/scenario_vessel.h"
 
+/* Bytes of a run's folder in the end, by what takes them: all within a factor of two in the runs that were measured. */
+typedef struct scene_disk {
+    double rows;        /* series.csv and the texts beside it, what a study keeps with `series` */
+    double frames;      /* the record, thinned out as output.record_limit says */
+    double checkpoints; /* those that stay */
+    double pictures;    /* from above, and the chart of the loads */
+    double all;
+} scene_disk;
+/* Of a run of so many floes. */
+scene_disk scene_disk_of(const scenario *s, double floes);
+
 typedef struct scene_size {
     double floes; /* at the start, about; those of ice.file and of histograms are not counted */
     double bytes; /* that a run takes, about: at least half of it in the fields that were measured, at most all */
-    double disk;  /* bytes of the run's folder in the end, within a factor of two in the runs that were measured */
+    double disk;  /* bytes of the run's folder in the end (scene_disk) */
     const char *uncounted; /* floes beside those, "the floes of its file"; NULL: none */
 } scene_size;
 scene_size scene_size_of(const scenario *s);

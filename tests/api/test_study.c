@@ -241,34 +241,45 @@ START_TEST(conditions_are_counted_and_a_stop_is_heard_between_them)
 }
 END_TEST
 
-/* Bytes of a run that is kept whole, of one floe in 1,000 steps, with these keys of its output. */
-static double kept_bytes(fram_context *c, const char *output)
+/* Bytes of a run that is kept whole, of one floe in 1,000 steps, with these vessels and keys of its output. */
+static double kept_bytes(fram_context *c, const char *vessels, const char *output)
 {
     fram_error error = {0};
     fram_study *s = NULL;
     fram_study_extent extent = {0};
-    char folder[256], path[300];
+    char folder[256], path[300], scene[300];
     write_study(folder, path);
-    FILE *file = fopen(path, "w");
+    snprintf(scene, sizeof scene, "%s/floe.yaml", folder);
+    FILE *file = fopen(scene, "a");
+    ck_assert(file && fputs(vessels, file) >= 0 && fclose(file) == 0);
+    file = fopen(path, "w");
     ck_assert_ptr_nonnull(file);
-    fprintf(file, "scenario: floe.yaml\nset: {run.duration: 20, output.csv_interval: 20%s}\nkeep: all\n", output);
+    fprintf(file, "scenario: floe.yaml\nset: {run.duration: 20%s}\nkeep: all\n%s", output,
+            *vessels ? "vessel: a\n" : "");
     ck_assert_int_eq(fclose(file), 0);
-    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
-    ck_assert_int_eq(fram_study_measure(s, &extent, &error), FRAM_OK);
+    ck_assert_msg(fram_study_load(c, path, &s, &error) == FRAM_OK, "%s: %s", error.key, error.message);
+    ck_assert_msg(fram_study_measure(s, &extent, &error) == FRAM_OK, "%s: %s", error.key, error.message);
     fram_study_destroy(s);
     return extent.run_bytes;
 }
 
-/* A floe in a frame takes 18 bytes. */
-START_TEST(the_record_of_a_kept_run_counts_up_to_its_limit)
+/* By the rule of sim/scene_size.h: a floe in a frame takes 18 bytes, a row of each vessel 900, a picture 200,000. */
+START_TEST(the_files_of_a_kept_run_count_as_fram_check_counts_them)
 {
     fram_context *c = context_of();
-    double without = kept_bytes(c, ", output.frame_interval: 0");
-    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02") - without, 18000, 1e-6);
-    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02, output.record_limit: 0") - without, 18000,
+    double without = kept_bytes(c, "", ", output.frame_interval: 0");
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02") - without, 18018, 1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02, output.record_limit: 0") - without, 18018,
                             1e-6);
-    ck_assert_double_eq_tol(kept_bytes(c, ", output.frame_interval: 0.02, output.record_limit: 0.01") - without, 10000,
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02, output.record_limit: 0.01") - without,
+                            10000, 1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0, output.picture_interval: 2") - without, 2e6,
                             1e-6);
+#define VESSEL(name, y) "{name: " name ", y: " y ", hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}"
+#define VESSELS \
+    "vessels: [" VESSEL("a", "0") ", " VESSEL("b", "40") ", " VESSEL("c", "80") ", " VESSEL("d", "-40") "]\n"
+    double more = kept_bytes(c, VESSELS, ", output.frame_interval: 0, output.csv_interval: 0.002");
+    ck_assert_double_eq_tol(more - without, 3 * 1000 * 900.0, 1e-6);
     fram_context_destroy(c);
 }
 END_TEST
@@ -364,5 +375,5 @@ END_TEST
 
 TEST_MAIN("study", a_file_that_is_changed_while_the_study_runs_is_told, misuse_is_refused,
           a_full_disk_fails_the_study_and_not_its_runs, a_program_of_a_killed_study_is_waited_for,
-          conditions_are_counted_and_a_stop_is_heard_between_them, the_record_of_a_kept_run_counts_up_to_its_limit,
-          a_study_runs_by_the_command)
+          conditions_are_counted_and_a_stop_is_heard_between_them,
+          the_files_of_a_kept_run_count_as_fram_check_counts_them, a_study_runs_by_the_command)

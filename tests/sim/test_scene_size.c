@@ -86,6 +86,33 @@ START_TEST(floes_that_are_not_counted)
 }
 END_TEST
 
+/* Each vessel has its row in series.csv, none comes between two steps, and the record ends at its limit. */
+START_TEST(a_folder_is_known_by_its_parts)
+{
+#define SHORT "run: {duration: 100, time_step: 0.1}\nice: {source: none}\n"
+#define OFTEN "output: {csv_interval: 0.01, frame_interval: 1, picture_interval: 10}\n"
+#define VESSEL(name, x) "{name: " name ", x: " x ", hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}"
+    static const char *const texts[] = {
+        SHORT OFTEN, SHORT OFTEN
+        "vessels: [" VESSEL("a", "0") ", " VESSEL("b", "40") ", " VESSEL("c", "80") ", " VESSEL("d", "120") "]\n"};
+    scene_disk d[2];
+    scenario s;
+    for (int i = 0; i < 2; i++) {
+        read_scenario(texts[i], &s);
+        d[i] = scene_disk_of(&s, 50);
+        assert_bits(d[i].all, d[i].rows + d[i].frames + d[i].checkpoints + d[i].pictures);
+        assert_relative(d[i].frames, 101 * 50 * 18, 1e-12);
+        assert_relative(d[i].pictures - scene_disk_of(&s, 0).pictures, 11 * (2e5 - 2e4), 1e-12);
+        s.output.record_limit = 0.05;
+        assert_relative(scene_disk_of(&s, 50).frames, 0.05e6, 1e-12);
+        scenario_free(&ctx, &s);
+    }
+    assert_relative(d[1].rows - d[0].rows, 3 * 1000 * 900, 1e-12);
+    assert_bits(d[1].pictures, d[0].pictures);
+    assert_bits(d[1].checkpoints, 50 * 2100);
+}
+END_TEST
+
 /* A sheet of automatic tiles in a wide domain: more cells than 32 bits number, and more memory than there is. */
 START_TEST(what_is_too_large_is_refused)
 {
@@ -119,4 +146,5 @@ START_TEST(what_is_too_large_is_refused)
 }
 END_TEST
 
-TEST_MAIN("scene_size", floes_that_are_made, a_tile_is_larger, floes_that_are_not_counted, what_is_too_large_is_refused)
+TEST_MAIN("scene_size", floes_that_are_made, a_tile_is_larger, floes_that_are_not_counted,
+          a_folder_is_known_by_its_parts, what_is_too_large_is_refused)
