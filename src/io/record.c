@@ -76,18 +76,32 @@ static bool block_is_sound(const block_head *head, uint64_t offset, uint64_t fil
 
 /* ---- writing ---- */
 
+static fram_status write_head(record_writer *w, fram_error *error)
+{
+    record_head head = {.version = RECORD_VERSION, .byte_order = FILE_BYTE_ORDER};
+    memcpy(head.magic, record_magic, sizeof record_magic);
+    head.crc = record_head_crc(&head);
+    return file_write(&w->file, &head, sizeof head, error);
+}
+
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error)
 {
     fram_status status = file_create(ctx, path, &w->file, error);
     if (status != FRAM_OK)
         return status;
-    record_head head = {.version = RECORD_VERSION, .byte_order = FILE_BYTE_ORDER};
-    memcpy(head.magic, record_magic, sizeof record_magic);
-    head.crc = record_head_crc(&head);
-    status = file_write(&w->file, &head, sizeof head, error);
+    status = write_head(w, error);
     if (status != FRAM_OK)
         file_abandon(&w->file);
     return status;
+}
+
+fram_status record_create_beside(context *ctx, const char *path, record_writer *w, fram_error *error)
+{
+    fram_status status = file_create_temporary(ctx, path, &w->file, error);
+    if (status != FRAM_OK)
+        return status;
+    status = write_head(w, error);
+    return status == FRAM_OK ? FRAM_OK : record_place(w, path, status, error);
 }
 
 /* That a block ends at `length`: heads are followed from the first block on. */
@@ -161,6 +175,23 @@ fram_status record_flush(record_writer *w, bool sync, fram_error *error) { retur
 uint64_t record_length(const record_writer *w) { return w->file.length; }
 
 fram_status record_close(record_writer *w, fram_error *error) { return file_close(&w->file, error); }
+
+fram_status record_place(record_writer *w, const char *path, fram_status written, fram_error *error)
+{
+    context *ctx = w->file.ctx;
+    char *temporary = w->file.path;
+    fram_status status = written == FRAM_OK ? file_flush(&w->file, false, error) : written;
+    w->file.path = NULL; /* outlives the writer */
+    fram_status closed = file_close(&w->file, status == FRAM_OK ? error : NULL);
+    if (status == FRAM_OK)
+        status = closed;
+    if (status == FRAM_OK && rename(temporary, path) != 0)
+        status = file_error(error, path, "replace", errno);
+    if (status != FRAM_OK)
+        (void)unlink(temporary);
+    memory_free(ctx, temporary);
+    return status;
+}
 
 /* ---- reading ---- */
 

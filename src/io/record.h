@@ -27,6 +27,8 @@ typedef struct record_part {
 } record_part;
 
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error);
+/* The same in a temporary file beside `path` (io/temporary.h), for record_place. */
+fram_status record_create_beside(context *ctx, const char *path, record_writer *w, fram_error *error);
 /* Open a record to be continued at `length` (a record_length of before), once the caller has cut it there by file_cut;
    FRAM_ERROR_INPUT when the head is not that of a record of this version and byte order, the file is shorter, or
    `length` is not the end of a block. */
@@ -35,6 +37,9 @@ fram_status record_append(record_writer *w, uint32_t type, const record_part *pa
 fram_status record_flush(record_writer *w, bool sync, fram_error *error);
 uint64_t record_length(const record_writer *w);
 fram_status record_close(record_writer *w, fram_error *error);
+/* Close a record that was begun beside `path`, and rename it to that without waiting for the disk.  `written`: how
+   writing it went; where that or this fails, the temporary file is removed and what was at the path stays. */
+fram_status record_place(record_writer *w, const char *path, fram_status written, fram_error *error);
 
 /* The head of a block with this payload, for blocks that go elsewhere than into a record file. */
 void record_block_head(uint32_t type, const void *payload, size_t size, unsigned char head[RECORD_BLOCK_HEAD]);

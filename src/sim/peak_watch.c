@@ -5,11 +5,8 @@
 #include "sim/ice_loads.h"
 #include "sim/peak_chain.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 _Static_assert((int)PEAK_ZONES == (int)ZONE_COUNT, "a peak tells all zones");
 
@@ -435,13 +432,11 @@ static fram_status append_vessel(record_writer *file, unsigned char *room, vec2 
 
 fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)
 {
-    char path[PATH_ROOM], fresh[PATH_ROOM];
+    char path[PATH_ROOM];
     fram_status status = path_join(folder, "peaks.fram", path, error);
-    if (status == FRAM_OK)
-        status = path_join(folder, "peaks.fram.new", fresh, error);
     record_writer file;
     if (status == FRAM_OK)
-        status = record_create(p->ctx, fresh, &file, error);
+        status = record_create_beside(p->ctx, path, &file, error);
     if (status != FRAM_OK)
         return status;
     unsigned char *room = memory_array(p->ctx, PEAK_BLOCK_ROOM, 1);
@@ -452,11 +447,5 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
         status = append_vessel(&file, room, p->origin, &p->vessels.data[v], error);
     memory_free(p->ctx, room);
-    fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
-    status = status == FRAM_OK ? closed : status;
-    if (status == FRAM_OK && rename(fresh, path) != 0)
-        status = file_error(error, path, "replace the file", errno);
-    if (status != FRAM_OK)
-        (void)unlink(fresh);
-    return status;
+    return record_place(&file, path, status, error);
 }

@@ -10,10 +10,7 @@
 #include "sim/build_ice.h"
 #include "sim/run_folder.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Local pressure on thick massive ice by ISO 19906 (2010), A.8.2.5: 7.40 A^-0.70 MPa up to 10 m2, 1.48 MPa above
    [Pa]. */
@@ -187,33 +184,25 @@ static void fill_block(pressure_map *p, const char *hash, text_buffer *out)
 static fram_status write_block(pressure_map *p, const char *path, const text_buffer *block, fram_error *error)
 {
     record_writer file;
-    fram_status status = record_create(p->ctx, path, &file, error);
+    fram_status status = record_create_beside(p->ctx, path, &file, error);
     if (status != FRAM_OK)
         return status;
     record_part part = {block->data, (size_t)block->count};
-    status = record_append(&file, BLOCK_PRESSURE, &part, 1, error);
-    fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
-    return status == FRAM_OK ? closed : status;
+    return record_place(&file, path, record_append(&file, BLOCK_PRESSURE, &part, 1, error), error);
 }
 
 static fram_status write_for_page(pressure_map *p, fram_error *error)
 {
-    char path[PATH_ROOM], fresh[PATH_ROOM], hash[SHA256_TEXT_SIZE];
+    char path[PATH_ROOM], hash[SHA256_TEXT_SIZE];
     text_buffer block = {0};
     fram_status status = path_join(p->o->output, "pressure.fram", path, error);
-    if (status == FRAM_OK)
-        status = path_join(p->o->output, "pressure.fram.new", fresh, error);
     if (status == FRAM_OK)
         status = scenario_hash(p->ctx, &p->s, hash, error);
     if (status != FRAM_OK)
         return status;
     fill_block(p, hash, &block);
-    status = block.failed ? error_memory(error) : write_block(p, fresh, &block, error);
+    status = block.failed ? error_memory(error) : write_block(p, path, &block, error);
     text_free(p->ctx, &block);
-    if (status == FRAM_OK && rename(fresh, path) != 0)
-        status = file_error(error, path, "replace the file", errno);
-    if (status != FRAM_OK)
-        (void)unlink(fresh);
     return status;
 }
 

@@ -151,8 +151,8 @@ static bool is_summary(const char *name) { return strcmp(name, "run.json") == 0;
 static bool is_result(const char *name)
 {
     static const char *const names[] = {
-        "failed.fram",   "plan.png",    "loads.png", "station.png", "station.json", "peaks.fram", "peaks.fram.new",
-        "playback.html", "report.html", "run.nc",    "run.mp4",     "manage.html",  "manage.csv", "manage-sizes.csv"};
+        "failed.fram", "plan.png", "loads.png", "station.png", "station.json", "peaks.fram",      "playback.html",
+        "report.html", "run.nc",   "run.mp4",   "manage.html", "manage.csv",   "manage-sizes.csv"};
     bool found = is_of_vessel(name) || is_field(name);
     for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
         found = strcmp(name, names[i]) == 0;
@@ -237,8 +237,10 @@ fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fra
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
 static bool is_leftover(const char *name)
 {
-    static const char *const names[] = {"scenario.yaml", "run.json",    "plan.png",   "loads.png",
-                                        "station.json",  "station.png", "failed.fram"};
+    static const char *const names[] = {"scenario.yaml", "run.json",    "plan.png",    "loads.png",
+                                        "station.json",  "station.png", "failed.fram", "peaks.fram"};
+    if (strcmp(name, "peaks.fram.new") == 0) /* of older versions */
+        return true;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (temporary_is_of(name, names[i]))
             return true;

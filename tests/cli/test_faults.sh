@@ -112,6 +112,7 @@ rm -f target.html.new .target.html.new
 # What a run that was killed left behind goes with the next one, and the state as it went wrong with one that goes on;
 # what others are writing stays.
 touch open/failed.fram open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new
+touch open/peaks.fram.0123456789abcdef.new open/peaks.fram.new
 touch open/report.html.0123456789abcdef.new open/mine.new
 expect 0 "$FRAM" resume open -q
 if [ ! -e open/report.html.0123456789abcdef.new ] || [ ! -e open/mine.new ]; then

@@ -232,6 +232,37 @@ START_TEST(other_files_are_refused)
 }
 END_TEST
 
+/* Until it is placed what was there stays, and a writing that failed leaves nothing; no link of a name is followed. */
+START_TEST(a_record_is_placed_in_one_go)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char other[300], path[300], link[320];
+    snprintf(other, sizeof other, "%s", scratch_path(&s, "other"));
+    snprintf(path, sizeof path, "%s", scratch_path(&s, "r"));
+    snprintf(link, sizeof link, "%s.new", path);
+    scratch_write(other, "mine", 4);
+    ck_assert_int_eq(symlink(other, link), 0);
+    ck_assert_int_eq(symlink(other, path), 0);
+    for (int bad = 1; bad >= 0; bad--) {
+        record_writer w;
+        assert_ok(record_create_beside(&ctx, path, &w, &error), error);
+        fram_status written = bad ? FRAM_ERROR_MEMORY : record_append(&w, 7, NULL, 0, &error);
+        ck_assert_int_eq(record_place(&w, path, written, &error), written);
+        size_t size;
+        char *data = scratch_read(path, &size);
+        ck_assert_uint_eq(size, bad ? 4 : 24 + RECORD_BLOCK_HEAD);
+        free(data);
+        data = scratch_read(other, &size);
+        ck_assert_uint_eq(size, 4);
+        free(data);
+    }
+    ck_assert_int_eq(unlink(other), 0);
+    ck_assert_int_eq(unlink(link), 0);
+    scratch_remove(&s, "r");
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     scratch s = scratch_make();
@@ -239,10 +270,9 @@ START_TEST(memory_runs_out)
         record_writer w = {0};
         record_reader r = {0};
         const record_part part = {"payload", 7};
-        turn.status = record_create(&turn.ctx, scratch_path(&s, "r"), &w, &error);
+        turn.status = record_create_beside(&turn.ctx, scratch_path(&s, "r"), &w, &error);
         if (turn.status == FRAM_OK)
-            turn.status = record_append(&w, 1, &part, 1, &error);
-        record_close(&w, NULL);
+            turn.status = record_place(&w, s.path, record_append(&w, 1, &part, 1, &error), &error);
         if (turn.status == FRAM_OK)
             turn.status = record_open(&turn.ctx, s.path, &r, &error);
         if (turn.status == FRAM_OK) {
@@ -259,4 +289,4 @@ END_TEST
 
 TEST_MAIN("record", blocks_come_back_in_order, blocks_are_found_by_offset, a_growing_record_can_be_followed,
           a_cut_record_gives_its_whole_blocks, every_flipped_bit_is_seen, a_record_is_continued_after_any_block,
-          other_files_are_refused, memory_runs_out)
+          other_files_are_refused, a_record_is_placed_in_one_go, memory_runs_out)
