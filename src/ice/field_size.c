@@ -6,8 +6,8 @@
 #include "base/transcendental.h"
 #include <math.h>
 
-/* Slices by which the mean area is found, halvings of an inverse. */
-enum { MEAN_SLICES = 8192, HALVINGS = 200, SHIFT_HALVINGS = 60 };
+/* Halvings of an inverse. */
+enum { HALVINGS = 200, SHIFT_HALVINGS = 60 };
 /* After so many diameters, some milliseconds, the caller is asked whether to go on. */
 enum { SLICES_A_WORD = 1024 };
 /* More floes than this are a mistake in the units rather than a field. */
@@ -233,12 +233,12 @@ double size_law_part(const size_law *law, double d)
 
 static double disc_area(double d) { return PI / 4 * d * d; }
 
-double size_law_mean_area(const size_law *law)
+double size_law_mean_area(const size_law *law, int slices)
 {
     double sum = 0;
-    for (int i = 0; i < MEAN_SLICES; i++)
-        sum += disc_area(size_law_quantile(law, (i + 0.5) / MEAN_SLICES));
-    return sum / MEAN_SLICES;
+    for (int i = 0; i < slices; i++)
+        sum += disc_area(size_law_quantile(law, (i + 0.5) / slices));
+    return sum / slices;
 }
 
 /* The diameters of n slices, each at its own random place in it, moved by `shift`; *area: of all together. */
@@ -264,7 +264,7 @@ static fram_status fill_slices(context *ctx, const size_law *law, const double *
 fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
                           real_array *out, fram_error *error)
 {
-    double each = size_law_mean_area(law);
+    double each = size_law_mean_area(law, SIZE_SLICES);
     if (!(area < (MOST_FLOES + 0.5) * each))
         return error_set(
             error, FRAM_ERROR_INPUT, NULL, 0, "populations",

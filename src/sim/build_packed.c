@@ -166,7 +166,7 @@ fram_status population_mean_area(context *ctx, const scenario *s, double *area, 
     fram_status status = read_populations(ctx, s, NULL, &files, error);
     for (int32_t i = 0; i < s->ice.populations.count && status == FRAM_OK; i++) {
         shares += files.population[i].share;
-        sum += files.population[i].share * size_law_mean_area(&files.population[i].size);
+        sum += files.population[i].share * size_law_mean_area(&files.population[i].size, SIZE_SLICES);
     }
     if (status == FRAM_OK)
         *area = sum / shares;

@@ -1,10 +1,9 @@
 #include "sim/scene_size.h"
 
-#include "base/transcendental.h"
-#include "ice/field_size.h"
 #include "sim/build.h"
 #include "sim/build_feeding.h"
 #include "sim/build_level.h"
+#include "sim/build_packed.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,8 +22,8 @@ static const double ROW_BYTES = 900, TEXT_BYTES = 3e4, FRAME_BYTES = 18, CHECKPO
 static const double MEGABYTE = 1e6;
 /* Vertices are numbered in 32 bits, and a floe has up to a hundred. */
 static const double MOST_FLOES = 20e6;
-/* Slices of a law of size, for its mean area: within a few per cent. */
-enum { MEAN_SLICES = 256 };
+/* Slices of a law of size, for its mean area within a few per cent: each condition of a study is asked for its size. */
+enum { ROUGH_SLICES = 256 };
 
 static double domain_area(const scenario *s)
 {
@@ -34,18 +33,8 @@ static double domain_area(const scenario *s)
 /* 0 for a histogram, which stands in a file. */
 static double mean_area(const scenario_population *p)
 {
-    const size_law law = {.kind = p->size,
-                          .mean = p->diameter,
-                          .deviation = p->diameter_deviation,
-                          .lo = p->diameter_min,
-                          .hi = p->diameter_max,
-                          .exponent = p->exponent};
-    double sum = 0;
-    for (int i = 0; i < MEAN_SLICES && p->size != SIZE_HISTOGRAM; i++) {
-        double d = size_law_quantile(&law, (i + 0.5) / MEAN_SLICES);
-        sum += PI / 4 * d * d;
-    }
-    return sum / MEAN_SLICES;
+    const size_law law = population_size_law(p);
+    return p->size == SIZE_HISTOGRAM ? 0 : size_law_mean_area(&law, ROUGH_SLICES);
 }
 
 static double share_sum(const scenario *s)

@@ -30,6 +30,9 @@ START_TEST(floes_that_are_made)
         {HOUSE PLAN "ice: {source: voronoi, concentration: 0.8, populations: [{size: lognormal, diameter: 9, "
                     "diameter_deviation: 3}]}\n",
          0.05},
+        {HOUSE PLAN "ice: {source: packed, concentration: 0.6, populations: [{size: power, diameter_min: 8, "
+                    "diameter_max: 30, exponent: 2}]}\n",
+         0.05},
         {HOUSE PLAN "ice: {source: packed, concentration: 0.6, populations: [{size: uniform, diameter_min: 5, "
                     "diameter_max: 9, share: 30}, {size: uniform, diameter_min: 12, diameter_max: 15, share: 10}]}\n",
          0.05},
