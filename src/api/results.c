@@ -314,7 +314,7 @@ static fram_status read_met_ice(context *ctx, const scenario *s, const fram_capa
 static fram_status check_tables(const fram_scenario *s, const char *folder, fram_error *error)
 {
     char floes[PATH_ROOM];
-    fram_status status = path_join(folder, "capability_floes.csv", floes, error);
+    fram_status status = path_join(folder, CAPABILITY_FLOES, floes, error);
     return status == FRAM_OK ? list_refuse_read(&s->read, floes, "folder", error) : status;
 }
 

@@ -76,7 +76,8 @@ static fram_error in_words_of_command(const common_options *common, const fram_e
         snprintf(e.key, sizeof e.key, "%s", option);
     if (strcmp(error->file, "(override)") == 0)
         snprintf(e.file, sizeof e.file, "--set");
-    if (error->status == FRAM_ERROR_USAGE && strcmp(error->key, "folder") == 0 && error->file[0])
+    /* Of one that is not empty; a file in it that the command reads is never written over. */
+    if (error->status == FRAM_ERROR_USAGE && strcmp(error->key, "folder") == 0 && is_folder(error->file))
         snprintf(e.message, sizeof e.message, "%.480s (--force)", error->message);
     return e;
 }

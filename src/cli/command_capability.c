@@ -11,17 +11,11 @@ static int find(const common_options *common, const char *path, const option_lis
     int code = session_open_making(common, &work, &context);
     if (code >= 0)
         return code;
-    /* Of the tables the one that a scenario can name. */
-    char floes[FRAM_PATH_ROOM];
-    snprintf(floes, sizeof floes, "%s/capability_floes.csv", d->folder);
-    const command_files files = {.outputs = {{"--output", floes, NULL}}};
     fram_scenario *scenario = NULL;
     fram_result result = {0};
     fram_error error = {0};
     fram_status status = fram_scenario_load(context, path, overrides->value, overrides->count, &scenario, &error);
     if (status == FRAM_OK)
-        code = refuse_scenario_files(common, &files, scenario);
-    if (status == FRAM_OK && code < 0)
         status = fram_capability(scenario, d, &result, &error);
     if (status != FRAM_OK)
         code = answer_error(common, &error);

@@ -1,5 +1,7 @@
 #include "io/path.h"
 
+#include "io/run_files.h"
+
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,14 +25,13 @@ static bool is_one_file(const char *one, const char *other)
 
 bool path_is_own(const char *run, const char *path)
 {
-    static const char *const names[] = {"scenario.yaml", "run.json",    "series.csv",
-                                        "fractures.csv", "record.fram", "peaks.fram"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const run_file *f;
+    bool found = false;
+    for (int32_t i = 0; !found && (f = run_file_at(i)) != NULL; i++) {
         char own[PATH_ROOM]; /* where that is too long there is no such file */
-        if (path_join(run, names[i], own, NULL) == FRAM_OK && is_one_file(own, path))
-            return true;
+        found = f->source && path_join(run, f->name, own, NULL) == FRAM_OK && is_one_file(own, path);
     }
-    return false;
+    return found;
 }
 
 fram_status path_refuse_own(const char *run, const char *path, fram_error *error)

@@ -24,6 +24,8 @@ typedef struct capability_met_ice {
     int32_t run_count;
 } capability_met_ice;
 
+/* The table of sizes of that ice, which a scenario can name as a histogram. */
+#define CAPABILITY_FLOES "capability_floes.csv"
 /* The side of the square of ice over the hull's length: a length of ice on every side of it. */
 #define CAPABILITY_LENGTHS 3.0
 

@@ -302,7 +302,7 @@ fram_status capability_write(context *ctx, const scenario *s, const capability_o
     if (status == FRAM_OK)
         status = write_one(ctx, &c, use_table, "capability_use.csv", error);
     if (status == FRAM_OK && o->met)
-        status = write_one(ctx, &c, sizes_table, "capability_floes.csv", error);
+        status = write_one(ctx, &c, sizes_table, CAPABILITY_FLOES, error);
     if (status == FRAM_OK)
         status = write_one(ctx, &c, compose, "capability.json", error);
     if (status == FRAM_OK && image_available())

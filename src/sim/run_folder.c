@@ -8,6 +8,7 @@
 #include "io/file.h"
 #include "io/folder.h"
 #include "io/path.h"
+#include "io/run_files.h"
 #include "io/temporary.h"
 #include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
@@ -134,29 +135,22 @@ static bool is_field(const char *name)
            strspn(name + sizeof begin - 1, "0123456789.e+-") >= size - around;
 }
 
-/* Files that grow with a run. */
-static bool is_stream(const char *name)
-{
-    return strcmp(name, "series.csv") == 0 || strcmp(name, "fractures.csv") == 0 || strcmp(name, "record.fram") == 0;
-}
-
 /* What run.json and the record of any version begin with. */
 #define SUMMARY_BEGINS "{\n  \"fram_version\": "
 #define RECORD_BEGINS "FRAMREC\n"
 
-/* How it ended. */
-static bool is_summary(const char *name) { return strcmp(name, "run.json") == 0; }
+static run_file_end end_of(const char *name)
+{
+    const run_file *file = run_file_find(name);
+    return file ? file->end : RUN_FILE_STAYS;
+}
 
+static bool is_summary(const char *name) { return end_of(name) == RUN_FILE_GOES_FIRST; }
+static bool is_stream(const char *name) { return end_of(name) == RUN_FILE_GOES_LAST; }
 /* All others that a run, or what is made of it, leaves in its folder. */
 static bool is_result(const char *name)
 {
-    static const char *const names[] = {
-        "failed.fram", "plan.png", "loads.png", "station.png", "station.json", "peaks.fram",      "playback.html",
-        "report.html", "run.nc",   "run.mp4",   "manage.html", "manage.csv",   "manage-sizes.csv"};
-    bool found = is_of_vessel(name) || is_field(name);
-    for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
-        found = strcmp(name, names[i]) == 0;
-    return found;
+    return end_of(name) == RUN_FILE_GOES || is_of_vessel(name) || is_field(name);
 }
 
 /* What is made of a run, in its folder or one inside. */
@@ -221,12 +215,8 @@ static bool has_run(const char *folder)
 /* What a run writes over, however it ends. */
 static bool is_written(const char *name)
 {
-    static const char *const names[] = {"scenario.yaml", "plan.png",    "loads.png", "station.png",
-                                        "station.json",  "failed.fram", "peaks.fram"};
-    bool found = is_stream(name) || is_summary(name) || is_of_vessel(name) || checkpoint_is_name(name);
-    for (size_t i = 0; i < sizeof names / sizeof *names && !found; i++)
-        found = strcmp(name, names[i]) == 0;
-    return found;
+    const run_file *file = run_file_find(name);
+    return (file && file->written) || is_of_vessel(name) || checkpoint_is_name(name);
 }
 
 fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fram_error *error)
@@ -237,12 +227,11 @@ fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fra
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
 static bool is_leftover(const char *name)
 {
-    static const char *const names[] = {"scenario.yaml", "run.json",    "plan.png",    "loads.png",
-                                        "station.json",  "station.png", "failed.fram", "peaks.fram"};
+    const run_file *file;
     if (strcmp(name, "peaks.fram.new") == 0) /* of older versions */
         return true;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (temporary_is_of(name, names[i]))
+    for (int32_t i = 0; (file = run_file_at(i)) != NULL; i++) {
+        if (file->in_one_go && temporary_is_of(name, file->name))
             return true;
     }
     static const char *const kinds[] = {".fram.", ".png.", ".json."};

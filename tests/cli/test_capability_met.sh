@@ -78,7 +78,7 @@ sizes="[{size: histogram, histogram: a/capability_floes.csv}]"
 sed "s|^ice: .*|ice: {concentration: 0.3, populations: $sizes}|" held.yaml >made.yaml
 expect 0 "$FRAM" check made.yaml
 expect 2 "$FRAM" capability made.yaml -o a --force --ice-from run --ice-vessel ship "${ask[@]}"
-says "--output: names what the command reads" err
+same "$(cat err)" "fram: a/capability_floes.csv: --output: expected a file of its own, found one that is read" "refusal"
 
 # In a model of 1:40 the floes are of as many sizes.
 python3 - <<'END'

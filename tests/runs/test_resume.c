@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "results/run_results.h"
 #include "sim/run.h"
+#include "sim/run_folder.h"
 
 #include <stdio.h>
 #include <sys/stat.h>
@@ -169,6 +170,19 @@ static bool access_in(const char *folder, const char *name)
     return access(path, R_OK) == 0;
 }
 
+/* A new run takes away what the one before wrote, whatever it is, but for the scenario, which it writes over. */
+static void check_cleared(context *ctx, const char *folder)
+{
+    char path[PATH + 64];
+    int lock = -1;
+    fram_error error = {0};
+    assert_ok(run_folder_prepare(ctx, folder, true, NULL, &lock, &error), error);
+    run_folder_unlock(lock);
+    snprintf(path, sizeof path, "%s/scenario.yaml", folder);
+    ck_assert_int_eq(unlink(path), 0);
+    ck_assert_msg(rmdir(folder) == 0, "files of a run stay in %s", folder);
+}
+
 static void check_scene(const char *text, int threads, uint64_t *hash)
 {
     char straight[PATH], halves[PATH];
@@ -191,10 +205,10 @@ static void check_scene(const char *text, int threads, uint64_t *hash)
     ck_assert(s.vessels.count == 0 || !access_in(straight, "station.json"));
     ck_assert(s.vessels.count == 0 || access_in(straight, "station-ship.json") != (strstr(text, "name: ship") == NULL));
 
+    check_cleared(&ctx, straight);
     scenario_free(&ctx, &s);
     if (ctx.threads)
         pool_free(&ctx, ctx.threads);
-    remove_folder(straight);
     remove_folder(halves);
 }
 

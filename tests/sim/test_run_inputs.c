@@ -1,5 +1,8 @@
-/* What a list of files says of their contents. */
+/* What a list of files says of their contents, and what a run does with files that have the names of its own. */
+#include "io/path.h"
+#include "io/run_files.h"
 #include "io/scenario_file.h"
+#include "sim/run_folder.h"
 #include "sim/run_inputs.h"
 #include "testing.h"
 #include <stdio.h>
@@ -100,5 +103,53 @@ START_TEST(files_that_are_known_are_not_read)
 }
 END_TEST
 
+static void write_file(const char *folder, const char *name, const char *ending, char path[PATH_ROOM])
+{
+    snprintf(path, PATH_ROOM, "%s/%s%s", folder, name, ending);
+    FILE *file = fopen(path, "w");
+    ck_assert(file && fputs("{\n  \"fram_version\": ", file) >= 0 && fclose(file) == 0);
+}
+
+/* Whether it was there; it no longer is. */
+static bool take_away(const char *folder, const char *name, const char *ending)
+{
+    char path[PATH_ROOM];
+    snprintf(path, PATH_ROOM, "%s/%s%s", folder, name, ending);
+    return unlink(path) == 0;
+}
+
+START_TEST(files_of_a_run_are_those_of_one_table)
+{
+    static const char half[] = ".0123456789abcdef.new", old[] = "peaks.fram.new", other[] = "mine.csv";
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    char folder[] = "/tmp/fram_test_XXXXXX", path[PATH_ROOM], line[PATH_ROOM + 80];
+    const run_file *f;
+    int lock = -1, rows = 0;
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    for (; (f = run_file_at(rows)) != NULL; rows++) {
+        ck_assert_ptr_eq(run_file_find(f->name), f);
+        write_file(folder, f->name, half, path);
+        write_file(folder, f->name, "", path);
+        snprintf(line, sizeof line, ONE "  %s\n", path);
+        ck_assert_int_eq(run_folder_refuse_inputs(folder, line, &error), f->written ? FRAM_ERROR_USAGE : FRAM_OK);
+        ck_assert_int_eq(path_is_own(folder, path), f->source);
+    }
+    ck_assert_int_gt(rows, 15);
+    ck_assert_ptr_null(run_file_find(other));
+    write_file(folder, old, "", path);
+    write_file(folder, other, "", path);
+    assert_ok(run_folder_prepare(&ctx, folder, true, NULL, &lock, &error), error);
+    run_folder_unlock(lock);
+    for (rows = 0; (f = run_file_at(rows)) != NULL; rows++) {
+        ck_assert_msg(take_away(folder, f->name, "") == (f->end == RUN_FILE_STAYS), "%s", f->name);
+        ck_assert_msg(take_away(folder, f->name, half) == !f->in_one_go, "%s%s", f->name, half);
+    }
+    ck_assert(!take_away(folder, old, "") && take_away(folder, other, ""));
+    ck_assert_int_eq(rmdir(folder), 0);
+}
+END_TEST
+
 TEST_MAIN("run_inputs", contents_count_and_places_do_not, other_texts_are_refused, memory_runs_out,
-          files_that_are_known_are_not_read)
+          files_that_are_known_are_not_read, files_of_a_run_are_those_of_one_table)
