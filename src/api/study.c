@@ -77,10 +77,10 @@ static double record_bytes_of(const scenario *s, int32_t floes)
 static double steps_of_stay(const scenario *s)
 {
     const scenario_domain *d = &s->domain;
-    double speed = is_automatic(d->drift_speed) ? s->environment.current_speed : d->drift_speed;
-    if (d->boundary == DOMAIN_WALLS || d->drift_file[0] || !(speed > 0))
+    const ice_drift drift = scenario_drift(s);
+    if (d->boundary == DOMAIN_WALLS || drift.file[0] || !(drift.speed > 0))
         return (double)INFINITY;
-    return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / speed / s->run.time_step;
+    return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / drift.speed / s->run.time_step;
 }
 
 static step_look step_look_of(const bench_look *l)

@@ -20,11 +20,10 @@ static void add_flow(context *ctx, const scenario *s, const char *name, const ch
 plan_flows plan_flows_at(context *ctx, const scenario *s, double time)
 {
     const scenario_environment *e = &s->environment;
-    const scenario_domain *d = &s->domain;
+    const ice_drift drift = scenario_drift(s);
     plan_flows out = {.count = 0};
-    bool fed = s->ice.source != ICE_NONE && d->boundary == DOMAIN_FEEDING;
-    if (fed && (d->drift_file[0] || !is_automatic(d->drift_speed)))
-        add_flow(ctx, s, "drift", d->drift_file, automatic_or(d->drift_speed, 0), d->drift_direction_deg, time, &out);
+    if (drift.own)
+        add_flow(ctx, s, "drift", drift.file, drift.speed, drift.towards_deg, time, &out);
     add_flow(ctx, s, "current", e->current_file, e->current_speed, e->current_direction_deg, time, &out);
     add_flow(ctx, s, "wind", e->wind_file, e->wind_speed, e->wind_direction_deg, time, &out);
     return out;

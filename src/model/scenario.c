@@ -144,6 +144,18 @@ bool scenario_averages_begin_early(const scenario *s, double first, double span)
     return window > first * (1 + 1e-9) && window > SHORT_WINDOW * span;
 }
 
+box2 domain_box(const scenario_domain *d) { return (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}; }
+
+ice_drift scenario_drift(const scenario *s)
+{
+    const scenario_domain *d = &s->domain;
+    const scenario_environment *e = &s->environment;
+    bool fed = s->ice.source != ICE_NONE && d->boundary == DOMAIN_FEEDING;
+    if (fed && (d->drift_file[0] || !is_automatic(d->drift_speed)))
+        return (ice_drift){d->drift_file, automatic_or(d->drift_speed, 0), d->drift_direction_deg, fed, true};
+    return (ice_drift){e->current_file, e->current_speed, e->current_direction_deg, fed, false};
+}
+
 vec3 scenario_velocity(double speed, double direction_deg)
 {
     double angle = radians(direction_deg);

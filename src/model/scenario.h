@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "dynamics/solver.h"
+#include "geometry/polygon.h"
 #include "ice/field_size.h"
 #include "ice/fracture.h"
 #include "ice/import.h"
@@ -96,6 +97,17 @@ fram_status scenario_check(const scenario *s, fram_error *error);
 /* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section
    around it that was; otherwise only the file.  For errors found while a world is made from the scenario. */
 void scenario_locate(const scenario *s, fram_error *error);
+/* The domain from above. */
+box2 domain_box(const scenario_domain *d);
+/* What moves the ice far from vessels: the current, or where an endless field is told its own, that. */
+typedef struct ice_drift {
+    const char *file;   /* of a history, in place of the speed; empty: none */
+    double speed;       /* [m/s] */
+    double towards_deg; /* of the speed */
+    bool fed;           /* the field is endless */
+    bool own;           /* and this is its own drift (domain.drift_*), not the current */
+} ice_drift;
+ice_drift scenario_drift(const scenario *s);
 /* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
 vec3 scenario_velocity(double speed, double direction_deg);
 

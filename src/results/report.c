@@ -254,11 +254,10 @@ static void scenario_table(report *r)
     html_fact(&r->page, "domain", "%g m x %g m, %s", s->domain.x_max - s->domain.x_min,
               s->domain.y_max - s->domain.y_min, boundaries[s->domain.boundary]);
     const scenario_environment *e = &s->environment;
-    bool drifts = s->domain.boundary == DOMAIN_FEEDING;
-    if (drifts && (s->domain.drift_file[0] || !is_automatic(s->domain.drift_speed)))
-        flow_fact(r, "drift of the ice", s->domain.drift_file, automatic_or(s->domain.drift_speed, 0),
-                  s->domain.drift_direction_deg);
-    else if (drifts)
+    const ice_drift drift = scenario_drift(s);
+    if (drift.own)
+        flow_fact(r, "drift of the ice", drift.file, drift.speed, drift.towards_deg);
+    else if (drift.fed)
         html_fact(&r->page, "drift of the ice", "that of the current");
     flow_fact(r, "current", e->current_file, e->current_speed, e->current_direction_deg);
     if (e->current_profile_file[0])

@@ -53,7 +53,7 @@ static void find_extent(video *v)
         lo = vec2_make(fmin(lo.x, p->position.x), fmin(lo.y, p->position.y));
         hi = vec2_make(fmax(hi.x, p->position.x), fmax(hi.y, p->position.y));
     }
-    v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
+    v->extent = lo.x < hi.x ? (box2){lo, hi} : domain_box(d);
 }
 
 static void find_whole(video *v)
@@ -154,7 +154,7 @@ static box2 plan_window(const video *v, int width, int height)
 {
     const scenario_domain *d = &v->s.domain;
     if (!(v->options->span > 0) || !v->plan.has_vessel)
-        return (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
+        return domain_box(d);
     double half = v->options->span / 2, upright = half * height / width;
     vec2 c = v->plan.vessel;
     return (box2){{c.x - half, c.y - upright}, {c.x + half, c.y + upright}};

@@ -153,7 +153,7 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
         if (status == FRAM_OK)
             status = look_at_zones(ctx, s, &w, error);
     }
-    *domain = (box2){{larger.domain.x_min, larger.domain.y_min}, {larger.domain.x_max, larger.domain.y_max}};
+    *domain = domain_box(&larger.domain);
     if (status == FRAM_OK)
         status = draw_ice(ctx, &larger, &w, out, error);
     if (status == FRAM_OK && fed)

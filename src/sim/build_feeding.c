@@ -91,7 +91,7 @@ fram_status feeding_floe_area(context *ctx, const scenario *s, double *area, fra
 /* The same ice in a larger domain; what is shared with the scenario is only read. */
 scenario feeding_scenario(const scenario *s, double floe_area)
 {
-    box2 window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
+    box2 window = domain_box(&s->domain);
     vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5), tile = tile_of(s, window, floe_area);
     scenario larger = *s;
     larger.domain.x_min = middle.x - tile.x / 2;

@@ -12,11 +12,6 @@
    (a/l of 0.01 to 0.05; docs/theory.md). */
 static const double TILE_LENGTHS = 2;
 
-static box2 fed_window(const scenario *s)
-{
-    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
-}
-
 static box2 sheet_plan(const scenario *s)
 {
     const scenario_level *l = &s->ice.level;
@@ -49,7 +44,7 @@ tile_grid build_tiles(const scenario *s)
     if (s->ice.source != ICE_LEVEL)
         return (tile_grid){.columns = 0};
     if (s->domain.boundary == DOMAIN_FEEDING) {
-        tile_grid drifting = drift_grid_over(fed_window(s), tile_size(s));
+        tile_grid drifting = drift_grid_over(domain_box(&s->domain), tile_size(s));
         drifting.least_seam = s->ice.edge_threshold;
         return drifting;
     }
@@ -218,7 +213,7 @@ static box2 box_common(box2 a, box2 b)
 
 double build_ice_in_domain(const scenario *s)
 {
-    box2 domain = fed_window(s), extent = sheet_extent(s), part = box_common(extent, domain);
+    box2 domain = domain_box(&s->domain), extent = sheet_extent(s), part = box_common(extent, domain);
     bool there = box_area(part) > 0;
     double area = there ? box_area(part) : fmin(box_area(domain), box_area(extent));
     for (int32_t i = 0; there && i < s->ice.level.openings.count; i++) {
@@ -236,7 +231,7 @@ static fram_status find_sheet_area(context *ctx, const scenario *s, box2 extent,
 {
     *area = box_area(extent);
     if (!isfinite(*area)) {
-        *area = box_area(fed_window(s));
+        *area = box_area(domain_box(&s->domain));
         return FRAM_OK;
     }
     if (*area > 0 && polygon_list_count(openings) > 0) {
@@ -270,7 +265,7 @@ fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, 
         return FRAM_OK;
     box2 extent = sheet_extent(s);
     *out = (drift_definition){.drifts = true,
-                              .window = fed_window(s),
+                              .window = domain_box(&s->domain),
                               .extent = extent,
                               .ice = tile_definition(s, MOTION_CARRIED),
                               .smallest = s->ice.smallest_floe_area,

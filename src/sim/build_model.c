@@ -125,7 +125,7 @@ static model settings_of(const scenario *s)
                    v->contact_skin, v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
         .rest = {s->ice.sleep_speed, s->ice.sleep_time},
         .boundary = s->domain.boundary,
-        .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+        .domain = domain_box(&s->domain),
         .drift_given = !is_automatic(s->domain.drift_speed),
         .speed_limit = s->run.speed_limit,
         .course_speed = COURSE_SPEED * sqrt(scenario_size(s)),

@@ -273,16 +273,15 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
     fram_status status = array_resize(ctx, &out->parts, count)
                              ? read_populations(ctx, s, w->scratch.plane, &files, error)
                              : error_memory(error);
-    const field_packed_request request = {
-        .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
-        .periodic_x = endless,
-        .periodic_y = endless,
-        .concentration = s->ice.concentration,
-        .populations = files.population,
-        .population_count = count,
-        .seed = (uint64_t)s->run.seed,
-        .keep_out = keep_out,
-        .present = before > 0 ? &out->outlines : NULL};
+    const field_packed_request request = {.domain = domain_box(&s->domain),
+                                          .periodic_x = endless,
+                                          .periodic_y = endless,
+                                          .concentration = s->ice.concentration,
+                                          .populations = files.population,
+                                          .population_count = count,
+                                          .seed = (uint64_t)s->run.seed,
+                                          .keep_out = keep_out,
+                                          .present = before > 0 ? &out->outlines : NULL};
     if (status == FRAM_OK) {
         status =
             field_packed(ctx, w->scratch.plane, &request, &drawn, &out->shapes, out->parts.data, &out->packed, error);

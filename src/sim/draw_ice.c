@@ -25,11 +25,6 @@ floe_traits scenario_traits(const scenario *s, double thickness)
                          s->ice.breakable};
 }
 
-static box2 domain_of(const scenario *s)
-{
-    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
-}
-
 /* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
 static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
@@ -39,7 +34,7 @@ static fram_status find_keep_out(context *ctx, const scenario *s, const world *w
 static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
                                 fram_error *error)
 {
-    field_request request = {.domain = domain_of(s),
+    field_request request = {.domain = domain_box(&s->domain),
                              .concentration = s->ice.concentration,
                              .mean_area = s->ice.mean_floe_area,
                              .size_deviation = s->ice.size_deviation,
@@ -104,7 +99,7 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
     fram_status status = import_field_measure(ctx, w->scratch.plane, path, &field->outlines, &m, error);
     if (status != FRAM_OK)
         return status;
-    box2 d = domain_of(s);
+    box2 d = domain_box(&s->domain);
     const vec2 corner[4] = {d.lo, {d.hi.x, d.lo.y}, d.hi, {d.lo.x, d.hi.y}};
     double free_area;
     status = cells_area_outside(ctx, (polygon){corner, 4}, keep_out, &free_area, error);
@@ -149,7 +144,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
                                     .offset = {s->ice.file_x, s->ice.file_y},
                                     .crop = true,
                                     .tile = s->domain.boundary == DOMAIN_FEEDING,
-                                    .domain = domain_of(s),
+                                    .domain = domain_box(&s->domain),
                                     .simplify = s->ice.simplify,
                                     .bad = s->ice.bad_rings,
                                     .smallest_area = s->ice.smallest_floe_area,

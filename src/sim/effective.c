@@ -152,20 +152,18 @@ static void tell_angle_between(const effective_list *t, const flow *drift, const
 static void list_flows(const effective_list *t)
 {
     const scenario_environment *e = &t->s->environment;
-    const scenario_domain *d = &t->s->domain;
+    const ice_drift ice = scenario_drift(t->s);
     const flow current = {"current", e->current_file, e->current_speed, e->current_direction_deg};
     const flow wind = {"wind", e->wind_file, e->wind_speed, e->wind_direction_deg};
-    bool fed = t->s->ice.source != ICE_NONE && d->boundary == DOMAIN_FEEDING;
-    bool own = fed && (d->drift_file[0] || !is_automatic(d->drift_speed));
-    const flow drift = {"drift of the ice", d->drift_file, automatic_or(d->drift_speed, 0), d->drift_direction_deg};
-    if (own)
+    const flow drift = {"drift of the ice", ice.file, ice.speed, ice.towards_deg};
+    if (ice.own)
         tell_flow(t, &drift);
-    else if (fed)
+    else if (ice.fed)
         sanity_say(t->tell, t->to, "drift of the ice: with the current");
     tell_flow(t, &current);
     tell_profile(t);
     tell_flow(t, &wind);
-    tell_angle_between(t, own ? &drift : &current, &wind);
+    tell_angle_between(t, ice.own ? &drift : &current, &wind);
 }
 
 /* ---- ice ---- */

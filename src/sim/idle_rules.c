@@ -57,8 +57,8 @@ static bool never_yields(const idle_question *q) { return !q->s->ice.cap_ice_ice
 
 static bool is_unfed(const idle_question *q) { return q->s->domain.boundary != DOMAIN_FEEDING; }
 static bool is_no_endless_field(const idle_question *q) { return is_unfed(q) || !is_no_sheet(q); }
-static bool has_no_drift(const idle_question *q) { return is_automatic(q->s->domain.drift_speed); }
-static bool has_own_drift(const idle_question *q) { return !has_no_drift(q) || q->s->domain.drift_file[0]; }
+static bool has_own_drift(const idle_question *q) { return scenario_drift(q->s).own; }
+static bool has_no_drift(const idle_question *q) { return !has_own_drift(q) || scenario_drift(q->s).file[0]; }
 static bool has_no_walls(const idle_question *q) { return q->s->domain.boundary != DOMAIN_WALLS; }
 
 static bool is_alone(const idle_question *q) { return scenario_vessel_count(q->s) < 2; }

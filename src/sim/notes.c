@@ -118,11 +118,9 @@ static double own_speed_in_ice(const scenario_vessel *v)
    known here, and a file stands in place of the speed that is given beside it. */
 static double speed_in_ice(const scenario *s, const scenario_vessel *v)
 {
-    const scenario_domain *d = &s->domain;
-    const scenario_environment *e = &s->environment;
-    double current = e->water && !e->current_file[0] ? e->current_speed : 0;
-    double drift = d->boundary == DOMAIN_FEEDING ? automatic_or(d->drift_speed, current) : current;
-    return fmax(own_speed_in_ice(v), drift);
+    const ice_drift drift = scenario_drift(s);
+    bool drifts = !drift.file[0] && (drift.fed || s->environment.water);
+    return fmax(own_speed_in_ice(v), drifts ? drift.speed : 0);
 }
 
 /* How far a patch as wide as the ice is thick is crushed when it bears a load [m]: from sigma (d h)^(1 + e), which with

@@ -227,21 +227,19 @@ static void tell_ice_shape(const teller *t)
 static void tell_directions(const teller *t)
 {
     const scenario_environment *e = &t->s->environment;
-    const scenario_domain *d = &t->s->domain;
-    bool own = d->boundary == DOMAIN_FEEDING && !is_automatic(d->drift_speed);
-    double drift = own ? d->drift_direction_deg : e->current_direction_deg;
-    double speed = own ? d->drift_speed : e->current_speed;
+    const ice_drift drift = scenario_drift(t->s);
     if (e->air_density == 0 && (e->wind_speed > 0 || e->wind_file[0]))
         sanity_say(t->tell, t->to, "environment.air_density: 0 kg/m3 leaves a wind without any force");
-    bool histories = e->wind_file[0] || e->current_file[0] || d->drift_file[0];
-    if (histories || !(speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
+    bool histories = e->wind_file[0] || drift.file[0];
+    if (histories || !(drift.speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
         return;
-    if (sanity_degrees_apart(drift, e->wind_direction_deg) > 90)
+    if (sanity_degrees_apart(drift.towards_deg, e->wind_direction_deg) > 90)
         sanity_say(
             t->tell, t->to,
             "environment.wind_direction_deg: the wind blows towards %g degrees and %s goes towards %g, against it; "
             "directions are where it goes to, not where it comes from",
-            e->wind_direction_deg, own ? "the ice (domain.drift_direction_deg)" : "the current", drift);
+            e->wind_direction_deg, drift.own ? "the ice (domain.drift_direction_deg)" : "the current",
+            drift.towards_deg);
 }
 
 /* ---- vessels, from their keys ---- */

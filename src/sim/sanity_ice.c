@@ -194,10 +194,11 @@ static bool goes_against(double a_deg, double b_deg) { return sanity_degrees_apa
 static void tell_drift(const teller *t)
 {
     const scenario_environment *e = &t->s->environment;
-    const scenario_domain *d = &t->s->domain;
-    double drift = automatic_or(d->drift_speed, 0), to = d->drift_direction_deg;
+    const ice_drift drift = scenario_drift(t->s);
+    double to = drift.towards_deg;
     bool blows = e->wind_file[0] || (e->wind_speed > 0 && !goes_against(to, e->wind_direction_deg));
-    if (d->boundary != DOMAIN_FEEDING || !e->water || e->current_file[0] || !(drift > 0) || !(e->current_speed > 0))
+    bool steady = !drift.file[0] && !e->current_file[0];
+    if (!drift.own || !e->water || !steady || !(drift.speed > 0) || !(e->current_speed > 0))
         return;
     if (!blows && goes_against(to, e->current_direction_deg))
         sanity_say(
@@ -205,7 +206,7 @@ static void tell_drift(const teller *t)
             "domain.drift_direction_deg: the ice goes towards %g degrees at %.4g m/s and the current under it "
             "towards %g at %.4g m/s, against it: directions are where they go to; without domain.drift_speed the "
             "ice goes with the current",
-            to, drift, e->current_direction_deg, e->current_speed);
+            to, drift.speed, e->current_direction_deg, e->current_speed);
 }
 
 /* ---- level ice ---- */
@@ -222,17 +223,16 @@ static void tell_level(const teller *t)
         moves = moves || scenario_vessel_entry(t->s, v).keys->speed > 0;
     if (!i->breakable && (moves || d->boundary == DOMAIN_FEEDING))
         sanity_say(t->tell, t->to, "ice.breakable: false makes a wall of level ice: set it to true to let it break");
-    bool fed = d->boundary == DOMAIN_FEEDING;
-    double speed = automatic_or(d->drift_speed, t->s->environment.current_speed);
+    const ice_drift drift = scenario_drift(t->s);
+    double way = drift.speed * t->s->run.duration;
     double gap = fmax(automatic_or(l->x_min, d->x_min) - d->x_max, d->x_min - automatic_or(l->x_max, d->x_max));
     gap = fmax(gap, fmax(automatic_or(l->y_min, d->y_min) - d->y_max, d->y_min - automatic_or(l->y_max, d->y_max)));
-    bool steady = !d->drift_file[0] && !t->s->environment.current_file[0];
-    if (fed && steady && gap > speed * t->s->run.duration)
+    if (drift.fed && !drift.file[0] && gap > way)
         sanity_say(t->tell, t->to,
                    "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m in the run: there will "
                    "be no ice",
-                   gap, speed * t->s->run.duration);
-    double mass = fed ? build_ice_in_domain(t->s) : 0;
+                   gap, way);
+    double mass = drift.fed ? build_ice_in_domain(t->s) : 0;
     if (automatic_or(l->mass, HUGE_VAL) < mass)
         sanity_say(t->tell, t->to,
                    "ice.level.mass: %.4g kg is less than that of the ice in the domain, %.4g kg: give all that slows "

@@ -127,12 +127,11 @@ enum { LEG_STEPS = 64, LEG_HALVINGS = 40 };
 static bool is_clear_on(const scenario *s, const vessel_model *hull, const scenario_path_point *from,
                         const scenario_path_point *to, double share)
 {
-    const scenario_domain *d = &s->domain;
     double heading = radians(from->heading_deg + share * (to->heading_deg - from->heading_deg));
     double c = real_cos(heading), r = real_sin(heading);
     vec2 centre = {from->x + share * (to->x - from->x) + c * hull->centre.x - r * hull->centre.y,
                    from->y + share * (to->y - from->y) + r * hull->centre.x + c * hull->centre.y};
-    return is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, centre, plan_reach(hull, heading));
+    return is_clear(domain_box(&s->domain), centre, plan_reach(hull, heading));
 }
 
 /* Share of a leg at which the hull reaches a wall; over 1: it does not. */
@@ -185,8 +184,7 @@ typedef struct place_list {
 static bool told_of_place(context *ctx, const scenario *s, const vessel_entry *e, const place_list *list, int32_t i,
                           vec2 place, box2 reach)
 {
-    const scenario_domain *d = &s->domain;
-    bool clear = is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, place, reach);
+    bool clear = is_clear(domain_box(&s->domain), place, reach);
     if (!clear)
         log_write(ctx, LOG_WARNING, "%s.%s[%d]: at (%s, %s) m the hull stands in a wall of the domain", e->path,
                   list->key, (int)i, coordinate_text_of(place.x).text, coordinate_text_of(place.y).text);

@@ -78,8 +78,11 @@ expect 0 "$FRAM" check ship.yaml --set domain.x_max=100 --set vessel.mooring.x=3
 grep 'domain: its edge' err && fail "a ship that turns about amidships is told of the edge"
 told ship.yaml "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
     --set environment.wind_direction_deg=0
+# Of ice that has its own drift, whatever tells the current.
+printf 'time[s],x[m/s],y[m/s]\n0,0.3,0\n600,0.3,0.1\n' >flow.csv
 told ship.yaml "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180" \
-    --set environment.wind_direction_deg=0 --set domain.drift_speed=0.3 --set domain.drift_direction_deg=180
+    --set environment.wind_direction_deg=0 --set domain.drift_speed=0.3 --set domain.drift_direction_deg=180 \
+    --set environment.current_file=flow.csv
 told ship.yaml "goes towards 0 degrees at 0.3 m/s and the current under it towards 180 at 0.4 m/s, against it" \
     --set domain.drift_speed=0.3
 told ship.yaml "domain.drift_direction_deg: the ice goes towards 270|against it" \
@@ -110,7 +113,6 @@ grep 'no load will come' err && fail "a towed vessel is told to rest"
 
 # Walls hold the ice that a current drives, and where there is no water there is none.
 told ship.yaml "domain.boundary: walls keep the ice in a basin|take feeding" --set domain.boundary=walls
-printf 'time[s],x[m/s],y[m/s]\n0,0.3,0\n600,0.3,0.1\n' >flow.csv
 told ship.yaml "where the current drives it against" --set domain.boundary=walls \
     --set environment.current_file=flow.csv --set environment.current_speed=0
 expect 0 "$FRAM" check ship.yaml --set domain.boundary=walls --set environment.water=false

@@ -289,12 +289,14 @@ for options in domain.boundary=walls ice.source=none "vessel.path[1].time=61"; d
     expect 0 "$FRAM" check path.yaml --set "vessel.path[1].x=150" --set "$options"
     grep 'outside of the domain' err && fail "no ice to leave, and told: $options"
 done
-# A ship keeps its heading, whatever way it has at the start; a file of the current stands in place of its speed.
+# A ship keeps its heading, whatever way it has at the start; a file of current or drift stands in place of their speed.
 sed 's/, waypoints: .*}]}/}/' drive.yaml >ahead.yaml
 told ahead.yaml "the vessel can leave the domain before the end, at (180, 0) m" --set vessel.course_deg=90
 printf 'time[s],x[m/s],y[m/s]\n0,-0.4,0\n' >calm.csv
-expect 0 "$FRAM" check ship.yaml --set environment.current_file=calm.csv --set environment.current_speed=3
-grep 'past each other' err && fail "a speed is told that the file of the current replaces"
+for file in environment.current_file domain.drift_file; do
+    expect 0 "$FRAM" check ship.yaml --set $file=calm.csv --set environment.current_speed=3
+    grep 'past each other' err && fail "a speed is told that $file replaces"
+done
 told ship.yaml "run.time_step: 1e-06 s makes 6e+08 steps" --set run.time_step=1e-6
 told ship.yaml "frame_interval: 0.01 s is shorter than run.time_step" --set output.frame_interval=0.01
 told ship.yaml "checkpoint_interval: 0.001 s is shorter than run.time_step" --set output.checkpoint_interval=0.001

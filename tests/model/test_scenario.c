@@ -217,6 +217,50 @@ START_TEST(walking_meets_every_key_once)
 }
 END_TEST
 
+/* Ice goes with the current, but for an endless field that is told its own drift. */
+START_TEST(ice_has_one_drift)
+{
+    static const struct {
+        domain_boundary boundary;
+        double own_speed, speed, towards;
+        const char *own_file, *file;
+        bool fed, own;
+    } c[] = {
+        {DOMAIN_OPEN, (double)NAN, 0.4, 20, "", "", false, false},
+        {DOMAIN_FEEDING, (double)NAN, 0.4, 20, "", "", true, false},
+        {DOMAIN_FEEDING, 0.3, 0.3, 90, "", "", true, true},
+        {DOMAIN_FEEDING, 0, 0, 90, "", "", true, true},
+        {DOMAIN_FEEDING, (double)NAN, 0, 90, "drift.csv", "drift.csv", true, true},
+    };
+    scenario s = good();
+    s.environment.current_speed = 0.4;
+    s.environment.current_direction_deg = 20;
+    s.domain.drift_direction_deg = 90;
+    for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
+        s.domain.boundary = c[i].boundary;
+        s.domain.drift_speed = c[i].own_speed;
+        set_text(s.domain.drift_file, sizeof s.domain.drift_file, c[i].own_file);
+        ice_drift d = scenario_drift(&s);
+        ck_assert(d.fed == c[i].fed && d.own == c[i].own);
+        ck_assert_str_eq(d.file, c[i].file);
+        assert_bits(d.speed, c[i].speed);
+        assert_bits(d.towards_deg, c[i].towards);
+    }
+    set_text(s.environment.current_file, sizeof s.environment.current_file, "current.csv");
+    s.domain.drift_file[0] = '\0';
+    s.domain.drift_speed = 0.3;
+    ck_assert_str_eq(scenario_drift(&s).file, "");
+    s.domain.drift_speed = (double)NAN;
+    ck_assert_str_eq(scenario_drift(&s).file, "current.csv");
+    s.domain.drift_speed = 0.3;
+    s.ice.source = ICE_NONE;
+    ck_assert(!scenario_drift(&s).fed && !scenario_drift(&s).own);
+    box2 box = domain_box(&s.domain);
+    ck_assert(box.lo.x == s.domain.x_min && box.lo.y == s.domain.y_min);
+    ck_assert(box.hi.x == s.domain.x_max && box.hi.y == s.domain.y_max);
+}
+END_TEST
+
 /* ---- rules ---- */
 
 #define REFUSED(change, bad_key, part)                                           \
@@ -406,7 +450,7 @@ START_TEST(paths_are_relative_to_the_scenario)
 END_TEST
 
 TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, loads_are_averaged_over_whole_steps,
-          averages_tell_of_the_time_before_the_start, defaults_of_the_specification, every_row_is_complete,
-          choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once, ranges_are_checked,
-          keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked, floes_stay_in_the_domain,
-          errors_find_their_place, paths_are_relative_to_the_scenario)
+          averages_tell_of_the_time_before_the_start, defaults_of_the_specification, ice_has_one_drift,
+          every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once,
+          ranges_are_checked, keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked,
+          floes_stay_in_the_domain, errors_find_their_place, paths_are_relative_to_the_scenario)
