@@ -33,7 +33,7 @@
     X(y, REAL(0, -1e4, 1e4), "m", "to port")                                                                   \
     X(z, REAL(0, -1e4, 1e4), "m", "above the design waterline")                                                \
     X(equilibrium, BOOLEAN(true), "",                                                                          \
-      "begin where the lines balance current and wind; false: begin where the vessel is put")                  \
+      "begin where the lines balance current and wind, not heave, heel and trim; false: where it is put")      \
     X(lines, LIST(mooring_line, 64), "", "the lines, 64 in all")
 
 #define SCENARIO_THRUSTER_KEYS(X)                                                                               \

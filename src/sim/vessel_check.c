@@ -9,6 +9,7 @@
 #include "sim/build_vessel.h"
 #include "sim/matrix_check.h"
 #include "sim/meeting_check.h"
+#include "sim/rest_tell.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
 
@@ -124,55 +125,6 @@ fram_status vessel_check(const scenario *s, const vessel_entry *e, const model *
 }
 
 /* ---- what a reader is told ---- */
-
-/* Angles and masses from which on a start is no rest [deg, 1]. */
-#define TOLD_ANGLE 5.0
-#define TOLD_MASS 0.1
-
-/* Small angles about the start; a list of metacentric height 0 is infinite. */
-static void warn_of_angle(context *ctx, const vessel_entry *e, const char *key, const char *what, double arm, double gm)
-{
-    double angle = gm > 0 ? degrees(real_atan2(fabs(arm), gm)) : 90;
-    if (fabs(arm) > 0 && angle > TOLD_ANGLE)
-        log_write(ctx, LOG_WARNING,
-                  "%s.%s: the vessel %s by about %.0f degrees, since its centre of gravity is %.4g m off", e->path, key,
-                  what, angle, fabs(arm));
-}
-
-static void tell_stability(context *ctx, const vessel_entry *e, const vessel_model *hull, const hull_hydrostatics *f)
-{
-    double lift = f->centre_of_buoyancy.z - hull->centre.z;
-    double gm = f->waterplane_xx / f->volume + lift, gm_long = f->waterplane_yy / f->volume + lift;
-    if (!(gm > 0) || !(gm_long > 0)) {
-        log_write(ctx, LOG_WARNING,
-                  "the vessel capsizes: its %s metacentric height is %.4g m where it floats; lower "
-                  "%s.centre_of_gravity_z, %.4g m, by more than that",
-                  gm > 0 ? "longitudinal" : "transverse", gm > 0 ? gm_long : gm, e->path, hull->centre.z);
-    } else {
-        warn_of_angle(ctx, e, "centre_of_gravity_y", "heels", hull->centre.y - f->centre_of_buoyancy.y, gm);
-        warn_of_angle(ctx, e, "centre_of_gravity_x", "trims", hull->centre.x - f->centre_of_buoyancy.x, gm_long);
-    }
-}
-
-static void warn_of_stability(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
-                              const hull_hydrostatics *upright)
-{
-    if (e->keys->mode == VESSEL_FREE && s->environment.water && hull->floats.volume > 0 && upright->volume > 0)
-        tell_stability(ctx, e, hull, upright);
-}
-
-/* Towed hulls are free to heave. */
-static void warn_of_mass(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
-{
-    if (e->keys->mode == VESSEL_PRESCRIBED || !s->environment.water || !(hull->floats.volume > 0))
-        return;
-    double ratio = mass_of(e, hull) / hull->displaced_mass;
-    if (fabs(ratio - 1) > TOLD_MASS)
-        log_write(ctx, LOG_WARNING,
-                  "%s.mass is %.3g of what the hull displaces at its draught: it begins by moving up or down to its "
-                  "own waterline",
-                  e->path, ratio);
-}
 
 /* Part of its diagonal by which a damping matrix may be beyond the edge of damping nothing: published ones have three
    digits. */
@@ -420,8 +372,7 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
     hull_hydrostatics upright = hull->floats;
     if (status == FRAM_OK)
         status = build_upright(ctx, s, e, hull, &m->solids.data[hull->solid], &upright, error);
-    warn_of_stability(ctx, s, e, hull, &upright);
-    warn_of_mass(ctx, s, e, hull);
+    rest_tell(ctx, s, e, hull, &upright, w, row);
     warn_of_damping(ctx, s, e, hull);
     warn_of_springs(ctx, s, e, &upright, w, row);
     wall_warnings(ctx, s, e, m, w, row);

@@ -15,8 +15,9 @@ fram_status vessel_check(const scenario *s, const vessel_entry *entry, const mod
 /* Warnings to the log of a hull from a file in another unit, turned or moved: such a hull is refused for what follows
    from that, so they come before anything else. */
 void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m);
-/* Warnings to the log: capsizing, a list or a trim at the start, a jump to the waterline, negative damping, springs and
-   buoyancy too stiff for the step, a hull that reaches a wall.  w holds the vessel and its lines. */
+/* Warnings to the log: capsizing, a list or a trim at the start, a jump to the waterline, lines that pull it down or
+   over, negative damping, springs and buoyancy too stiff for the step, a hull that reaches a wall.  w holds the vessel
+   and its lines. */
 fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
                             int32_t row, fram_error *error);
 

@@ -103,6 +103,41 @@ expect 0 "$FRAM" run moored.yaml -o wild "${current[@]}" --set run.time_step=0.1
 python3 -c "assert 10 * $(offset steady) < min(0.01, $(offset wild))" ||
     fail "offsets of $(offset steady) and $(offset wild) m"
 
+# Lines pull down, here with 0.6 of 4 MN, 0.149 of 16.09 MN that the box displaces; it sinks by 2.4e6 N over 1025 * 9.81
+# * 400 N/m. From x = 12 m it trims by the arc tangent of 12 * 2.4e6 N m over 16.09e6 N times GM, 40^2 / (12 * 4) - 2 m.
+pulled() {
+    local words=$1
+    shift
+    expect 0 "$FRAM" check moored.yaml "${steep[@]}" "$@"
+    same "$(grep '^warning' err)" "${words:+warning: $words}" "what is told of lines that pull down: $*"
+}
+steep=(--set "vessel.mooring.lines[0].distance=80" --set "vessel.mooring.lines[0].pretension=2e6"
+    --set "vessel.mooring.lines[0].stiffness=1e5")
+down="vessel.mooring.lines: they pull the vessel down with 2.4e+06 N, 0.149 of what it displaces: it begins by"
+for begun in true false; do
+    pulled "$down sinking about 0.6 m; with vessel.mass 1.39535e+06 kg it begins at rest" \
+        --set vessel.mooring.equilibrium=$begun
+done
+pulled "" --set vessel.mass=1.39535e6
+pulled "$down sinking about 0.6 m, trimming about 3.3 degrees; with vessel.mass 1.39535e+06 kg, centre_of_gravity_x \
+-2.104 m it begins at rest" --set vessel.mooring.x=12
+pulled "" --set vessel.mooring.x=12 --set vessel.mass=1.39535e6 --set vessel.centre_of_gravity_x=-2.104
+# A fifth of that heels it where GM is 0.5833 m; lines that are let go pull on nothing.
+heel=(--set vessel.mooring.y=2 --set "vessel.mooring.lines[0].pretension=4e5" --set vessel.centre_of_gravity_z=-0.5)
+pulled "vessel.mooring.lines: they pull the vessel down with 4.8e+05 N, 0.0298 of what it displaces: it begins by \
+heeling about 5.8 degrees; with vessel.mass 1.59107e+06 kg, centre_of_gravity_y -0.06151 m it begins at rest" \
+    "${heel[@]}"
+pulled "" "${heel[@]}" --set "vessel.mooring.lines[0].release_time=0"
+# The mass that lines balance is not told as wrong, and the one that they do not is.
+pulled "vessel.mass is 0.6 of what the hull displaces at its draught: it begins by moving up or down to its own \
+waterline" --set vessel.mass=9.84e5
+# Of two vessels the moored one.
+sed -e 's/^  /    /; s/^vessel:/vessels:\n  - {name: a, x: -60, mode: free, hull: HULL}\n  - name: b/' \
+    -e 's/HULL/{form: box, length: 40, beam: 10, draught: 4}/' moored.yaml >pair.yaml
+expect 0 "$FRAM" check pair.yaml "${steep[@]//vessel.mooring/vessels.b.mooring}"
+same "$(grep '^warning' err)" "warning: ${down/vessel/vessels[1]} sinking about 0.6 m; with vessels[1].mass \
+1.39535e+06 kg it begins at rest" "what is told of two vessels"
+
 # A fairlead under the bottom; damping that drives.
 expect 2 "$FRAM" check moored.yaml --json --set vessel.mooring.z=-61
 same "$(value 'j["error"]["key"]')" vessel.mooring.z "key of a fairlead under the bottom"

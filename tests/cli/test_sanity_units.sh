@@ -147,7 +147,7 @@ all_told ship.yaml "vessel.mooring.lines[0].release_time=0.1" "vessel.mooring.li
     "release_time: it is let go at 0.1 s, in the transient of 60 s" "8 lines lie one upon another" \
     "mooring.z: fairleads 50 m above" "hull.freeboard: 0.1 m is outside" "centre_of_gravity_z: 0.5 m is above the deck"
 all_told ship.yaml "vessel.mooring.lines[0].weight=5000" "vessel.mooring.lines[0].breaking_load=4e6" -- \
-    "lines[0].weight: a line of 5000 N/m parts under 800 m of itself"
+    "lines[0].weight: a line of 5000 N/m parts under 800 m of itself" "mooring.lines: they pull the vessel down"
 # A line of a model of 1:30 carries as many metres of itself as are 30 times as long at full size.
 expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set "vessel.mooring.lines[0].weight=5000" \
     --set "vessel.mooring.lines[0].breaking_load=1e6"
@@ -225,7 +225,8 @@ all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv
     "domain.drift_file: the last row of minutes.csv is of 10 s|not minutes" \
     "environment.wind_file: knots.csv goes up to 80 m/s|not knots" \
     "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run" \
-    "environment.wind_speed: without effect" "environment.current_speed: without effect"
+    "environment.wind_speed: without effect" "environment.current_speed: without effect" \
+    "mooring.lines: they pull the vessel down"
 # box NAME X0 X1 Y0 Y1 Z0 Z1: a closed mesh
 box() {
     {
