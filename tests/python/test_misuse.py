@@ -453,6 +453,17 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(run.columns()["b"], [2])
         self.assert_refused(self.broken("series.csv", b"time[s],b[m]\n1,2\n2\n").columns, "series.csv", 3)
 
+    @unittest.skipIf(fram.runs.pandas is None, "without pandas")
+    def test_the_time_of_a_series_is_a_column_and_the_index(self):
+        series = self.broken("series.csv", b"time[s],b[m]\n1,2\n2,3\n3,1\n").series
+        self.assertEqual(list(series.loc[2:3]["b"]), [3, 1])
+        self.assertEqual(list(series.merge(series, on="time").columns), ["time", "b_x", "b_y"])
+        self.assertEqual(list(fram.runs.pandas.merge_asof(series, series, on="time")["b_y"]), [2, 3, 1])
+        self.assertEqual(list(series.sort_values("time", ascending=False)["b"]), [1, 3, 2])
+        self.assertEqual(list(series.groupby("time")["b"].sum()), [2, 3, 1])
+        self.assertEqual(list(series.reset_index().columns), ["index", "time", "b"])
+        self.assertEqual(series.to_csv(index=False).splitlines()[:2], ["time,b", "1.0,2.0"])
+
     def test_what_a_run_is_made_of_is_not_written_over(self):
         run = self.broken("station.json", b"{}")
         os.symlink("series.csv", self.bad / "link.html")

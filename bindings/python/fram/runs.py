@@ -181,9 +181,15 @@ class Run:
 
     @property
     def series(self):
-        """series.csv as a pandas DataFrame over time; without pandas, as `columns`."""
+        """series.csv as a pandas DataFrame over time; without pandas, as `columns`.
+
+        The index is the time too: ``to_csv(path, index=False)`` writes it once.
+        """
         columns = _read_table(self.folder / "series.csv", ["time"])[0]
-        return columns if pandas is None else pandas.DataFrame(columns).set_index("time", drop=False)
+        if pandas is None:
+            return columns
+        # Without a name: the column alone is meant where tables are merged, sorted or grouped by "time".
+        return pandas.DataFrame(columns).set_index("time", drop=False).rename_axis(None)
 
     @property
     def fractures(self):
