@@ -97,7 +97,9 @@ class StationKeeping:
     """Keeping a vessel on station in ice by orders to its thrusters.
 
     actions: names of orders to thrusters (default: all), each scaled so that -1 to 1 is what it can do; of an azimuth
-    whose forbidden sector covers astern, from edge to edge round by the bow.
+    whose forbidden sector covers astern, from edge to edge round by the bow.  They go evenly from the least to the
+    greatest order: 0 is their middle, half of an azimuth's thrust and no rest; no thrust is -1 there, and
+    (-low - high)/(high - low) of one with thrust astern.
     observations: names of channels.  interval: simulated time of one `step` [s], rounded to whole time steps.
     horizon: simulated time after which an episode is truncated [s].  offset_limit: an episode ends when the offset
     exceeds it [m].  reward: of the world after each step.
