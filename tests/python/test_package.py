@@ -542,7 +542,8 @@ ice: {source: none}
                                        [179.9, 180.1, np.nan, 179, 0, -179, -190])
             with self.assertRaises(fram.InputError):
                 run.plot("no_such")
-            self.assertEqual(len(run.plot_field(0.5).collections), 1)
+            told = {tuple(kind.get_facecolor()[0]): len(kind.get_paths()) for kind in run.plot_field(0.5).collections}
+            self.assertEqual(list(told.values()), [2, 4, 1])  # floes, walls, the ship
             self.assertEqual(len(fram.plot_outlines(towed().world().outlines()).collections), 1)
         except ImportError:
             print("without matplotlib")

@@ -134,6 +134,10 @@ def _last_time(path: pathlib.Path) -> Optional[float]:
         raise InputError("input", "expected a row of numbers at the end", file=str(path)) from error
 
 
+FIELD_STYLES = {"floe": {}, "wall": {"facecolor": "#736b66"}, "vessel": {"facecolor": "#cc472e"}}
+"""How `Run.plot_field` draws each kind, those below first, in the colours of a run's pictures."""
+
+
 class Run:
     """The folder of a run, read when asked for; it may still be going on."""
 
@@ -280,8 +284,12 @@ class Run:
         return axes
 
     def plot_field(self, time: float, axes=None):
-        """The ice from above at a time [s], by matplotlib.  Returns the axes."""
-        return plot_outlines([floe.outline for floe in self.floes(time)], axes)
+        """The ice from above at a time [s], walls in grey and vessels in red over it, by matplotlib.  Returns the
+        axes."""
+        floes = self.floes(time)
+        for kind, style in FIELD_STYLES.items():
+            axes = plot_outlines([floe.outline for floe in floes if floe.properties["kind"] == kind], axes, **style)
+        return axes
 
     def _progress(self) -> dict[str, Any]:
         """`info` for who reads it; that of a run which goes on or was killed is of its beginning, its series go on."""
