@@ -100,6 +100,14 @@ static double turn_over_ground(const autopilot_view *v, vec2 place, const track_
     return (rate + v->frame_turn) * vec2_dot(over, along) / vec2_dot(over, over);
 }
 
+/* How far a ship heads into a bend from its course, no more than in the tightest turn that it can make: told to head
+   across a bend that it cannot follow it sails off straight. */
+static double askew(const turning_ability *t, double bends, double curvature)
+{
+    double most = fabs(t->drift) / t->radius;
+    return fmin(fmax(t->drift * bends * curvature, -most), most);
+}
+
 double autopilot_rate(const autopilot_view *v, const turning_ability *t, const motion_observer *seen, const track *path,
                       double way)
 {
@@ -120,7 +128,7 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     reach *= crab_of(v, t, ground_velocity(v, there, vec2_scale(heading_vector(foot.heading), least))).way;
     vec2 over = ground_velocity(v, there, vec2_scale(heading_vector(foot.heading - real_atan2(off, reach)), least));
     crab lies = crab_of(v, t, over);
-    double wanted = real_atan2(over.y, over.x) + lies.angle + t->drift * lies.bends * curvature - seen->drift;
+    double wanted = real_atan2(over.y, over.x) + lies.angle + askew(t, lies.bends, curvature) - seen->drift;
     double error = plane_angle(v->heading + turn * v->lag - wanted);
     if (fabs(error) > AGAINST && curvature != 0)
         return rate_about(v, t, error, curvature);

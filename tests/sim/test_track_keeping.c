@@ -219,6 +219,30 @@ START_TEST(legs_are_kept_and_mirrored)
 }
 END_TEST
 
+/* On a circle much narrower than it can turn, joined from far away, a ship goes round at about its own radius. */
+START_TEST(a_ship_goes_round_what_is_too_narrow)
+{
+    const pattern_case narrow = {"circle", 1, 20, 4, false, NULL};
+    const track_place start = {.at = {-300, 0}};
+    scene k;
+    open_case(&k, &narrow, 1, &start);
+    double radius = k.w.propulsion.settings[0].turning.radius, nearest = HUGE_VAL, farthest = 0;
+    scene_steps(&k, (int)(350 / STEP));
+    for (int i = 0; i < (int)(200 / STEP); i++) {
+        scene_steps(&k, 1);
+        vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+        double away = vec2_length(vec2_make(r.x - 1, r.y));
+        nearest = fmin(nearest, away);
+        farthest = fmax(farthest, away);
+    }
+    printf("on a circle of 20 m: %.0f to %.0f m from its centre, turning on %.0f m; %d rounds\n", nearest, farthest,
+           radius, (int)k.w.propulsion.rounds[0]);
+    ck_assert(nearest > 0.4 * radius && farthest < 1.6 * radius);
+    ck_assert_int_ge(k.w.propulsion.rounds[0], 3);
+    scene_close(&k);
+}
+END_TEST
+
 /* Linear damping of sway and turn, as if it were given. */
 static void give_damping(scene *k, double sway, double yaw)
 {
@@ -615,8 +639,8 @@ START_TEST(a_model_is_steered_as_its_ship)
 END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
-          patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
-          slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
-          a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
+          patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored,
+          a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
+          ahead_is_where_ice_comes_from, a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
           a_leg_along_a_current_is_kept_as_in_still_water, a_period_is_that_of_the_round_that_is_sailed,
           ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes, a_model_is_steered_as_its_ship)
