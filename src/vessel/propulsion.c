@@ -276,13 +276,17 @@ static void steer(const pilot *p, const course_table *course, double gross)
 
 /* ---- how hard ---- */
 
+/* Where the ship pushes against its way the bound is that of the propellers, and the water's resistance adds to it: to
+   hold the net thrust there would take from what they give. */
 static double net_thrust(const pilot *p)
 {
     const propulsion_settings *s = p->s;
     double back = -s->astern * propulsion_net_thrust(s->bollard_pull, s->open_water_speed, -p->through_water);
+    back -= fmax(p->now->resistance, 0);
     if (p->table->phase[p->row] == PROPULSION_ASTERN)
         return back;
     double full = propulsion_net_thrust(s->bollard_pull, s->open_water_speed, p->through_water);
+    full -= fmin(p->now->resistance, 0);
     if (!isfinite(s->speed))
         return full;
     double wanted = (s->speed - p->over_ground) * s->bollard_pull / (SPEED_BAND * s->open_water_speed);

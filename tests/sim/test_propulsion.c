@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "sim/propulsion_forces.h"
 
 #include <stdio.h>
 
@@ -191,6 +192,42 @@ START_TEST(keeps_the_speed_that_is_wanted)
     scene_steps(&k, 3000);
     assert_absolute(speed_of(&k), 3, 0.02);
     scene_close(&k);
+}
+END_TEST
+
+/* The way of a ship against its thrust, from a speed of 6 m/s until it stands, beside that by quadrature: M dv/dt is
+   what the propellers give and the water's resistance, which goes with the square of the speed; in the end what the
+   wanted speed asks for is less. */
+static void check_stopping(const char *wanted, double start, double pull, double band)
+{
+    const char *const sets[] = {wanted, "environment.hull_drag.water_form=3"};
+    scene k;
+    scene_open_with(&k, SHIP, sets, 2);
+    int32_t body = k.w.vessels.body[0];
+    k.w.bodies.velocity[body].x = start;
+    scene_steps(&k, 1);
+    double v = fabs(speed_of(&k)), mass = k.w.bodies.mass[body], by_hand = 0, dry = 0, u = v, began = v;
+    double drag = fabs(propulsion_resistance(&k.m, &k.w, 0, vec2_make(0, 0))) / (start * start);
+    double from = k.w.bodies.position[body].x, way = 0;
+    for (int i = 0; i < 1200 && speed_of(&k) * start > 0.01; i++) {
+        scene_steps(&k, 1);
+        way = fabs(k.w.bodies.position[body].x - from);
+        v = fmax(0, v - 0.05 / mass * fmin(pull * v / band, pull + drag * v * v));
+        u = fmax(0, u - 0.05 / mass * fmin(pull * u / band, pull));
+        by_hand += 0.05 * v;
+        dry += 0.05 * u;
+    }
+    printf("from %.2f m/s in %.1f m, by hand %.1f, without the water's resistance %.1f\n", began, way, by_hand, dry);
+    assert_relative(way, by_hand, 0.01);
+    ck_assert(dry > 1.1 * by_hand);
+    scene_close(&k);
+}
+
+/* The water helps a ship that brakes, by 0.7 of its bollard pull, and one that comes ahead with sternway on. */
+START_TEST(water_helps_to_stop)
+{
+    check_stopping("vessel.propulsion.speed=0", 6, 0.7 * 8e5, 0.7 * 0.35);
+    check_stopping("vessel.propulsion.speed=auto", -6, 8e5, 1e-9);
 }
 END_TEST
 
@@ -463,6 +500,6 @@ END_TEST
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
-          keeps_the_speed_that_is_wanted, follows_way_points, starts_at_a_way_point, goes_round_its_circle,
-          speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
-          a_wall_makes_no_ship_beset, refusals_name_their_key)
+          keeps_the_speed_that_is_wanted, water_helps_to_stop, follows_way_points, starts_at_a_way_point,
+          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
+          ice_that_presses_against_its_way_holds_a_ship, a_wall_makes_no_ship_beset, refusals_name_their_key)
