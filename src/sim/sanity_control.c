@@ -1,6 +1,7 @@
 #include "base/transcendental.h"
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
+#include "vessel/propulsion.h"
 
 #include <math.h>
 
@@ -231,6 +232,25 @@ static void tell_helm(const teller *t)
                    t->e->path, p->waypoints.count > 0 ? "way points" : "pattern");
 }
 
+/* Ships so slow that ice stops them for good, or again and again. */
+static void tell_slow(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_propulsion *p = &v->propulsion;
+    double most = vessel_open_water_speed(p), least = propulsion_least_lack(most);
+    double wanted = automatic_or(p->speed, HUGE_VAL), lacks = vessel_lacks_in_ice(t->s, wanted);
+    if (lacks >= least && p->beset_speed >= vessel_fastest(v))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.beset_speed: the ship never makes more than %.3g m/s and counts as beset under %.3g: "
+                   "it backs again and again",
+                   t->e->path, vessel_fastest(v), p->beset_speed);
+    if (lacks < least && wanted > 0 && is_automatic(p->pattern.period) && t->s->ice.source != ICE_NONE)
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.speed: at %.3g m/s the ship, stopped by ice, pushes with %.2g %% of its pull: it "
+                   "never counts as beset and waits; take %.3g m/s or more",
+                   t->e->path, wanted, 100 * propulsion_push(most, lacks), least);
+}
+
 static void tell_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -263,11 +283,7 @@ static void tell_propulsion(const teller *t)
                    "%s.propulsion.propeller_diameter: %.4g m leaves %.3g kPa of bollard pull on the disc, 20 to 100 "
                    "are usual: give metres",
                    t->e->path, d, disc * 1e-3);
-    if (p->beset_speed >= vessel_fastest(v))
-        sanity_say(t->tell, t->to,
-                   "%s.propulsion.beset_speed: the ship never makes more than %.3g m/s and counts as beset under %.3g: "
-                   "it backs again and again",
-                   t->e->path, vessel_fastest(v), p->beset_speed);
+    tell_slow(t);
 }
 
 /* ---- what counts as being on station ---- */

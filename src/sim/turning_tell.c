@@ -4,6 +4,7 @@
 #include "base/transcendental.h"
 #include "sim/propulsion_forces.h"
 #include "sim/turning.h"
+#include "sim/wall_check.h"
 
 #include <math.h>
 
@@ -79,6 +80,7 @@ static void tell_period(const pattern_view *v)
     const scenario_propulsion *p = &v->entry->keys->propulsion;
     const propulsion_settings *set = v->set;
     double length = track_of_pattern(&v->shape, set->turning.corner).length;
+    double least = propulsion_least_lack(set->open_water_speed);
     if (is_automatic(p->pattern.period))
         return;
     if (set->speed > set->open_water_speed)
@@ -88,6 +90,12 @@ static void tell_period(const pattern_view *v)
             "open water at that power: take %.4g s or more",
             v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
             set->open_water_speed, length / set->open_water_speed);
+    else if (vessel_lacks_in_ice(v->s, set->speed) < least && v->s->ice.source != ICE_NONE)
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, at which %s, stopped "
+                  "by ice, pushes with %.2g %% of its pull: it never counts as beset and waits; take less than %.4g s",
+                  v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
+                  100 * propulsion_push(set->open_water_speed, vessel_lacks_in_ice(v->s, set->speed)), length / least);
     else if (set->speed <= set->beset_speed)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s counts as beset "

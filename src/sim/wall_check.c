@@ -63,6 +63,17 @@ double vessel_open_water_speed(const scenario_propulsion *p)
     return p->open_water_speed * real_pow(p->power, 1.0 / 3);
 }
 
+double vessel_lacks_in_ice(const scenario *s, double wanted)
+{
+    const scenario_domain *d = &s->domain;
+    const scenario_environment *e = &s->environment;
+    if (d->boundary != DOMAIN_FEEDING)
+        return wanted;
+    if (d->drift_file[0] || (is_automatic(d->drift_speed) && e->current_file[0]))
+        return HUGE_VAL;
+    return wanted + automatic_or(d->drift_speed, e->current_speed);
+}
+
 double vessel_fastest(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;

@@ -26,6 +26,13 @@ double propulsion_net_thrust(double bollard_pull, double open_water_speed, doubl
     return bollard_pull * (1 - r / 3 - 2 * r * r / 3);
 }
 
+double propulsion_push(double open_water_speed, double lacks)
+{
+    return fmin(fmax(lacks, 0) / (SPEED_BAND * open_water_speed), 1);
+}
+
+double propulsion_least_lack(double open_water_speed) { return PUSHING * SPEED_BAND * open_water_speed; }
+
 fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, bool forecast,
                            int32_t vessel, const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
                            fram_error *error)

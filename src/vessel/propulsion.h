@@ -78,6 +78,11 @@ TABLE_DECLARE(course, COURSE_FIELDS)
 /* T_net at a speed through the water [N]; a speed astern counts as 0. */
 double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed);
 
+/* Thrust over bollard pull of a ship that lacks so much of the speed that it wants over the ground [m/s]. */
+double propulsion_push(double open_water_speed, double lacks);
+/* A ship that lacks less pushes too little to count as stopped by ice: it is never beset, and never backs [m/s]. */
+double propulsion_least_lack(double open_water_speed);
+
 /* A new row for a vessel that lies where it was made. */
 fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, bool forecast,
                            int32_t vessel, const vessel_table *vessels, const body_table *bodies, propulsion_table *out,

@@ -58,6 +58,9 @@ expect 0 "$FRAM" check scene.yaml --set $period=1 --set vessels.breaker.propulsi
 holds "vessels\[1\].propulsion.pattern.period: a round of .* m in 1 s asks for .* vessel breaker makes .* m/s" err
 expect 0 "$FRAM" check scene.yaml --set $period=3e5 --set vessels.breaker.propulsion.speed=auto
 holds "pattern.period: a round of .* m in 3e+05 s asks for .* and vessel breaker counts as beset under" err
+expect 0 "$FRAM" check scene.yaml --set $period=3e5 --set vessels.breaker.propulsion.speed=auto \
+    --set domain.drift_speed=0.05
+holds "pattern.period: .* vessel breaker, stopped by ice, pushes with 15 % of its pull: it never counts as beset" err
 expect 0 "$FRAM" check scene.yaml --set $period=100 --set vessels.breaker.propulsion.speed=auto
 grep 'pattern.period' err && fail "a period is told that the ship can keep"
 
