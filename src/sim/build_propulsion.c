@@ -81,7 +81,10 @@ static void give_speed(context *ctx, const model *m, int32_t vessel, const scena
     double speed = wanted_speed(p, track_of_pattern(&shape, 0).length);
     for (int turn = 0; turn < MOST_SPEED_TURNS; turn++) {
         s->speed = speed;
-        s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
+        double made = fmin(s->speed, s->open_water_speed);
+        s->steering_most = radians(p->steering_angle_deg);
+        s->steering_most = turning_helm_of(ctx, m, vessel, s, made);
+        s->turning = turning_ability_of(ctx, m, vessel, s, made);
         s->turning.corner = fmax(s->turning.corner, automatic_or(p->turning_radius, 0));
         speed = wanted_speed(p, track_of_pattern(&shape, s->turning.corner).length);
         if (!(fabs(speed - s->speed) > SPEED_PRECISION * speed))

@@ -10,6 +10,8 @@
 /* Rates of turn that are tried, in speeds over lengths: up to circles of a third of the length. */
 static const double FASTEST = 3;
 enum { RATES = 30, HALVINGS = 20, SWAY_STEPS = 25 };
+/* Turns, each at the most helm that was of use in the one before, by which the most that is of use is found. */
+enum { HELM_TURNS = 6 };
 /* A turn that begins is followed in steps of this part of the time for a length. */
 static const double TURN_STEP = 0.05;
 enum { TURN_STEPS = 400 };
@@ -56,6 +58,7 @@ static wrench drag_of(const turning_search *t, double sway, double rate)
 
 typedef struct turning_forces {
     double aside, moment; /* [N, N m] */
+    double thrust;        /* gross [N] */
 } turning_forces;
 
 /* Of a ship that keeps its speed at a sway and a rate of turn. */
@@ -73,7 +76,7 @@ static turning_forces forces_of(const turning_search *t, double sway, double rat
     thrust = fmin(fmax(asked + thrust - f.ahead, 0), most);
     f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
     return (turning_forces){u * (l->y_v * sway + l->y_r * rate) + drag.force.y + f.aside - s->ship.mass * u * rate,
-                            u * (l->n_v * sway + l->n_r * rate) + drag.moment.z + s->steering_x * f.aside};
+                            u * (l->n_v * sway + l->n_r * rate) + drag.moment.z + s->steering_x * f.aside, thrust};
 }
 
 /* The moment at a rate of turn, with the sway at which nothing pushes the ship aside any more. */
@@ -130,6 +133,41 @@ static double yaw_acceleration(const turning_search *t, double rate)
     return r / time;
 }
 
+/* To port at full helm, in water at rest. */
+static turning_search search_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
+                                double speed)
+{
+    turning_search t = {ctx, m, &m->vessels.data[vessel], s, m->media, speed, s->steering_most, 1};
+    t.water.current = t.water.wind = (vec3){0, 0, 0};
+    t.water.profile.count = 0;
+    return t;
+}
+
+/* The helm to the side of t past which its rudders turn it no more tightly: that of a turn changes with the turn. */
+static double helm_to(turning_search t)
+{
+    const propulsion_settings *s = t.s;
+    for (int i = 0; i < HELM_TURNS; i++) {
+        double sway, rate = steady_rate(&t, &sway), thrust = forces_of(&t, sway, rate).thrust;
+        double most = rudder_most_angle(&s->rudder, t.speed, sway + s->steering_x * rate, thrust);
+        t.angle = fmin(s->steering_most, most);
+    }
+    return t.angle;
+}
+
+double turning_helm_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s, double speed)
+{
+    turning_search t = search_of(ctx, m, vessel, s, speed);
+    double straight = rudder_most_angle(&s->rudder, speed, 0, 0);
+    if (!(speed > 0 && s->rudder.area > 0) || s->steering_most <= straight)
+        return s->steering_most;
+    double helm = fmax(straight, helm_to(t));
+    if (!turning_sides_differ(t.hull))
+        return helm;
+    t.side = -1;
+    return fmax(helm, helm_to(t));
+}
+
 bool turning_sides_differ(const vessel_model *hull)
 {
     const flow_table *f = &hull->flows.water;
@@ -171,11 +209,9 @@ static turning_ability ability_to(turning_search t)
 turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                    double speed)
 {
-    const vessel_model *hull = &m->vessels.data[vessel];
+    turning_search t = search_of(ctx, m, vessel, s, speed);
+    const vessel_model *hull = t.hull;
     double length = hull->particulars.length;
-    turning_search t = {ctx, m, hull, s, m->media, speed, s->steering_most, 1};
-    t.water.current = t.water.wind = (vec3){0, 0, 0};
-    t.water.profile.count = 0;
     /* Of a helm that does not move rounding alone would be followed. */
     if (!(speed > 0 && s->steering_most > 0))
         return (turning_ability){length, length, length, 0, speed};

@@ -11,6 +11,9 @@
    to both sides, all distances are its length and the drift is 0. */
 turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                    double speed);
+/* The largest steering angle of use to such a vessel, up to its own: past it rudders stall, or push along the ship, in
+   its steady turn [rad]. */
+double turning_helm_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s, double speed);
 /* Whether it was found: a hull is askew in every turn, and by which is found by halving, never to 0. */
 bool turning_is_found(const turning_ability *t);
 /* Whether a hull has a table of the current whose sides are not alike. */

@@ -161,6 +161,17 @@ static void tell_radius(context *ctx, const scenario *s, const vessel_entry *ent
                   vessel_title_of(entry).text, differ ? " to both sides" : "", t->speed, t->corner);
 }
 
+/* A helm that rudders can be given and that turns the ship no more. */
+static void tell_helm_of_use(const pattern_view *v)
+{
+    double given = v->entry->keys->propulsion.steering_angle_deg, most = degrees(v->set->steering_most);
+    if (radians(given) > v->set->steering_most)
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.steering_angle_deg: past %.3g degrees of helm the rudders of %s turn it no more, at "
+                  "%.3g m/s: the rest of %.3g is without effect",
+                  v->entry->path, most, vessel_title_of(v->entry).text, v->set->turning.speed, given);
+}
+
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
                   int32_t row)
 {
@@ -172,6 +183,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     pattern_view v = {
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
     tell_radius(ctx, s, entry, &m->vessels.data[row], m->forces == FORCES_FLUID, t);
+    tell_helm_of_use(&v);
     if (v.shape.kind == PATTERN_NONE)
         return;
     if (s->domain.boundary != DOMAIN_FEEDING)

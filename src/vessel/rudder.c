@@ -52,6 +52,15 @@ static double inflow(const rudder *r, double ahead, double aside, double thrust,
     return speed > 0 ? real_atan2(across, speed) : 0;
 }
 
+double rudder_most_angle(const rudder *r, double ahead, double aside, double thrust)
+{
+    if (!(r->area > 0))
+        return 0.5 * PI;
+    /* Of sin(angle + flow) cos(angle), by which the force aside goes until the flow leaves the rudder. */
+    double most, flow = inflow(r, ahead, aside, thrust, &most);
+    return fmin(STALL - flow, 0.25 * PI - 0.5 * flow);
+}
+
 steering_force rudder_force(const rudder *r, double ahead, double aside, double thrust, double angle)
 {
     if (!(r->area > 0)) {

@@ -20,6 +20,10 @@ double rudder_area(double length, double beam, double draught, double block_coef
 /* Speed of the water past the rudders [m/s]. */
 double rudder_speed(const rudder *r, double ahead, double thrust);
 
+/* The largest angle of use where the ship moves so: past it the force to starboard, which turns to port, grows no more.
+   A thrust that turns has one of 90 degrees. */
+double rudder_most_angle(const rudder *r, double ahead, double aside, double thrust);
+
 typedef struct steering_force {
     double ahead, aside; /* to port [N] */
 } steering_force;

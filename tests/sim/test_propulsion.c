@@ -231,6 +231,30 @@ START_TEST(water_helps_to_stop)
 }
 END_TEST
 
+/* More helm turns no ship wider: past the angle at which its rudders turn it best they are not put over. */
+START_TEST(more_helm_turns_no_ship_wider)
+{
+    static const char *const angles[] = {
+        "vessel.propulsion.steering_angle_deg=20", "vessel.propulsion.steering_angle_deg=35",
+        "vessel.propulsion.steering_angle_deg=45", "vessel.propulsion.steering_angle_deg=75",
+        "vessel.propulsion.steering_angle_deg=90"};
+    double radius[5], most[5];
+    for (int i = 0; i < 5; i++) {
+        const char *sets[] = {angles[i], "vessel.propulsion.speed=5"};
+        scene k;
+        scene_open_with(&k, SHIP, sets, 2);
+        radius[i] = k.w.propulsion.settings[0].turning.radius;
+        most[i] = k.w.propulsion.settings[0].steering_most;
+        printf("%s: %.1f m with %.1f deg\n", angles[i], radius[i], degrees(most[i]));
+        scene_close(&k);
+    }
+    ck_assert(radius[0] > radius[1] && radius[1] > radius[2] && radius[2] >= radius[3]);
+    assert_relative(radius[4], radius[3], 1e-3);
+    assert_relative(most[2], radians(45), 1e-12);
+    ck_assert(most[4] > radians(35) && most[4] < radians(60));
+}
+END_TEST
+
 /* ---- tracks ---- */
 
 /* Way points: within a lookahead of each of them, then along the last leg's line. */
@@ -500,6 +524,6 @@ END_TEST
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
-          keeps_the_speed_that_is_wanted, water_helps_to_stop, follows_way_points, starts_at_a_way_point,
-          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
+          keeps_the_speed_that_is_wanted, water_helps_to_stop, more_helm_turns_no_ship_wider, follows_way_points,
+          starts_at_a_way_point, goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
           ice_that_presses_against_its_way_holds_a_ship, a_wall_makes_no_ship_beset, refusals_name_their_key)

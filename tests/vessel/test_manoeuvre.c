@@ -89,5 +89,20 @@ START_TEST(angle_gives_the_force_that_is_asked)
 }
 END_TEST
 
+/* No other angle gives a ship that moves so more force to starboard. */
+START_TEST(no_angle_turns_more_than_the_most)
+{
+    const rudder with = rudder_of(16, 2, 5, 0.6, 1025), none = {0};
+    for (int k = -3; k <= 6; k++) {
+        double aside = -0.8 * k, most = rudder_most_angle(&with, 4, aside, 3e5);
+        double best = -rudder_force(&with, 4, aside, 3e5, most).aside;
+        for (int i = 0; i <= 180; i++)
+            ck_assert(-rudder_force(&with, 4, aside, 3e5, radians(0.5 * i)).aside <= best * (1 + 1e-12));
+    }
+    assert_absolute(rudder_most_angle(&with, 4, 0, 3e5), radians(35), 1e-12);
+    assert_absolute(rudder_most_angle(&none, 4, 0, 3e5), radians(90), 1e-12);
+}
+END_TEST
+
 TEST_MAIN("manoeuvre", moment_of_munk_acts_once, lift_is_moved_with_its_moment, rudder_force_by_hand,
-          angle_gives_the_force_that_is_asked)
+          angle_gives_the_force_that_is_asked, no_angle_turns_more_than_the_most)
