@@ -113,10 +113,16 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
     int32_t had = w->course.count, first = starts_there(p, vessel, w) ? 1 : 0;
     if (!table_resize(ctx, &w->course, &course_table_info, had + p->waypoints.count - first))
         return error_memory(error);
+    int32_t count = had;
     for (int32_t i = first; i < p->waypoints.count; i++) {
-        w->course.vessel[had + i - first] = vessel;
-        w->course.place[had + i - first] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
+        vec2 place = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
+        if (count > had && vec2_length(vec2_sub(place, w->course.place[count - 1])) == 0)
+            continue; /* no leg leads there */
+        w->course.vessel[count] = vessel;
+        w->course.place[count++] = place;
     }
+    if (!table_resize(ctx, &w->course, &course_table_info, count))
+        return error_memory(error);
     const vessel_model *hull = &m->vessels.data[vessel];
     propulsion_settings settings = propulsion_settings_of(p, w->vessels.length[vessel], hull->particulars.beam);
     settings.transient = s->run.transient;

@@ -57,6 +57,58 @@ static void tell_arcs(const pattern_view *v)
                   v->entry->path, t->corner, p->width);
 }
 
+/* ---- legs ---- */
+
+/* A vessel's part of the table of courses, with where it begins before that. */
+typedef struct course_part {
+    vec2 begins;
+    const vec2 *place;
+    int32_t count;
+} course_part;
+
+static course_part course_part_of(const world *w, int32_t row)
+{
+    const course_table *c = &w->course;
+    int32_t first = 0, vessel = w->propulsion.vessel[row];
+    while (first < c->count && c->vessel[first] != vessel)
+        first++;
+    course_part out = {w->propulsion.from[row], c->place + first, 0};
+    while (first + out.count < c->count && c->vessel[first + out.count] == vessel)
+        out.count++;
+    return out;
+}
+
+/* Which of the way points that are given a place of the course is: some are left out there. */
+static int key_of(const pattern_view *v, vec2 place)
+{
+    const scenario_propulsion *p = &v->entry->keys->propulsion;
+    int32_t i = 0;
+    while (i + 1 < p->waypoints.count && (p->waypoints.data[i].x != place.x || p->waypoints.data[i].y != place.y))
+        i++;
+    return (int)i;
+}
+
+/* The first leg that is shorter than its corners take. */
+static void tell_short_leg(const pattern_view *v, const course_part *c)
+{
+    double radius = v->set->turning.corner, before = 0;
+    for (int32_t i = 0; i < c->count; i++) {
+        vec2 from = i > 0 ? c->place[i - 1] : c->begins, to = c->place[i];
+        double here = i + 1 < c->count ? track_corner_takes(from, to, c->place[i + 1], radius) : 0;
+        double leg = vec2_length(vec2_sub(to, from)), takes = before + here;
+        before = here;
+        if (leg >= takes)
+            continue;
+        log_write(
+            v->ctx, LOG_WARNING,
+            "%s.propulsion.waypoints[%d]: it is %.4g m from %s, and corners of %.4g m radius take %.4g m of that: "
+            "they are rounded by %.4g m; take a longer leg, or a lower speed",
+            v->entry->path, key_of(v, to), leg, i > 0 ? "the point before" : "where the ship begins", radius, takes,
+            radius * leg / takes);
+        return;
+    }
+}
+
 /* ---- the domain ---- */
 
 /* A place of the track over the ground at a time. */
@@ -184,8 +236,11 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
     tell_radius(ctx, s, entry, &m->vessels.data[row], m->forces == FORCES_FLUID, t);
     tell_helm_of_use(&v);
-    if (v.shape.kind == PATTERN_NONE)
+    if (v.shape.kind == PATTERN_NONE) {
+        course_part legs = course_part_of(w, p->count - 1);
+        tell_short_leg(&v, &legs);
         return;
+    }
     if (s->domain.boundary != DOMAIN_FEEDING)
         log_write(ctx, LOG_INFO,
                   "%s: its pattern points as its bow does at the start, whatever the current, since no ice drifts "

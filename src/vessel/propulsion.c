@@ -85,17 +85,6 @@ static pilot pilot_of(propulsion_table *t, int32_t row, const propulsion_moment 
 
 /* ---- where to ---- */
 
-/* The n-th way point of a vessel; false: it has no more. */
-static bool way_point(const course_table *course, int32_t vessel, int32_t n, vec2 *place)
-{
-    for (int32_t i = 0; i < course->count; i++)
-        if (course->vessel[i] == vessel && n-- == 0) {
-            *place = course->place[i];
-            return true;
-        }
-    return false;
-}
-
 /* The pattern's axis turns with the drift; returns how fast [rad/s].  A drift that turns about at once takes the
    pattern with it, faster than a ship could follow: such a turn is no rate, and *about is set. */
 static double turn_axis(const pilot *p, bool *about)
@@ -184,30 +173,45 @@ static void follow_track(const pilot *p, const autopilot_view *v, const track *p
     t->off_time[row] += p->now->dt;
 }
 
-/* The leg that is sailed, with the corner at its end; goes on to the next when the corner is behind the ship.  false:
-   no way points. */
+/* The way points about the leg that is sailed, with the place where the ship began before the first; *at: where the leg
+   begins among them.  Returns how many; *at + 1 where none is left to go to. */
+static int32_t points_about(const pilot *p, const course_table *course, vec2 point[TRACK_POINTS], int32_t *at)
+{
+    const propulsion_table *t = p->table;
+    int32_t row = p->row, vessel = t->vessel[row], begins = t->leg[row] - 1, first = 0, count = 0;
+    while (first < course->count && course->vessel[first] != vessel)
+        first++;
+    int32_t n = begins > 1 ? begins - 2 : -1;
+    *at = begins - n;
+    for (; count < TRACK_POINTS; n++) {
+        if (n >= 0 && (first + n >= course->count || course->vessel[first + n] != vessel))
+            break;
+        point[count++] = n < 0 ? t->from[row] : course->place[first + n];
+    }
+    return count;
+}
+
+/* The leg that is sailed and those after it, with their corners; goes on to the next when the corner is behind the
+   ship. false: no way points. */
 static bool leg_track(const pilot *p, const course_table *course, track *out)
 {
     propulsion_table *t = p->table;
-    int32_t vessel = t->vessel[p->row];
-    vec2 corner, next;
-    if (!way_point(course, vessel, t->leg[p->row], &corner))
-        return false;
+    const turning_ability *turning = &p->s->turning;
     /* The bend is straightened out on the leg after it. */
-    double bend = 0.5 * p->s->turning.reach * p->s->turning.reach / p->s->turning.corner;
-    while (way_point(course, vessel, t->leg[p->row] + 1, &next)) {
-        *out = track_of_legs(t->from[p->row], corner, &next, p->s->turning.corner);
+    double bend = 0.5 * turning->reach * turning->reach / turning->corner;
+    while (true) {
+        vec2 point[TRACK_POINTS];
+        int32_t at, count = points_about(p, course, point, &at);
+        if (count <= at + 1)
+            return false;
+        double corner;
+        *out = track_of_legs(point, count, at, turning->corner, &corner);
         double foot = track_foot(out, t->way[p->row], p->place);
-        bool rounded = out->count > 1;
-        if (foot < out->length + (rounded ? bend : 0))
+        if (foot < corner + bend)
             return true;
-        t->from[p->row] = rounded ? track_at(out, out->length).at : corner;
-        t->way[p->row] = fmax(0, foot - out->length);
+        t->way[p->row] = foot - corner;
         t->leg[p->row]++;
-        corner = next;
     }
-    *out = track_of_legs(t->from[p->row], corner, NULL, 0);
-    return true;
 }
 
 /* On the way on which the ice comes, past the ice: the ship heads where it goes through it.  Without a drift it goes

@@ -54,7 +54,7 @@ typedef struct propulsion_settings {
     X(joined, double, FIELD_F64, 1, "m", "along a closed track to where the ship joined it")                 \
     X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done, from there")                          \
     X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                              \
-    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                                 \
+    X(from, vec2, FIELD_F64, 2, "m", "where the first of them began")                                        \
     X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")                       \
     X(seen, motion_observer, FIELD_F64, 3, "SI", "turn, moment and drift as the autopilot sees them")        \
     X(off, double, FIELD_F64, 1, "m", "track error: how far the ship is to port of its track")               \

@@ -96,22 +96,72 @@ static double angle_between(double from, double to)
     return a - 2 * PI * floor((a + PI) / (2 * PI));
 }
 
-track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius)
+/* By which the way turns at a corner, to port. */
+static double turn_at(vec2 before, vec2 corner, vec2 after)
 {
-    vec2 leg = vec2_sub(corner, from);
-    double length = vec2_length(leg), heading = real_atan2(leg.y, leg.x);
-    track t = {.start = from, .heading = heading};
-    vec2 after = next ? vec2_sub(*next, corner) : leg;
-    double turn = angle_between(heading, real_atan2(after.y, after.x)), sharp = fabs(turn);
-    if (!next || !(sharp > 0) || sharp > SHARPEST) {
-        add(&t, length, 0, false);
-        return t;
-    }
-    double cut = fmin(radius * real_tan(0.5 * sharp), 0.5 * fmin(length, vec2_length(after)));
-    double r = cut / real_tan(0.5 * sharp);
-    add(&t, length - cut, 0, false);
+    vec2 in = vec2_sub(corner, before), out = vec2_sub(after, corner);
+    return angle_between(real_atan2(in.y, in.x), real_atan2(out.y, out.x));
+}
+
+double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius)
+{
+    double sharp = fabs(turn_at(before, corner, after));
+    return sharp > SHARPEST ? 0 : radius * real_tan(0.5 * sharp);
+}
+
+/* Way points, the legs before them and what their corners take, if there is room. */
+typedef struct track_course {
+    const vec2 *point;
+    int32_t count;
+    double radius, leg[TRACK_POINTS], takes[TRACK_POINTS + 1];
+} track_course;
+
+static track_course legs_of(const vec2 *point, int32_t count, double radius)
+{
+    track_course c = {.point = point, .count = count < TRACK_POINTS ? count : TRACK_POINTS, .radius = radius};
+    for (int32_t i = 1; i < c.count; i++)
+        c.leg[i] = vec2_length(vec2_sub(point[i], point[i - 1]));
+    for (int32_t i = 1; i + 1 < c.count; i++)
+        c.takes[i] = track_corner_takes(point[i - 1], point[i], point[i + 1], radius);
+    return c;
+}
+
+/* Part of its radius that a corner has: two on a leg that is too short for both share it as they would take of it. */
+static double part_of(const track_course *c, int32_t i)
+{
+    if (!(c->takes[i] > 0))
+        return 1;
+    double in = c->leg[i] / (c->takes[i - 1] + c->takes[i]), out = c->leg[i + 1] / (c->takes[i] + c->takes[i + 1]);
+    return fmin(1, fmin(in, out));
+}
+
+static void add_corner(track *t, const track_course *c, int32_t i)
+{
+    double turn = turn_at(c->point[i - 1], c->point[i], c->point[i + 1]), side = turn > 0 ? 1 : -1;
+    double radius = part_of(c, i) * c->radius;
+    if (fabs(turn) <= SHARPEST)
+        add(t, radius * fabs(turn), curvature_of(side, radius), true);
+}
+
+track track_of_legs(const vec2 *point, int32_t count, int32_t at, double radius, double *corner)
+{
+    const track_course c = legs_of(point, count, radius);
+    vec2 leg = vec2_sub(point[at + 1], point[at]);
+    double cut = part_of(&c, at) * c.takes[at];
+    track t = {.start = point[at], .heading = real_atan2(leg.y, leg.x)};
     if (cut > 0)
-        add(&t, r * sharp, turn > 0 ? 1 / r : -1 / r, true);
+        t.start = vec2_add(t.start, vec2_scale(leg, cut / c.leg[at + 1]));
+    *corner = HUGE_VAL;
+    for (int32_t i = at + 1; i < c.count && t.count + 2 <= TRACK_PIECES; i++) {
+        double next = part_of(&c, i) * c.takes[i];
+        add(&t, c.leg[i] - cut - next, 0, false);
+        if (i + 1 == c.count)
+            break;
+        add_corner(&t, &c, i);
+        if (i == at + 1)
+            *corner = t.length;
+        cut = next;
+    }
     return t;
 }
 

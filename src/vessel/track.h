@@ -9,7 +9,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { TRACK_PIECES = 10 };
+/* A leg and its corner are two pieces; of way points near to each other an autopilot sees several
+   corners at once.  So many of them are enough for a track of legs. */
+enum { TRACK_PIECES = 24, TRACK_POINTS = TRACK_PIECES / 2 + 5 };
 
 typedef struct track_piece {
     double length;    /* [m] */
@@ -43,9 +45,14 @@ track track_of_pattern(const pattern_shape *p, double radius);
 /* An open track through a place at this heading [rad], *way [m] along it, that bends [1/m] before and after it for a
    quarter of a round. */
 track track_of_bend(vec2 at, double heading, double curvature, double *way);
-/* A leg to a corner, the corner rounded by this radius [m] or by what half the shorter leg leaves room for, and the leg
-   after it; next NULL: the leg alone.  A corner of more than 135 degrees is not rounded. */
-track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius);
+/* What a corner that is rounded by this radius takes of each of its legs [m]; one of more than 135 degrees
+   is not rounded. */
+double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius);
+/* Legs from point to point, none of no length, from where the corner at point `at` (0: none) leaves its legs; corners
+   are rounded by this radius [m], or by as much less as the legs are shorter than their corners take.  Has as many legs
+   as there are pieces for; *corner: way to the end of the first of its corners [m], infinity without one.  What a
+   corner is left depends on its neighbours: give two points before `at`, where there are such. */
+track track_of_legs(const vec2 *point, int32_t count, int32_t at, double radius, double *corner);
 
 /* The place after this way along it [m]; past an end or before the start of an open one, straight on. */
 track_place track_at(const track *t, double way);

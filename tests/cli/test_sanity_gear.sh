@@ -135,6 +135,8 @@ expect 0 "$FRAM" check drive.yaml
 grep 'its track has turns' err && fail "told of one leg"
 sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}/' drive.yaml >bends.yaml
 told bends.yaml "vessel.propulsion: $sides|vessel.current_coefficients" --set "vessel.propulsion.speed=auto"
+# Its legs are shorter than its corner takes.
+holds 'waypoints\[0\]: it is 87.* m from where the ship begins, and corners of .* they are rounded by' err
 # So slow that ice stops it for good, with more helm than its rudders can use.
 told bends.yaml "vessel.propulsion.speed: at 0.1 m/s the ship, stopped by ice, pushes with 29 % of its pull|waits" \
     --set vessel.propulsion.speed=0.1 --set vessel.propulsion.steering_angle_deg=80

@@ -219,6 +219,56 @@ START_TEST(legs_are_kept_and_mirrored)
 }
 END_TEST
 
+/* Three rounds of a square of way points, begun amidst a side: how far off the ship is at most in the last of them,
+   and of how wide a circle, in sides, it stays beside. */
+static double worst_on_square(double side, double *round)
+{
+    char text[2000], legs[800];
+    const double half = 0.5 * side, x[] = {half, half, -half, -half}, y[] = {0, side, side, 0};
+    int length = 0;
+    for (int i = 0; i < 12; i++)
+        length += snprintf(legs + length, sizeof legs - (size_t)length, "%s{x: %.6f, y: %.6f}", i ? ", " : "", x[i % 4],
+                           y[i % 4]);
+    snprintf(text, sizeof text, SMALL_WITH(", speed: 4, waypoints: [%s]"), legs);
+    static const char *const sets[] = {"vessel.speed=4"};
+    scene k;
+    scene_open_with(&k, text, sets, 1);
+    double worst = 0, nearest = HUGE_VAL, farthest = 0;
+    for (double time = 0; time < 8 * side / 4; time += STEP) {
+        scene_steps(&k, 1);
+        vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+        if (time < 6 * side / 4)
+            continue;
+        double away = vec2_length(vec2_make(r.x, r.y - half));
+        worst = fmax(worst, fabs(k.w.propulsion.off[0]));
+        nearest = fmin(nearest, away);
+        farthest = fmax(farthest, away);
+    }
+    *round = fmax(half - nearest, farthest - half);
+    scene_close(&k);
+    return worst;
+}
+
+/* Corners of way points are known before the leg that leads to them, as those of a pattern are: where its legs are so
+   short that nothing straight is left of them a square is gone round as a circle within it, and where they are longer
+   it is kept. */
+START_TEST(a_square_of_way_points_is_kept_as_a_pattern)
+{
+    const pattern_case any = {"square", 4, 5, 4, false, NULL};
+    const track_place nowhere = {.at = {0, 0}};
+    scene k;
+    open_case(&k, &any, 100, &nowhere);
+    double corner = k.w.propulsion.settings[0].turning.corner, round;
+    scene_close(&k);
+    double narrow = worst_on_square(1.5 * corner, &round);
+    printf("squares of way points, corners of %.0f m: %.1f m off and %.1f off the circle, ", corner, narrow, round);
+    ck_assert_msg(narrow < 3.5 && round < 3.5, "%g m off its track, %g m off the circle", narrow, round);
+    double wide = worst_on_square(2.2 * corner, &round);
+    printf("%.1f m off where more is straight\n", wide);
+    ck_assert_msg(wide < 7, "%g m", wide);
+}
+END_TEST
+
 /* On a circle much narrower than it can turn, joined from far away, a ship goes round at about its own radius. */
 START_TEST(a_ship_goes_round_what_is_too_narrow)
 {
@@ -640,7 +690,8 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
           patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored,
-          a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from, a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
+          a_square_of_way_points_is_kept_as_a_pattern, a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told,
+          slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
+          a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
           a_leg_along_a_current_is_kept_as_in_still_water, a_period_is_that_of_the_round_that_is_sailed,
           ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes, a_model_is_steered_as_its_ship)

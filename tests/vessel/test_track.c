@@ -113,25 +113,35 @@ START_TEST(joins_the_way_that_it_goes)
 }
 END_TEST
 
-/* By hand: a corner of 90 degrees with radius 50 begins and ends 50 m from it; one of which a leg has room for 30 m a
-   side is rounded by 30; one of 180 degrees is left to the steering; so is the last. */
+/* By hand: a corner of 90 degrees with radius 50 takes 50 m of each leg; one that has a leg of 30 m alone takes that;
+   two that would take 50 and 25 of a leg of 60 share it as 40 and 20; the last point has no corner. */
 START_TEST(corners_are_rounded)
 {
-    vec2 next = {200, 300};
-    track t = track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50);
-    ck_assert_int_eq(t.count, 2);
+    vec2 point[] = {{0, 0}, {200, 0}, {200, 300}, {500, 300}};
+    double corner;
+    track t = track_of_legs(point, 4, 0, 50, &corner);
+    ck_assert_int_eq(t.count, 5);
     assert_relative(t.piece[0].length, 150, 1e-12);
     assert_relative(t.piece[1].curvature, 0.02, 1e-12);
-    track_place end = track_at(&t, t.length);
-    assert_absolute(end.at.x, 200, 1e-9);
-    assert_absolute(end.at.y, 50, 1e-9);
+    assert_relative(t.piece[2].length, 200, 1e-12);
+    assert_relative(t.piece[3].curvature, -0.02, 1e-12);
+    assert_relative(corner, 150 + 25 * PI, 1e-12);
+    track_place end = track_at(&t, corner), last = track_at(&t, t.length + 10);
+    track next = track_of_legs(point, 4, 1, 50, &corner);
+    assert_absolute(vec2_length(vec2_sub(end.at, vec2_make(200, 50))), 0, 1e-9);
+    assert_absolute(vec2_length(vec2_sub(end.at, next.start)), 0, 1e-9);
     assert_absolute(end.heading, 0.5 * PI, 1e-12);
-    next = (vec2){200, -60};
-    t = track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50);
-    assert_relative(t.piece[1].curvature, -1.0 / 30, 1e-12);
-    next = (vec2){0, 0};
-    ck_assert_int_eq(track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50).count, 1);
-    ck_assert_int_eq(track_of_legs((vec2){0, 0}, (vec2){200, 0}, NULL, 50).count, 1);
+    assert_absolute(vec2_length(vec2_sub(last.at, vec2_make(510, 300))), 0, 1e-9);
+    ck_assert(track_of_legs(point, 4, 2, 50, &corner).count == 1 && corner == HUGE_VAL);
+    point[2].y = -30;
+    assert_relative(track_of_legs(point, 3, 0, 50, &corner).piece[1].curvature, -1.0 / 30, 1e-12);
+    vec2 shared[] = {{0, 0}, {200, 0}, {200, 60}, {360, 180}};
+    t = track_of_legs(shared, 4, 0, 50, &corner);
+    ck_assert_int_ge(t.count, 4);
+    assert_relative(t.piece[0].length, 160, 1e-12);
+    assert_relative(t.piece[1].curvature, 1.0 / 40, 1e-12);
+    assert_relative(t.piece[t.count - 2].curvature, -1.0 / 40, 1e-12);
+    assert_relative(t.piece[t.count - 1].length, 180, 1e-9);
     assert_absolute(track_at(&t, -10).at.x, -10, 1e-12);
 }
 END_TEST
