@@ -20,7 +20,7 @@ const char *track_remedy(const run_track *t)
 {
     return track_was_kept(t) ? ""
                              : "Loads behind it are not those of the pattern that was asked for: give it wider turns, "
-                               "less speed, or a ship that turns better; the ice lets it turn less than open water.";
+                               "less speed, or a ship that turns better; in ice one turns less than in open water.";
 }
 
 void track_table(html_page *page, const run_note *note)

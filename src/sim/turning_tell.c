@@ -59,6 +59,9 @@ static void tell_arcs(const pattern_view *v)
 
 /* ---- legs ---- */
 
+/* How far a loop at a corner reaches beyond it, in radii: 3.5 where the ship goes back, 4.3 at 135 degrees. */
+#define LOOP_FAR 4.3
+
 /* A vessel's part of the table of courses, with where it begins before that. */
 typedef struct course_part {
     vec2 begins;
@@ -105,6 +108,21 @@ static void tell_short_leg(const pattern_view *v, const course_part *c)
             "they are rounded by %.4g m; take a longer leg, or a lower speed",
             v->entry->path, key_of(v, to), leg, i > 0 ? "the point before" : "where the ship begins", radius, takes,
             radius * leg / takes);
+        return;
+    }
+}
+
+/* The first corner that is too sharp to be rounded. */
+static void tell_loop(const pattern_view *v, const course_part *c)
+{
+    for (int32_t i = 0; i + 1 < c->count; i++) {
+        if (!track_turns_about(i > 0 ? c->place[i - 1] : c->begins, c->place[i], c->place[i + 1]))
+            continue;
+        log_write(v->ctx, LOG_INFO,
+                  "%s.propulsion.waypoints[%d]: a corner of more than 135 degrees: %s turns about on a loop, which "
+                  "reaches up to %.0f m beyond it",
+                  v->entry->path, key_of(v, c->place[i]), vessel_title_of(v->entry).text,
+                  LOOP_FAR * v->set->turning.corner);
         return;
     }
 }
@@ -239,6 +257,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
         tell_short_leg(&v, &legs);
+        tell_loop(&v, &legs);
         return;
     }
     if (s->domain.boundary != DOMAIN_FEEDING)

@@ -2,14 +2,16 @@
 
 #include "base/transcendental.h"
 
-/* A corner that turns by more is left to the steering. */
+/* A corner that turns by more is turned about at on a loop. */
 static const double SHARPEST = 0.75 * PI;
 /* Steps by which a track is searched, and by which a foot is made better. */
 enum { JOIN_PLACES = 256, FOOT_STEPS = 4 };
+/* At most of a leg and the corner at its end. */
+enum { CORNER_PIECES = 5 };
 /* 1 - curvature times distance falls to nothing at the centre of an arc. */
 static const double LEAST_FOOT_NEARNESS = 0.2;
-/* A loop turns away by 60 degrees, goes straight on for 2 cot 60 radii, so that the turn of 240 degrees the other way
-   ends on the line that it came from, and follows that back to where it began. */
+/* A loop that turns about turns away by 60 degrees, goes straight on for 2 cot 60 radii, so that the turn of 240
+   degrees the other way ends on the line that it came from, and follows that back to where it began. */
 static const double AWAY = PI / 3, ON = 1.1547005383792517, BACK = 2.3094010767585034;
 /* How far such a loop reaches ahead, in radii: 2 sin 60 + 1 + cos 60 ON. */
 static const double LOOP_REACH = 3.3094010767585034;
@@ -25,13 +27,15 @@ static void add(track *t, double length, double curvature, bool turning)
 /* Of a turn to port (side 1) or starboard (-1); no radius makes an arc of no length. */
 static double curvature_of(double side, double radius) { return radius > 0 ? side / radius : 0; }
 
-/* side: 1 turns away to port, -1 to starboard. */
-static void add_loop(track *t, double radius, double side)
+/* side: 1 turns away to port, -1 to starboard.  A loop that turns by less (135 to 180 degrees) turns away by more and
+   goes on for longer, so that the same turn of 240 degrees ends on the line that leads on from where it began. */
+static void add_loop(track *t, double radius, double side, double turn)
 {
-    add(t, radius * AWAY, curvature_of(side, radius), true);
-    add(t, radius * ON, 0, true);
+    double longer = ON * (1 + real_cos(turn));
+    add(t, radius * (AWAY + (PI - turn)), curvature_of(side, radius), true);
+    add(t, radius * (ON + longer), 0, true);
     add(t, radius * (PI + AWAY), curvature_of(-side, radius), true);
-    add(t, radius * BACK, 0, true);
+    add(t, radius * (BACK + 0.5 * longer + real_sin(turn)), 0, true);
 }
 
 /* Both loops lie to starboard of the way there: updrift of a way to the left. */
@@ -39,9 +43,9 @@ static track there_and_back(vec2 start, double heading, double length, double cu
 {
     track t = {.start = start, .heading = heading, .closed = true};
     add(&t, length, curvature, false);
-    add_loop(&t, radius, -1);
+    add_loop(&t, radius, -1, PI);
     add(&t, length, -curvature, false);
-    add_loop(&t, radius, 1);
+    add_loop(&t, radius, 1, PI);
     return t;
 }
 
@@ -109,6 +113,8 @@ double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius)
     return sharp > SHARPEST ? 0 : radius * real_tan(0.5 * sharp);
 }
 
+bool track_turns_about(vec2 before, vec2 corner, vec2 after) { return fabs(turn_at(before, corner, after)) > SHARPEST; }
+
 /* Way points, the legs before them and what their corners take, if there is room. */
 typedef struct track_course {
     const vec2 *point;
@@ -139,7 +145,9 @@ static void add_corner(track *t, const track_course *c, int32_t i)
 {
     double turn = turn_at(c->point[i - 1], c->point[i], c->point[i + 1]), side = turn > 0 ? 1 : -1;
     double radius = part_of(c, i) * c->radius;
-    if (fabs(turn) <= SHARPEST)
+    if (fabs(turn) > SHARPEST)
+        add_loop(t, radius, -side, fabs(turn));
+    else
         add(t, radius * fabs(turn), curvature_of(side, radius), true);
 }
 
@@ -152,7 +160,7 @@ track track_of_legs(const vec2 *point, int32_t count, int32_t at, double radius,
     if (cut > 0)
         t.start = vec2_add(t.start, vec2_scale(leg, cut / c.leg[at + 1]));
     *corner = HUGE_VAL;
-    for (int32_t i = at + 1; i < c.count && t.count + 2 <= TRACK_PIECES; i++) {
+    for (int32_t i = at + 1; i < c.count && t.count + CORNER_PIECES <= TRACK_PIECES; i++) {
         double next = part_of(&c, i) * c.takes[i];
         add(&t, c.leg[i] - cut - next, 0, false);
         if (i + 1 == c.count)

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A leg and its corner are two pieces; of way points near to each other an autopilot sees several
+/* A leg and its corner are two pieces, or five with a loop; of way points near to each other an autopilot sees several
    corners at once.  So many of them are enough for a track of legs. */
 enum { TRACK_PIECES = 24, TRACK_POINTS = TRACK_PIECES / 2 + 5 };
 
@@ -45,8 +45,9 @@ track track_of_pattern(const pattern_shape *p, double radius);
 /* An open track through a place at this heading [rad], *way [m] along it, that bends [1/m] before and after it for a
    quarter of a round. */
 track track_of_bend(vec2 at, double heading, double curvature, double *way);
-/* What a corner that is rounded by this radius takes of each of its legs [m]; one of more than 135 degrees
-   is not rounded. */
+/* Whether a corner is so sharp, more than 135 degrees, that a ship turns about at it, on a loop beyond it. */
+bool track_turns_about(vec2 before, vec2 corner, vec2 after);
+/* What a corner that is rounded by this radius takes of each of its legs [m]; a loop takes nothing. */
 double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius);
 /* Legs from point to point, none of no length, from where the corner at point `at` (0: none) leaves its legs; corners
    are rounded by this radius [m], or by as much less as the legs are shorter than their corners take.  Has as many legs

@@ -137,10 +137,12 @@ sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}/' drive.yaml >bends.yaml
 told bends.yaml "vessel.propulsion: $sides|vessel.current_coefficients" --set "vessel.propulsion.speed=auto"
 # Its legs are shorter than its corner takes.
 holds 'waypoints\[0\]: it is 87.* m from where the ship begins, and corners of .* they are rounded by' err
-# So slow that ice stops it for good, with more helm than its rudders can use.
+# Out and back, so slowly that ice stops it for good, with more helm than its rudders can use.
 told bends.yaml "vessel.propulsion.speed: at 0.1 m/s the ship, stopped by ice, pushes with 29 % of its pull|waits" \
-    --set vessel.propulsion.speed=0.1 --set vessel.propulsion.steering_angle_deg=80
+    --set vessel.propulsion.speed=0.1 --set "vessel.propulsion.waypoints[1].x=-500" \
+    --set "vessel.propulsion.waypoints[1].y=0" --set vessel.propulsion.steering_angle_deg=80
 holds '^warning: vessel.propulsion.steering_angle_deg: past 5.* degrees of helm the rudders of the vessel turn' err
+holds 'vessel.propulsion.waypoints\[0\]: a corner of more than 135 degrees: the vessel turns about on a loop' err
 grep 'beset_speed' err && fail "a ship that waits is told to back again and again"
 for way in $turns=ahead environment.hull_drag.water_form=1 vessel.propulsion.speed=0.1; do
     expect 0 "$FRAM" check round.yaml --set "$way"

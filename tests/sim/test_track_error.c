@@ -103,6 +103,27 @@ START_TEST(a_circle_that_is_too_narrow_is_told)
 }
 END_TEST
 
+/* Out and back on two legs: the ship turns about on a loop, which does not count, and is on its way back at once. */
+START_TEST(a_ship_that_turns_about_keeps_its_track)
+{
+    scene k;
+    double value = 0;
+    scene_open(&k, SHIP_AT("  speed: 4\n", "waypoints: [{x: 500, y: 0}, {x: -4000, y: 0}]"));
+    const propulsion_table *p = &k.w.propulsion;
+    double corner = p->settings[0].turning.corner, most = 0;
+    for (int i = 0; i < 3600; i++) {
+        scene_steps(&k, 1);
+        most = fmax(most, fabs(p->off[0]));
+    }
+    printf("turns about at 500 m with corners of %.0f m: %.1f m off, %.1f where it counts, then at (%.0f, %.0f)\n",
+           corner, most, p->off_most[0], place_of(&k).x, place_of(&k).y);
+    ck_assert(p->off_most[0] < 12.5 && most < 25);
+    ck_assert_int_eq(count_events(&k, EVENT_OFF_TRACK, &value), 0);
+    ck_assert(place_of(&k).x < 400 && fabs(place_of(&k).y) < 12.5 && p->off_time[0] < 900 - 2 * corner / 4);
+    scene_close(&k);
+}
+END_TEST
+
 /* Corners and loops take the radius that is given, where the ship can do less. */
 START_TEST(room_to_turn_can_be_given)
 {
@@ -259,5 +280,5 @@ START_TEST(the_table_is_known_to_the_turn)
 END_TEST
 
 TEST_MAIN("track_error", error_is_the_distance_and_is_told, the_transient_does_not_count,
-          a_circle_that_is_too_narrow_is_told, room_to_turn_can_be_given, driven_patterns_are_mirrored,
-          odd_data_leave_no_nan, the_table_is_known_to_the_turn)
+          a_circle_that_is_too_narrow_is_told, a_ship_that_turns_about_keeps_its_track, room_to_turn_can_be_given,
+          driven_patterns_are_mirrored, odd_data_leave_no_nan, the_table_is_known_to_the_turn)

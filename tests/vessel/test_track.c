@@ -146,6 +146,28 @@ START_TEST(corners_are_rounded)
 }
 END_TEST
 
+/* A corner of more than 135 degrees is turned about at: past it, and back through it along the next leg. */
+START_TEST(sharp_corners_have_loops)
+{
+    static const double turns[] = {136, -136, 150, -179, 180};
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) {
+        double angle = radians(turns[i]), corner, far = 0;
+        const vec2 at = {600, 0}, legs[] = {{0, 0}, at, {600 + 400 * real_cos(angle), 400 * real_sin(angle)}};
+        track t = track_of_legs(legs, 3, 0, 50, &corner);
+        track_place end = track_at(&t, corner);
+        assert_absolute(vec2_length(vec2_sub(end.at, at)), 0, 1e-9);
+        assert_absolute(real_cos(end.heading - angle), 1, 1e-12);
+        for (double way = 601; way < corner - 1; way++) {
+            track_place on = track_at(&t, way);
+            ck_assert(on.turning && fabs(on.curvature) <= 1.0 / 50);
+            far = fmax(far, vec2_length(vec2_sub(on.at, at)));
+        }
+        ck_assert_msg(far > 170 && far < 4.4 * 50, "a loop of %g degrees reaches %g m", turns[i], far);
+        ck_assert(!track_at(&t, 599).turning && !track_at(&t, corner + 1).turning);
+    }
+}
+END_TEST
+
 /* Through its place, with its heading, and as bent behind it as before it. */
 START_TEST(a_bend_goes_both_ways)
 {
@@ -172,4 +194,4 @@ END_TEST
 
 TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for,
           corners_of_a_narrow_square_are_its_track, feet_are_found, joins_the_way_that_it_goes, corners_are_rounded,
-          a_bend_goes_both_ways)
+          sharp_corners_have_loops, a_bend_goes_both_ways)
