@@ -110,6 +110,11 @@ static inline bool testing_close(double actual, double expected, double toleranc
     return actual == expected || fabs(actual - expected) <= tolerance;
 }
 
+/* The larger and the smaller of two, and a NaN where either is one: fmax and fmin pass over it, and the worst of many
+   errors would be that of the others. */
+static inline double testing_larger(double a, double b) { return isnan(a) || a > b ? a : b; }
+static inline double testing_smaller(double a, double b) { return isnan(a) || a < b ? a : b; }
+
 static inline bool testing_same_bits(double a, double b) { return memcmp(&a, &b, sizeof a) == 0; }
 
 /* Kinds of comparison of testing_first_apart. */

@@ -165,6 +165,17 @@ START_TEST(upright_and_head_down_have_angles_too)
 }
 END_TEST
 
+/* What the tests compare by (tests/testing.h). */
+START_TEST(the_worst_of_many_keeps_a_nan)
+{
+    const double none = (double)NAN;
+    ck_assert(isnan(testing_larger(none, 1)) && isnan(testing_larger(1, none)));
+    ck_assert(isnan(testing_smaller(none, 1)) && isnan(testing_smaller(1, none)));
+    ck_assert(testing_larger(-2, 1) == 1 && testing_larger(1, -2) == 1 && testing_larger(1, HUGE_VAL) == HUGE_VAL);
+    ck_assert(testing_smaller(-2, 1) == -2 && testing_smaller(1, -2) == -2);
+}
+END_TEST
+
 TEST_MAIN("vec", plane_vectors, space_vectors, matrices_multiply_transpose_and_invert, symmetric_matrices_are_matrices,
           quaternions_turn_like_their_matrices, matrices_give_their_quaternions_back, angles_follow_yaw_pitch_roll,
-          upright_and_head_down_have_angles_too)
+          upright_and_head_down_have_angles_too, the_worst_of_many_keeps_a_nan)

@@ -199,7 +199,7 @@ static inline double rig_deepest(const rig *r)
 {
     double depth = -HUGE_VAL;
     for (int32_t i = 0; i < r->contacts.count; i++)
-        depth = fmax(depth, r->contacts.data[i].depth);
+        depth = testing_larger(depth, r->contacts.data[i].depth);
     return depth;
 }
 

@@ -154,8 +154,9 @@ static spin_end spin(double dt, vec3 w)
     for (int k = 0; k < (int)(8 / dt + 0.5); k++) {
         rig_step(&r);
         body_books now = body_books_of(&r.bodies);
-        end.energy = fmax(end.energy, fabs(now.kinetic_energy / start.kinetic_energy - 1));
-        end.momentum = fmax(end.momentum, vec3_length(vec3_sub(now.angular_momentum, start.angular_momentum)) / size);
+        end.energy = testing_larger(end.energy, fabs(now.kinetic_energy / start.kinetic_energy - 1));
+        end.momentum =
+            testing_larger(end.momentum, vec3_length(vec3_sub(now.angular_momentum, start.angular_momentum)) / size);
     }
     end.orientation = r.bodies.orientation[p];
     rig_free(&r);

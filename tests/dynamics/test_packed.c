@@ -47,8 +47,8 @@ START_TEST(the_default_solves_what_the_accurate_one_does)
         }
         ck_assert_int_gt(fast.contacts.count, 2 * 48);
         ck_assert_double_lt(accurate.report.residual, 1e-6);
-        worst = fmax(worst, fast.report.residual);
-        apart = fmax(apart, sqrt(sum / (fast.bodies.count - FIRST_FLOE)));
+        worst = testing_larger(worst, fast.report.residual);
+        apart = testing_larger(apart, sqrt(sum / (fast.bodies.count - FIRST_FLOE)));
         rig_free(&fast);
         rig_free(&accurate);
     }
@@ -72,11 +72,11 @@ START_TEST(a_packed_field_neither_jitters_nor_drifts)
     double fastest = 0, deepest = 0, drift = 0;
     for (long i = 0; i < steps; i++) {
         rig_run(&r, 1);
-        fastest = fmax(fastest, rms_velocity(&r));
-        deepest = fmax(deepest, r.report.max_depth);
+        fastest = testing_larger(fastest, rms_velocity(&r));
+        deepest = testing_larger(deepest, r.report.max_depth);
     }
     for (int32_t b = FIRST_FLOE; b < count; b++)
-        drift = fmax(drift, vec3_length(vec3_sub(r.bodies.position[b], start[b])));
+        drift = testing_larger(drift, vec3_length(vec3_sub(r.bodies.position[b], start[b])));
     ck_assert_msg(fastest < 1e-9, "%g m/s", fastest);
     ck_assert_msg(deepest < 1e-4, "%g m deep", deepest);
     ck_assert_msg(drift < 1e-9, "%g m in %ld steps", drift, steps);

@@ -242,7 +242,7 @@ START_TEST(heavy_body_pushes_light_ones)
         double now = body_books_of(&r.bodies).kinetic_energy;
         ck_assert_msg(now <= energy * (1 + 1e-12), "energy grew in step %d", k);
         energy = now;
-        deepest = fmax(deepest, r.report.max_depth);
+        deepest = testing_larger(deepest, r.report.max_depth);
     }
     ck_assert_msg(deepest < 0.02, "overlap %g m", deepest); /* less than the way of one step */
     for (int32_t i = 1; i <= FLOES; i++)
@@ -342,8 +342,8 @@ START_TEST(a_stack_stays_where_it_stands)
         rig_step(&r);
         for (int i = 1; i <= BOXES; i++) {
             vec3 p = r.bodies.position[i];
-            aside = fmax(aside, sqrt(p.x * p.x + p.y * p.y));
-            sunk = fmax(sunk, fabs(p.z - (i - 0.5)));
+            aside = testing_larger(aside, sqrt(p.x * p.x + p.y * p.y));
+            sunk = testing_larger(sunk, fabs(p.z - (i - 0.5)));
         }
     }
     ck_assert_msg(aside < 1e-3 && sunk < 2e-3, "%g m aside, %g m down", aside, sunk);

@@ -85,7 +85,8 @@ static inline double largest_speed(const fluid_motion *s, vec3 medium, double re
 
 static inline double apart(const wrench *a, const wrench *b, double reach)
 {
-    return fmax(vec3_length(vec3_sub(a->force, b->force)), vec3_length(vec3_sub(a->moment, b->moment)) / reach);
+    return testing_larger(vec3_length(vec3_sub(a->force, b->force)),
+                          vec3_length(vec3_sub(a->moment, b->moment)) / reach);
 }
 
 /* How far a floe's load is from the prism's own: drag over that of a face at the floe's largest speed and one

@@ -135,9 +135,10 @@ START_TEST(skin_quadrature)
             double reach = 0.5 * polygon_diameter(outlines[k]);
             double speed = vec3_length(state.velocity) + reach * vec3_length(state.angular_velocity);
             double size = 0.5 * 1025 * 0.01 * polygon_area(outlines[k]) * speed * speed * reach;
-            worst = fmax(worst, vec3_length(vec3_sub(by_prism.water_drag.moment, reference.water_drag.moment)) / size);
-            worst_mesh =
-                fmax(worst_mesh, vec3_length(vec3_sub(by_mesh.water_drag.moment, reference.water_drag.moment)) / size);
+            worst = testing_larger(
+                worst, vec3_length(vec3_sub(by_prism.water_drag.moment, reference.water_drag.moment)) / size);
+            worst_mesh = testing_larger(
+                worst_mesh, vec3_length(vec3_sub(by_mesh.water_drag.moment, reference.water_drag.moment)) / size);
         }
         double bound = k < 2 ? 0.003 : 0.015; /* signed fans of a concave face err more */
         ck_assert_msg(worst < bound && worst_mesh < 0.015, "outline %d: prism %g, mesh %g", (int)k, worst, worst_mesh);

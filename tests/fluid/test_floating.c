@@ -138,7 +138,7 @@ static double energy_drift(double dt)
                                f.inertia.z * spin.z * spin.z);
         double energy = moving + stored + f.mass * 9.81 * f.state.position.z;
         start = i == 0 ? energy : start;
-        worst = fmax(worst, fabs(energy - start));
+        worst = testing_larger(worst, fabs(energy - start));
         step(&f, dt);
     }
     return worst / (f.mass * 9.81);

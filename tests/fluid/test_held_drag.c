@@ -146,7 +146,7 @@ START_TEST(within_its_bound)
                 double moment = vec3_length(vec3_sub(found[i].moment, f.loads[i].moment)) / reach;
                 /* Rounding of buoyancy. */
                 double rounding = 1e-13 * 1025 * 9.81 * area;
-                worst = fmax(worst, (fmax(force, moment) - rounding) / size);
+                worst = testing_larger(worst, (testing_larger(force, moment) - rounding) / size);
                 held += !computed_in(&f, i, kind < 2 ? f.held.through_water : f.held.through_air, medium);
             }
         }

@@ -110,13 +110,13 @@ static void check_drag(const media *m, const drag_coefficients *c, double coarse
                 vec3_length(vec3_sub(state.velocity, m->current)) + 100 * vec3_length(state.angular_velocity);
             double size_of = 0.5 * area * speed * speed * 1025 * (c->water_form + c->water_skin);
             wrench a = got.water_drag, b = expected.water_drag;
-            worst = fmax(worst, vec3_length(vec3_sub(a.force, b.force)) / size_of);
-            worst_moment = fmax(worst_moment, vec3_length(vec3_sub(a.moment, b.moment)) / (100 * size_of));
+            worst = testing_larger(worst, vec3_length(vec3_sub(a.force, b.force)) / size_of);
+            worst_moment = testing_larger(worst_moment, vec3_length(vec3_sub(a.moment, b.moment)) / (100 * size_of));
             speed = vec3_length(vec3_sub(state.velocity, m->wind)) + 100 * vec3_length(state.angular_velocity);
             size_of = 0.5 * area * speed * speed * 1.25 * (c->air_form + c->air_skin);
             a = got.wind_drag, b = expected.wind_drag;
-            worst = fmax(worst, vec3_length(vec3_sub(a.force, b.force)) / size_of);
-            worst_moment = fmax(worst_moment, vec3_length(vec3_sub(a.moment, b.moment)) / (100 * size_of));
+            worst = testing_larger(worst, vec3_length(vec3_sub(a.force, b.force)) / size_of);
+            worst_moment = testing_larger(worst_moment, vec3_length(vec3_sub(a.moment, b.moment)) / (100 * size_of));
         }
         ck_assert_msg(worst < bound && worst_moment < bound, "%d triangles, %d points: %g, moment %g",
                       (int)body->surface.face.count, (int)body->integrals.x.count, worst, worst_moment);

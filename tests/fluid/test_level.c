@@ -52,7 +52,7 @@ START_TEST(form_drag)
         load_error e = error_of(&f, &moving, c, 1, &loads[i], i);
         if (i % 2)
             ck_assert_msg(e.water < 1e-14 && e.air < 1e-16, "floe %d: %g, %g", i, e.water, e.air);
-        worst = fmax(worst, fmax(e.water, e.air));
+        worst = testing_larger(worst, testing_larger(e.water, e.air));
     }
     ck_assert_msg(worst < 1e-4, "worst %g", worst);
     free(loads);
@@ -116,9 +116,10 @@ START_TEST(skin_drag)
             double reach = 0.5 * polygon_diameter(outline_of(k)),
                    speed = largest_speed(&state, vec3_make(0, 0, 0), reach);
             double area = polygon_area(outline_of(k)) * speed * speed;
-            worst = fmax(worst, apart(&loads[i].water_drag, &expected.water_drag, reach) / (0.5 * 1025 * 0.01 * area));
-            worst_air =
-                fmax(worst_air, apart(&loads[i].wind_drag, &expected.wind_drag, reach) / (0.5 * 1.25 * 0.003 * area));
+            worst = testing_larger(worst, apart(&loads[i].water_drag, &expected.water_drag, reach) /
+                                              (0.5 * 1025 * 0.01 * area));
+            worst_air = testing_larger(worst_air, apart(&loads[i].wind_drag, &expected.wind_drag, reach) /
+                                                      (0.5 * 1.25 * 0.003 * area));
         }
         ck_assert_msg(worst < bound[k] && worst_air < 2 * bound[k], "outline %d: %g in water, %g in air", k, worst,
                       worst_air);
@@ -223,7 +224,7 @@ static void assert_sunken(const field *f, const media *m, const drag_coefficient
         ck_assert(vec3_length(loads[i].wind_drag.force) == 0 && vec3_length(loads[i].wind_drag.moment) == 0);
         if (i % 2 == 0)
             ck_assert_msg(e.water < 1e-13, "floe %d: %g", i, e.water);
-        worst = fmax(worst, e.water);
+        worst = testing_larger(worst, e.water);
         mean += e.water / FLOES;
     }
     ck_assert_msg(worst < worst_bound && mean < mean_bound, "worst %g, mean %g", worst, mean);

@@ -37,7 +37,7 @@ static void check_polyhedron(const polyhedron *p, double tolerance)
         }
         double highest = -HUGE_VAL;
         for (int32_t v = 0; v < vertices; v++)
-            highest = fmax(highest, vec3_dot(f->normal, p->vertex.data[v]));
+            highest = testing_larger(highest, vec3_dot(f->normal, p->vertex.data[v]));
         ck_assert_double_le(highest, f->offset + 2 * tolerance);
     }
     free(runs);

@@ -74,7 +74,7 @@ static double steepest_depth(uint32_t number, int steps)
         }
         if (had == r.patches.count)
             for (int32_t k = 0; k < had; k++)
-                steepest = fmax(steepest, depth_change(&now[k], before, had) / way);
+                steepest = testing_larger(steepest, depth_change(&now[k], before, had) / way);
         had = r.patches.count;
         memcpy(before, now, sizeof before);
     }
@@ -89,7 +89,7 @@ START_TEST(depth_is_continuous)
 {
     double worst = 0;
     for (uint32_t i = 0; i < 60; i++)
-        worst = fmax(worst, steepest_depth(i, 1000));
+        worst = testing_larger(worst, steepest_depth(i, 1000));
     ck_assert_msg(worst < 20, "depth changes by %g m per metre of way", worst);
     ck_assert_double_gt(worst, 0.1);
 }

@@ -52,7 +52,7 @@ static impact run_impact(bool corner_first, double exponent, double dt)
         energy = left;
         /* The last step needs only a part of the cap: the stop falls inside it. */
         seen.stop += after > 1e-9 ? dt : dt * -force * dt / -limit;
-        seen.force = fmax(seen.force, force);
+        seen.force = testing_larger(seen.force, force);
         seen.penetration += after * dt;
         speed = after;
     }
@@ -60,7 +60,7 @@ static impact run_impact(bool corner_first, double exponent, double dt)
     /* Nothing moves any more, whatever the wall pushes back. */
     for (int i = 0; i < 5; i++) {
         ice_rig_step(&r);
-        seen.rebound = fmax(seen.rebound, fabs(r.bodies.velocity[0].x));
+        seen.rebound = testing_larger(seen.rebound, fabs(r.bodies.velocity[0].x));
     }
     ck_assert(fabs(r.bodies.velocity[0].y) < 1e-6 && fabs(r.bodies.angular_velocity[0].z) < 1e-6);
     ice_rig_free(&r);

@@ -122,7 +122,7 @@ static void corner_impact(double dt, double *force, double *penetration)
     *force = *penetration = 0;
     for (int step = 0; step * dt < 0.3; step++) {
         sides_step(&s);
-        *force = fmax(*force, fabs(ice_rig_force(&s.r).x));
+        *force = testing_larger(*force, fabs(ice_rig_force(&s.r).x));
         *penetration += s.r.bodies.velocity[0].x * dt;
     }
     assert_absolute(s.r.bodies.velocity[0].x, 0, 1e-9);

@@ -48,7 +48,8 @@ static double least_gap(const polygon_list *floes)
     double deepest = -HUGE_VAL;
     for (int32_t i = 0; i < polygon_list_count(floes); i++)
         for (int32_t k = i + 1; k < polygon_list_count(floes); k++)
-            deepest = fmax(deepest, polygon_convex_depth(polygon_list_get(floes, i), polygon_list_get(floes, k), NULL));
+            deepest = testing_larger(
+                deepest, polygon_convex_depth(polygon_list_get(floes, i), polygon_list_get(floes, k), NULL));
     return -deepest;
 }
 

@@ -617,7 +617,7 @@ static double least_angle(polygon p)
         vec2 to_next = vec2_sub(p.vertex[(i + 1) % p.count], p.vertex[i]);
         vec2 to_last = vec2_sub(p.vertex[(i + p.count - 1) % p.count], p.vertex[i]);
         double angle = fabs(real_atan2(vec2_cross(to_next, to_last), vec2_dot(to_next, to_last)));
-        least = fmin(least, angle);
+        least = testing_smaller(least, angle);
     }
     return least;
 }
@@ -636,7 +636,7 @@ static double check_pieces(const fracture_rig *r)
             vec2 e = vec2_sub(p.vertex[(k + 1) % p.count], p.vertex[k]);
             ck_assert(vec2_length(e) >= r->settings.edge_threshold * (1 - 1e-9));
         }
-        smallest = fmin(smallest, least_angle(p));
+        smallest = testing_smaller(smallest, least_angle(p));
     }
     ck_assert_msg(smallest >= real_acos(0.99) * (1 - 1e-9), "a corner of %g degrees", smallest * 180 / PI);
     return smallest;

@@ -337,7 +337,7 @@ static double ram_in(ram *t, double speed, double *met)
         double at = face(t);
         if (ram_step(t) > 1 && *met == HUGE_VAL)
             *met = at;
-        deepest = fmax(deepest, face(t));
+        deepest = testing_larger(deepest, face(t));
     }
     return deepest;
 }

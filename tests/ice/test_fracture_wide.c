@@ -53,7 +53,7 @@ static breaking plate_breaks(double width, double dt)
     breaking b = {.event = events.data[0]};
     for (int32_t i = 0; i < r.floes.count; i++)
         if (r.floes.body[i] >= 0 && r.bodies.motion[r.floes.body[i]] == MOTION_DYNAMIC)
-            b.largest = fmax(b.largest, r.floes.area[i]);
+            b.largest = testing_larger(b.largest, r.floes.area[i]);
     array_free(&r.ctx, &events);
     fracture_scratch_free(&r.ctx, scratch);
     ice_rig_free(&r);
@@ -125,7 +125,7 @@ START_TEST(floes_are_beams)
                 double least = HUGE_VAL;
                 for (int32_t k = 0; k < r.floes.count; k++)
                     if (r.floes.body[k] >= 0)
-                        least = fmin(least, r.floes.area[k]);
+                        least = testing_smaller(least, r.floes.area[k]);
                 double piece = fmin(s.x_max * l, LENGTHS[i] - s.x_max * l);
                 assert_relative(least, piece * width, 1e-6);
             }

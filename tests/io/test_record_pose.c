@@ -54,7 +54,7 @@ START_TEST(poses_keep_their_precision)
         ck_assert_double_le(fabs(back.x - at.x), 1e-4);
         ck_assert_double_le(fabs(back.z - at.z), 0.0005);
         double dot = fabs(q.w * turned.w + q.x * turned.x + q.y * turned.y + q.z * turned.z);
-        ck_assert_double_le(2 * sqrt(fmax(0, 2 * (1 - dot))), 3e-4);
+        ck_assert_double_le(2 * sqrt(testing_larger(0, 2 * (1 - dot))), 3e-4);
     }
     unsigned char packed[RECORD_POSE_SIZE];
     vec3 back;

@@ -89,7 +89,7 @@ START_TEST(the_pattern_has_the_concentration_and_no_seam)
                     one[i] = w->pattern_vertices.point[w->pattern.first[a] + i];
                 for (int32_t i = 0; i < m; i++)
                     two[i] = vec2_add(w->pattern_vertices.point[w->pattern.first[b] + i], apart);
-                nearest = fmin(nearest, -polygon_convex_depth((polygon){one, n}, (polygon){two, m}, NULL));
+                nearest = testing_smaller(nearest, -polygon_convex_depth((polygon){one, n}, (polygon){two, m}, NULL));
             }
     ck_assert_msg(nearest > 0.3 && nearest < 2, "neighbours are %g m apart", nearest);
     scene_close(&k);

@@ -68,9 +68,9 @@ static impact with_fenders(const char *step, const char *first, const char *seco
     for (int n = 0; n * dt < 6; n++) {
         scene_steps(&k, 1);
         for (int32_t c = 0; c < k.w.scratch.contacts.count; c++)
-            i.depth = fmax(i.depth, k.w.scratch.contacts.data[c].depth);
+            i.depth = testing_larger(i.depth, k.w.scratch.contacts.data[c].depth);
         const ice_load *loads = k.w.scratch.ice_loads.data;
-        i.force = fmax(i.force, loads[1].hulls.force.x);
+        i.force = testing_larger(i.force, loads[1].hulls.force.x);
         ck_assert_double_eq_tol(loads[0].hulls.force.x, -loads[1].hulls.force.x, 1e-9 * i.expected_force);
         ck_assert(loads[0].total.force.x == 0 && loads[1].total.force.x == 0);
     }

@@ -41,7 +41,7 @@ static double end_step(bow *b, vec3 *sum)
     double most = 0;
     *sum = (vec3){0, 0, 0};
     for (int32_t i = 0; i < b->map.panels.panel.count; i++) {
-        most = fmax(most, b->map.load[i].step / b->map.panels.panel.data[i].area);
+        most = testing_larger(most, b->map.load[i].step / b->map.panels.panel.data[i].area);
         *sum = vec3_add(*sum, b->map.load[i].force);
     }
     pressure_end_step(&b->map, 1, 1);

@@ -36,7 +36,7 @@ static double worst_balance(const char *const *overrides, int count, int steps)
         vec3 left = vec3_add(vec3_add(channel3(&row, "tow_force"), ice), channel3(&row, "fluid_force"));
         left.z -= mass * k.m.media.gravity;
         left = vec3_mad(left, vec3_sub(now, before), -mass / k.m.time_step);
-        worst = fmax(worst, vec3_length(left));
+        worst = testing_larger(worst, vec3_length(left));
         peak = fmax(peak, vec3_length(ice));
         before = now;
     }
@@ -221,7 +221,7 @@ static double offset_under_load(const char *feed)
         assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
         scene_steps(&k, 1);
         k.w.load_window.force[i % k.w.load_window.count] = push.force;
-        largest = fmax(largest, fabs(k.w.stations.offset[0].x));
+        largest = testing_larger(largest, fabs(k.w.stations.offset[0].x));
     }
     scene_close(&k);
     return largest;

@@ -205,8 +205,8 @@ START_TEST(legs_are_kept_and_mirrored)
         for (int i = 0; i < 3600; i++) {
             scene_steps(&k, 1);
             vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
-            straight = r.x < 900 ? fmax(straight, fabs(r.y)) : straight;
-            worst = fabs(r.y) > 700 ? fmax(worst, fabs(r.x - 1500)) : worst;
+            straight = r.x < 900 ? testing_larger(straight, fabs(r.y)) : straight;
+            worst = fabs(r.y) > 700 ? testing_larger(worst, fabs(r.x - 1500)) : worst;
             end[side] = vec2_make(r.x, r.y);
         }
         printf("straight %.2g m off, after the corner %.1f m\n", straight, worst);
@@ -442,7 +442,7 @@ static double worst_pass(const char *forecast, double aside)
     for (int mark = 0; mark < MARKS; mark++) {
         double time = 24.0 * mark, passes = passes_at(&k, plane_place(&k), time, 9000);
         ck_assert(isfinite(passes));
-        worst = fmax(worst, fabs(passes + aside));
+        worst = testing_larger(worst, fabs(passes + aside));
         scene_steps(&k, 96);
     }
     printf("ahead, %g m aside, %s: passes wrong by %.1f m at most\n", aside, forecast, worst);
