@@ -107,7 +107,7 @@ static inline bool testing_aborts(void (*call)(void *), void *user)
 
 static inline bool testing_close(double actual, double expected, double tolerance)
 {
-    return actual == expected || fabs(actual - expected) <= tolerance;
+    return actual == expected || (isfinite(tolerance) && fabs(actual - expected) <= tolerance);
 }
 
 /* The larger and the smaller of two, and a NaN where either is one: fmax and fmin pass over it, and the worst of many

@@ -176,6 +176,19 @@ START_TEST(the_worst_of_many_keeps_a_nan)
 }
 END_TEST
 
+START_TEST(infinity_is_close_to_itself_alone)
+{
+    const double all = HUGE_VAL, other[] = {1, -HUGE_VAL, (double)NAN};
+    for (int kind = TESTING_ABSOLUTE; kind <= TESTING_BITS; kind++) {
+        ck_assert_int_eq(testing_first_apart(&all, &all, 1, kind, 1e-3), -1);
+        for (int i = 0; i < 3; i++) {
+            ck_assert_int_eq(testing_first_apart(&other[i], &all, 1, kind, 1e-3), 0);
+            ck_assert_int_eq(testing_first_apart(&all, &other[i], 1, kind, 1e-3), 0);
+        }
+    }
+}
+END_TEST
+
 TEST_MAIN("vec", plane_vectors, space_vectors, matrices_multiply_transpose_and_invert, symmetric_matrices_are_matrices,
           quaternions_turn_like_their_matrices, matrices_give_their_quaternions_back, angles_follow_yaw_pitch_roll,
-          upright_and_head_down_have_angles_too, the_worst_of_many_keeps_a_nan)
+          upright_and_head_down_have_angles_too, the_worst_of_many_keeps_a_nan, infinity_is_close_to_itself_alone)
