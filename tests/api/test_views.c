@@ -1,8 +1,11 @@
-/* Reading whole worlds without copies: views that stay readable, outlines in the axes of their bodies. */
+/* Reading whole worlds without copies: views that stay readable, outlines in the axes of their bodies.  Vessels by
+   their numbers and names, floes of a field by their corners. */
+#include "fram/field.h"
 #include "fram/live.h"
 #include "testing.h"
 
 #include <string.h>
+#include <unistd.h>
 
 enum { POINTS = 4000, SLOTS = 400 };
 
@@ -20,7 +23,14 @@ static const char scene[] = "run: {duration: 4, time_step: 0.02}\n"
                             "    - {length: 40, width: 20, x: 20.5, y: -11}\n"
                             "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n";
 
-static void open_world(void)
+static const char company[] = "run: {duration: 1, time_step: 0.02}\nvessels:\n"
+                              "  - {name: first, mode: free, x: -40, y: 5, hull: {form: box, length: 28, beam: 12}}\n"
+                              "  - {name: left_out, present: false, hull: {form: box, length: 48, beam: 12}}\n"
+                              "  - {name: second, mode: free, y: -7, hull: {form: box, length: 26, beam: 12}}\n"
+                              "  - {name: third, mode: free, x: 40, y: 9, hull: {form: box, length: 30, beam: 8}}\n"
+                              "ice: {source: none}\n";
+
+static void open_text(const char *text)
 {
     fram_context_definition d;
     fram_context_default(&d);
@@ -28,9 +38,11 @@ static void open_world(void)
     d.memory = failing_memory_resize;
     d.memory_user = &memory_of_test;
     assert_ok(fram_context_create(&d, &ctx, &e), e);
-    assert_ok(fram_scenario_parse(ctx, scene, NULL, NULL, 0, &s, &e), e);
+    assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
     assert_ok(fram_world_create(s, &w, &e), e);
 }
+
+static void open_world(void) { open_text(scene); }
 
 static void close_world(void)
 {
@@ -192,4 +204,56 @@ START_TEST(shapes_stay_until_their_number_changes)
 }
 END_TEST
 
-TEST_MAIN("views", views_are_readable_as_long_as_their_world, shapes_stay_until_their_number_changes)
+/* Those that are present, in the order of the scenario. */
+START_TEST(vessels_are_found_by_number_and_name)
+{
+    static const char *const names[3] = {"first", "second", "third"};
+    static const double place[3][2] = {{-40, 5}, {0, -7}, {40, 9}};
+    open_text(company);
+    ck_assert_int_eq(fram_world_vessels(w), 3);
+    for (int i = 0; i < 3; i++) {
+        fram_body_id id, named;
+        fram_body_state state;
+        ck_assert_str_eq(fram_world_vessel_name(w, i), names[i]);
+        ck_assert(fram_world_vessel_at(w, i, &id) && fram_world_vessel_named(w, names[i], &named));
+        ck_assert(id.slot == named.slot && id.generation == named.generation);
+        assert_ok(fram_body_state_get(w, id, &state, &e), e);
+        assert_array_absolute(state.position, place[i], 2, 1e-9);
+    }
+    fram_body_id none;
+    ck_assert(!fram_world_vessel_named(w, "left_out", &none) && !fram_world_vessel_at(w, 3, &none));
+    ck_assert_ptr_null(fram_world_vessel_name(w, 3));
+    close_world();
+}
+END_TEST
+
+/* Every corner of a rectangle once, counterclockwise. */
+START_TEST(a_floe_of_a_field_has_its_corners)
+{
+    static const double corner[8] = {3, 4, 13, 4, 13, 9, 3, 9};
+    char path[] = "/tmp/fram_outline_XXXXXX";
+    FILE *file = fdopen(mkstemp(path), "w");
+    ck_assert_ptr_nonnull(file);
+    fputs("3 4\n13 4\n13 9\n3 9\n\n30 4\n35 4\n30 8\n\n", file);
+    ck_assert_int_eq(fclose(file), 0);
+    fram_field *f;
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    assert_ok(fram_field_load(ctx, path, NULL, &f, &e), e);
+    double found[10];
+    found[4] = -77;
+    ck_assert(fram_field_outline(f, 0, found, 2) == 4 && fram_field_outline(f, 1, NULL, 0) == 3);
+    assert_bits(found[4], -77);
+    ck_assert_int_eq(fram_field_outline(f, 0, found, 5), 4);
+    int first = 0;
+    while (first < 3 && (found[0] != corner[2 * first] || found[1] != corner[2 * first + 1]))
+        first++;
+    for (int i = 0; i < 4; i++)
+        assert_array_absolute(&found[2 * i], &corner[2 * ((first + i) % 4)], 2, 1e-12);
+    fram_field_destroy(f);
+    fram_context_destroy(ctx);
+    unlink(path);
+}
+END_TEST
+
+TEST_MAIN("views", views_are_readable_as_long_as_their_world, shapes_stay_until_their_number_changes,
+          vessels_are_found_by_number_and_name, a_floe_of_a_field_has_its_corners)
