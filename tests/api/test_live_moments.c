@@ -81,6 +81,31 @@ static bool was_there(fram_body_id id, const fram_body_id *before, int count)
     return false;
 }
 
+enum { LOADS = 5 };
+
+/* What the ice does to the vessel is what the series tells of it, and the sum of its parts; adds up how much of each
+   there was. */
+static void assert_load_is_in_the_series(const fram_world *w, double seen[LOADS])
+{
+    static const char *const NAMES[LOADS] = {"ice_force", "ice_moment", "ice_force_capped", "ice_force_below_cap",
+                                             "ice_force_friction"};
+    fram_body_id vessel;
+    fram_ice_load load;
+    ck_assert(fram_world_vessel(w, &vessel));
+    assert_ok(fram_world_ice_load(w, vessel, &load, &e), e);
+    const double *const told[LOADS] = {load.force, load.moment, load.capped, load.below_cap, load.friction};
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < LOADS; i++) {
+            char name[32];
+            snprintf(name, sizeof name, "%s_%c", NAMES[i], "xyz"[axis]);
+            assert_bits(told[i][axis], value(w, name));
+            seen[i] += fabs(told[i][axis]);
+        }
+        assert_absolute(load.capped[axis] + load.below_cap[axis] + load.friction[axis], load.force[axis],
+                        1e-9 * (1 + fabs(load.capped[axis]) + fabs(load.below_cap[axis])));
+    }
+}
+
 /* Returns the world after so many steps. */
 static fram_world *assert_contacts_were_there(const char *text, int steps)
 {
@@ -88,6 +113,7 @@ static fram_world *assert_contacts_were_there(const char *text, int steps)
     static fram_contact contacts[CONTACTS];
     fram_world *w = open_text(text);
     fram_body_state state;
+    double seen[LOADS] = {0};
     int gone = 0;
     for (int i = 0; i < steps; i++) {
         int count = fram_world_bodies(w, 0, &(fram_body_arrays){.room = BODIES, .id = before});
@@ -101,8 +127,11 @@ static fram_world *assert_contacts_were_there(const char *text, int steps)
                 gone += fram_body_state_get(w, id[end], &state, &e) != FRAM_OK;
             }
         }
+        assert_load_is_in_the_series(w, seen);
     }
     ck_assert_int_gt(gone, 0);
+    for (int i = 0; i < LOADS; i++)
+        ck_assert_double_gt(seen[i], 1e3);
     return w;
 }
 
