@@ -65,6 +65,37 @@ START_TEST(the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
 }
 END_TEST
 
+START_TEST(the_controller_is_as_its_keys_say)
+{
+    static const char *const keys[] = {"vessel.positioning.mass_surge=2e6",
+                                       "vessel.positioning.mass_sway=3e6",
+                                       "vessel.positioning.mass_yaw=4e9",
+                                       "vessel.positioning.damping_surge=5e4",
+                                       "vessel.positioning.damping_sway=6e4",
+                                       "vessel.positioning.damping_yaw=7e7",
+                                       "vessel.positioning.reference_frequency=0.2",
+                                       "vessel.positioning.reference_speed=0.7",
+                                       "vessel.positioning.reference_turn_rate_deg=3",
+                                       "vessel.positioning.bias_rate=0.002",
+                                       "vessel.positioning.force_noise=0.05",
+                                       "vessel.positioning.bias_time=800"};
+    scene k;
+    scene_open_with(&k, SHIP, keys, sizeof keys / sizeof *keys);
+    const station_table *s = &k.w.stations;
+    const double lever = 0.25 * 80;
+    const vec3 mass = {2e6, 3e6, 4e9}, damping = {5e4, 6e4, 7e7}, per_mass = {2e6, 3e6, 4e9 / lever};
+    assert_vec3_close(plane_diagonal(s->model[0].mass), mass, 0);
+    assert_vec3_close(plane_diagonal(s->model[0].damping), damping, 0);
+    assert_absolute(s->filter[0].frequency, 0.2, 0);
+    assert_absolute(s->filter[0].speed, 0.7, 0);
+    assert_relative(s->filter[0].turn, 3 * PI / 180, 1e-12);
+    assert_vec3_close(s->kalman[0].force, vec3_scale(per_mass, 0.05), 1e-3);
+    assert_vec3_close(s->kalman[0].bias, vec3_scale(per_mass, 0.002), 1e-3);
+    assert_absolute(s->kalman[0].bias_time, 800, 0);
+    scene_close(&k);
+}
+END_TEST
+
 /* Water that is not there moves with nothing. */
 START_TEST(without_water_no_added_mass)
 {
@@ -121,4 +152,4 @@ END_TEST
 
 TEST_MAIN("build_station", without_water_no_added_mass, a_ship_believes_that_it_lies_at_its_equilibrium,
           thrusters_are_as_their_keys_say, intervals_are_whole_steps_and_samples_fall_on_calls,
-          the_controller_s_mass_is_the_vessel_s_with_its_added_mass)
+          the_controller_s_mass_is_the_vessel_s_with_its_added_mass, the_controller_is_as_its_keys_say)
