@@ -97,17 +97,22 @@ START_TEST(pairs_of_materials_have_their_own_policies)
                         BASE NO_VESSEL DOMAIN
                         "ice:\n  source: none\n  cap_ice_ice: true\n  cap_ice_wall: false\n  friction:\n"
                         "    {ice_ice_static: 0.31, ice_ice_kinetic: 0.21, ice_hull_static: 0.12, "
-                        "ice_hull_kinetic: 0.11, ice_wall_static: 0.43, ice_wall_kinetic: 0.41}\n",
+                        "ice_hull_kinetic: 0.11, ice_wall_static: 0.43, ice_wall_kinetic: 0.41,\n"
+                        "     hull_hull_static: 0.53, hull_hull_kinetic: 0.37, hull_wall_static: 0.47, "
+                        "hull_wall_kinetic: 0.29}\n",
                         under, n);
         static const struct {
-            material other;
+            material first, other;
             double at_rest, sliding;
             bool patch;
-        } pairs[3] = {
-            {MATERIAL_ICE, 0.31, 0.21, true}, {MATERIAL_HULL, 0.12, 0.11, true}, {MATERIAL_WALL, 0.43, 0.41, false}};
-        for (int i = 0; i < 3; i++) {
-            const pair_policy *one = &k.m.policies.of[MATERIAL_ICE][pairs[i].other];
-            const pair_policy *two = &k.m.policies.of[pairs[i].other][MATERIAL_ICE];
+        } pairs[5] = {{MATERIAL_ICE, MATERIAL_ICE, 0.31, 0.21, true},
+                      {MATERIAL_ICE, MATERIAL_HULL, 0.12, 0.11, true},
+                      {MATERIAL_ICE, MATERIAL_WALL, 0.43, 0.41, false},
+                      {MATERIAL_HULL, MATERIAL_HULL, 0.53, 0.37, false},
+                      {MATERIAL_HULL, MATERIAL_WALL, 0.47, 0.29, false}};
+        for (int i = 0; i < 5; i++) {
+            const pair_policy *one = &k.m.policies.of[pairs[i].first][pairs[i].other];
+            const pair_policy *two = &k.m.policies.of[pairs[i].other][pairs[i].first];
             assert_bits(one->friction_static, pairs[i].at_rest);
             assert_bits(one->friction_kinetic, pairs[i].sliding);
             assert_bits(two->friction_static, pairs[i].at_rest);
