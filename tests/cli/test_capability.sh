@@ -117,7 +117,10 @@ vessels:
     thrusters: [{x: 20, thrust: 4.0e4}, {x: -20, thrust: 4.0e4}]
     current_coefficients: {table: [{angle_deg: 0, cx: -0.1}, {angle_deg: 180, cx: 0.1}]}
 END
-expect 0 "$FRAM" capability fleet.yaml -o fleet --formula --directions 4 --vessel kept
+expect 0 "$FRAM" capability fleet.yaml -o fleet --formula --directions 4 --vessel kept --allowance 1.1 \
+    --line-safety 3 --line-safety-damaged 2.5
 says 'warning: vessels[1].current_coefficients: at 0 degrees' err
+same "$(python3 -S -c 'import json; j = json.load(open("fleet/capability.json"))
+print(j["allowance"], j["line_safety_intact"], j["line_safety_after_failure"])')" "1.1 3 2.5" "factors that are given"
 
 finish "fram capability: as it should be"

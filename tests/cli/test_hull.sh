@@ -248,6 +248,23 @@ for form in "" --ship; do
     same "$(cat out)" "$bare" "$form with the defaults of the help: $told"
 done
 
+# Angles that are given. A waterline of half the beam B over an entrance of B/2 cot(angle), a parallel body and a run,
+# which together are as long as the ship: its area stays with the angle of entrance, its centre goes forward. A steeper
+# stern displaces more under the same waterline.
+icebreaker="--length 120 --beam 24 --draught 8 --parallel-midbody 0.4"
+# shellcheck disable=SC2086
+expect 0 "$FRAM" hull $icebreaker --json
+volume=$(value 'j["volume_m3"]') && centre=$(value 'j["centre_of_flotation_m"][0]')
+# shellcheck disable=SC2086
+expect 0 "$FRAM" hull $icebreaker --entrance-angle-deg 35 --json
+same "$(value '(lambda bow: abs(j["centre_of_flotation_m"][0] * 2016 - 12 * bow * (60 - 2 * bow / 3)
+    - 24 * 48 * (36 - bow) - 12 * (72 - bow) * (-60 + 2 * (72 - bow) / 3)) < 1e-6)(12 / 0.7002075382097097)')" True \
+    "the waterline by the angle of entrance"
+# shellcheck disable=SC2086
+expect 0 "$FRAM" hull $icebreaker --stern-angle-deg 35 --json
+same "$(value "1.005 < j['volume_m3'] / $volume < 1.05, abs(j['centre_of_flotation_m'][0] - $centre) < 1e-9")" \
+    "True True" "a steeper stern"
+
 # Words that do not go together.
 expect 2 "$FRAM" hull
 says "needs a mesh file" err
