@@ -32,7 +32,7 @@ set(fram_long_tests
     "sim/real_input:       a run of 60 s through outlined floes, repaired (FRAM_TEST_LONG: 462 observed ones too)"
     "slurm/arrays:         a cluster is started, loses a node and gets its runs back"
     "study/annual_coverage: levels of a year of two diagrams, twelve trials each, and bootstraps by the generalized law"
-    "study/extremes_coverage: intervals of ten cases, twenty trials each (FRAM_TEST_LONG: a thousand)"
+    "study/extremes_coverage: intervals of eleven cases, twelve trials each (FRAM_TEST_LONG: a thousand)"
     "runs/resume:          golden scenes straight and through a checkpoint"
     "study/study:          studies of several runs each: stopped, killed, widened, in parallel"
     "study/worst:          studies whose worst runs are made again, killed on the way and widened"

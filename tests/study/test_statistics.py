@@ -111,6 +111,24 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(level["level"], location + scale * math.log(18 / -math.log(0.9)), delta=1e-9)
         self.assertTrue(level["low"] < level["level"] < level["high"])
 
+    def test_less_confidence_is_a_narrower_interval(self):
+        numbers = random.Random(7)
+        file = self.write("x\n" + "".join(f"{numbers.gauss(0, 1)}\n" for _ in range(1500)))
+        every = {"acer", "upcrossing", "gumbel", "gev", "pot", "weibull"}
+        for fit, answered in (("likelihood", every), ("moments", every - {"weibull"})):
+            told = {}
+            for confidence in (0.5, 0.95):
+                got = self.fram("extremes", file, "--channel", "x", "--step", 1, "--duration", "1h", "--level", "0.9",
+                                "--confidence", confidence, "--fit", fit)
+                self.assertEqual(got["confidence"], confidence)
+                told[confidence] = {m["method"]: (m["most_probable"], m["levels"][0]) for m in got["methods"]
+                                    if m["answered"]}
+            self.assertEqual(set(told[0.5]), answered)
+            for method, levels in told[0.5].items():
+                for less, more in zip(levels, told[0.95][method]):
+                    self.assertEqual(less["level"], more["level"], method)
+                    self.assertTrue(more["low"] < less["low"] < less["high"] < more["high"], (fit, method, less, more))
+
     def test_waves_and_minima(self):
         # A sine has one range, and its least values are the greatest of the negative one.
         rows = "".join(f"{i * 0.1:.1f},{5 + 2 * math.sin(2 * math.pi * i / 40)}\n" for i in range(4001))
