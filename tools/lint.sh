@@ -1,8 +1,8 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
-# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py and check_unused.py, 4 what documents
-# cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py and check_together.py,
-# 7 clang-tidy.  Given C files, 1 and 7 look at those only.
+# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py, check_unused.py and check_keys.py,
+# 4 what documents cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py and
+# check_together.py, 7 clang-tidy.  Given C files, 1 and 7 look at those only.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/release}
@@ -26,6 +26,7 @@ echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1
 python3 tools/draw_architecture.py --check || bad=1
 python3 tools/check_unused.py || bad=1
+python3 tools/check_keys.py || bad=1
 
 echo "lint: documents (tools/check_documents.py)"
 python3 tools/check_documents.py || bad=1

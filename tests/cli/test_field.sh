@@ -560,6 +560,10 @@ END
 expect 0 "$FRAM" field degrees.yaml --json
 same "$(value '[round(0.5 * (j["bounds_m"][k] + j["bounds_m"][k + 2])) for k in (0, 1)]')" "[100, -20]" \
     "centre of a field in degrees"
+expect 0 "$FRAM" field degrees.yaml --set ice.file=once.geojson --set ice.file_coordinates=planar \
+    --set ice.file_centre=true --json
+same "$(value '[round(0.5 * (j["bounds_m"][k] + j["bounds_m"][k + 2]), 9) for k in (0, 1)]')" "[100.0, -20.0]" \
+    "centre of a field in metres"
 expect 2 "$FRAM" field degrees.yaml --set ice.file_coordinates=planar
 expect 2 "$FRAM" field degrees.yaml --set ice.file_coordinates=polar
 says "ice.file_coordinates" err

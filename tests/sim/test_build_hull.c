@@ -213,4 +213,64 @@ START_TEST(radii_of_gyration)
 }
 END_TEST
 
-TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, particulars, radii_of_gyration)
+/* All that are given are those of the body. */
+START_TEST(radii_that_are_given)
+{
+    const scenario_vessel v = {.gyration_roll = 8, .gyration_pitch = 27, .gyration_yaw = 29};
+    const hull_particulars p = {.length = 100, .beam = 20};
+    assert_vec3_close(build_gyration(&v, &p), vec3_make(8, 27, 29), 0);
+}
+END_TEST
+
+/* A file that is refused as it is: without its bottom it is mended on request, with a crack it is sealed up to the
+   width that is given. */
+START_TEST(files_are_mended_as_their_keys_say)
+{
+    static const char open_bottom[] = "a barge\n1 9.81\n0 1\n3\n"
+                                      "40000 0 -3000  40000 5000 -3000  40000 5000 0  40000 0 0\n"
+                                      "40000 5000 -3000  0 5000 -3000  0 5000 0  40000 5000 0\n"
+                                      "0 5000 -3000  0 0 -3000  0 0 0  0 5000 0\n";
+    static const char cracked[] = "a barge\n1 9.81\n0 1\n4\n"
+                                  "0 0 -3000  0 4950 -3000  40000 4950 -3000  40000 0 -3000\n"
+                                  "40000 0 -3000  40000 5000 -3000  40000 5000 0  40000 0 0\n"
+                                  "40000 5000 -3000  0 5000 -3000  0 5000 0  40000 5000 0\n"
+                                  "0 5000 -3000  0 0 -3000  0 0 0  0 5000 0\n";
+    static const struct {
+        const char *mesh, *set;
+    } cases[] = {{open_bottom, "vessel.hull.repair=true"}, {cracked, "vessel.hull.seal_width=0.1"}};
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 2; i++) {
+        folder f = make_folder("    file_scale: 0.001\n    freeboard: 2\n", cases[i].mesh);
+        vessel_model hull = {0};
+        solid_array solids = {0};
+        fram_error error = {0};
+        ck_assert_int_eq(build(&ctx, &f, &hull, &solids, &error), FRAM_ERROR_INPUT);
+        assert_ok(build_with(&ctx, &f, cases[i].set, NULL, &hull, &solids, &error), error);
+        assert_relative(hull.displaced_mass, 1025 * 1200, 0.02);
+        solid_array_free(&ctx, &solids);
+        remove_folder(&f);
+    }
+}
+END_TEST
+
+START_TEST(a_ship_has_the_bilge_that_is_given)
+{
+    static const char text[] = "vessel:\n  hull: {form: ship, length: 120, beam: 24, draught: 8, bilge_radius: 2.5}\n";
+    context ctx;
+    context_init(&ctx);
+    scenario s;
+    solid_array solids = {0};
+    vessel_model hull = {0};
+    fram_error error = {0};
+    assert_ok(scenario_parse(&ctx, "s.yaml", text, strlen(text), NULL, &s, &error), error);
+    const vessel_entry entry = scenario_vessel_entry(&s, 0);
+    assert_ok(build_hull(&ctx, &s, &entry, NULL, &solids, &hull, &error), error);
+    assert_absolute(hull.particulars.bilge_radius, 2.5, 0);
+    solid_array_free(&ctx, &solids);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, particulars, radii_of_gyration,
+          radii_that_are_given, files_are_mended_as_their_keys_say, a_ship_has_the_bilge_that_is_given)

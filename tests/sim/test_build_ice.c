@@ -3,6 +3,8 @@
 #include "scene.h"
 #include "sim/ice_kinds.h"
 
+#include <stddef.h>
+
 #define BASE "run: {duration: 1, time_step: 0.02}\n"
 #define NO_VESSEL "vessel: {present: false}\n"
 #define DOMAIN "domain: {boundary: open, x_min: -100, x_max: 100, y_min: -60, y_max: 60}\n"
@@ -22,10 +24,12 @@ static bool is_ice(const scene *k, double x, double y)
 START_TEST(a_floe_lies_and_moves_as_given)
 {
     scene k;
-    scene_open(&k, BASE NO_VESSEL DOMAIN "ice:\n  source: floes\n  thickness: 0.8\n  floes:\n"
-                                         "    - {x: 10, y: 5, length: 20, width: 4, yaw_deg: 30, velocity_x: 0.3, "
-                                         "velocity_y: -0.2, spin: 0.05}\n"
-                                         "    - {x: -50, y: 5, shape: regular, radius: 6, sides: 3, fixed: true}\n");
+    scene_open(&k, BASE NO_VESSEL DOMAIN
+               "ice:\n  source: floes\n  thickness: 0.8\n  floes:\n"
+               "    - {x: 10, y: 5, length: 20, width: 4, yaw_deg: 30, velocity_x: 0.3, "
+               "velocity_y: -0.2, spin: 0.05}\n"
+               "    - {x: -50, y: 5, shape: regular, radius: 6, sides: 3, fixed: true}\n"
+               "    - {x: 60, y: 5, length: 9, width: 4, yaw_deg: 30, pitch_deg: 4, roll_deg: -3}\n");
     int32_t body = scene_floe(&k, 0);
     assert_vec3_close(k.w.bodies.velocity[body], ((vec3){0.3, -0.2, 0}), 0);
     assert_vec3_close(k.w.bodies.angular_velocity[body], ((vec3){0, 0, 0.05}), 0);
@@ -36,6 +40,8 @@ START_TEST(a_floe_lies_and_moves_as_given)
     /* The first corner of a regular one lies on its x axis. */
     ck_assert(is_ice(&k, -50 + 5.9, 5) && !is_ice(&k, -50 - 5.9, 5) && is_ice(&k, -50 - 2.9, 5));
     ck_assert_int_eq(k.w.bodies.motion[scene_floe(&k, 1)], MOTION_STATIC);
+    assert_vec3_close(quat_roll_pitch_yaw(k.w.bodies.orientation[scene_floe(&k, 2)]),
+                      ((vec3){radians(-3), radians(4), radians(30)}), 1e-12);
     scene_close(&k);
 }
 END_TEST
@@ -151,6 +157,54 @@ START_TEST(edges_are_rigid_under_a_section)
 }
 END_TEST
 
+/* Numbers and choices of the method. */
+START_TEST(the_method_is_as_its_keys_say)
+{
+    static const char *const keys[] = {"run.collision_margin=0.37",    "run.solver.correction_rate=0.7",
+                                       "run.solver.contact_skin=2e-4", "ice.small_patch=0.03",
+                                       "ice.fracture.load_over=step",  "ice.fracture.radius_along=cracks",
+                                       "domain.boundary=walls",        "domain.wall_thickness=1.7"};
+    scene k;
+    scene_open_with(&k, BASE NO_VESSEL DOMAIN "ice: {source: none}\n", keys, sizeof keys / sizeof *keys);
+    assert_absolute(k.m.collision.margin, 0.37, 0);
+    assert_absolute(k.m.solver.correction_rate, 0.7, 0);
+    assert_absolute(k.m.solver.contact_skin, 2e-4, 0);
+    assert_absolute(k.m.crushing.skin, 2e-4, 0);
+    assert_absolute(k.m.crushing.small_patch, 0.03, 0);
+    ck_assert_int_eq(k.m.fracture.load_rule, EDGE_LOAD_STEP);
+    ck_assert_int_eq(k.m.fracture.radius_along, RADIUS_ALONG_CRACKS);
+    ck_assert_int_eq(k.w.bodies.material[0], MATERIAL_WALL);
+    assert_absolute(k.w.bodies.position[0].x, -100 - 0.5 * 1.7, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
+/* Each switch of the method by itself, so that two that changed places are found. */
+START_TEST(switches_are_as_their_keys_say)
+{
+    static const struct {
+        const char *set;
+        size_t at;
+        bool told;
+    } flags[] = {{"run.solver.baumgarte=true", offsetof(model, solver.baumgarte), true},
+                 {"ice.crush_notches=false", offsetof(model, fracture.crush_notches), false},
+                 {"ice.parts_by_motion=false", offsetof(model, crushing.parts_by_motion), false},
+                 {"ice.fracture.thick_plate_radius=false", offsetof(model, fracture.thick_plate_radius), false},
+                 {"ice.fracture.wide_contacts=false", offsetof(model, fracture.wide_contacts), false},
+                 {"ice.fracture.joint_loads=false", offsetof(model, fracture.joint_loads), false},
+                 {"ice.fracture.wedge_room=true", offsetof(model, fracture.wedge_room), true}};
+    enum { FLAGS = sizeof flags / sizeof *flags };
+    for (int i = 0; i < FLAGS; i++) {
+        scene k;
+        scene_open_with(&k, BASE NO_VESSEL DOMAIN "ice: {source: none}\n", &flags[i].set, 1);
+        for (int j = 0; j < FLAGS; j++)
+            ck_assert_msg(*(const bool *)((const char *)&k.m + flags[j].at) == (flags[j].told == (i == j)),
+                          "%s with %s", flags[j].set, flags[i].set);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* Floes that all lie in one place are refused; a stack of as many, one above the other, is none. */
 START_TEST(a_stack_is_no_crowd)
 {
@@ -183,4 +237,4 @@ END_TEST
 
 TEST_MAIN("build_ice", a_floe_lies_and_moves_as_given, a_sheet_has_its_openings_margin_and_held_sides,
           open_water_is_turned_as_given, pairs_of_materials_have_their_own_policies, edges_are_rigid_under_a_section,
-          a_stack_is_no_crowd)
+          the_method_is_as_its_keys_say, switches_are_as_their_keys_say, a_stack_is_no_crowd)

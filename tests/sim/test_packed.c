@@ -103,6 +103,31 @@ START_TEST(strengths_are_drawn_apart)
 }
 END_TEST
 
+/* As many corners as the population's keys allow, and both ends of what they allow. */
+START_TEST(floes_have_the_corners_that_are_asked_for)
+{
+    static const int asked[][2] = {{3, 3}, {11, 12}};
+    for (int n = 0; n < 2; n++) {
+        char text[TEXT_SIZE];
+        snprintf(text, sizeof text,
+                 "%sice:\n  source: packed\n  concentration: 0.3\n  populations:\n"
+                 "    - {size: constant, diameter: 10, vertices_min: %d, vertices_max: %d}\n",
+                 plain, asked[n][0], asked[n][1]);
+        scene k;
+        scene_open(&k, text);
+        ck_assert_int_gt(k.w.floes.count, 40);
+        int least = 99, most = 0;
+        for (int32_t i = 0; i < k.w.floes.count; i++) {
+            int corners = shape_outline(&k.w.shapes, k.w.bodies.shape[scene_floe(&k, i)]).count;
+            least = corners < least ? corners : least;
+            most = corners > most ? corners : most;
+        }
+        ck_assert_msg(least == asked[n][0] && most == asked[n][1], "%d to %d corners", least, most);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 static void refuse_histogram(const char *sizes, const char *why)
 {
     char histogram[PATH_SIZE], text[TEXT_SIZE];
@@ -267,7 +292,7 @@ START_TEST(a_concentration_that_whole_floes_miss_is_told)
 }
 END_TEST
 
-TEST_MAIN("packed", strengths_are_drawn_apart, bins_of_a_histogram_follow_one_another,
-          populations_have_their_shares_thickness_and_strength, shapes_come_from_templates_and_sizes_from_a_histogram,
-          water_that_a_file_leaves_is_filled, a_packed_field_rests, what_cannot_be_packed_is_told,
-          a_concentration_that_whole_floes_miss_is_told)
+TEST_MAIN("packed", strengths_are_drawn_apart, floes_have_the_corners_that_are_asked_for,
+          bins_of_a_histogram_follow_one_another, populations_have_their_shares_thickness_and_strength,
+          shapes_come_from_templates_and_sizes_from_a_histogram, water_that_a_file_leaves_is_filled,
+          a_packed_field_rests, what_cannot_be_packed_is_told, a_concentration_that_whole_floes_miss_is_told)

@@ -176,6 +176,20 @@ class House(unittest.TestCase):
                          "docs/theory.md:2: there is no test ice/wave\n"
                          "docs/theory.md:3: the test ice/floe has no case a_floe_sinks\n")
 
+    def test_keys_that_nothing_sets(self):
+        def said():
+            done = subprocess.run([sys.executable, self.root / "tools/check_keys.py"], capture_output=True, text=True)
+            self.assertEqual((done.stderr, done.returncode), ("", 1 if done.stdout else 0))
+            return done.stdout
+
+        self.plant("docs/input-reference.md", "## ice\n\n| `grip` | number |\n| `salt` | number |\n| `age` | text |\n")
+        self.plant("tests/sim/test_a.c", 'START_TEST(salt) "ice.grip=2" s.salt = 3; a->salt == 4\n')
+        self.plant("scenes/a.yaml", "ice: {age: 4}\n")
+        self.assertEqual(said(),
+                         "docs/input-reference.md: no test and no scene sets ice.salt: add a test of its effect\n")
+        self.plant("tests/cli/test_a.py", "{'salt': 3}\n")
+        self.assertEqual(said(), "")
+
     def test_libm_in_the_source(self):
         self.plant("src/ice/wave.c", "double f(double x)\n{\n    return sin (x) + powf(2, 3);\n}\n")
         said = self.rooms()
