@@ -9,7 +9,7 @@
 /* Fits of Weibull's law to a series without one of its groups in turn. */
 enum { JACKKNIFE_GROUPS = 40, JACKKNIFE_LEAST = 10 };
 typedef struct weibull_jackknife {
-    int groups; /* 0: the series is too short for it */
+    int groups; /* 0: the series is too short for it, or has too few peaks without one of the groups */
     extreme_law law[JACKKNIFE_GROUPS];
     double peaks[JACKKNIFE_GROUPS]; /* expected in the duration */
 } weibull_jackknife;
@@ -20,8 +20,8 @@ bool jackknife_weibull(context *ctx, const series_set *s, const series_nature *n
                        weibull_jackknife *out);
 /* The bound of the root of the deviance, of a level with this exponent: the deviance of peaks that are not independent,
    about a mean that is not known, is that of independent ones times a factor (Chandler and Bate 2007), here the ratio
-   of the variance by the jackknife (Miller 1974) to that of the fit; Student's t of as many degrees as there are groups
-   less one.  law, count: the fit to all.  NaN without groups. */
+   of the variance by the jackknife (Miller 1974) to that of the fit, at least a tenth; Student's t of as many degrees
+   as there are groups less one.  law, count: the fit to all.  NaN without groups. */
 double jackknife_bound(const weibull_jackknife *j, const extreme_law *law, int32_t count, double exponent,
                        double confidence);
 

@@ -237,6 +237,10 @@ START_TEST(independent_peaks_keep_their_bound)
         }
         double bound = jackknife_bound(&j, &law, PEAKS, 1, 0.95) / 2.0227;
         ratio += bound * bound / SAMPLES;
+        /* Groups that come out the same leave an interval of some width. */
+        for (int g = 0; g < j.groups; g++)
+            j.law[g] = law;
+        assert_relative(jackknife_bound(&j, &law, PEAKS, 1, 0.95), sqrt(0.1) * 2.0227, 1e-4);
         array_free(&ctx, &peaks);
     }
     /* A variance of 39 degrees of freedom, four times: 1 within three deviations of 0.11. */
@@ -303,6 +307,35 @@ static void ask_series(const double *value, int count, extreme_method method, do
     context_init(&ctx);
     ck_assert(extremes_of_series(&ctx, &set, method, &ask, out, NULL) == FRAM_OK);
 }
+
+/* Bursts in a series of little else, most of them in a group of their own: where fewer than ten are left without one
+   there is no jackknife, and an interval as wide as ten peaks make it. */
+START_TEST(few_peaks_have_an_interval)
+{
+    static const struct {
+        int bursts;
+        bool pair, jackknife;
+    } cases[] = {{10, false, false}, {11, true, false}, {11, false, true}};
+    static double value[VALUES];
+    static extreme_result r;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        random_stream random = random_begin(15, 7, 1);
+        for (int i = 0; i < VALUES; i++)
+            value[i] = 0.02 * random_unit(&random);
+        for (int i = 0; i < cases[k].bursts; i++)
+            value[i == 10 && cases[k].pair ? 550 : 520 + 1800 * i] = 20 + 5 * (i * 7 % 11);
+        ask_series(value, VALUES, EXTREME_WEIBULL, VALUES, &r);
+        ck_assert_int_eq(r.sample, cases[k].bursts);
+        ck_assert_str_eq(r.interval, cases[k].jackknife ? "profile likelihood, scaled by a jackknife over groups"
+                                                        : "profile likelihood");
+        for (int i = -1; i < 3; i++) {
+            const level_interval *at = i < 0 ? &r.most_probable : &r.level[i];
+            ck_assert_msg(at->high - at->low > 0.2 * at->level && at->high < 10 * at->level && at->low > 0,
+                          "case %zu: %g (%g to %g)", k, at->level, at->low, at->high);
+        }
+    }
+}
+END_TEST
 
 /* Rates of a sine are the same at all levels: no tail falls from there, but by rounding. */
 START_TEST(rates_that_do_not_fall_have_no_tail)
@@ -475,10 +508,10 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", a_shape_at_the_bound_of_fits_is_told, time_scales_do_not_grow_with_the_data,
-          levels_that_parted_lines_did_not_hold_are_not_told, many_maxima_that_are_equal_carry_no_answer,
-          rates_of_short_parts_are_those_of_a_long_one, rates_that_do_not_fall_have_no_tail,
-          levels_under_the_law_s_own_are_not_told, no_end_of_an_interval_lies_under_the_law_s_location,
-          intervals_of_peaks_go_as_far_as_the_tail_of_the_values, a_largest_peak_that_the_law_does_not_have_is_told,
-          a_tail_that_changes_is_told, draws_without_a_fit_are_told, the_limit_of_a_weibull_tail,
-          maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
+TEST_MAIN("extremes_doubts", few_peaks_have_an_interval, a_shape_at_the_bound_of_fits_is_told,
+          time_scales_do_not_grow_with_the_data, levels_that_parted_lines_did_not_hold_are_not_told,
+          many_maxima_that_are_equal_carry_no_answer, rates_of_short_parts_are_those_of_a_long_one,
+          rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
+          no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
+          a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
+          the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
