@@ -1,7 +1,9 @@
 /* Times of a run and of what it writes: those that leave nothing to see, and those that steps round; see sim/sanity.h.
  */
-#include "sim/recorder.h"
+#include "sim/recording.h"
 #include "sim/sanity_parts.h"
+
+#include <stdio.h>
 
 /* Parts of a run from which times leave no sense to its statistics, and pictures that nobody looks at. */
 #define LONGEST_TRANSIENT 0.9
@@ -47,6 +49,23 @@ static void tell_all_rounded(const teller *t)
     tell_rounded(t, "output.averaging_window", o->averaging_window, scenario_averaging_steps(t->s), SHORTEST_WINDOW);
 }
 
+/* Of the run in series.csv: one after each whole interval. */
+static void tell_few_rows(const teller *t)
+{
+    const scenario_run *r = &t->s->run;
+    double interval = t->s->output.csv_interval;
+    if (!(interval > 0))
+        return;
+    int64_t steps = step_at(r->duration, r->time_step), rows = steps / interval_steps(interval, r->time_step);
+    char number[16] = "no";
+    if (rows >= LEAST_ROWS || steps <= LEAST_ROWS)
+        return;
+    if (rows > 0)
+        snprintf(number, sizeof number, "%d", (int)rows);
+    sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %s row%s of the run in series.csv", interval, number,
+               rows > 1 ? "s" : "");
+}
+
 /* The averages that statistics are of, of loads that there may be. */
 static bool averages_begin_early(const scenario *s)
 {
@@ -83,9 +102,7 @@ static void tell_times(const teller *t)
         sanity_say(t->tell, t->to,
                    "output.csv_interval: %g s is shorter than run.time_step, %g s: a row every step, as 0 says",
                    o->csv_interval, r->time_step);
-    if (o->csv_interval > 0 && r->duration / o->csv_interval < LEAST_ROWS && r->duration / r->time_step > LEAST_ROWS)
-        sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %.0f rows of the run in series.csv",
-                   o->csv_interval, r->duration / o->csv_interval);
+    tell_few_rows(t);
     if (o->picture_interval > r->duration)
         sanity_say(t->tell, t->to, "output.picture_interval: %g s is longer than the run: no picture on the way",
                    o->picture_interval);

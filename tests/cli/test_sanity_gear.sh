@@ -309,7 +309,10 @@ done
 told ship.yaml "run.time_step: 1e-06 s makes 6e+08 steps" --set run.time_step=1e-6
 told ship.yaml "frame_interval: 0.01 s is shorter than run.time_step" --set output.frame_interval=0.01
 told ship.yaml "checkpoint_interval: 0.001 s is shorter than run.time_step" --set output.checkpoint_interval=0.001
-told ship.yaml "csv_interval: 100 s leaves 6 rows" --set output.csv_interval=100
+# As many rows as there are whole intervals.
+told ship.yaml "csv_interval: 160 s leaves 3 rows of" --set output.csv_interval=160
+told ship.yaml "csv_interval: 400 s leaves 1 row of" --set output.csv_interval=400
+told ship.yaml "csv_interval: 1000 s leaves no row of" --set output.csv_interval=1000
 grep -v propulsion drive.yaml >towed.yaml
 told towed.yaml "vessel.ramp: 100 s is not over when the run ends" --set vessel.mode=towed --set vessel.speed=2 \
     --set vessel.ramp=100
