@@ -280,6 +280,23 @@ static bool events_name_vessels(const run_note *n)
     return false;
 }
 
+/* Where more of them stand than the page shows: run.json lists so many, the file of a vessel on station all of its. */
+static void more_events(report *r, double shown)
+{
+    const run_note *n = &r->d.note;
+    double listed = n->events.count, all = listed + n->events_left_out;
+    bool kept = false;
+    for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && !run_is_open(&r->d); v++)
+        kept = kept || station_has_results(&r->d.s, v);
+    if (all > listed)
+        html_paragraph(&r->page, "The first %.0f of %.0f events; run.json lists the first %.0f%s.", shown, all, listed,
+                       !kept                             ? ""
+                       : scenario_names_vessels(&r->d.s) ? ", station-NAME.json those of its vessel"
+                                                         : ", station.json those of its vessel");
+    else if (all > shown)
+        html_paragraph(&r->page, "The first %.0f of %.0f events; run.json lists all.", shown, all);
+}
+
 /* What befell the vessels: lines, thrusters, position, besetting, approaches. */
 static void events(report *r)
 {
@@ -301,9 +318,7 @@ static void events(report *r)
         html_row_end(&r->page);
     }
     html_table_end(&r->page);
-    double all = n->events.count + n->events_left_out;
-    if (all > SHOWN)
-        html_paragraph(&r->page, "The first %d of %.0f events; run.json lists more.", (int)SHOWN, all);
+    more_events(r, SHOWN);
 }
 
 static fram_status appendix(report *r, fram_error *error)

@@ -310,7 +310,9 @@ def check_water(folder, pictures):
     message = "what went wrong takes many words, " * 14 + "and the last ones say what to do"
     assert 480 < len(message) < 512
     told = [f"ship_{i}.applied_force_x_of_a_long_name" for i in range(200)]
-    (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message, "told": told}, indent=2))
+    events = [{"time_s": i, "kind": "beset", "value": 0, "text": "-"} for i in range(41)]
+    (run / "run.json").write_text(json.dumps({**note, "status": "failed", "message": message, "told": told,
+                                              "events": events, "events_left_out": 2169}, indent=2))
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
     if pictures:
@@ -327,6 +329,7 @@ def check_water(folder, pictures):
         assert both.rows["x at the end [m]"] == [x, x, "0", "\u2013"], both.rows["x at the end [m]"]
         assert re.search(rf"x at the end \[m\] +{x} +{x} +0\n", said) and x.startswith("-13011"), said
     assert message in page, page[page.index("The run failed"):][:600]
+    assert "The first 40 of 2210 events; run.json lists the first 41." in page, re.findall("The first .*events.*", page)
     # What is significant of a value that is held is the value.
     tables = Tables()
     tables.feed(page)
@@ -441,16 +444,23 @@ def check_late(folder):
     for lost, told in ((None, "The vessel held its station from 5 s on."),
                        (1.5, "The vessel held its station from 5 s on."),
                        (3, "The offset passed its limit of 50 m at 3 s, before the recording began; the rows reach")):
+        # Those of a vessel on station are all in a file of its own.
+        more, left = ([], 0) if lost is None else ([{"time_s": 9, "kind": "ram", "value": 0, "text": "-"}] * 38,
+                                                   7 if lost == 3 else 0)
         events = [] if lost is None else [{"time_s": lost, "kind": "position_lost", "value": 60, "text": "lost"},
                                           {"time_s": lost + 0.25, "kind": "position_regained", "value": 1, "text": "-"},
-                                          {"time_s": 9, "kind": "band", "value": 0, "text": "-"}]
-        note.write_text(json.dumps({**json.loads(note.read_text()), "recorded_from_s": 5, "events": events}))
+                                          {"time_s": 9, "kind": "band", "value": 0, "text": "-"}, *more]
+        note.write_text(json.dumps({**json.loads(note.read_text()), "recorded_from_s": 5, "events": events,
+                                    "events_left_out": left}))
         done = subprocess.run([FRAM, "report", run], check=True, capture_output=True, text=True)
         page = (run / "report.html").read_text()
         assert CHANGED in done.stderr and CHANGED in page, done.stderr
         assert (lacking in done.stderr) == (lacking in page) == (lost is None), done.stderr
         scenario.write_text(re.sub("frame_interval: .*", "frame_interval: 0", scenario.read_text()))
         assert told in page, (lost, page[page.index("verdict"):][:900])
+        listed = re.search(r"The first 40 of .*?events; (.*?)\.</p>", page)
+        assert (listed and listed[1]) == {None: None, 1.5: "run.json lists all", 3:
+            "run.json lists the first 41, station.json those of its vessel"}[lost], (lost, listed)
         assert "recorded from 5 to 14 s of 14; Fram" in page and "5 to 14" in page
         band = "The vessel reached the band of the ice field, whose floes nothing pushes aside, at 9 s." in page
         assert band == ("verdict bad" in page) == (lost is not None), (lost, band)
