@@ -198,6 +198,7 @@ void html_cell(html_page *p, const char *text)
 void html_number_text(double value, char out[HTML_NUMBER_SIZE])
 {
     double size = fabs(value);
+    value += 0.0; /* 0, not -0 */
     if (value != value)
         snprintf(out, HTML_NUMBER_SIZE, "\xe2\x80\x93");
     else if (size >= 1e6 || (size > 0 && size < 1e-3))

@@ -117,7 +117,8 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
         if (isfinite(mean))
             snprintf(of_mean, sizeof of_mean,
-                     "mean along the vessel (x forward) %.4g %s after %g s, negative: it resists", mean * unit.factor,
+                     "mean along the vessel (x forward) %.4g %s after %g s, negative: it resists",
+                     mean * unit.factor + 0.0, /* 0, not -0 */
                      unit.name, s->run.transient);
         else
             snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);

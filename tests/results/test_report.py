@@ -40,10 +40,10 @@ domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 CHANGED = ("scenario.yaml was changed since the run was made, or another Fram made it: what is told of the scenario is "
            "what stands there now")
 TRANSIENT = {"feeding": 2, "level": 1}
-# Under tow, and no ice to meet.
+# Under tow, and no ice to meet: across a hull with this heading the load is -0.
 WATER = f"""
 run: {{duration: 2, time_step: 0.02}}
-vessel: {{mode: towed, speed: 1, {VESSEL}}}
+vessel: {{mode: towed, speed: 1, heading_deg: 120, {VESSEL}}}
 ice: {{source: none}}
 """
 # A tongue of level ice that leads cut off: it hangs on nothing once the ship breaks it.
@@ -315,6 +315,8 @@ def check_water(folder, pictures):
                                               "events": events, "events_left_out": 2169}, indent=2))
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text()
+    with open(run / "series.csv", newline="") as table:
+        series = list(csv.DictReader(table))
     if pictures:
         # The way from where it began, 1.5 or 2 m, which far from the origin is as high as a chart.
         assert line_height(page, "Position") > 100, "no way is seen"
@@ -324,8 +326,7 @@ def check_water(folder, pictures):
         both.feed((folder / "both.html").read_text())
         assert line_height((folder / "both.html").read_text(), "Position along X") > 100, "no way is seen"
         # Far from the origin a place has its decimetres, and is no part of another.
-        with open(run / "series.csv", newline="") as table:
-            x = f"{float(list(csv.DictReader(table))[-1]['position_x[m]']):.1f}"
+        x = f"{float(series[-1]['position_x[m]']):.1f}"
         assert both.rows["x at the end [m]"] == [x, x, "0", "\u2013"], both.rows["x at the end [m]"]
         assert re.search(rf"x at the end \[m\] +{x} +{x} +0\n", said) and x.startswith("-13011"), said
     assert message in page, page[page.index("The run failed"):][:600]
@@ -334,6 +335,8 @@ def check_water(folder, pictures):
     tables = Tables()
     tables.feed(page)
     assert tables.rows["contact points"] == ["0"] * 5, tables.rows["contact points"]
+    assert any(row["ice_force_body_y[N]"] == "-0" for row in series), "nothing that could be told as -0"
+    assert tables.rows["each step, across the vessel"] == ["0"] * 5, tables.rows["each step, across the vessel"]
     assert tables.rows["told by a program"] == [
         f"the rows above are the scenario's, in place of which were {', '.join(told[:16])} and 184 more"]
     if pictures:
