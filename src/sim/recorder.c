@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "io/path.h"
 #include "io/record_pose.h"
+#include "sim/frame_size.h"
 #include "sim/ice_loads.h"
 
 #include <string.h>
@@ -408,19 +409,13 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     return append(r, BLOCK_FRAME, error);
 }
 
-/* Poses with a contact force, and about what else a frame has. */
-enum { BYTES_PER_BODY = RECORD_POSE_SIZE + 2, BYTES_PER_FRAME = 600 };
-
 static bool frame_is_due(const recorder *r, const world *w)
 {
     int64_t step = w->clock.step[0], every = r->frame_every;
     if (every == 0 || step % every != 0)
         return false;
-    double bytes = BYTES_PER_FRAME;
-    for (int32_t i = 0; i < w->bodies.count && r->record_limit > 0; i++)
-        bytes += body_is_alive(&w->bodies, i) && moves(w, i) ? BYTES_PER_BODY : 0;
-    for (double frames = r->frames_most; r->record_limit > 0 && bytes * frames > 0.9 * r->record_limit && frames > 1;
-         frames /= 2)
+    double bytes = r->record_limit > 0 ? frame_size_of_world(w) : 0;
+    for (double frames = r->frames_most; bytes * frames > 0.9 * r->record_limit && frames > 1; frames /= 2)
         every *= 2;
     return step % every == 0;
 }

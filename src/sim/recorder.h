@@ -41,9 +41,9 @@ recorder_lengths recorder_lengths_of(const recorder *r);
 fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
                               recorder *r, fram_error *error);
 /* What is due after a step (or, at step 0, the first frame).  Frames come every frame_interval, or every second,
-   fourth, eighth ... time when as many bodies as there are now would else fill the record beyond nine tenths of its
-   limit over the run; the rest is for what stands between frames.  This depends on the state alone, so a resumed run
-   records the same frames. */
+   fourth, eighth ... time when as many bodies, lines and thrusters as there are now would else fill the record beyond
+   nine tenths of its limit over the run (sim/frame_size.h); the rest is for what stands between frames.  This depends
+   on the state alone, so a resumed run records the same frames. */
 fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error);
 /* The files of the streams. */
 enum { RECORDER_STREAMS = 3 };

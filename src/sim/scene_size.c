@@ -4,6 +4,7 @@
 #include "sim/build_feeding.h"
 #include "sim/build_level.h"
 #include "sim/build_packed.h"
+#include "sim/frame_size.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,10 +14,10 @@
    3.1 kB for each of 10,000 and 40,000 Voronoi floes at 90 and 97 %; 5.7 and 9.2 kB for 12,800 and 2,600 packed ones.
  */
 static const double PROGRAM_BYTES = 15e6, TILE_BYTES = 2e3, CELL_BYTES = 4e3, PACKED_BYTES = 10e3;
-/* The folder, measured on the ready scenes: a row of series.csv 690 to 1,050 bytes, the texts beside it about 30 kB, a
-   floe in a frame of the record 17.5 to 17.9, in a checkpoint about 1,050, of which two are kept, the chart of the
+/* The folder but for its record (sim/frame_size.h), measured on the ready scenes: a row of series.csv 690 to 1,050
+   bytes, the texts beside it about 30 kB, a floe in a checkpoint about 1,050, of which two are kept, the chart of the
    loads about 40 kB, a picture from above 0.1 to 0.3 MB, of open water 15 kB. */
-static const double ROW_BYTES = 900, TEXT_BYTES = 3e4, FRAME_BYTES = 18, CHECKPOINT_BYTES = 2 * 1050, CHART_BYTES = 4e4,
+static const double ROW_BYTES = 900, TEXT_BYTES = 3e4, CHECKPOINT_BYTES = 2 * 1050, CHART_BYTES = 4e4,
                     PICTURE_BYTES = 2e5, EMPTY_BYTES = 2e4;
 /* What output.record_limit counts in [bytes]. */
 static const double MEGABYTE = 1e6;
@@ -75,11 +76,11 @@ scene_disk scene_disk_of(const scenario *s, double floes)
 {
     const scenario_output *o = &s->output;
     double rows = s->run.duration / fmax(o->csv_interval, s->run.time_step);
-    scene_disk d = {.rows = TEXT_BYTES + rows * ROW_BYTES * fmax(1, scenario_vessel_count(s)),
-                    .frames = o->frame_interval > 0 ? times_within(s, o->frame_interval) * FRAME_BYTES * floes : 0,
-                    .checkpoints = CHECKPOINT_BYTES * floes,
-                    .pictures =
-                        CHART_BYTES + times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES)};
+    scene_disk d = {
+        .rows = TEXT_BYTES + rows * ROW_BYTES * fmax(1, scenario_vessel_count(s)),
+        .frames = o->frame_interval > 0 ? times_within(s, o->frame_interval) * frame_size_of_scenario(s, floes) : 0,
+        .checkpoints = CHECKPOINT_BYTES * floes,
+        .pictures = CHART_BYTES + times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES)};
     if (o->record_limit > 0)
         d.frames = fmin(d.frames, o->record_limit * MEGABYTE);
     d.all = d.rows + d.frames + d.checkpoints + d.pictures;

@@ -263,14 +263,15 @@ static double kept_bytes(fram_context *c, const char *vessels, const char *outpu
     return extent.run_bytes;
 }
 
-/* By the rule of sim/scene_size.h: a floe in a frame takes 18 bytes, a row of each vessel 900, a picture 200,000. */
+/* By the rule of sim/scene_size.h: a frame of a floe and a vessel takes 652 bytes, a row of each vessel 900, a picture
+ * 200,000. */
 START_TEST(the_files_of_a_kept_run_count_as_fram_check_counts_them)
 {
     fram_context *c = context_of();
     double without = kept_bytes(c, "", ", output.frame_interval: 0");
-    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02") - without, 18018, 1e-6);
-    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02, output.record_limit: 0") - without, 18018,
-                            1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02") - without, 652652, 1e-6);
+    ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02, output.record_limit: 0") - without,
+                            652652, 1e-6);
     ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0.02, output.record_limit: 0.01") - without,
                             10000, 1e-6);
     ck_assert_double_eq_tol(kept_bytes(c, "", ", output.frame_interval: 0, output.picture_interval: 2") - without, 2e6,

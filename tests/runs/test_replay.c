@@ -442,6 +442,25 @@ START_TEST(frames_come_rarely_enough_for_the_limit)
 }
 END_TEST
 
+/* A frame has the pull of each line, which is most of it where there is no ice: 601 of 2.2 kB, of which one in eight
+   stays. */
+START_TEST(lines_count_for_the_limit)
+{
+    static const char moored[] =
+        "run: {duration: 60, time_step: 0.1}\nice: {source: none}\n"
+        "vessel:\n  mode: free\n  hull: {form: box, length: 60, beam: 20, draught: 5, freeboard: 2}\n"
+        "  mooring: {depth: 80, lines: [{count: 64, spacing_deg: 5.625, distance: 400, pretension: 1.0e+5, weight: "
+        "500}]}\noutput: {frame_interval: 0.1, csv_interval: 10, record_limit: 0.3}\n";
+    context ctx;
+    char folder[PATH];
+    context_init(&ctx);
+    run_scene(&ctx, moored, folder);
+    uint64_t size = record_size(folder);
+    ck_assert_msg(size > 150000 && size < 300000, "%llu bytes", (unsigned long long)size);
+    remove_folder(folder);
+}
+END_TEST
+
 /* In one go, in two, and in two with damage between them in the first block of the record. */
 typedef enum how { WHOLE, HALVES, DAMAGED, HOWS } how;
 
@@ -638,5 +657,5 @@ END_TEST
 TEST_MAIN("replay", a_run_is_read_back, contacts_of_large_floes_are_kept_whole, contacts_of_an_earlier_layout_are_read,
           level_ice_is_known, pieces_have_an_age_and_tiles_none, a_propeller_astern_pushes_along_the_ship,
           a_moment_lies_between_its_frames, what_breaks_between_frames_goes_on, a_turn_between_frames_is_the_short_one,
-          lines_reach_their_own_anchors, frames_come_rarely_enough_for_the_limit, places_are_as_fine_far_from_zero,
-          records_that_lie_are_refused)
+          lines_reach_their_own_anchors, frames_come_rarely_enough_for_the_limit, lines_count_for_the_limit,
+          places_are_as_fine_far_from_zero, records_that_lie_are_refused)

@@ -1,0 +1,38 @@
+#include "sim/frame_size.h"
+
+#include "io/record_pose.h"
+#include "model/scenario_vessel.h"
+
+/* The blocks of poses and of forces without these, a pose with its contact force, a force on a vessel; and floes that
+   touch a vessel in ice, about. */
+enum { HEADS_BYTES = 104, POSE_BYTES = RECORD_POSE_SIZE + 2, FORCE_BYTES = 32, FLOES_AT_VESSEL = 16 };
+
+/* pulls: mooring lines and thrusters of all vessels. */
+static double frame_size(double bodies, double vessels, double pulls, bool ice)
+{
+    double forces = pulls + (ice ? FLOES_AT_VESSEL * vessels : 0);
+    return HEADS_BYTES + POSE_BYTES * bodies + FORCE_BYTES * forces;
+}
+
+double frame_size_of_world(const world *w)
+{
+    int32_t bodies = 0;
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        bodies += body_is_alive(&w->bodies, i) && w->bodies.motion[i] != MOTION_STATIC;
+    return frame_size(bodies, w->vessels.count, w->lines.count + w->thrusters.count, w->floes.count > 0);
+}
+
+double frame_size_of_scenario(const scenario *s, double floes)
+{
+    int32_t vessels = scenario_vessel_count(s);
+    double pulls = 0;
+    for (int32_t v = 0; v < vessels; v++) {
+        const scenario_vessel *keys = scenario_vessel_entry(s, v).keys;
+        if (keys->mode != VESSEL_FREE)
+            continue;
+        pulls += keys->thrusters.count;
+        for (int32_t i = 0; i < keys->mooring.lines.count; i++)
+            pulls += (double)keys->mooring.lines.data[i].count;
+    }
+    return frame_size(floes + vessels, vessels, pulls, floes > 0);
+}
