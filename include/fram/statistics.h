@@ -10,6 +10,11 @@
 extern "C" {
 #endif
 
+/* A time as studies and the command take it, in seconds: a decimal number, and behind it, without a blank, s, min, h,
+   d, or a or y (a year of 365.25 days): "10800", "90min", "3h".  FRAM_ERROR_INPUT, with the key "text", for any other;
+   seconds is then as it was. */
+FRAM_API fram_status fram_time_read(const char *text, double *seconds, fram_error *error);
+
 /* Where a series is read.  Several files are realizations of one process, as seeds of one condition are.  What is
    written beside the answer is none of them, nor one that a run is made of: FRAM_ERROR_USAGE, key "draw" or "cycles".
  */

@@ -3,6 +3,7 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/path.h"
 #include "io/text_buffer.h"
@@ -25,6 +26,17 @@ _Static_assert(sizeof(((fram_extreme *)0)->note) == EXTREME_NOTE, "one room of n
 #define DURATION_MOST 1e12
 #define CONFIDENCE_LEAST 0.01
 #define CONFIDENCE_MOST 0.9999
+
+/* ---- times ---- */
+
+fram_status fram_time_read(const char *text, double *seconds, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"text", text}, {"seconds", seconds});
+    if (status != FRAM_OK || time_from_text(text, seconds) == NUMBER_GOOD)
+        return status;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "text",
+                     "expected a time, as 3h, 90min or 10800 (seconds), found \"%.60s\"", text);
+}
 
 /* ---- the series ---- */
 

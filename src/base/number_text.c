@@ -280,8 +280,11 @@ number_fault time_from_text(const char *text, double *seconds)
         if (strcmp(text + length, units[i].name) != 0)
             continue;
         number_fault fault = real_from_text(number, &value);
-        *seconds = fault == NUMBER_GOOD ? value * units[i].seconds : *seconds;
-        return fault == NUMBER_GOOD && !isfinite(*seconds) ? NUMBER_TOO_LARGE : fault;
+        value *= units[i].seconds;
+        if (fault == NUMBER_GOOD && !isfinite(value))
+            fault = NUMBER_TOO_LARGE;
+        *seconds = fault == NUMBER_GOOD ? value : *seconds;
+        return fault;
     }
     return NUMBER_NOT_A_NUMBER;
 }

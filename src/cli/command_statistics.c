@@ -9,33 +9,13 @@
 
 /* ---- words ---- */
 
-/* A time with or without a unit: "10800", "3h", "90min", "20d", "1a" (a year of 365.25 days). */
-static bool read_time(const char *text, double *out)
-{
-    static const struct {
-        const char *unit;
-        double seconds;
-    } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}, {"a", 31557600}, {"y", 31557600}};
-    char *end = NULL;
-    double value = strtod(text, &end);
-    /* No hexadecimal numbers, as studies: tests/study/test_statistics.py has one list of times for both. */
-    if (end == text || !isfinite(value) || strpbrk(text, "xX"))
-        return false;
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
-        if (strcmp(end, units[i].unit) == 0) {
-            *out = value * units[i].seconds;
-            return true;
-        }
-    }
-    return false;
-}
-
 /* An option that is a time; NULL stays what it was.  -1 to go on. */
 static int take_time(const common_options *common, const char *option, const char *text, double *out)
 {
-    if (!text || read_time(text, out))
+    fram_error error = {0};
+    if (!text || fram_time_read(text, out, &error) == FRAM_OK)
         return -1;
-    return answer_usage(common, option, "expected a time, as 3h, 90min or 10800 (seconds)");
+    return answer_usage(common, option, error.message);
 }
 
 /* The same of a length of time, of which zero is none. */

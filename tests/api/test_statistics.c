@@ -43,6 +43,23 @@ static void keep_what_is_read(fram_context *c, const char *file)
     ck_assert_int_eq(rmdir(folder), 0);
 }
 
+/* tests/data/times.csv has more of them, for studies and the command. */
+START_TEST(times_are_read_as_they_stand)
+{
+    fram_error error = {0};
+    double got = 7;
+    ck_assert_int_eq(fram_time_read(NULL, &got, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_time_read("3h", NULL, &error), FRAM_ERROR_USAGE);
+    static const char *const bad[] = {"", " 3h", "3 h", "\t3h", "3h ", "0x10", "1e308a", "nan"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_fails(fram_time_read(bad[i], &got, &error), error, FRAM_ERROR_INPUT, "expected a time, as 3h");
+    ck_assert_str_eq(error.key, "text");
+    assert_absolute(got, 7, 0);
+    assert_ok(fram_time_read("90min", &got, NULL), error);
+    assert_absolute(got, 5400, 0);
+}
+END_TEST
+
 START_TEST(misuse_is_refused_and_a_file_is_answered)
 {
     char path[] = "/tmp/fram_statistics_XXXXXX";
@@ -98,4 +115,4 @@ START_TEST(misuse_is_refused_and_a_file_is_answered)
 }
 END_TEST
 
-TEST_MAIN("statistics", misuse_is_refused_and_a_file_is_answered)
+TEST_MAIN("statistics", times_are_read_as_they_stand, misuse_is_refused_and_a_file_is_answered)

@@ -413,6 +413,9 @@ class Statistics(unittest.TestCase):
                     self.assertEqual(self.fram(*words)["duration_s"], float(row["seconds"]))
                 else:
                     self.refused(words, "--duration", "expected a time")
+        # A study's file ends a value before its blanks, words have none.
+        for text in (" 3h", "\t3h"):
+            self.refused((*words[:-1], text), "--duration", "expected a time")
 
     def test_the_runs_of_a_large_study_are_taken_at_once(self):
         files = [self.write("x\n1\n2\n", f"two{i}.csv") for i in range(300)]
