@@ -85,6 +85,8 @@ typedef void (*fram_task_function)(void *task, int block, int worker);
    at once. Of the program's functions, tasks call `memory` alone. */
 typedef void (*fram_parallel_function)(void *user, int blocks, fram_task_function run, void *task);
 
+enum { FRAM_THREADS = 256 }; /* the most threads of a context */
+
 typedef struct fram_context_definition {
     size_t size;                 /* of this struct, set by fram_context_default */
     fram_memory_function memory; /* NULL: the C library's */
@@ -92,7 +94,7 @@ typedef struct fram_context_definition {
     fram_log_function log; /* NULL: silent */
     void *log_user;
     fram_log_level verbosity;
-    int threads;              /* >= 1, the caller's included; results never depend on it */
+    int threads;              /* 1 to FRAM_THREADS, the caller's included; results never depend on it */
     const char *isa;          /* "baseline", "avx2", "avx512", or NULL for the best; results never depend on it */
     const volatile int *stop; /* non-zero: making a world, a field or a file of a run, reading the series of one or of a
                                  CSV file, and a bootstrap of its extremes end with FRAM_INTERRUPTED; may be NULL */

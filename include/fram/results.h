@@ -51,6 +51,8 @@ FRAM_API fram_status fram_report(fram_context *context, const char *run, const c
                                  fram_result *result, fram_error *error, size_t size);
 #define fram_report(...) fram_report(__VA_ARGS__, sizeof(fram_result))
 
+enum { FRAM_PLOT_CHANNELS = 64 }; /* the most channels of a plot */
+
 /* Channels of series.csv over time, those of one unit in one panel, from time `from` to `to` [s] (NaN: all), as SVG
    when output ends in .svg, else as PNG.  FRAM_ERROR_INPUT names a channel that the run does not have. */
 FRAM_API fram_status fram_plot(fram_context *context, const char *run, const char *const *channels, int channel_count,

@@ -15,12 +15,14 @@ extern "C" {
    seconds is then as it was. */
 FRAM_API fram_status fram_time_read(const char *text, double *seconds, fram_error *error);
 
+enum { FRAM_SERIES_FILES = 4096 }; /* the most files of a series */
+
 /* Where a series is read.  Several files are realizations of one process, as seeds of one condition are.  What is
    written beside the answer is none of them, nor one that a run is made of: FRAM_ERROR_USAGE, key "draw" or "cycles".
  */
 typedef struct fram_series_source {
     const char *const *files; /* folders of runs, or CSV files with a row of heads, "name" or "name[unit]" */
-    int file_count;           /* 1 to 4096 */
+    int file_count;           /* 1 to FRAM_SERIES_FILES */
     const char *channel;      /* NULL: "load" of runs, the magnitude of the horizontal averaged ice force */
     double from; /* leave out what is not after it [s], of 0 what is before; NaN: the transient of a run, nothing of a
                     CSV file */

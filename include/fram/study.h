@@ -46,6 +46,8 @@ typedef struct fram_study_progress {
 } fram_study_progress;
 typedef void (*fram_study_progress_function)(void *user, const fram_study_progress *progress);
 
+enum { FRAM_STUDY_JOBS = 4096 }; /* the most processes at a time that may be asked for */
+
 typedef struct fram_study_definition {
     size_t size;         /* of this struct, set by fram_study_default */
     const char *folder;  /* of the results; one that holds this study, earlier or smaller, is gone on with */

@@ -91,8 +91,9 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
             definition_take(&d, definition, sizeof d, offsetof(fram_context_definition, isa), "fram_context", error);
     if (status != FRAM_OK)
         return status;
-    if (d.threads < 1 || d.threads > 256)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "threads", "expected 1 to 256, found %d", d.threads);
+    if (d.threads < 1 || d.threads > FRAM_THREADS)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "threads", "expected 1 to %d, found %d", FRAM_THREADS,
+                         d.threads);
     if ((int)d.verbosity < FRAM_LOG_ERROR || (int)d.verbosity > FRAM_LOG_DEBUG)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "verbosity", "expected a fram_log_level, found %d",
                          (int)d.verbosity);

@@ -19,6 +19,7 @@
 #define SPAN_MOST 1e7
 
 _Static_assert((int)FRAM_PATH_ROOM == (int)PATH_ROOM, "one size of paths");
+_Static_assert((int)FRAM_PLOT_CHANNELS == (int)PLOT_CHANNELS_MOST, "one number of channels");
 
 static fram_status answer(fram_status status, const export_report *from, fram_result *to, size_t size)
 {

@@ -182,6 +182,13 @@ static fram_bench_result bench_answer(const bench_result *r)
                                .share_fracture = r->share[STAGE_FRACTURE]};
 }
 
+/* Times that can be measured. */
+static fram_status bench_times_check(double warm, double time, fram_error *error)
+{
+    fram_status status = number_check("warm", warm, 0, BENCH_TIME_MOST, error);
+    return status == FRAM_OK ? number_check("time", time, 0, BENCH_TIME_MOST, error) : status;
+}
+
 fram_status(fram_bench)(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error,
                         size_t size)
 {
@@ -190,9 +197,7 @@ fram_status(fram_bench)(const fram_scenario *s, double warm, double time, fram_b
     if (status == FRAM_OK)
         status = RESULT_CHECK(result, size, fram_bench_result, error);
     if (status == FRAM_OK)
-        status = number_check("warm", warm, 0, BENCH_TIME_MOST, error);
-    if (status == FRAM_OK)
-        status = number_check("time", time, 0, BENCH_TIME_MOST, error);
+        status = bench_times_check(warm, time, error);
     if (status == FRAM_OK &&
         !(warm / s->inner.run.time_step <= BENCH_STEPS_MOST && time / s->inner.run.time_step <= BENCH_STEPS_MOST))
         status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "time", "expected at most %g steps", BENCH_STEPS_MOST);
@@ -214,8 +219,8 @@ DEFINITION_DEFAULT(fram_bench_scene, fram_bench_scene_definition)
 /* Times so that the number of steps is an ordinary one. */
 static bool times_are_good(const fram_bench_scene_definition *d)
 {
-    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm >= 0 && d->warm < d->time &&
-           d->time <= BENCH_TIME_MOST && d->time / d->time_step <= BENCH_STEPS_MOST;
+    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm < d->time &&
+           d->time / d->time_step <= BENCH_STEPS_MOST;
 }
 
 static fram_status scene_options(const fram_bench_scene_definition *given, bench_scene_options *out, fram_error *error)
@@ -225,6 +230,8 @@ static fram_status scene_options(const fram_bench_scene_definition *given, bench
     static const char *const solvers[] = {
         [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_bench_scene", error);
+    if (status == FRAM_OK)
+        status = bench_times_check(d->warm, d->time, error);
     if (status != FRAM_OK)
         return status;
     if (!times_are_good(d))

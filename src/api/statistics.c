@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
+_Static_assert((int)FRAM_SERIES_FILES == (int)SERIES_FILES_MOST, "one number of files");
 _Static_assert((int)FRAM_EXTREME_LEVELS == (int)EXTREME_LEVELS_MOST, "one number of levels");
 _Static_assert((int)FRAM_EXTREME_METHODS == (int)EXTREME_METHODS, "one number of methods");
 _Static_assert((int)FRAM_EXTREME_STABILITY == (int)STABILITY_MOST, "one number of thresholds");

@@ -295,7 +295,8 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_runs_per_task", "expected 0 to %d, found %d",
                            SLURM_RUNS_MOST, d->slurm_runs_per_task);
     if (status == FRAM_OK && !(d->slurm_poll >= 0 && d->slurm_poll <= SLURM_POLL_MOST))
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_poll", "expected 0 to %d s", SLURM_POLL_MOST);
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_poll", "expected 0 to %d s, found %g",
+                           SLURM_POLL_MOST, d->slurm_poll);
     return status;
 }
 
@@ -309,8 +310,9 @@ static fram_status take_study(const fram_study_definition *given, fram_study_def
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (!d->program || !*d->program)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "program", "the path of the command fram must be given");
-    if (d->jobs < 0 || d->jobs > 4096)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "jobs", "expected 0 to 4096 processes, found %d", d->jobs);
+    if (d->jobs < 0 || d->jobs > FRAM_STUDY_JOBS)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "jobs", "expected 0 to %d processes, found %d",
+                         FRAM_STUDY_JOBS, d->jobs);
     if (d->on && strcmp(d->on, "local") != 0 && strcmp(d->on, "slurm") != 0)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on", "expected local or slurm, found %.60s", d->on);
     return check_slurm(d, error);

@@ -32,6 +32,7 @@ static const struct {
     {"slopes", "--slope"},           {"frames_per_second", "--fps"},
     {"smallest_area", "--smallest"}, {"slurm_partition", "--partition"},
     {"slurm_time", "--time"},        {"slurm_options", "--sbatch"},
+    {"slurm_poll", "--poll"},        {"slurm_runs_per_task", "--runs-per-task"},
 };
 
 /* Whether an option, "--stem-angle-deg", has the name of a member, "stem_angle". */

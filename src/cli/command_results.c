@@ -52,8 +52,6 @@ int command_report(const command_row *self, int argc, char **argv)
 
 /* ---- plot ---- */
 
-enum { CHANNELS_MOST = 64 };
-
 /* "name [unit]" of each line as an object. */
 static void json_channels(char *text)
 {
@@ -92,7 +90,7 @@ static fram_status list_channels(const common_options *common, fram_context *con
 int command_plot(const command_row *self, int argc, char **argv)
 {
     common_options common;
-    const char *word[1 + CHANNELS_MOST] = {NULL}, *output = NULL;
+    const char *word[1 + FRAM_PLOT_CHANNELS] = {NULL}, *output = NULL;
     double from = (double)NAN, to = (double)NAN;
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &output, "FILE", "the plot, .png or .svg (required with channels)"},
@@ -100,11 +98,11 @@ int command_plot(const command_row *self, int argc, char **argv)
         {"--to", NULL, OPTION_REAL, &to, "T", "end at this time [s]"},
     };
     int code =
-        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, word, 1, 1 + CHANNELS_MOST);
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, word, 1, 1 + FRAM_PLOT_CHANNELS);
     if (code >= 0)
         return code;
     int count = 0;
-    while (count < CHANNELS_MOST && word[1 + count])
+    while (count < FRAM_PLOT_CHANNELS && word[1 + count])
         count++;
     if (count > 0 && !output)
         return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");

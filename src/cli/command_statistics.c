@@ -54,7 +54,7 @@ typedef struct series_words {
     bool minima;
 } series_words;
 
-enum { SERIES_ROWS = 4, STATISTICS_FILES = 4096 };
+enum { SERIES_ROWS = 4 };
 static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
 {
     rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
@@ -70,7 +70,7 @@ static int take_source(const common_options *common, const series_words *w, cons
                        fram_series_source *out)
 {
     out->files = files;
-    while (out->file_count < STATISTICS_FILES && files[out->file_count])
+    while (out->file_count < FRAM_SERIES_FILES && files[out->file_count])
         out->file_count++;
     out->channel = w->channel;
     out->minima = w->minima;
@@ -291,7 +291,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
     series_words words = {0};
     option_list levels = {0};
     const char *duration = NULL, *block = NULL, *separation = NULL, *fit = NULL;
-    const char *files[STATISTICS_FILES] = {0};
+    const char *files[FRAM_SERIES_FILES] = {0};
     fram_extremes_default(&d);
     option_row rows[] = {
         {0},
@@ -314,7 +314,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
     };
     series_rows(&words, rows);
     int code =
-        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, STATISTICS_FILES);
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, FRAM_SERIES_FILES);
     if (code < 0)
         code = take_source(&common, &words, files, &d.source);
     if (code < 0)
@@ -398,7 +398,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     fram_fatigue_definition d;
     series_words words = {0};
     option_list slopes = {0};
-    const char *files[STATISTICS_FILES] = {0};
+    const char *files[FRAM_SERIES_FILES] = {0};
     fram_fatigue_default(&d);
     option_row rows[] = {
         {0},
@@ -411,7 +411,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     };
     series_rows(&words, rows);
     int code =
-        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, STATISTICS_FILES);
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, FRAM_SERIES_FILES);
     if (code < 0)
         code = take_source(&common, &words, files, &d.source);
     if (code < 0)

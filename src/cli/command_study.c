@@ -294,7 +294,7 @@ static int refuse_idle(const common_options *common, const fram_study_definition
         const char *name;
         bool given;
     } idle[] = {{"--output", d->folder},
-                {"--jobs", !check && d->jobs > 0},
+                {"--jobs", !check && d->jobs != 0},
                 {"--on", d->on},
                 {"--partition", d->slurm_partition},
                 {"--time", d->slurm_time},
@@ -309,6 +309,16 @@ static int refuse_idle(const common_options *common, const fram_study_definition
                                 check ? "is for the study itself, and check writes nothing: leave it out"
                                       : "is for a study that runs, and list only looks: leave it out");
     return -1;
+}
+
+/* The library is not told the jobs of a check. */
+static int refuse_jobs(const common_options *common, int jobs)
+{
+    char text[64];
+    if (jobs >= 0 && jobs <= FRAM_STUDY_JOBS)
+        return -1;
+    snprintf(text, sizeof text, "expected 0 to %d processes, found %d", FRAM_STUDY_JOBS, jobs);
+    return answer_usage(common, "--jobs", text);
 }
 
 /* Words and options that do not go together; -1: they do. */
@@ -327,9 +337,7 @@ static int refuse_words(const common_options *common, const fram_study_definitio
         return code;
     if (!check && !list && !d->folder)
         return answer_usage(common, "--output", "is missing: name the folder for the results, -o DIR");
-    if (d->jobs < 0 || d->jobs > 4096)
-        return answer_usage(common, "--jobs", "expected 0 to 4096 processes");
-    return d->slurm_poll > 3600 ? answer_usage(common, "--poll", "expected at most 3600 s") : -1;
+    return check ? refuse_jobs(common, d->jobs) : -1;
 }
 
 int command_study(const command_row *self, int argc, char **argv)

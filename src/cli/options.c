@@ -231,10 +231,12 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
         return code;
     if (common->help)
         return answer_command_help(command, &list);
-    if (common->threads < 1 || common->threads > 256)
-        return answer_usage(common, "--threads", "must lie between 1 and 256");
+    char message[160];
+    if (common->threads < 1 || common->threads > FRAM_THREADS) {
+        snprintf(message, sizeof message, "must lie between 1 and %d", FRAM_THREADS);
+        return answer_usage(common, "--threads", message);
+    }
     if (found < least) {
-        char message[160];
         snprintf(message, sizeof message, "lacks an argument: fram %s %s", command->name, command->arguments);
         return answer_usage(common, command->name, message);
     }

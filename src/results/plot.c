@@ -8,12 +8,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHANNELS_MOST = 64, WIDTH = 1280, HEIGHT = 460, LABEL = 64 };
+enum { WIDTH = 1280, HEIGHT = 460, LABEL = 64 };
 
 /* A panel: the channels of one unit. */
 typedef struct panel {
     const char *unit;
-    chart_line lines[CHANNELS_MOST];
+    chart_line lines[PLOT_CHANNELS_MOST];
     int32_t count;
     char label[LABEL];
 } panel;
@@ -145,7 +145,7 @@ static fram_status take_prefix(context *ctx, plot *p, panel *at, const char **pr
 
 static fram_status draw_channels(context *ctx, const run_data *d, plot *p, const char *output, fram_error *error)
 {
-    chart charts[CHANNELS_MOST];
+    chart charts[PLOT_CHANNELS_MOST];
     const char *title = d->s.title[0] ? d->s.title : "Fram";
     for (int32_t i = 0; i < p->count; i++) {
         panel *at = &p->panels[i];
@@ -167,8 +167,9 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
                           double to, const char *output, fram_error *error)
 {
     run_data d;
-    if (count < 1 || count > CHANNELS_MOST)
-        return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL, "expected 1 to %d channels", (int)CHANNELS_MOST);
+    if (count < 1 || count > PLOT_CHANNELS_MOST)
+        return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL, "expected 1 to %d channels",
+                         (int)PLOT_CHANNELS_MOST);
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;

@@ -4,6 +4,8 @@
 
 #include "io/text_buffer.h"
 
+enum { PLOT_CHANNELS_MOST = 64 };
+
 /* Channels of series.csv over time, those of one unit in one panel, panels below each other; from, to: times that are
    shown [s], a NaN for the run's own.  SVG when the name ends in .svg, else PNG.  FRAM_ERROR_INPUT names a channel that
    the run does not have, with the nearest one it has; FRAM_ERROR_UNSUPPORTED without cairo. */

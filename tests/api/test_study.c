@@ -62,9 +62,10 @@ START_TEST(misuse_is_refused)
     ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
     ck_assert_str_eq(error.key, "program");
     d.program = "/nowhere";
-    d.jobs = -1;
-    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
-    ck_assert_str_eq(error.key, "jobs");
+    for (d.jobs = -1; d.jobs <= FRAM_STUDY_JOBS + 1; d.jobs += FRAM_STUDY_JOBS + 2) {
+        ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+        ck_assert_str_eq(error.key, "jobs");
+    }
     static const char *const no_option[] = {"--account=ice", NULL};
     d.jobs = 0;
     d.on = "slurm";

@@ -70,6 +70,12 @@ refuses "is for scenarios" --scene "$scene" --set a=b
 refuses "solver" --scene "$scene" --solver best
 refuses "iterations" --scene "$scene" --iterations 0
 refuses "warm" --scene "$scene" --warm 5 --time 5
+# The bounds are the library's, by the names of options.
+for words in "--warm -1" "--warm 2e+06" "--time 2e+06"; do
+    # shellcheck disable=SC2086
+    refuses "${words% *}: expected a number from 0 to 1e+06, found ${words#* }" --scene "$scene" $words
+done
+refuses "--time: needs a number above zero" --scene "$scene" --time 0
 printf 'icescene 1\nfloe 1 2\n' >"$scratch/bad.scene"
 refuses "bad.scene:2" --scene "$scratch/bad.scene"
 

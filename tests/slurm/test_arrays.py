@@ -94,6 +94,13 @@ class Arrays(unittest.TestCase):
             self.assertIn("expected no " + told, error["message"])
         for option in ("--acc=ice", "--cluster-constraint=ib", "--qos=high"):
             self.fram("out", "--on", "slurm", "--sbatch", option, "--dry-run")
+        # Zero is no default here; the bounds are the library's, told by the names of options.
+        for option, value, told in (("--poll", 0, "above zero"), ("--runs-per-task", 0, "above zero"),
+                                    ("--poll", 3601, "found 3601"), ("--runs-per-task", 1000001, "found 1000001"),
+                                    ("--jobs", 4097, "found 4097"), ("--jobs", -1, "found -1")):
+            error = json.loads(self.fram("out", "--on", "slurm", option, value, code=2))["error"]
+            self.assertEqual(error["key"], option)
+            self.assertIn(told, error["message"])
         none = dict(os.environ, PATH="/nowhere")
         error = json.loads(self.fram("out", "--on", "slurm", code=2, environment=none))["error"]
         self.assertIn("sbatch", error["message"])

@@ -418,7 +418,9 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                 self.assertIn(error["key"], ("--output", *words))
         self.assertFalse((self.at / "other").exists())
         self.assertEqual(self.fram("check", study, "-j", 1)["jobs"], 1)
-        self.assertEqual(self.fram("list", self.at / "out", "-j", 1, code=2)["error"]["key"], "--jobs")
+        for call, jobs in ((("list", self.at / "out"), 1), (("list", self.at / "out"), -1), (("check", study), -1),
+                           (("check", study), 4097)):
+            self.assertEqual(self.fram(*call, "-j", jobs, code=2)["error"]["key"], "--jobs")
 
     def test_what_a_study_takes_is_told_for_what_can_be_done_at_once(self):
         def told(text, jobs):
@@ -772,10 +774,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         (self.at / "empty.yaml").write_text("")
         self.assertIn("no study", self.fram("check", self.at / "empty.yaml", code=2)["error"]["message"])
         self.fram(self.at / "none.yaml", "-o", self.at / "out", code=2)
-        for words in (["--poll", "0"], ["--runs-per-task", "0"]):
-            error = self.fram("base.yaml", "-o", self.at / "out", "--on", "slurm", *words, code=2)["error"]
-            self.assertEqual(error["key"], words[0])
-            self.assertIn("above zero", error["message"])
         error = self.fram(self.write("seeds: 1\n"), "-o", self.at / "out", "--poll", "5", code=2)["error"]
         self.assertIn("slurm alone", error["message"])
         # A study that was killed in its first moment leaves a part of its first file, which is in nobody's way.
