@@ -218,7 +218,13 @@ fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *break
 
 static void fram_ice_floe_fill(fram_ice_floe *floe)
 {
-    *floe = (fram_ice_floe){.size = sizeof *floe, .thickness = 1, .toughness = 150e3, .length = 50, .width = 50};
+    scenario usual;
+    scenario_defaults(&usual, scenario_default_scale());
+    *floe = (fram_ice_floe){.size = sizeof *floe,
+                            .thickness = usual.ice.thickness,
+                            .toughness = usual.ice.fracture.toughness,
+                            .length = 50,
+                            .width = 50};
 }
 DEFINITION_DEFAULT(fram_ice_floe, fram_ice_floe)
 

@@ -1,5 +1,6 @@
 /* Breaking ice through the public interface. */
 #include "fram/ice.h"
+#include "model/scenario.h"
 #include "testing.h"
 
 START_TEST(wedge)
@@ -168,7 +169,10 @@ START_TEST(splitting)
     fram_ice_floe floe;
     fram_ice_splitting s;
     fram_error e = {0};
+    scenario usual;
+    scenario_defaults(&usual, scenario_default_scale());
     fram_ice_floe_default(&floe);
+    ck_assert(floe.thickness == usual.ice.thickness && floe.toughness == usual.ice.fracture.toughness);
     assert_ok(fram_ice_split(&floe, &s, &e), e);
     assert_absolute(s.splitting_load, 198e3, 500);
     double middle = s.splitting_load;
