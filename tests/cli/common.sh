@@ -49,5 +49,5 @@ json.dump(note, open(sys.argv[1], "w"))
 PY
 }
 # told_defaults PATTERN NUMBER: options of the help in out whose words have the pattern, each with the number that the
-# second pattern finds in them: "(" finds 30 in "(30; ship 75)", "ship " finds 75.
-told_defaults() { sed -nE "s/^  (-., )?(--[a-z-]+) .* .*($1).*$2([0-9][0-9.e]*).*/\\2 \\4/p" out; }
+# second pattern finds in them: "(" finds 30 in "(30; ship 75)", 3h in "(3h)" and 3,5 in "(3,5)", "ship " finds 75.
+told_defaults() { sed -nE "s/^  (-., )?(--[a-z-]+) .* .*($1).*$2([0-9][0-9.e,]*[a-z]*).*/\\2 \\4/p" out; }

@@ -76,6 +76,31 @@ for words in "--warm -1" "--warm 2e+06" "--time 2e+06"; do
     refuses "${words% *}: expected a number from 0 to 1e+06, found ${words#* }" --scene "$scene" $words
 done
 refuses "--time: needs a number above zero" --scene "$scene" --time 0
+
+# What the help tells as defaults, given by hand, changes nothing.
+expect 0 "$FRAM" bench --help
+of_scenario=$(told_defaults simulated 'measur[a-z]* \(')
+of_scene=$(told_defaults simulated 'scene: ' && told_defaults simulated 'total \(' &&
+    told_defaults "scene: time|scene: solver" '\(')
+same "$(wc -l <<<"$of_scenario") $(wc -l <<<"$of_scene")" "2 4" "defaults that the help tells: $of_scenario $of_scene"
+cat >open.yaml <<'END'
+vessel: {mode: free, speed: 1, hull: {form: box, length: 20, beam: 8, draught: 2}}
+ice: {source: none}
+domain: {boundary: open}
+END
+python3 "$FRAM_SOURCE/bench/peers/gen_scene.py" --n 6 --coverage 0.5 --current 0.3 0 --seed 3 -o few.scene >/dev/null
+outcome() { python3 -c 'import json, sys; j = json.load(sys.stdin); print(j["steps"], j["state_hash"])' <out; }
+while read -r what told; do
+    expect 0 "$FRAM" bench "$what" --json
+    bare=$(outcome)
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" bench "$what" $told --json
+    same "$(outcome)" "$bare" "bench $what with the defaults of the help: $told"
+done <<END
+open.yaml $(xargs <<<"$of_scenario")
+--scene=few.scene $(xargs <<<"$of_scene")
+END
+
 printf 'icescene 1\nfloe 1 2\n' >"$scratch/bad.scene"
 refuses "bad.scene:2" --scene "$scratch/bad.scene"
 

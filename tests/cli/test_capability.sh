@@ -95,6 +95,18 @@ says 'nothing was written' err
 expect 2 "$FRAM" capability "$FRAM_SOURCE/scenes/demo.yaml" -o "$scratch/b"
 says 'mode free' err
 
+# What the help tells as defaults, given by hand, changes nothing.
+expect 0 "$FRAM" capability --help
+told=$(told_defaults "simulated|directions|drift speed|allowance|safety|failure" '\(')
+same "$(wc -l <<<"$told")" 7 "defaults that the help tells: $told"
+expect 0 "$FRAM" capability "$scene" -o bare --formula
+# shellcheck disable=SC2086
+expect 0 "$FRAM" capability "$scene" -o told --formula $told
+for name in capability.json capability_use.csv; do
+    cmp bare/$name told/$name || fail "$name with the defaults of the help is another one"
+done
+rm -r bare
+
 # A section of the scenario is no option of that name.
 echo "ice: {source: none}" >bare.yaml
 expect 2 "$FRAM" capability bare.yaml -o bare --formula

@@ -124,6 +124,27 @@ done
 printf 'time,T\n0,1\n20,%0200d1\n40,1\n' 0 >history.csv
 expect 0 "$FRAM" fatigue history.csv --channel T
 says "3 values" out
+# What the help tells as defaults, given by hand, changes nothing.
+unchanged() {
+    local number=$1 pattern=$2 told
+    shift 2
+    expect 0 "$FRAM" "$1" --help
+    told=$(told_defaults "$pattern" '\(')
+    same "$(wc -l <<<"$told")" "$number" "defaults that the help of $1 tells: $told"
+    expect 0 "$FRAM" "$@" --json
+    mv out bare.out
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" "$@" $told --json --force
+    cmp bare.out out || fail "$1 with the defaults of the help: $told"
+}
+unchanged 3 "duration|probabilities|confidence" extremes mac.csv --channel T
+unchanged 2 "slopes|frequency" fatigue mac.csv --channel T
+if [ $pictures = yes ]; then
+    expect 0 "$FRAM" video run --pictures --speed 30 -o bare.video -q
+    unchanged 3 "frames|width|height" video run --pictures --speed 30 -o told.video
+    diff -r bare.video told.video || fail "a video with the defaults of the help is another one"
+    rm -r bare.video told.video
+fi
 # A picture's kind is that of its name.
 for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
     option=-o
