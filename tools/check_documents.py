@@ -6,6 +6,7 @@ Rules:
   - a path in a Markdown file that begins with a folder of the repository (`src/ice/floe.h`, tests/cli/common.sh) is
     there; * stands for any letters, <words> and upper-case names for what the reader fills in;
   - `fram WORD` in a Markdown file names a command of the table in src/cli/main.c;
+  - what a decision **Replaces** links back to it in its first paragraph;
   - a test in a Markdown file, `ROOM/TOPIC` of tests/ROOM/test_TOPIC, is there, and so are the cases of it that are
     named behind it;
   - a comment or text of any other file, tests apart, that names a page docs/*.md, a scene or a source in a room
@@ -32,6 +33,7 @@ COMMAND = re.compile(r"`fram ([a-z]+)")
 COMMAND_ROW = re.compile(r'^    \{"([a-z]+)",', re.M)
 # Names of cases have two words at least.
 TEST = re.compile(r"`([a-z]+)/([a-z0-9_]+)`((?:,? [a-z0-9]+(?:_[a-z0-9]+)+)*)")
+REPLACES = re.compile(r"^\*\*Replaces\*\*(?:[^\n]|\n(?!\n))*", re.M)
 CASE = re.compile(r"START_TEST\((\w+)\)")
 # Patterns and places that a reader fills in are no files.
 OPEN = re.compile(r"[<>{}|,]|NNNN|\bNAME\b|[A-Z]{4,}\b(?!\.md)")
@@ -106,6 +108,22 @@ def test_breaches(line):
                 yield f"the test {room}/{topic} has no case {case}"
 
 
+def first_paragraph(text):
+    """What follows the title of a page."""
+    return text.partition("\n\n")[2].partition("\n\n")[0]
+
+
+def unanswered(page, text):
+    """Line and message for each decision that this one replaces and that does not say so."""
+    for paragraph in REPLACES.finditer(text):
+        for target in LINK.findall(paragraph[0]):
+            old = ROOT / page.parent / target
+            # What is not there is told as a link.
+            if old.is_file() and f"({page.name})" not in first_paragraph(old.read_text(encoding="utf-8")):
+                line = text.count("\n", 0, paragraph.start()) + 1
+                yield line, f"{target} is replaced by this page, and its first paragraph does not name it"
+
+
 def breaches(page):
     """Line and message of each breach."""
     text = (ROOT / page).read_text(encoding="utf-8", errors="replace")
@@ -115,6 +133,8 @@ def breaches(page):
         said = link_breach(page, link[1])
         if said:
             yield text.count("\n", 0, link.start()) + 1, said
+    if page.parent == pathlib.Path("docs/decisions"):
+        yield from unanswered(page, text)
     for number, line in enumerate(without_links(text).split("\n"), 1):
         for name in (PATH if markdown else PAGE).findall(line):
             if not OPEN.search(name) and not is_there(name.rstrip(".")):

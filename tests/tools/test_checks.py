@@ -166,6 +166,15 @@ class House(unittest.TestCase):
             self.assertIn(line, said)
         self.assertEqual(said.count("scene.js"), 1)
 
+    def test_decisions_that_were_replaced_say_so(self):
+        old = "docs/decisions/0001-old.md"
+        self.plant("docs/decisions/0002-new.md", "# New\n\n**Replaces** [0001](0001-old.md) in\nwhat it does.\n")
+        self.plant(old, "# Old\n\n**Since then** all is new\n([0002](0002-new.md)).\n\n**Context.**\n")
+        self.assertEqual(self.documents(), "")
+        self.plant(old, "# Old\n\n**Context.** Once.\n\nSee [0002](0002-new.md).\n")
+        self.assertEqual(self.documents(), "docs/decisions/0002-new.md:3: 0001-old.md is replaced by this page, and "
+                         "its first paragraph does not name it\n")
+
     def test_documents_that_name_commands_and_tests(self):
         self.plant("src/cli/main.c", 'static const command_row commands[] = {\n    {"run", "SCENARIO",\n')
         self.plant("tests/ice/test_floe.c", "START_TEST(a_floe_floats)\n")
