@@ -62,6 +62,17 @@ fram_status field_room_check(double free_area, fram_error *error)
                      "the zones smaller");
 }
 
+fram_status field_width_check(box2 domain, double largest, fram_error *error)
+{
+    double narrow = fmin(domain.hi.x - domain.lo.x, domain.hi.y - domain.lo.y);
+    if (!(largest > narrow))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
+                     "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger or "
+                     "the floes smaller",
+                     largest, narrow);
+}
+
 /* ---- zones ---- */
 
 /* Corners of tangents to the circle of `margin` about v, whose normals turn from n1 to n2 counter-clockwise. */

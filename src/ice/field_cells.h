@@ -18,6 +18,9 @@ fram_status field_area_check(box2 domain, double concentration, const polygon_li
 /* That zones leave an area for ice [m2].  FRAM_ERROR_INPUT under keep_out. */
 fram_status field_room_check(double free_area, fram_error *error);
 
+/* That the widest floe drawn fits between two edges of the domain [m].  FRAM_ERROR_INPUT under domain. */
+fram_status field_width_check(box2 domain, double largest, fram_error *error);
+
 /* Convex zones, grown by a margin all around: edges move outwards, corners become arcs of short tangents, so that
    nothing within the margin is left outside.  Appends one ring per zone. */
 bool zones_grow(context *ctx, const polygon_list *zones, double margin, polygon_list *out);

@@ -228,15 +228,7 @@ static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_
     for (int32_t p = 0; sizes && p < r->population_count; p++)
         array_free(ctx, &sizes[p]);
     memory_free(ctx, sizes);
-    if (status != FRAM_OK)
-        return status;
-    double narrow = fmin(r->domain.hi.x - r->domain.lo.x, r->domain.hi.y - r->domain.lo.y);
-    if (s->largest > narrow)
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
-                         "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
-                         "or the floes smaller",
-                         s->largest, narrow);
-    return FRAM_OK;
+    return status == FRAM_OK ? field_width_check(r->domain, s->largest, error) : status;
 }
 
 /* ---- packing ---- */

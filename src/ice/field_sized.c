@@ -67,11 +67,9 @@ static fram_status find_areas(context *ctx, const sized_request *r, sized_work *
         floes += floe_area(w, i);
         w->largest = fmax(w->largest, w->diameter.data[i]);
     }
-    if (w->largest > fmin(size.x, size.y))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
-                         "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
-                         "or the floes smaller",
-                         w->largest, fmin(size.x, size.y));
+    status = field_width_check(r->domain, w->largest, error);
+    if (status != FRAM_OK)
+        return status;
     if (floes > whole)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
                          "the fewest floes of this law for the concentration, %d, cover %g m2 and the domain "

@@ -167,7 +167,7 @@ START_TEST(wrong_laws_are_refused)
     fram_error e = {0};
     const size_law wide = {.kind = SIZE_CONSTANT, .mean = 400}, none = {.kind = SIZE_CONSTANT};
     field_request q = request_of(&wide, 0.9, 1);
-    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain larger");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "largest floe drawn is 400 m across");
     /* Two, and there is room for one and a half. */
     const size_law pair = {.kind = SIZE_CONSTANT, .mean = 1.128}, dust = {.kind = SIZE_CONSTANT, .mean = 1e-3};
     q = request_of(&pair, 0.95, 1);
