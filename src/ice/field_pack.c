@@ -318,7 +318,6 @@ static fram_status report_field(context *ctx, overlay *o, const field_packed_req
     double area = s->present_area;
     for (int32_t p = 0; p < r->population_count; p++)
         area += parts[p].area;
-    report->drawn_concentration = (s->present_area + s->drawn_area) / s->free_area;
     report->field = (field_report){
         .floes = polygon_list_count(&s->floes), .concentration = area / s->free_area, .free_area = s->free_area};
     return field_largest_overlap(ctx, o, &s->floes, r->present, &report->field.largest_overlap, error);

@@ -46,10 +46,9 @@ typedef struct field_population_report {
 
 typedef struct field_packed_report {
     field_report field;
-    int32_t rounds, moves;      /* of the packing */
-    double drawn_concentration; /* with all floes that were drawn [1] */
-    double area_change;         /* largest relative change of a floe's area by being moved: rounding */
-    int32_t vertex_changes;     /* floes whose number of vertices changed: 0 */
+    int32_t rounds, moves;  /* of the packing */
+    double area_change;     /* largest relative change of a floe's area by being moved: rounding */
+    int32_t vertex_changes; /* floes whose number of vertices changed: 0 */
 } field_packed_report;
 
 /* Appends outlines in the order of the populations, and to `floes` what each was drawn as.  parts (of population_count)

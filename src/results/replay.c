@@ -81,10 +81,8 @@ enum { SLOTS_MOST = 1 << 24, MATERIALS = MATERIAL_COUNT };
 
 static void remove_slot(replay *r, int32_t slot)
 {
-    if (slot < 0 || slot >= r->at_slot.count || r->at_slot.data[slot] < 0)
-        return;
-    r->bodies.data[r->at_slot.data[slot]].died = r->frames_read;
-    r->at_slot.data[slot] = -1;
+    if (slot >= 0 && slot < r->at_slot.count)
+        r->at_slot.data[slot] = -1;
 }
 
 static bool add_body(replay *r, const replay_body *b)
@@ -100,7 +98,7 @@ static bool add_body(replay *r, const replay_body *b)
 
 static replay_body new_body(const replay *r, cursor *c)
 {
-    replay_body b = {.slot = take_i32(c), .born = r->frames_read, .died = INT64_MAX};
+    replay_body b = {.slot = take_i32(c), .born = r->frames_read};
     b.number = b.parent = b.vessel = -1;
     (void)take_i32(c); /* generation */
     if (b.slot < 0 || b.slot >= SLOTS_MOST)

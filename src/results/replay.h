@@ -22,7 +22,7 @@ typedef struct replay_body {
     int32_t face_first, face_count;     /* solid: triangles in replay.faces */
     bool looked_at;                     /* solid: whether its parts were looked for (results/replay_parts.h) */
     int32_t part_first, part_count;     /* solid that is open: rings in replay.parts */
-    int64_t born, died;                 /* number of the first frame with it, and of the first without */
+    int64_t born;                       /* number of the first frame with it */
     double birth;                       /* of a piece the time of the break, otherwise of that first frame [s] */
     vec3 position;                      /* of a body that does not move */
     quat orientation;

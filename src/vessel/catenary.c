@@ -98,12 +98,10 @@ double catenary_distance(const catenary_line *line, double height, double horizo
     if (excess(h, load) + 0.5 * softness * load * load >= lifted) {
         double v = vertical_grounded(w, softness, height, h);
         pull->vertical = v;
-        pull->suspended = v / w;
         return line->length - v / w + (h > 0 ? h / w * inverse_sinh(v / h) : 0) + stretch;
     }
     double v = vertical_hanging(load, softness, lifted, h);
     pull->vertical = v;
-    pull->suspended = line->length;
     return (h > 0 ? h / w * (inverse_sinh(v / h) - inverse_sinh((v - load) / h)) : 0) + stretch;
 }
 

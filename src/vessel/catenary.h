@@ -15,7 +15,6 @@ typedef struct catenary_line {
 typedef struct catenary_pull {
     double horizontal; /* towards the anchor [N] */
     double vertical;   /* down [N] */
-    double suspended;  /* unstretched length that hangs free [m] */
 } catenary_pull;
 
 double catenary_tension(catenary_pull pull);
