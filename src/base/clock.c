@@ -1,5 +1,4 @@
 /* Times of this machine. */
-#define _POSIX_C_SOURCE 200809L
 #include "base/clock.h"
 
 #include <time.h>
