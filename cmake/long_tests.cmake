@@ -6,7 +6,7 @@ set(fram_long_tests
     "cli/command:          every command and its refusals, and signals to runs that go on"
     "cli/field:            fields of all sources drawn, written and read again"
     "cli/hull:             hulls of every form read, drawn, cut into convex pieces and written, a command each"
-    "cli/hull_files:       forty-four hull files of exporters and kinds, and the remedy of each that is refused"
+    "cli/hull_files:       hull files of every exporter and kind, and the remedy of each that is refused"
     "cli/manage:           known ice past known places in several runs, and each refusal a command"
     "cli/packed_field:     ten thousand steps at rest, as the promise says"
     "cli/results:          every export, report, plot and video of a run, and what is refused, a command each"
