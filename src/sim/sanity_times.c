@@ -19,6 +19,8 @@
 #define USUAL_CHECKPOINT 60
 /* A part of an interval by which whole steps may differ from it without a word. */
 #define ROUNDED_OFF 0.01
+/* Of whole steps that are told in seconds; as of times in series.csv. */
+#define ROUNDING 1e-9
 
 /* Every so many steps something is done.  Where one step was told to be longer than the interval, that says it all; a
    default is nobody's wish. */
@@ -66,13 +68,19 @@ static void tell_few_rows(const teller *t)
                rows > 1 ? "s" : "");
 }
 
+/* When the first row after the transient comes [s]: rows come every so many steps from the start on. */
+static double first_row_that_counts(const scenario *s)
+{
+    const int64_t given = interval_steps(s->output.csv_interval, s->run.time_step), every = given > 0 ? given : 1;
+    const double left_out = floor(s->run.transient / s->run.time_step * (1 + ROUNDING));
+    return (floor(left_out / (double)every) + 1) * (double)every * s->run.time_step;
+}
+
 /* The averages that statistics are of, of loads that there may be. */
 static bool averages_begin_early(const scenario *s)
 {
-    const scenario_run *r = &s->run;
-    double first = fmax(r->transient + r->time_step, s->output.csv_interval);
     return s->ice.source != ICE_NONE && scenario_vessel_count(s) > 0 &&
-           scenario_averages_begin_early(s, first, r->duration - r->transient);
+           scenario_averages_begin_early(s, first_row_that_counts(s), s->run.duration - s->run.transient);
 }
 
 static void tell_times(const teller *t)

@@ -212,6 +212,11 @@ all_told towed.yaml output.averaging_window=20000 -- \
 all_told ship.yaml run.transient=320 output.averaging_window=310 -- "averaging_window: 310 s is more than half"
 all_told ship.yaml run.transient=5 output.averaging_window=59 --
 all_told ship.yaml run.transient=5 output.averaging_window=60 -- "averaging_window: 60 s is longer than run.tran"
+# The first row that counts is the first one after the transient: at 150 s here, at 101 s there.
+all_told ship.yaml run.transient=110 output.csv_interval=50 output.averaging_window=150 --
+all_told ship.yaml run.transient=110 output.csv_interval=50 output.averaging_window=150.05 -- \
+    "averaging_window: 150.05 s is longer than run.tran"
+all_told ship.yaml run.transient=100 output.csv_interval=1 output.averaging_window=101 --
 all_told ship.yaml output.csv_interval=5.02 output.frame_interval=0.15 output.averaging_window=0 --
 
 # Histories in minutes, in knots, of a date; hulls in millimetres, athwartships, from the keel or the stern up.
