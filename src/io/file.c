@@ -4,6 +4,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -194,31 +196,53 @@ fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error
 static fram_status refuse_writing(const file_writer *w, fram_error *error)
 {
     if (w->failed == EINTR)
-        return error_set(error, FRAM_INTERRUPTED, w->path, 0, NULL, "interrupted while writing into a pipe");
+        return error_set(error, FRAM_INTERRUPTED, w->path, 0, NULL,
+                         "interrupted while writing: the reader takes no more");
     return file_error(error, w->path, "write", w->failed);
 }
 
-/* Whether no more is to be written: the reader of a pipe may never take what there is no room for.  A file's bytes are
-   written all the same. */
-static bool is_stopped_pipe(const file_writer *w)
+/* How long a stream may be full: after a wish to stop, and before one that does not wait by itself is looked at again
+   [ms].  A reader that reads at all is there sooner. */
+enum { ROOM_WAIT = 100 };
+
+/* Whether a stop was asked for and the writing may wait for a reader, which may never take what there is no room for.
+   A file's bytes are written all the same. */
+static bool is_stopped_stream(const file_writer *w)
 {
     struct stat about;
-    return stop_is_asked(w->ctx->stop) && fstat(w->descriptor, &about) == 0 && S_ISFIFO(about.st_mode);
+    return stop_is_asked(w->ctx->stop) && fstat(w->descriptor, &about) == 0 && !S_ISREG(about.st_mode);
+}
+
+/* False only where nothing was taken all the while: what is wrong with a descriptor is for write to say. */
+static bool wait_for_room(const file_writer *w)
+{
+    struct pollfd stream = {.fd = w->descriptor, .events = POLLOUT};
+    int answer;
+    do
+        answer = poll(&stream, 1, ROOM_WAIT);
+    while (answer < 0 && errno == EINTR);
+    return answer != 0;
 }
 
 /* Bytes to the system; remembers the first failure. */
 static fram_status write_out(file_writer *w, const char *data, size_t size, fram_error *error)
 {
     for (size_t done = 0; done < size && !w->failed;) {
-        if (is_stopped_pipe(w)) {
-            w->failed = EINTR;
-            break;
+        size_t part = size - done;
+        if (is_stopped_stream(w)) {
+            if (!wait_for_room(w)) {
+                w->failed = EINTR;
+                break;
+            }
+            part = part < PIPE_BUF ? part : PIPE_BUF; /* of more the system may wait for the rest */
         }
-        ssize_t put_now = write(w->descriptor, data + done, size - done);
+        ssize_t put_now = write(w->descriptor, data + done, part);
         if (put_now > 0)
             done += (size_t)put_now;
         else if (put_now == 0)
             w->failed = EIO;
+        else if (errno == EAGAIN)
+            wait_for_room(w); /* who shares the stream has set it not to wait */
         else if (errno != EINTR)
             w->failed = errno;
     }

@@ -155,31 +155,84 @@ START_TEST(a_stop_ends_the_waiting_for_a_reader)
     int reader = open(s.path, O_RDONLY | O_NONBLOCK);
     stop_soon();
     assert_ok(file_create(&ctx, s.path, &w, &error), error);
-    assert_fails(file_write(&w, large, sizeof large, &error), error, FRAM_INTERRUPTED, "writing into a pipe");
-    assert_fails(file_close(&w, &error), error, FRAM_INTERRUPTED, "writing into a pipe");
+    assert_fails(file_write(&w, large, sizeof large, &error), error, FRAM_INTERRUPTED, "the reader takes no more");
+    assert_fails(file_close(&w, &error), error, FRAM_INTERRUPTED, "the reader takes no more");
     ck_assert_int_eq(close(reader), 0);
     scratch_remove(&s, "pipe");
 }
 END_TEST
+
+/* A run that is stopped has its last rows where they are read; only what would wait is refused. */
+START_TEST(a_stop_leaves_out_only_what_a_pipe_has_no_room_for)
+{
+    context_init(&ctx);
+    ctx.stop = &stop;
+    scratch s = scratch_make();
+    file_writer w;
+    static char large[200000];
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    int reader = open(s.path, O_RDONLY | O_NONBLOCK);
+    stop = 1;
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    assert_ok(file_write(&w, large, 60000, &error), error);
+    assert_ok(file_flush(&w, true, &error), error);
+    assert_fails(file_write(&w, large, sizeof large, &error), error, FRAM_INTERRUPTED, "the reader takes no more");
+    file_abandon(&w);
+    ck_assert_int_ge(read(reader, large, sizeof large), 60000);
+    ck_assert_int_eq(close(reader), 0);
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+static char bulk[200000];
+
+/* A program that comes late, and wants all that is in `bulk` and nothing behind it. */
+static pid_t late_reader(const char *path)
+{
+    pid_t reader = fork();
+    if (reader == 0) {
+        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+        FILE *pipe = fopen(path, "rb");
+        size_t got = pipe ? fread(bulk, 1, sizeof bulk, pipe) : 0;
+        _exit(got == sizeof bulk && fgetc(pipe) == EOF ? 0 : 1);
+    }
+    return reader;
+}
 
 START_TEST(a_pipe_waits_for_its_reader)
 {
     context_init(&ctx);
     scratch s = scratch_make();
     file_writer w;
-    static char large[200000];
     int state = 0;
     ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
-    pid_t reader = fork();
-    if (reader == 0) {
-        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
-        FILE *pipe = fopen(s.path, "rb");
-        size_t got = pipe ? fread(large, 1, sizeof large, pipe) : 0;
-        _exit(got == sizeof large && fgetc(pipe) == EOF ? 0 : 1);
-    }
+    pid_t reader = late_reader(s.path);
     assert_ok(file_create(&ctx, s.path, &w, &error), error);
-    assert_ok(file_write(&w, large, sizeof large, &error), error);
+    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
     assert_ok(file_close(&w, &error), error);
+    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
+    ck_assert_int_eq(state, 0);
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+/* As another program leaves a standard output that it shares. */
+START_TEST(a_stream_that_does_not_wait_is_waited_for)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    char name[64];
+    int state = 0;
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    pid_t reader = late_reader(s.path);
+    int own = open(s.path, O_RDWR | O_NONBLOCK); /* not the reader's too, who would wait for its own end */
+    snprintf(name, sizeof name, "/dev/fd/%d", own);
+    assert_ok(file_create(&ctx, access(name, F_OK) == 0 ? name : s.path, &w, &error), error);
+    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
+    assert_ok(file_close(&w, &error), error);
+    ck_assert(fcntl(own, F_GETFL) & O_NONBLOCK);
+    ck_assert_int_eq(close(own), 0);
     ck_assert_int_eq(waitpid(reader, &state, 0), reader);
     ck_assert_int_eq(state, 0);
     scratch_remove(&s, "pipe");
@@ -393,7 +446,8 @@ END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
           a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_stop_ends_the_waiting_for_a_reader,
-          a_pipe_waits_for_its_reader, a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once,
+          a_stop_leaves_out_only_what_a_pipe_has_no_room_for, a_pipe_waits_for_its_reader,
+          a_stream_that_does_not_wait_is_waited_for, a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once,
           a_partial_write_is_seen, replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place,
           replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
           memory_runs_out)
