@@ -272,7 +272,8 @@ typedef struct fram_playback_definition {
     const char *viewer_page; /* the page without a run (make viewer) */
     const char *output;      /* the page to write, best NAME.html */
     uint64_t page_limit;     /* largest page [bytes]; 0: 50 MB.  Frames of a longer run go into files beside it, in the
-                                folder NAME-frames */
+                                folder NAME-frames; a page that goes into a stream has none:
+                                FRAM_ERROR_USAGE */
     uint64_t total_limit;    /* page and files [bytes]; 0: 500 MB.  Above, only every n-th frame is kept */
     const char *pressure;    /* folder that fram_pressure wrote of this run, to be shown on the hull; NULL: none */
 } fram_playback_definition;

@@ -136,7 +136,8 @@ FRAM_API void fram_manage_default(fram_manage_definition *definition, size_t siz
 #define fram_manage_default(definition) fram_manage_default((definition), sizeof *(definition))
 /* What ice came to a vessel: sizes and concentration in windows that drift along, upstream, behind the icebreakers and
    at the vessel; the largest floe that reached it, the managed share, the time until unmanaged ice comes, loads beside
-   those of another run.  Writes the page and two tables beside it (manage.csv by time, manage-sizes.csv).
+   those of another run.  Writes the page and two tables beside it (manage.csv by time, manage-sizes.csv),
+   which are left out, with a warning, where the page goes into a stream.
    FRAM_ERROR_INPUT for a folder without a run or a record, a vessel that is not there or not to be told from others.
    The caller frees the text with fram_text_free. */
 FRAM_API fram_status fram_manage(fram_context *context, const char *run, const fram_manage_definition *definition,

@@ -52,6 +52,12 @@ static int descriptor_of(const char *path)
     return -1;
 }
 
+bool fill_is_stream(const char *path)
+{
+    struct stat about;
+    return descriptor_of(path) >= 0 || (stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode));
+}
+
 /* ---- files and pipes ---- */
 
 /* Before a pipe without a reader is tried again [ns]. */

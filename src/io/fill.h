@@ -13,5 +13,8 @@
    - A named pipe is waited for until it has a reader; FRAM_INTERRUPTED when the stop flag is set meanwhile.
    - Anything else is emptied, or made. */
 fram_status fill_open(context *ctx, const char *path, int *descriptor, fram_error *error);
+/* Whether that is a descriptor of this program, wherever it leads, a pipe or a device: then nothing can stand beside
+   what is written.  False for a name of which nothing is there. */
+bool fill_is_stream(const char *path);
 
 #endif

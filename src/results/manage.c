@@ -3,6 +3,7 @@
 #include "base/sort.h"
 #include "io/atomic_file.h"
 #include "io/csv.h"
+#include "io/fill.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_parts.h"
 #include "results/run_channels.h"
@@ -234,11 +235,17 @@ static fram_status write_sizes(const manage_run *m, const manage_summary *s, con
     return write_table(m->ctx, path, &table, error);
 }
 
-/* The tables' names are made of the page's: none of them is one of what the runs are made of. */
-static fram_status find_paths(const manage_options *options, const char *folder, manage_summary *s, fram_error *error)
+/* The tables' names are made of the page's: none of them is one of what the runs are made of.  Empty: no tables. */
+static fram_status find_paths(context *ctx, const manage_options *options, const char *folder, manage_summary *s,
+                              fram_error *error)
 {
     char *paths[] = {s->page, s->moments, s->sizes};
     fram_status status = path_given_or(options->output, folder, "manage.html", s->page, error);
+    if (status == FRAM_OK && fill_is_stream(s->page)) {
+        log_write(ctx, LOG_WARNING, "%s: a page that goes into a stream has no tables beside it: none are written",
+                  s->page);
+        return FRAM_OK;
+    }
     if (status == FRAM_OK)
         status = beside_page(s->page, ".csv", s->moments, error);
     if (status == FRAM_OK)
@@ -254,19 +261,28 @@ static fram_status find_paths(const manage_options *options, const char *folder,
     return status;
 }
 
+static fram_status write_tables(const manage_run *m, const manage_summary *s, fram_error *error)
+{
+    fram_status status = s->moments[0] ? write_moments(m, s->moments, error) : FRAM_OK;
+    return status == FRAM_OK && s->sizes[0] ? write_sizes(m, s, s->sizes, error) : status;
+}
+
 /* ---- all ---- */
 
 fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
                          manage_summary *beside, fram_error *error)
 {
     manage_run run, other;
-    manage_summary other_summary = {.limit = 0};
-    fram_status status = manage_read(ctx, folder, options, &run, error);
+    manage_summary other_summary = {.limit = 0}, named = {.limit = 0};
+    fram_status status = find_paths(ctx, options, folder, &named, error);
+    if (status == FRAM_OK)
+        status = manage_read(ctx, folder, options, &run, error);
     if (status != FRAM_OK)
         return status;
     status = manage_sum_up(&run, summary, error);
-    if (status == FRAM_OK)
-        status = find_paths(options, folder, summary, error);
+    memcpy(summary->page, named.page, sizeof named.page);
+    memcpy(summary->moments, named.moments, sizeof named.moments);
+    memcpy(summary->sizes, named.sizes, sizeof named.sizes);
     bool both = options->beside != NULL && status == FRAM_OK;
     if (both) {
         manage_options same = *options;
@@ -281,9 +297,7 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
     if (status == FRAM_OK)
         status = manage_page(&run, summary, both ? &other : NULL, both ? &other_summary : NULL, error);
     if (status == FRAM_OK)
-        status = write_moments(&run, summary->moments, error);
-    if (status == FRAM_OK)
-        status = write_sizes(&run, summary, summary->sizes, error);
+        status = write_tables(&run, summary, error);
     if (beside)
         *beside = other_summary;
     if (both)

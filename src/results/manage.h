@@ -27,7 +27,7 @@ typedef struct manage_options {
 } manage_options;
 
 typedef struct manage_summary {
-    char page[PATH_ROOM], moments[PATH_ROOM], sizes[PATH_ROOM]; /* what was written: page and tables */
+    char page[PATH_ROOM], moments[PATH_ROOM], sizes[PATH_ROOM]; /* what was written: page and tables; "": none */
     double limit;                                               /* [m] */
     struct {
         double windows;                             /* looked at after the transient */
@@ -59,9 +59,10 @@ fram_status manage_met_ice(context *ctx, const char *folder, const char *name, d
                            fram_error *error);
 /* managed_law_of such a sum, with all lengths as they are at that scale. */
 fram_status manage_met_law(const managed_ice *sum, double unit, double sheet_as, managed_law *out, fram_error *error);
-/* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,
-   may be NULL.  FRAM_ERROR_INPUT for a folder without a run or a record, and for a vessel that is not there or not to
-   be told from others; FRAM_ERROR_USAGE for a page whose tables would be written over what a run is made of. */
+/* The page, its two tables (PAGE less its ending, .csv and -sizes.csv; none, with a warning, beside a page that goes
+   into a stream) and the numbers; beside: those of the other run, may be NULL.  FRAM_ERROR_INPUT for a folder without a
+   run or a record, and for a vessel that is not there or not to be told from others; FRAM_ERROR_USAGE for a page whose
+   tables would be written over what a run is made of. */
 fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
                          manage_summary *beside, fram_error *error);
 

@@ -1,5 +1,6 @@
 #include "results/playback.h"
 
+#include "io/fill.h"
 #include "io/record_layout.h"
 #include "results/playback_chunks.h"
 #include "results/playback_explained.h"
@@ -250,6 +251,10 @@ static fram_status write_playback(context *ctx, page_writer *w, const playback_o
                                   size_t size, fram_error *error)
 {
     atomic_file out;
+    if (w->layout.beside && fill_is_stream(options->output))
+        return error_set(error, FRAM_ERROR_USAGE, options->output, 0, "output",
+                         "the frames are too many for one page, and a page that goes into a stream has no files beside "
+                         "it: give the name of a file, or a larger limit of the page");
     fram_status status = chunks_begin(ctx, options->output, w->layout.chunk, &w->chunks, error);
     if (status == FRAM_OK)
         status = atomic_file_begin(ctx, options->output, &out, error);

@@ -192,8 +192,19 @@ done
 cmp wanted found || fail "what stood in a file is lost to /dev/stdout"
 "$FRAM" report run -o /dev/stdout -q >streamed || fail "a page for /dev/stdout has no kind"
 holds "<html" streamed
-# A pipe that nobody reads is waited for until the first wish to stop.
+# Nothing stands beside a page that goes into a stream.
+ln -s /dev/stdout out.html
+"$FRAM" manage run -o out.html >streamed 2>err || fail "ice management does not go to a stream: $(cat err)"
+holds "<html" streamed
+says "out.html: a page that goes into a stream has no tables beside it" err
 mkfifo pipe.html
+echo "<html><!--BESIDE--><!--RECORD-->" >viewer.html
+expect 2 timeout 5 "$FRAM" view run --page viewer.html -o pipe.html --page-limit 0.0001
+says "the frames are too many for one page" err
+"$FRAM" view run --page viewer.html -o out.html -q >streamed || fail "a page for playback does not go to a stream"
+holds "^<html>." streamed
+same "$(compgen -G 'out?*'; compgen -G 'pipe*')" "$(printf 'out.html\npipe.html')" "files beside a stream"
+# A pipe that nobody reads is waited for until the first wish to stop.
 expect 130 timeout --preserve-status -s INT -k 5 0.3 "$FRAM" report run -q -o pipe.html
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
