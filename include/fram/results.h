@@ -22,6 +22,9 @@ typedef struct fram_result {
 /* Whether a path names one of the files that the run in the folder is made of, over which nothing is written; false
    without a folder or a path. */
 FRAM_API bool fram_run_has_file(const char *run, const char *path);
+/* Whether a path names a stream: a descriptor of this program (/dev/stdout, /dev/fd/3), wherever it leads, a pipe or a
+   device.  What is written there goes behind what was, and nothing can stand beside it; false without a path. */
+FRAM_API bool fram_path_is_stream(const char *path);
 
 /* ---- Formats of other programs ---- */
 

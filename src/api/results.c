@@ -3,6 +3,7 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "io/fill.h"
 #include "io/path.h"
 #include "results/export.h"
 #include "results/manage.h"
@@ -88,6 +89,8 @@ fram_status(fram_report)(fram_context *c, const char *run, const char *output, b
 }
 
 bool fram_run_has_file(const char *run, const char *path) { return run && path && path_is_own(run, path); }
+
+bool fram_path_is_stream(const char *path) { return path && fill_is_stream(path); }
 
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
                       double to, const char *output, fram_error *error)

@@ -2,12 +2,8 @@
 #include "cli/cli.h"
 
 #include "fram/results.h"
-#include <limits.h>
 #include <math.h>
 #include <unistd.h>
-
-/* --every was not given. */
-enum { EVERY_NONE = INT_MIN };
 
 static void print_export(const common_options *common, const fram_result *r, const char *advice)
 {
@@ -28,7 +24,7 @@ int command_export(const command_row *self, int argc, char **argv)
     const char *run = NULL, *output = NULL;
     bool vtk = false, geojson = false, netcdf = false;
     double time = (double)NAN;
-    int every = EVERY_NONE;
+    int every = 0; /* not given */
     const option_row rows[] = {
         {"--vtk", NULL, OPTION_FLAG, &vtk, NULL,
          "for ParaView: floes, hull and forces of every frame (RUN/vtk/run.pvd)"},
@@ -36,7 +32,7 @@ int command_export(const command_row *self, int argc, char **argv)
          "NetCDF-4 for xarray and h5py: all channels and floes (RUN/run.nc)"},
         {"--geojson", NULL, OPTION_FLAG, &geojson, NULL, "floe outlines at one time (RUN/field-T.geojson)"},
         {"--time", NULL, OPTION_REAL, &time, "T", "time of --geojson [s]"},
-        {"--every", NULL, OPTION_INTEGER, &every, "N", "only every N-th frame, for --vtk (1)"},
+        {"--every", NULL, OPTION_COUNT, &every, "N", "only every N-th frame, for --vtk (1)"},
         {"--output", "-o", OPTION_TEXT, &output, "PATH", "the file, or the folder of --vtk"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
@@ -47,12 +43,10 @@ int command_export(const command_row *self, int argc, char **argv)
     if (geojson == isnan(time))
         return answer_usage(&common, "--time",
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
-    if (every != EVERY_NONE && !vtk)
+    if (every > 0 && !vtk)
         return answer_usage(&common, "--every", "goes with --vtk only");
-    if (every == EVERY_NONE)
+    if (every == 0)
         every = 1;
-    if (every < 1)
-        return answer_usage(&common, "--every", "must be at least 1");
     const command_files files = {.runs = {run},
                                  .outputs = {{"--output", output,
                                               vtk      ? FOLDER_OUTPUT

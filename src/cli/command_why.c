@@ -3,23 +3,19 @@
 
 #include "fram/results.h"
 
-#include <limits.h>
 #include <math.h>
-
-/* --peak was not given. */
-enum { PEAK_NONE = INT_MIN };
 
 int command_why(const command_row *self, int argc, char **argv)
 {
     common_options common;
     const char *run = NULL;
-    int peak = PEAK_NONE;
+    int peak = 0; /* not given */
     bool no_rerun = false;
     fram_why_definition d;
     fram_why_default(&d);
     d.time = (double)NAN;
     const option_row rows[] = {
-        {"--peak", NULL, OPTION_INTEGER, &peak, "N", "the N-th largest peak of the run, 1 to 10"},
+        {"--peak", NULL, OPTION_COUNT, &peak, "N", "the N-th largest peak of the run, 1 to 10"},
         {"--time", NULL, OPTION_REAL, &d.time, "T",
          "a moment instead of a peak [s]; recomputed unless it is one of the peaks"},
         {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "of several vessels: whose load (the first)"},
@@ -31,12 +27,10 @@ int command_why(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     const bool timed = d.time == d.time;
-    if (peak != PEAK_NONE && timed)
+    if (peak > 0 && timed)
         return answer_usage(&common, "--time", "does not go with --peak: give one of them");
-    if (peak == PEAK_NONE && !timed)
+    if (peak == 0 && !timed)
         return answer_usage(&common, "--peak", "is missing: --peak 1 is the largest; or name a moment, --time T");
-    if (!timed && peak < 1)
-        return answer_usage(&common, "--peak", "expected 1, the largest, or more");
     const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, PICTURE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
@@ -46,8 +40,8 @@ int command_why(const command_row *self, int argc, char **argv)
     code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
-    d.peak = peak == PEAK_NONE ? 0 : peak;
-    d.time = peak == PEAK_NONE ? d.time : 0;
+    d.peak = peak;
+    d.time = timed ? d.time : 0;
     d.rerun = !no_rerun;
     d.json = common.json;
     d.stop = session_stop_flag();

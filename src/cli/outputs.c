@@ -50,16 +50,12 @@ static bool has_ending(const char *path, const char *endings)
     return false;
 }
 
-/* What goes into a device or a pipe has no kind, nor what goes where the command's own streams go: of these the name
-   tells, for a shell may have led them into a file. */
+/* What goes into a device or a pipe has no kind, nor what goes where the command's own streams go, which a shell may
+   have led into a file.  A folder is for the writer to refuse. */
 static bool has_no_kind(const char *path)
 {
-    static const char *const streams[] = {"/dev/std", "/dev/fd/", "/proc/"};
     struct stat about;
-    for (size_t i = 0; i < sizeof streams / sizeof *streams; i++)
-        if (strncmp(path, streams[i], strlen(streams[i])) == 0)
-            return true;
-    return stat(path, &about) == 0 && !S_ISREG(about.st_mode);
+    return fram_path_is_stream(path) || (stat(path, &about) == 0 && S_ISDIR(about.st_mode));
 }
 
 /* Pictures, pages and videos are of the kind that their name tells.  What the name was expected to be, NULL where it

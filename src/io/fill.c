@@ -15,18 +15,24 @@
 /* Links that lead to links; the system itself follows no more. */
 enum { LINKS_MOST = 40 };
 
-/* Whether the folder of a path, which ends at `name`, is the one of this program's descriptors. */
-static bool is_of_descriptors(char *path, char *name)
+static bool are_one_folder(const char *path, const char *other)
 {
     struct stat own, given;
-    int held = open("/proc/self/fd", O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* so that it stays what it is meanwhile */
-    char kept = *name;
-    *name = '\0';
+    int held = open(other, O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* so that it stays what it is meanwhile */
     bool same = held >= 0 && fstat(held, &own) == 0 && stat(path, &given) == 0 && own.st_dev == given.st_dev &&
                 own.st_ino == given.st_ino;
-    *name = kept;
     if (held >= 0)
         close(held);
+    return same;
+}
+
+/* Whether the folder of a path, which ends at `name`, is one of this program's descriptors. */
+static bool is_of_descriptors(char *path, char *name)
+{
+    char kept = *name;
+    *name = '\0';
+    bool same = are_one_folder(path, "/proc/self/fd") || are_one_folder(path, "/proc/thread-self/fd");
+    *name = kept;
     return same;
 }
 
@@ -102,7 +108,6 @@ fram_status fill_open(context *ctx, const char *path, int *descriptor, fram_erro
     if (*descriptor >= 0)
         return FRAM_OK;
     if (errno == EINTR)
-        return error_set(error, FRAM_INTERRUPTED, path, 0, NULL,
-                         "interrupted while waiting for a reader of the pipe; nothing was written");
+        return error_set(error, FRAM_INTERRUPTED, path, 0, NULL, "interrupted while waiting for a reader of the pipe");
     return file_error(error, path, "open for writing", errno);
 }

@@ -319,6 +319,8 @@ START_TEST(exports_and_reports)
     REFUSED(fram_export_geojson(c, run, own, 0, &result, &e));
     REFUSED(fram_export_netcdf(c, run, own, &result, &e));
     ck_assert(fram_run_has_file(run, own) && !fram_run_has_file(NULL, own) && !fram_run_has_file(run, NULL));
+    ck_assert(!fram_path_is_stream(NULL) && !fram_path_is_stream(own) && !fram_path_is_stream(run));
+    ck_assert(fram_path_is_stream("/dev/null") && fram_path_is_stream("/dev/fd/2"));
     close_all();
 }
 END_TEST

@@ -192,6 +192,11 @@ done
 cmp wanted found || fail "what stood in a file is lost to /dev/stdout"
 "$FRAM" report run -o /dev/stdout -q >streamed || fail "a page for /dev/stdout has no kind"
 holds "<html" streamed
+# A way through /proc to a file is one to a file.
+echo mine >notes.txt
+expect 2 "$FRAM" report run -o /proc/self/cwd/notes.txt -q
+expect 2 "$FRAM" export run --geojson --time 1 -o /proc/self/cwd/notes.txt -q
+same "$(cat notes.txt)" mine "a file behind /proc"
 # Nothing stands beside a page that goes into a stream.
 ln -s /dev/stdout out.html
 "$FRAM" manage run -o out.html >streamed 2>err || fail "ice management does not go to a stream: $(cat err)"
@@ -247,6 +252,8 @@ says "--step: is for a series" err
 expect 2 "$FRAM" bench --scene none --solvers --solver fast
 says "--solver: is of one solver" err
 expect 2 "$FRAM" export run --vtk --every 0
+expect 2 "$FRAM" export run --vtk --every -2147483648
+says "--every: needs a whole number above zero" err
 for words in --netcdf "--geojson --time 1"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" export run $words --every 2

@@ -104,7 +104,9 @@ says "--peak: is missing" err
 expect 2 "$FRAM" why run --peak 1 --time 3
 says "--time: does not go with --peak" err
 expect 2 "$FRAM" why run --peak 0
-says "expected 1, the largest, or more" err
+says "--peak: needs a whole number above zero" err
+expect 2 "$FRAM" why run --peak -2147483648
+says "--peak: needs a whole number above zero" err
 expect 2 "$FRAM" why run --peak 1 -o peak.pdf
 says "ends in .png or .svg" err
 [ ! -e peak.pdf ] || fail "a refused picture is there"

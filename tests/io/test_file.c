@@ -257,7 +257,9 @@ START_TEST(a_descriptor_that_has_a_name_goes_on)
         snprintf(name, sizeof name, "/proc/self/fd/%d", own);
         assert_ok(atomic_file_write(&ctx, name, " three", 6, &error), error);
         assert_ok(atomic_file_write(&ctx, link, " four", 5, &error), error);
-        assert_content(scratch_path(&s, "a"), "old one two three four");
+        snprintf(name, sizeof name, "/proc/thread-self/fd/%d", own);
+        assert_ok(atomic_file_write(&ctx, access(name, F_OK) == 0 ? name : link, " five", 5, &error), error);
+        assert_content(scratch_path(&s, "a"), "old one two three four five");
         ck_assert_int_eq(unlink(link), 0);
     }
     ck_assert_int_eq(close(own), 0);
