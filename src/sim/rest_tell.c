@@ -56,27 +56,25 @@ typedef struct rest_view {
     const vessel_model *hull;
     const hull_hydrostatics *upright;
     line_burden lines;
-    double mass; /* own [kg] */
+    double mass;  /* own [kg] */
+    double slice; /* height of the middle of what lines make the hull displace, ship coordinates [m] */
 } rest_view;
 
-/* An arm that may be rounding [m]. */
-#define NO_ARM 1e-9
+/* By small angles about the start [deg]. */
+static double lean_angle(double arm, double gm) { return degrees(real_atan2(arm, gm)); }
 
-/* By small angles about the start [deg]; a list of metacentric height 0 is infinite. */
-static double lean_angle(double arm, double gm)
+/* A metacentric height with lines: what pulls down at a height takes from the righting moment as a weight there does,
+   and what it makes the hull displace bears in its middle. */
+static double moored_height(const rest_view *v, double gm)
 {
-    if (gm > 0)
-        return degrees(real_atan2(arm, gm));
-    return fabs(arm) > NO_ARM ? copysign(90, arm) : 0;
+    return gm - (v->lines.moment.z - v->lines.force * v->slice) / (v->mass * v->s->environment.gravity);
 }
 
-/* arm: of the centre of gravity [m]; moment: of the lines about the centre of flotation [N m].  What pulls down at a
-   height takes from the righting moment as a weight there does, and what it makes the hull displace lies in the
-   waterline. */
+/* arm: of the centre of gravity [m]; moment: of the lines about the centre of flotation [N m].  Both metacentric
+   heights, without lines and with them, are over 0. */
 static unrest lean_of(const rest_view *v, double arm, double moment, double gm)
 {
-    double weight = v->mass * v->s->environment.gravity, lever = moment / weight;
-    double moored = gm - v->lines.moment.z / weight;
+    double lever = moment / (v->mass * v->s->environment.gravity), moored = moored_height(v, gm);
     return (unrest){lean_angle(arm, gm), lean_angle(lever, moored), lean_angle(arm + lever, moored)};
 }
 
@@ -86,6 +84,18 @@ static void warn_of_lean(const rest_view *v, unrest lean, const char *key, const
         log_write(v->ctx, LOG_WARNING,
                   "%s.%s: the vessel %s by about %.0f degrees, since its centre of gravity is %.4g m off",
                   v->entry->path, key, what, fabs(lean.own), fabs(arm));
+}
+
+/* Their stiffness, which may hold a vessel upright, is not looked at. */
+static void warn_of_height(const rest_view *v, const char *which, double gm, double moored)
+{
+    double over = -moored * v->mass * v->s->environment.gravity / v->lines.force;
+    log_write(v->ctx, LOG_WARNING,
+              "%s.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with %.4g N, "
+              "which takes its %s metacentric height from %.4g m to %.4g m; lower %s.mooring.z, %.4g m, by more than "
+              "%.3g m, or let the lines pull less",
+              v->entry->path, v->lines.force, which, gm, moored, v->entry->path, v->lines.moment.z / v->lines.force,
+              over);
 }
 
 /* false: the vessel capsizes, and has no list or trim. */
@@ -100,6 +110,12 @@ static bool tell_stability(const rest_view *v, unrest *heel, unrest *trim)
                   "the vessel capsizes: its %s metacentric height is %.4g m where it floats; lower "
                   "%s.centre_of_gravity_z, %.4g m, by more than that",
                   gm > 0 ? "longitudinal" : "transverse", gm > 0 ? gm_long : gm, v->entry->path, centre.z);
+        return false;
+    }
+    double across = moored_height(v, gm), along = moored_height(v, gm_long);
+    if (!(across > 0) || !(along > 0)) {
+        warn_of_height(v, across > 0 ? "longitudinal" : "transverse", across > 0 ? gm_long : gm,
+                       across > 0 ? along : across);
         return false;
     }
     double x = centre.x - f->centre_of_buoyancy.x, y = centre.y - f->centre_of_buoyancy.y;
@@ -130,6 +146,15 @@ static double balanced_centre(const rest_view *v, double mass, double moment, do
     return buoyancy - (moment - v->lines.force * buoyancy) / (mass * v->s->environment.gravity);
 }
 
+/* Upright at the design draught, to which lines bring a vessel of that mass. */
+static bool stands_at_rest(const rest_view *v, double mass)
+{
+    const hull_hydrostatics *f = &v->hull->floats;
+    double metacentre = fmin(f->waterplane_xx, f->waterplane_yy) / f->volume + f->centre_of_buoyancy.z;
+    double righting = v->hull->displaced_mass * metacentre - mass * v->hull->centre.z;
+    return righting * v->s->environment.gravity > v->lines.moment.z;
+}
+
 static void advise_rest(const rest_view *v, bool trims, bool heels, char *out, size_t size)
 {
     double mass = v->hull->displaced_mass - v->lines.force / v->s->environment.gravity;
@@ -139,7 +164,7 @@ static void advise_rest(const rest_view *v, bool trims, bool heels, char *out, s
     box2 line = v->hull->floats.waterline;
     bool inside = (!trims || (x > line.lo.x && x < line.hi.x)) && (!heels || (y > line.lo.y && y < line.hi.y));
     char forward[64] = "", aside[64] = "";
-    if (!(mass > ADVISED_MASS * v->hull->displaced_mass) || !inside) {
+    if (!(mass > ADVISED_MASS * v->hull->displaced_mass) || !inside || !stands_at_rest(v, mass)) {
         snprintf(out, size, "it needs lines that pull less");
         return;
     }
@@ -176,16 +201,18 @@ void rest_tell(context *ctx, const scenario *s, const vessel_entry *entry, const
 {
     if (entry->keys->mode == VESSEL_PRESCRIBED || !s->environment.water || !(hull->floats.volume > 0))
         return;
-    const rest_view v = {.ctx = ctx,
-                         .s = s,
-                         .entry = entry,
-                         .hull = hull,
-                         .upright = upright,
-                         .lines = burden_of(w, row, hull->centre),
-                         .mass = automatic_or(entry->keys->mass, hull->displaced_mass)};
+    rest_view v = {.ctx = ctx,
+                   .s = s,
+                   .entry = entry,
+                   .hull = hull,
+                   .upright = upright,
+                   .lines = burden_of(w, row, hull->centre),
+                   .mass = automatic_or(entry->keys->mass, hull->displaced_mass)};
     double own = v.mass / hull->displaced_mass - 1;
     double lines = v.lines.force / (hull->displaced_mass * s->environment.gravity);
     const unrest sink = {own, lines, own + lines};
+    if (upright->waterplane_area > 0)
+        v.slice = (own + 0.5 * lines) * hull->floats.volume / upright->waterplane_area;
     unrest heel = {0}, trim = {0};
     bool floats = entry->keys->mode == VESSEL_FREE && upright->volume > 0;
     bool stands = floats && tell_stability(&v, &heel, &trim);

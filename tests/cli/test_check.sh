@@ -128,6 +128,14 @@ pulled "vessel.mooring.lines: they pull the vessel down with 4.8e+05 N, 0.0298 o
 heeling about 5.8 degrees; with vessel.mass 1.59107e+06 kg, centre_of_gravity_y -0.06151 m it begins at rest" \
     "${heel[@]}"
 pulled "" "${heel[@]}" --set "vessel.mooring.lines[0].release_time=0"
+# GM is 0.1833 m; from 2 m over the waterline 2.45 MN, which make it sink by 0.61 m, take (2 - 0.305) * 2.45 / 16.09 m
+# of that. From 1.5 m they leave 2 mm, and nothing of a vessel that is lighter by them, for its weight lies low.
+low=(--set vessel.centre_of_gravity_z=-0.1)
+pulled "vessel.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with 2.45e+06 N, \
+which takes its transverse metacentric height from 0.1833 m to -0.07488 m; lower vessel.mooring.z, 2 m, by more than \
+0.492 m, or let the lines pull less" "${low[@]}" --set vessel.mooring.z=2
+pulled "${down/2.4e+06 N, 0.149/2.438e+06 N, 0.152} sinking about 0.61 m; it needs lines that pull less" \
+    "${low[@]}" --set vessel.mooring.z=1.5
 # The mass that lines balance is not told as wrong, and the one that they do not is.
 pulled "vessel.mass is 0.6 of what the hull displaces at its draught: it begins by moving up or down to its own \
 waterline" --set vessel.mass=9.84e5

@@ -145,7 +145,8 @@ all_told ship.yaml "vessel.thrusters[0].power=1250" "vessel.thrusters[0].z=6" "v
 all_told ship.yaml "vessel.mooring.lines[0].release_time=0.1" "vessel.mooring.lines[0].spacing_deg=0" \
     vessel.mooring.z=50 vessel.hull.freeboard=0.1 vessel.centre_of_gravity_z=0.5 -- \
     "release_time: it is let go at 0.1 s, in the transient of 60 s" "8 lines lie one upon another" \
-    "mooring.z: fairleads 50 m above" "hull.freeboard: 0.1 m is outside" "centre_of_gravity_z: 0.5 m is above the deck"
+    "mooring.z: fairleads 50 m above" "hull.freeboard: 0.1 m is outside" \
+    "centre_of_gravity_z: 0.5 m is above the deck" "mooring.lines: the vessel capsizes unless their stiffness holds it"
 all_told ship.yaml "vessel.mooring.lines[0].weight=5000" "vessel.mooring.lines[0].breaking_load=4e6" -- \
     "lines[0].weight: a line of 5000 N/m parts under 800 m of itself" "mooring.lines: they pull the vessel down"
 # A line of a model of 1:30 carries as many metres of itself as are 30 times as long at full size.
