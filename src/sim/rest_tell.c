@@ -175,19 +175,21 @@ static void advise_rest(const rest_view *v, bool trims, bool heels, char *out, s
     snprintf(out, size, "with %s.mass %.6g kg%s%s it begins at rest", v->entry->path, mass, forward, aside);
 }
 
+/* Upper bounds, since lines that give way pull less: their stiffness is not looked at. */
 static void warn_of_pull(const rest_view *v, unrest sink, unrest trim, unrest heel)
 {
     bool sinks = is_of_lines(sink, TOLD_MASS);
-    char sinking[48] = "", trimming[48] = "", heeling[48] = "", advice[256];
+    char sinking[64] = "", trimming[64] = "", heeling[64] = "", advice[256];
     if (!sinks && !is_of_lines(trim, TOLD_ANGLE) && !is_of_lines(heel, TOLD_ANGLE))
         return;
     if (sinks)
-        snprintf(sinking, sizeof sinking, " sinking about %.2g m",
+        snprintf(sinking, sizeof sinking, " sinking by up to about %.2g m",
                  sink.both * v->hull->floats.volume / v->upright->waterplane_area);
     if (leans_by_lines(trim))
-        snprintf(trimming, sizeof trimming, "%s trimming about %.2g degrees", sinks ? "," : "", fabs(trim.both));
+        snprintf(trimming, sizeof trimming, "%s trimming by up to about %.2g degrees", sinks ? "," : "",
+                 fabs(trim.both));
     if (leans_by_lines(heel))
-        snprintf(heeling, sizeof heeling, "%s heeling about %.2g degrees", sinks || trimming[0] ? "," : "",
+        snprintf(heeling, sizeof heeling, "%s heeling by up to about %.2g degrees", sinks || trimming[0] ? "," : "",
                  fabs(heel.both));
     advise_rest(v, leans_by_lines(trim), leans_by_lines(heel), advice, sizeof advice);
     log_write(v->ctx, LOG_WARNING,
