@@ -39,10 +39,12 @@ static line_burden burden_of(const world *w, int32_t row, vec3 centre)
     int32_t body = w->vessels.body[row];
     line_burden sum = {0};
     for (int32_t i = 0; i < w->lines.count; i++) {
-        /* The first step lets those go. */
         if (w->lines.vessel[i] != row || w->lines.release_time[i] <= 0)
             continue;
         line_pull pull = mooring_line_pull(&w->lines, i, w->bodies.position[body], w->bodies.orientation[body]);
+        /* It parts in the first step, which lets those go that are due. */
+        if (pull.tension > w->lines.breaking_load[i])
+            continue;
         sum.force -= pull.force.z;
         sum.moment = vec3_mad(sum.moment, vec3_add(body_to_local(&w->bodies, body, pull.point), centre), -pull.force.z);
     }

@@ -128,6 +128,14 @@ pulled "vessel.mooring.lines: they pull the vessel down with 4.8e+05 N, 0.0298 o
 heeling by up to about 5.8 degrees; with vessel.mass 1.59107e+06 kg, centre_of_gravity_y -0.06151 m it begins at rest" \
     "${heel[@]}"
 pulled "" "${heel[@]}" --set "vessel.mooring.lines[0].release_time=0"
+# A line that parts in the first step pulls on nothing either.
+for load in "3.9e5 over" "4.1e5 more than half of"; do
+    most="vessel.mooring.lines[0].breaking_load=${load%% *}"
+    expect 0 "$FRAM" check moored.yaml "${steep[@]}" "${heel[@]}" --set "$most"
+    says "N is ${load#* } the breaking load" err
+    pulls="$(grep -c "pull the vessel down" err || true)"
+    same "$pulls" "$([[ $load = *of ]] && echo 1 || echo 0)" "what is told of pulls at $most"
+done
 # GM is 0.1833 m; from 2 m over the waterline 2.45 MN, which make it sink by 0.61 m, take (2 - 0.305) * 2.45 / 16.09 m
 # of that. From 1.5 m they leave 2 mm, and nothing of a vessel that is lighter by them, for its weight lies low.
 low=(--set vessel.centre_of_gravity_z=-0.1)
