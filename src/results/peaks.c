@@ -108,6 +108,22 @@ fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, pea
     return status;
 }
 
+fram_status peak_list_try(context *ctx, const char *folder, int32_t vessel, const char *what, bool *unread,
+                          peak_list *list, fram_error *error)
+{
+    fram_error reason = {0};
+    fram_status status = peak_list_read(ctx, folder, vessel, list, &reason);
+    if (status == FRAM_ERROR_INPUT) {
+        if (!*unread)
+            log_write(ctx, LOG_WARNING, "%s tells no peaks: %s: %s", what, reason.file, reason.message);
+        *unread = true;
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK && error)
+        *error = reason;
+    return status;
+}
+
 void peak_list_free(context *ctx, peak_list *list)
 {
     for (int32_t i = 0; i < list->count; i++)

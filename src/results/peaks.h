@@ -15,6 +15,10 @@ typedef struct peak_list {
 
 /* The peaks of a vessel (row); none without a file.  FRAM_ERROR_INPUT when the file is of no run of this Fram. */
 fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, peak_list *list, fram_error *error);
+/* The same, with none where the file cannot be read: the first time, as *unread tells, a warning says that `what`, "the
+   report", tells no peaks, and why. */
+fram_status peak_list_try(context *ctx, const char *folder, int32_t vessel, const char *what, bool *unread,
+                          peak_list *list, fram_error *error);
 void peak_list_free(context *ctx, peak_list *list);
 
 /* How far before a peak it is told what broke [s]: five seconds at full size, at other scales by Froude. */

@@ -106,12 +106,13 @@ static void add_words(context *ctx, text_buffer *out)
 static fram_status add_loads(why *y, text_buffer *out, fram_error *error)
 {
     fram_status status = FRAM_OK;
+    bool unread = false;
     text_add(y->ctx, out, "{");
     add_words(y->ctx, out);
     text_add(y->ctx, out, ",\"vessels\":[");
     for (int32_t v = 0; v < scenario_vessel_count(&y->run.s) && status == FRAM_OK; v++) {
         peak_list_free(y->ctx, &y->peaks);
-        status = peak_list_read(y->ctx, y->run.folder, v, &y->peaks, error);
+        status = peak_list_try(y->ctx, y->run.folder, v, "the page", &unread, &y->peaks, error);
         if (status == FRAM_OK)
             status = add_vessel(y, v, out, error);
     }

@@ -23,17 +23,7 @@ fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error)
 
 fram_status report_peaks(report *r, peak_list *list, fram_error *error)
 {
-    fram_error reason = {0};
-    fram_status status = peak_list_read(r->ctx, r->d.folder, r->vessel, list, &reason);
-    if (status == FRAM_ERROR_INPUT) {
-        if (!r->peaks_unread)
-            log_write(r->ctx, LOG_WARNING, "the report tells no peaks: %s: %s", reason.file, reason.message);
-        r->peaks_unread = true;
-        return FRAM_OK;
-    }
-    if (status != FRAM_OK && error)
-        *error = reason;
-    return status;
+    return peak_list_try(r->ctx, r->d.folder, r->vessel, "the report", &r->peaks_unread, list, error);
 }
 
 vessel_title report_vessel(const report *r)

@@ -12,7 +12,7 @@ ice:
   thickness: 0.5
   level: {x_min: 0}
   friction: {ice_hull_static: 0, ice_hull_kinetic: 0}
-output: {checkpoint_interval: 1, frame_interval: 0}
+output: {checkpoint_interval: 1, frame_interval: 1}
 YAML
 expect 0 "$FRAM" run plate.yaml -o run --quiet
 find run -type f -exec cksum {} + | sort >before
@@ -258,6 +258,18 @@ for bad in "--panel 0" "--panel -1" "--panel 41" "--panel 1e-4" "--from 5" "--fr
     expect 2 "$FRAM" pressure run -o none $bad
     [ "$(wc -l <err)" -le 2 ] || fail "$bad: more than one message: $(cat err)"
 done
+# Peaks that cannot be read cost a page its peaks alone, neither the loads by mechanism nor the pressure.
+echo "no peaks" >run/peaks.fram
+echo "<!--BESIDE--><!--RECORD-->" >page.html
+expect 0 "$FRAM" view run --page page.html --pressure rest -o told.html
+holds "^warning: the page tells no peaks: run/peaks.fram: expected a record" err
+python3 - <<'PYTHON' || fail "a page without peaks"
+import base64
+import re
+data = b"".join(base64.b64decode(part) for part in re.findall("[A-Za-z0-9+/=]{99,}", open("told.html").read()))
+assert b'"mechanisms":[[' in data and b'"load":[' in data and b'"peaks":[]' in data
+assert open("rest/pressure.fram", "rb").read()[48:] in data
+PYTHON
 # No file that its scenario reads is written over.
 mkdir blown
 printf 'time,x,y\n0,1,0\n' | tee blown/zones.csv >wind.csv
