@@ -105,6 +105,7 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;
+    run_warn_change(ctx, &d);
     const double *t = run_channel(&d, "time");
     int32_t vessel;
     if (d.series.rows == 0)

@@ -442,7 +442,8 @@ holds "Comparison of two runs" both.html
 # Of a scenario that was changed since, and is not that of the run, who tells something of it says so.
 cp -r thin edited
 sed -i 's/thickness: 0.4 /thickness: 1.4 /' edited/scenario.yaml
-for words in "compare thin edited -o both.html" "manage edited" "why edited --peak 1 --no-rerun"; do
+for words in "compare thin edited -o both.html" "manage edited" "why edited --peak 1 --no-rerun" "extremes edited" \
+    "fatigue edited"; do
     # shellcheck disable=SC2086
     expect 0 "$FRAM" $words
     says "warning: edited: scenario.yaml was changed since the run was made" err
