@@ -75,6 +75,7 @@ typedef struct fram_comparison {
     bool only_files_differ; /* the scenarios are the same but for what is in the files that they name */
     bool same_as_read; /* not by hash, but as this Fram reads both: another one made a run, or scenario.yaml was changed
                         */
+    bool changed_a, changed_b; /* scenario.yaml is not what the run was made of, or another Fram made the run */
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,

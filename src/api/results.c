@@ -164,7 +164,9 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
                                   .same_state = in->result.same_state,
                                   .inside = in,
                                   .only_files_differ = in->result.only_files_differ,
-                                  .same_as_read = in->result.same_as_read};
+                                  .same_as_read = in->result.same_as_read,
+                                  .changed_a = in->result.changed_a,
+                                  .changed_b = in->result.changed_b};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

@@ -172,11 +172,14 @@ static void print_compared(const fram_comparison *c)
         print_number(row->b - row->a, row->unit, 4);
         putchar('\n');
     }
-    printf("scenarios: %s; final states: %s\n",
+    /* What is read of a changed scenario may be the same where what was run was not. */
+    bool read = c->same_as_read || c->only_files_differ;
+    printf("scenarios: %s%s; final states: %s\n",
            c->same_scenario       ? "the same"
            : c->same_as_read      ? "the same, as this Fram reads them"
            : c->only_files_differ ? "the same but for the files that they name"
                                   : "different",
+           read && (c->changed_a || c->changed_b) ? ", or scenario.yaml was changed since" : "",
            c->same_state ? "identical to the bit" : "different");
 }
 
@@ -192,6 +195,8 @@ static void print_comparison(const common_options *common, const fram_comparison
     json_boolean(&j, "same_scenario", c->same_scenario);
     json_boolean(&j, "same_as_read", c->same_as_read);
     json_boolean(&j, "only_files_differ", c->only_files_differ);
+    json_boolean(&j, "changed_a", c->changed_a);
+    json_boolean(&j, "changed_b", c->changed_b);
     json_boolean(&j, "same_state", c->same_state);
     json_open_list(&j, "rows");
     for (int i = 0; i < c->count; i++) {

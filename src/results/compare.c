@@ -192,6 +192,8 @@ static void compare_scenarios(const run_data *d, compare_result *out)
     out->same_scenario = noted && files;
     out->same_as_read = names && files && !noted;
     out->only_files_differ = names && !files;
+    out->changed_a = d[0].is_changed;
+    out->changed_b = d[1].is_changed;
 }
 
 static void find_rows(pair *p)
@@ -287,6 +289,13 @@ static void number_table(pair *p)
     html_table_end(&p->page);
 }
 
+/* What was read of a changed scenario may be the same where what was run was not. */
+static const char *unless_changed(const compare_result *r)
+{
+    bool read = r->same_as_read || r->only_files_differ;
+    return read && (r->changed_a || r->changed_b) ? ", or scenario.yaml was changed since" : "";
+}
+
 static fram_status compose_comparison(pair *p, fram_error *error)
 {
     const overlay charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force", p->load, false},
@@ -306,11 +315,12 @@ static fram_status compose_comparison(pair *p, fram_error *error)
     for (int k = 0; k < 2; k++)
         if (p->d[k].is_changed)
             html_fact(&p->page, k ? "of B" : "of A", RUN_IS_CHANGED);
-    html_fact(&p->page, "scenarios", "%s",
+    html_fact(&p->page, "scenarios", "%s%s",
               p->result->same_scenario       ? "the same"
               : p->result->same_as_read      ? "the same, as this Fram reads them"
               : p->result->only_files_differ ? "the same but for the files that they name"
-                                             : "different");
+                                             : "different",
+              unless_changed(p->result));
     html_fact(&p->page, "final states", "%s", p->result->same_state ? "identical to the bit" : "different");
     html_table_end(&p->page);
     html_section(&p->page, "Numbers");

@@ -25,6 +25,7 @@ typedef struct compare_result {
     int32_t count;
     bool same_scenario, same_state; /* by their hashes, of the files that a scenario names too */
     bool only_files_differ;         /* the scenarios are the same but for those */
+    bool changed_a, changed_b;      /* scenario.yaml, or by another Fram: run_data.is_changed */
     bool same_as_read;              /* not by the hashes of the runs, but as this program reads both */
 } compare_result;
 /* The numbers; output: also a page with the numbers and plots of both, NULL: none. */

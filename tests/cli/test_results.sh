@@ -458,6 +458,13 @@ expect 0 "$FRAM" compare run older -o both.html
 for file in out both.html; do holds "the same, as this Fram reads them" $file; done
 expect 0 "$FRAM" compare older run --json
 same "$(value 'j["same_scenario"], j["same_as_read"]')" "False True" "scenarios that are read as the same"
+# So is one that was made that of another run, which says nothing of what was run.
+cp -r run made
+cp thin/scenario.yaml made/scenario.yaml
+expect 0 "$FRAM" compare thin made -o both.html
+for file in out both.html; do holds "the same, as this Fram reads them, or scenario.yaml was changed since" $file; done
+expect 0 "$FRAM" compare made thin --json
+same "$(value 'j["same_as_read"], j["changed_a"], j["changed_b"]')" "True True False" "a scenario that was changed"
 expect 0 "$FRAM" compare run edited --json
 same "$(value 'j["same_scenario"], j["same_as_read"]')" "False False" "scenarios that are not"
 
