@@ -5,6 +5,7 @@
 #include "io/chart.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* LOAD_PAIRS: pairs of values that a correlation is told from at each lag, about. */
@@ -88,6 +89,13 @@ bool load_distribution_of(context *ctx, const double *value, int32_t count, doub
     bool good = find_exceedance(ctx, sorted, count, out) && find_histogram(ctx, sorted, count, out);
     memory_free(ctx, sorted);
     return good;
+}
+
+void load_distribution_tell(const load_distribution *d, bool with_distance, char out[LOAD_WORTH_SIZE])
+{
+    int n = snprintf(out, LOAD_WORTH_SIZE, "%.0f independent value%s", d->independent, d->independent < 1.5 ? "" : "s");
+    if (with_distance && d->independent > 1)
+        snprintf(out + n, LOAD_WORTH_SIZE - (size_t)n, ", one every %.3g s", 2 * d->time_scale);
 }
 
 void load_distribution_free(context *ctx, load_distribution *d)

@@ -16,6 +16,8 @@ typedef struct load_distribution {
     double independent;               /* values, at least 1 */
 } load_distribution;
 
+enum { LOAD_WORTH_SIZE = 80 };
+
 /* Which values of single steps a picture does not show. */
 typedef enum load_cut {
     LOAD_CUT_NONE = 0,
@@ -32,6 +34,8 @@ double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines
    empty.  false: no memory. */
 bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, double window,
                           load_distribution *out);
+/* "12 independent values"; and how far they lie apart, unless the series is shorter than that. */
+void load_distribution_tell(const load_distribution *d, bool with_distance, char out[LOAD_WORTH_SIZE]);
 void load_distribution_free(context *ctx, load_distribution *d);
 
 #endif

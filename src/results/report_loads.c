@@ -30,7 +30,7 @@ static void cut_low_bound(load_distribution *d)
 
 static fram_status draw_distribution(report *r, load_distribution *d, load_unit unit, fram_error *error)
 {
-    char x_label[64], subtitle[192];
+    char x_label[64], worth[LOAD_WORTH_SIZE], subtitle[LOAD_WORTH_SIZE + 16];
     double *scaled[2] = {d->level.data, d->bar.data};
     for (int32_t i = 0; i < d->level.count; i++)
         scaled[0][i] *= unit.factor;
@@ -49,8 +49,8 @@ static fram_status draw_distribution(report *r, load_distribution *d, load_unit 
     lines[0].style = CHART_BAND;
     lines[0].y2 = d->high.data;
     lines[0].colour = lines[1].colour = 2;
-    snprintf(subtitle, sizeof subtitle, "equivalent to %.0f independent values, one every %.3g s", d->independent,
-             2 * d->time_scale);
+    load_distribution_tell(d, true, worth);
+    snprintf(subtitle, sizeof subtitle, "equivalent to %s", worth);
     chart exceedance = chart_make("Exceedance of the load", subtitle, x_label, "share of the time", lines, 2);
     exceedance.log_y = true;
     fram_status status = html_chart(&r->page, &histogram, false, error);

@@ -207,14 +207,15 @@ static fram_status judge_load(verdict *v, fram_error *error)
     bool enough = part <= ENOUGH && d.independent >= VALUES_ENOUGH;
     double longer = fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent);
     report_number(longer, needed);
-    char aim[48];
+    char aim[48], worth[LOAD_WORTH_SIZE];
+    load_distribution_tell(&d, false, worth);
     snprintf(aim, sizeof aim, part > ENOUGH ? "a mean within %.0f %%" : "%.0f independent values",
              part > ENOUGH ? 100 * ENOUGH : VALUES_ENOUGH);
     snprintf(remedy, sizeof remedy,
              "About %s s after the transient, or as much over several seeds (fram study), would give %s.", needed, aim);
     verdict_find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
-                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent value%s in %.4g s): %s.",
-                 name, mean, fmin(100 * part, 999), d.independent, d.independent < 1.5 ? "" : "s", span,
+                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %s in %.4g s): %s.", name, mean,
+                 fmin(100 * part, 999), worth, span,
                  enough           ? "enough for a mean"
                  : part <= ENOUGH ? "too few values to trust that"
                                   : "too short for a mean");

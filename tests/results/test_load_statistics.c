@@ -62,6 +62,19 @@ START_TEST(the_band_holds_the_truth_as_often_as_it_says)
 }
 END_TEST
 
+START_TEST(a_distribution_tells_what_it_is_worth)
+{
+    char text[LOAD_WORTH_SIZE];
+    load_distribution_tell(&(load_distribution){.time_scale = 2, .independent = 12.3}, true, text);
+    ck_assert_str_eq(text, "12 independent values, one every 4 s");
+    /* Held at one: the series ends before the next. */
+    load_distribution_tell(&(load_distribution){.time_scale = 40, .independent = 1}, true, text);
+    ck_assert_str_eq(text, "1 independent value");
+    load_distribution_tell(&(load_distribution){.time_scale = 40, .independent = 1.6}, false, text);
+    ck_assert_str_eq(text, "2 independent values");
+}
+END_TEST
+
 START_TEST(histogram_and_exceedance_count_every_value)
 {
     const double value[] = {0, 0, 1, 2, 3, 3, 3, 10};
@@ -162,4 +175,4 @@ END_TEST
 
 TEST_MAIN("load statistics", spikes, spikes_on_the_axis, bars_hold_their_own_values,
           a_series_is_worth_its_independent_values, the_band_holds_the_truth_as_often_as_it_says,
-          histogram_and_exceedance_count_every_value)
+          histogram_and_exceedance_count_every_value, a_distribution_tells_what_it_is_worth)
