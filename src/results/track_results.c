@@ -30,11 +30,12 @@ void track_table(html_page *page, const run_note *note)
     if (note->tracks.count == 0)
         return;
     html_section(page, "Tracks that were sailed");
-    html_paragraph(page,
-                   "Distance across the track after the transient, from when a ship first is within half its length of "
-                   "it and heads along it; corners and loops, which are there to turn about, do not count, but for a "
-                   "square that is all corners. The column track_error has it "
-                   "over time.");
+    html_paragraph(
+        page,
+        "Distance across the track after the transient, from when a ship first is within half its length of "
+        "it and heads along it; corners and loops, which are there to turn about, do not count, but for a "
+        "square, or way points, of corners with hardly anything straight between them. The column track_error has "
+        "it over time.");
     html_table_begin(page, heads, 6);
     for (int32_t i = 0; i < note->tracks.count; i++) {
         const run_track *t = &note->tracks.data[i];

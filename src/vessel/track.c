@@ -8,6 +8,9 @@ static const double SHARPEST = 0.75 * PI;
 enum { JOIN_PLACES = 256, FOOT_STEPS = 4 };
 /* At most of a leg and the corner at its end. */
 enum { CORNER_PIECES = 5 };
+/* Part of a leg under which what two corners leave of it is nothing to be at work on: a square that is begun a little
+   off its side's middle is all corners. */
+static const double LEAST_STRAIGHT = 0.05;
 /* 1 - curvature times distance falls to nothing at the centre of an arc. */
 static const double LEAST_FOOT_NEARNESS = 0.2;
 /* A loop that turns about turns away by 60 degrees, goes straight on for 2 cot 60 radii, so that the turn of 240
@@ -141,6 +144,16 @@ static double part_of(const track_course *c, int32_t i)
     return fmin(1, fmin(in, out));
 }
 
+/* What a corner takes of each of its legs. */
+static double cut_of(const track_course *c, int32_t i) { return part_of(c, i) * c->takes[i]; }
+
+/* Whether the corners at the ends of the leg to point i leave something of it. */
+static bool is_straight(const track_course *c, int32_t i)
+{
+    return c->leg[i] - cut_of(c, i - 1) - cut_of(c, i) > LEAST_STRAIGHT * c->leg[i];
+}
+
+/* A corner between legs of which nothing is left is all that is asked for there, and no room to turn. */
 static void add_corner(track *t, const track_course *c, int32_t i)
 {
     double turn = turn_at(c->point[i - 1], c->point[i], c->point[i + 1]), side = turn > 0 ? 1 : -1;
@@ -148,20 +161,20 @@ static void add_corner(track *t, const track_course *c, int32_t i)
     if (fabs(turn) > SHARPEST)
         add_loop(t, radius, -side, fabs(turn));
     else
-        add(t, radius * fabs(turn), curvature_of(side, radius), true);
+        add(t, radius * fabs(turn), curvature_of(side, radius), is_straight(c, i) || is_straight(c, i + 1));
 }
 
 track track_of_legs(const vec2 *point, int32_t count, int32_t at, double radius, double *corner)
 {
     const track_course c = legs_of(point, count, radius);
     vec2 leg = vec2_sub(point[at + 1], point[at]);
-    double cut = part_of(&c, at) * c.takes[at];
+    double cut = cut_of(&c, at);
     track t = {.start = point[at], .heading = real_atan2(leg.y, leg.x)};
     if (cut > 0)
         t.start = vec2_add(t.start, vec2_scale(leg, cut / c.leg[at + 1]));
     *corner = HUGE_VAL;
     for (int32_t i = at + 1; i < c.count && t.count + CORNER_PIECES <= TRACK_PIECES; i++) {
-        double next = part_of(&c, i) * c.takes[i];
+        double next = cut_of(&c, i);
         add(&t, c.leg[i] - cut - next, 0, false);
         if (i + 1 == c.count)
             break;

@@ -51,8 +51,9 @@ bool track_turns_about(vec2 before, vec2 corner, vec2 after);
 double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius);
 /* Legs from point to point, none of no length, from where the corner at point `at` (0: none) leaves its legs; corners
    are rounded by this radius [m], or by as much less as the legs are shorter than their corners take.  Has as many legs
-   as there are pieces for; *corner: way to the end of the first of its corners [m], infinity without one.  What a
-   corner is left depends on its neighbours: give two points before `at`, where there are such. */
+   as there are pieces for; *corner: way to the end of the first of its corners [m], infinity without one.  Corners
+   are room to turn, but those between legs of which corners leave next to nothing.  What a corner is left depends on
+   its neighbours: give two points before `at`, where there are such. */
 track track_of_legs(const vec2 *point, int32_t count, int32_t at, double radius, double *corner);
 
 /* The place after this way along it [m]; past an end or before the start of an open one, straight on. */

@@ -103,6 +103,25 @@ START_TEST(a_circle_that_is_too_narrow_is_told)
 }
 END_TEST
 
+/* Way points whose corners leave nothing straight are all that is asked for: what the ship is off them counts from the
+   start, on the bend that begins there at once too, which is told. */
+START_TEST(way_points_that_are_all_corners_count)
+{
+    scene k;
+    double value = 0;
+    scene_open(&k, SHIP_AT("  speed: 4\n", "waypoints: [{x: 200, y: 0}, {x: 200, y: 400}, {x: -200, y: 400}, "
+                                           "{x: -200, y: 0}, {x: 200, y: 0}, {x: 200, y: 400}]"));
+    const propulsion_table *p = &k.w.propulsion;
+    ck_assert(p->settings[0].turning.corner > 200);
+    scene_steps(&k, 800);
+    printf("all corners: %.0f m off at most, in %.0f s\n", p->off_most[0], p->off_time[0]);
+    assert_absolute(p->off_time[0], 200, 1e-9);
+    ck_assert_int_eq(count_events(&k, EVENT_OFF_TRACK, &value), 1);
+    ck_assert(value > 25 && p->off_most[0] > 25);
+    scene_close(&k);
+}
+END_TEST
+
 /* Out and back on two legs: the ship turns about on a loop, which does not count, and is on its way back at once. */
 START_TEST(a_ship_that_turns_about_keeps_its_track)
 {
@@ -280,5 +299,6 @@ START_TEST(the_table_is_known_to_the_turn)
 END_TEST
 
 TEST_MAIN("track_error", error_is_the_distance_and_is_told, the_transient_does_not_count,
-          a_circle_that_is_too_narrow_is_told, a_ship_that_turns_about_keeps_its_track, room_to_turn_can_be_given,
-          driven_patterns_are_mirrored, odd_data_leave_no_nan, the_table_is_known_to_the_turn)
+          a_circle_that_is_too_narrow_is_told, way_points_that_are_all_corners_count,
+          a_ship_that_turns_about_keeps_its_track, room_to_turn_can_be_given, driven_patterns_are_mirrored,
+          odd_data_leave_no_nan, the_table_is_known_to_the_turn)

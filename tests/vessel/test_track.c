@@ -146,6 +146,24 @@ START_TEST(corners_are_rounded)
 }
 END_TEST
 
+/* Corners between legs of which they leave hardly anything are no room to turn; with a seventh of one left they are. */
+START_TEST(a_course_that_is_all_corners_is_no_room_to_turn)
+{
+    for (int more = 1; more <= 10; more += 9) {
+        const vec2 point[] = {{0, 0}, {30, 0}, {30, 60 + more}, {-30, 60 + more}, {-30, more}};
+        double corner;
+        track t = track_of_legs(point, 5, 0, 50, &corner);
+        int turning = 0, bends = 0;
+        for (int32_t i = 0; i < t.count; i++) {
+            turning += t.piece[i].turning;
+            bends += t.piece[i].curvature != 0;
+        }
+        ck_assert_int_eq(bends, 3);
+        ck_assert_int_eq(turning, more > 1 ? 3 : 1); /* the last one has half a leg straight after it */
+    }
+}
+END_TEST
+
 /* A corner of more than 135 degrees is turned about at: past it, and back through it along the next leg. */
 START_TEST(sharp_corners_have_loops)
 {
@@ -194,4 +212,4 @@ END_TEST
 
 TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for,
           corners_of_a_narrow_square_are_its_track, feet_are_found, joins_the_way_that_it_goes, corners_are_rounded,
-          sharp_corners_have_loops, a_bend_goes_both_ways)
+          a_course_that_is_all_corners_is_no_room_to_turn, sharp_corners_have_loops, a_bend_goes_both_ways)
