@@ -93,6 +93,23 @@ static void give_speed(context *ctx, const model *m, int32_t vessel, const scena
     s->speed = speed;
 }
 
+/* A leg is no shorter than this part of the length: a ship passes the corners of shorter ones in a step or two, and
+   cannot tell on which side of them she is. */
+static const double LEAST_LEG = 0.05;
+
+static vec2 point_of(const scenario_propulsion *p, int32_t i)
+{
+    return vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
+}
+
+int32_t course_next(const scenario_propulsion *p, int32_t last, double length)
+{
+    int32_t i = last + 1;
+    while (i < p->waypoints.count && vec2_length(vec2_sub(point_of(p, i), point_of(p, last))) < LEAST_LEG * length)
+        i++;
+    return i;
+}
+
 /* Whether the first way point is where the ship starts, a leg of no length that would turn her about; one that is all
    there is stays. */
 static bool starts_there(const scenario_propulsion *p, int32_t vessel, const world *w)
@@ -100,8 +117,7 @@ static bool starts_there(const scenario_propulsion *p, int32_t vessel, const wor
     if (p->waypoints.count < 2)
         return false;
     vec3 at = w->bodies.position[w->vessels.body[vessel]];
-    vec2 way = {p->waypoints.data[0].x - at.x, p->waypoints.data[0].y - at.y};
-    return vec2_length(way) < 0.5 * w->vessels.length[vessel];
+    return vec2_length(vec2_sub(point_of(p, 0), vec2_make(at.x, at.y))) < 0.5 * w->vessels.length[vessel];
 }
 
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
@@ -114,12 +130,9 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
     if (!table_resize(ctx, &w->course, &course_table_info, had + p->waypoints.count - first))
         return error_memory(error);
     int32_t count = had;
-    for (int32_t i = first; i < p->waypoints.count; i++) {
-        vec2 place = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
-        if (count > had && vec2_length(vec2_sub(place, w->course.place[count - 1])) == 0)
-            continue; /* no leg leads there */
+    for (int32_t i = first; i < p->waypoints.count; i = course_next(p, i, w->vessels.length[vessel])) {
         w->course.vessel[count] = vessel;
-        w->course.place[count++] = place;
+        w->course.place[count++] = point_of(p, i);
     }
     if (!table_resize(ctx, &w->course, &course_table_info, count))
         return error_memory(error);

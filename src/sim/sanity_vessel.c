@@ -58,21 +58,6 @@ static void tell_thrusters(const teller *t)
     }
 }
 
-/* The same way point twice. */
-static void tell_same_point(const teller *t)
-{
-    const scenario_vessel *v = t->e->keys;
-    for (int32_t i = 1; i < v->propulsion.waypoints.count; i++) {
-        const scenario_course_point *a = &v->propulsion.waypoints.data[i - 1], *b = a + 1;
-        if (a->x != b->x || a->y != b->y)
-            continue;
-        sanity_say(t->tell, t->to,
-                   "%s.propulsion.waypoints[%d]: it is 0 m from the point before: no leg leads there; leave it out",
-                   t->e->path, (int)i);
-        return;
-    }
-}
-
 static void tell_vessel_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -87,7 +72,6 @@ static void tell_vessel_propulsion(const teller *t)
     if (sanity_own_hull(v) && !is_automatic(p->propeller_diameter) && p->propeller_diameter > v->hull.draught)
         sanity_say(t->tell, t->to, "%s.propulsion.propeller_diameter: %.4g m is more than the draught, %.4g m",
                    t->e->path, p->propeller_diameter, v->hull.draught);
-    tell_same_point(t);
     const scenario_domain *d = &t->s->domain;
     for (int32_t i = 0; i < p->waypoints.count && d->boundary == DOMAIN_OPEN && t->s->ice.source != ICE_NONE; i++) {
         const scenario_course_point *w = &p->waypoints.data[i];

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "base/transcendental.h"
+#include "sim/build_propulsion.h"
 #include "sim/propulsion_forces.h"
 #include "sim/turning.h"
 #include "sim/wall_check.h"
@@ -89,6 +90,23 @@ static int key_of(const pattern_view *v, vec2 place)
     while (i + 1 < p->waypoints.count && (p->waypoints.data[i].x != place.x || p->waypoints.data[i].y != place.y))
         i++;
     return (int)i;
+}
+
+/* The first way point that is too near to the one before to lead anywhere. */
+static void tell_left_out(const pattern_view *v, double length)
+{
+    const scenario_propulsion *p = &v->entry->keys->propulsion;
+    for (int32_t last = 0, next; last < p->waypoints.count; last = next) {
+        next = course_next(p, last, length);
+        if (next == last + 1)
+            continue;
+        const scenario_course_point *a = &p->waypoints.data[last], *b = a + 1;
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.waypoints[%d]: it is %.4g m from the point before: a leg of less than a twentieth of "
+                  "the ship's length leads nowhere, so that it is left out; leave it out, or put it farther off",
+                  v->entry->path, (int)last + 1, vec2_length(vec2_make(b->x - a->x, b->y - a->y)));
+        return;
+    }
 }
 
 /* The first leg that is shorter than its corners take. */
@@ -256,6 +274,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     tell_helm_of_use(&v);
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
+        tell_left_out(&v, w->vessels.length[row]);
         tell_short_leg(&v, &legs);
         tell_loop(&v, &legs);
         return;

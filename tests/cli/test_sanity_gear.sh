@@ -246,6 +246,9 @@ expect 0 "$FRAM" check ship.yaml --set vessel.positioning.active=true "${tunnels
 grep 'warning: vessel.positioning: ' err && fail "thrusters are told that assist lines"
 sed 's/{x: 90, y: 0}/&, &/' drive.yaml >again.yaml
 told again.yaml "vessel.propulsion.waypoints[1]: it is 0 m from the point before"
+told again.yaml "waypoints[1]: it is 2.9 m from the point before|left out" --set "vessel.propulsion.waypoints[1].x=92.9"
+expect 0 "$FRAM" check again.yaml --set "vessel.propulsion.waypoints[1].x=93.1"
+grep 'from the point before' err && fail "a leg of more than a twentieth of the length is told"
 told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400

@@ -219,6 +219,20 @@ START_TEST(legs_are_kept_and_mirrored)
 }
 END_TEST
 
+/* Out and back by two points 10 mm apart, which no ship can round one by one: she turns about. */
+START_TEST(points_on_each_other_are_one)
+{
+    static const char *const sets[] = {"vessel.propulsion.speed=4", "vessel.speed=4"};
+    scene k;
+    scene_open_with(&k, SMALL_WITH(", waypoints: [{x: 100, y: 0}, {x: 100, y: 0.01}, {x: -900, y: 0.01}]"), sets, 2);
+    ck_assert_int_eq(k.w.course.count, 2);
+    scene_steps(&k, (int)(400 / STEP));
+    vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+    ck_assert_msg(r.x < 50 && fabs(r.y) < 7, "at (%g, %g)", r.x, r.y);
+    scene_close(&k);
+}
+END_TEST
+
 /* Three rounds of a square of way points, begun amidst a side: how far off the ship is at most in the last of them,
    and of how wide a circle, in sides, it stays beside. */
 static double worst_on_square(double side, double *round)
@@ -690,8 +704,8 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
           patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored,
-          a_square_of_way_points_is_kept_as_a_pattern, a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told,
-          slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
-          a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
+          points_on_each_other_are_one, a_square_of_way_points_is_kept_as_a_pattern,
+          a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
+          ahead_is_where_ice_comes_from, a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
           a_leg_along_a_current_is_kept_as_in_still_water, a_period_is_that_of_the_round_that_is_sailed,
           ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes, a_model_is_steered_as_its_ship)
