@@ -7,6 +7,11 @@
 
 /* Where nothing is given, parts of the length: thrust at the stern, the aim, the way back before a ram. */
 static const double STERN = 0.45, LOOKAHEAD = 2.5, RAM = 1;
+/* A leg is no shorter than this part of the length: a ship passes the corners of shorter ones in a step or two, and
+   cannot tell on which side of them she is. */
+static const double LEAST_LEG = 0.05;
+/* Way points within this part of the length of where she starts are behind her: a leg there would turn her about. */
+static const double AT_START = 0.5;
 
 static double wanted_speed(const scenario_propulsion *p, double round)
 {
@@ -93,13 +98,17 @@ static void give_speed(context *ctx, const model *m, int32_t vessel, const scena
     s->speed = speed;
 }
 
-/* A leg is no shorter than this part of the length: a ship passes the corners of shorter ones in a step or two, and
-   cannot tell on which side of them she is. */
-static const double LEAST_LEG = 0.05;
-
 static vec2 point_of(const scenario_propulsion *p, int32_t i)
 {
     return vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
+}
+
+int32_t course_first(const scenario_propulsion *p, vec2 begins, double length)
+{
+    int32_t i = 0;
+    while (i + 1 < p->waypoints.count && vec2_length(vec2_sub(point_of(p, i), begins)) < AT_START * length)
+        i++;
+    return i;
 }
 
 int32_t course_next(const scenario_propulsion *p, int32_t last, double length)
@@ -110,34 +119,26 @@ int32_t course_next(const scenario_propulsion *p, int32_t last, double length)
     return i;
 }
 
-/* Whether the first way point is where the ship starts, a leg of no length that would turn her about; one that is all
-   there is stays. */
-static bool starts_there(const scenario_propulsion *p, int32_t vessel, const world *w)
-{
-    if (p->waypoints.count < 2)
-        return false;
-    vec3 at = w->bodies.position[w->vessels.body[vessel]];
-    return vec2_length(vec2_sub(point_of(p, 0), vec2_make(at.x, at.y))) < 0.5 * w->vessels.length[vessel];
-}
-
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
                              world *w, fram_error *error)
 {
     const scenario_propulsion *p = &entry->keys->propulsion;
     if (is_automatic(p->bollard_pull))
         return FRAM_OK;
-    int32_t had = w->course.count, first = starts_there(p, vessel, w) ? 1 : 0;
-    if (!table_resize(ctx, &w->course, &course_table_info, had + p->waypoints.count - first))
+    vec3 at = w->bodies.position[w->vessels.body[vessel]];
+    double length = w->vessels.length[vessel];
+    int32_t count = w->course.count;
+    if (!table_resize(ctx, &w->course, &course_table_info, count + p->waypoints.count))
         return error_memory(error);
-    int32_t count = had;
-    for (int32_t i = first; i < p->waypoints.count; i = course_next(p, i, w->vessels.length[vessel])) {
+    int32_t i = course_first(p, vec2_make(at.x, at.y), length);
+    for (; i < p->waypoints.count; i = course_next(p, i, length)) {
         w->course.vessel[count] = vessel;
         w->course.place[count++] = point_of(p, i);
     }
     if (!table_resize(ctx, &w->course, &course_table_info, count))
         return error_memory(error);
     const vessel_model *hull = &m->vessels.data[vessel];
-    propulsion_settings settings = propulsion_settings_of(p, w->vessels.length[vessel], hull->particulars.beam);
+    propulsion_settings settings = propulsion_settings_of(p, length, hull->particulars.beam);
     settings.transient = s->run.transient;
     settings.ship = ship_of(s, hull, w, w->vessels.body[vessel]);
     settings.rudder = rudders_of(s, p, hull);

@@ -9,8 +9,10 @@
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
                              world *w, fram_error *error);
 
-/* Which of the way points are a course: the one after one of them, or their count.  Left out are those that are nearer
-   to it than a twentieth of the ship's length [m]. */
+/* Which of the way points are a course: the first, and the one after one of them, or their count.  Left out are those
+   within half the ship's length [m] of where it begins, while another follows, and those that are nearer to the one
+   before than a twentieth of it. */
+int32_t course_first(const scenario_propulsion *p, vec2 begins, double length);
 int32_t course_next(const scenario_propulsion *p, int32_t last, double length);
 
 #endif

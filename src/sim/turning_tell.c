@@ -92,11 +92,11 @@ static int key_of(const pattern_view *v, vec2 place)
     return (int)i;
 }
 
-/* The first way point that is too near to the one before to lead anywhere. */
-static void tell_left_out(const pattern_view *v, double length)
+/* The first way point that is too near to the one before to lead anywhere, after those where the ship begins. */
+static void tell_left_out(const pattern_view *v, vec2 begins, double length)
 {
     const scenario_propulsion *p = &v->entry->keys->propulsion;
-    for (int32_t last = 0, next; last < p->waypoints.count; last = next) {
+    for (int32_t last = course_first(p, begins, length), next; last < p->waypoints.count; last = next) {
         next = course_next(p, last, length);
         if (next == last + 1)
             continue;
@@ -274,7 +274,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     tell_helm_of_use(&v);
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
-        tell_left_out(&v, w->vessels.length[row]);
+        tell_left_out(&v, legs.begins, w->vessels.length[row]);
         tell_short_leg(&v, &legs);
         tell_loop(&v, &legs);
         return;

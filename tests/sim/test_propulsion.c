@@ -278,11 +278,14 @@ START_TEST(follows_way_points)
 }
 END_TEST
 
-/* A first way point at the ship's start, a little behind her centre of mass, is behind her: she goes straight on. */
+/* First way points at the ship's start, a little behind her centre of mass, are behind her, however many: she goes
+   straight on. */
 START_TEST(starts_at_a_way_point)
 {
     scene k;
-    scene_open(&k, SHIP_WITH(", speed: 4, waypoints: [{x: -0.5, y: 0}, {x: 800, y: 0}]"));
+    scene_open(&k, SHIP_WITH(", speed: 4, waypoints: [{x: 0.5, y: 0}, {x: -0.5, y: 0}, {x: -0.5, y: 0}, {x: -9, y: 0}, "
+                             "{x: 800, y: 0}]"));
+    ck_assert_int_eq(k.w.course.count, 1);
     for (int i = 0; i < 1500; i++) {
         scene_steps(&k, 1);
         ck_assert(fabs(k.w.bodies.position[k.w.vessels.body[0]].y) < 1);
