@@ -184,7 +184,7 @@ static int32_t points_about(const pilot *p, const course_table *course, vec2 poi
     int32_t n = begins > 1 ? begins - 2 : -1;
     *at = begins - n;
     for (; count < TRACK_POINTS; n++) {
-        if (n >= 0 && (first + n >= course->count || course->vessel[first + n] != vessel))
+        if (n >= 0 && (n >= course->count - first || course->vessel[first + n] != vessel))
             break;
         point[count++] = n < 0 ? t->from[row] : course->place[first + n];
     }

@@ -295,6 +295,29 @@ START_TEST(starts_at_a_way_point)
 }
 END_TEST
 
+#define ONE_OF_TWO(name, place, points)                                                                \
+    "  - {name: " name ", mode: free, y: " place ", hull: {form: icebreaker, length: 60, beam: 14},\n" \
+    "     propulsion: {bollard_pull: 8.0e5, speed: 4, waypoints: [" points "]}}\n"
+
+/* A state may say that a ship is past any number of legs, and another one's way points stand before hers: none of them
+   leads her on, and she keeps her heading. */
+START_TEST(past_all_its_legs_it_keeps_its_heading)
+{
+    scene k;
+    scene_open(&k, "run: {time_step: 0.05, duration: 10}\nvessels:\n" ONE_OF_TWO(
+                       "a", "0", "{x: 90, y: 90}, {x: 90, y: 0}, {x: 0, y: 90}, {x: 90, y: 90}, {x: 0, y: 0}")
+                       ONE_OF_TWO("b", "500", "{x: 90, y: 900}") "ice: {source: none}\n"
+                                                                 "domain: {boundary: open}\n");
+    ck_assert(k.w.course.count == 6 && k.w.propulsion.vessel[1] == 1);
+    k.w.propulsion.leg[1] = INT32_MAX;
+    scene_steps(&k, 2);
+    ck_assert_int_eq(k.w.propulsion.leg[1], INT32_MAX);
+    assert_absolute(k.w.propulsion.steering[1], 0, 1e-6);
+    ck_assert(fabs(k.w.propulsion.steering[0]) > 1e-3);
+    scene_close(&k);
+}
+END_TEST
+
 /* A circle updrift of a place is gone round within a breadth; when the drift turns, so does the circle.  A ship that
    starts against it turns about first, which is no round less. */
 START_TEST(goes_round_its_circle)
@@ -528,5 +551,6 @@ TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
           keeps_the_speed_that_is_wanted, water_helps_to_stop, more_helm_turns_no_ship_wider, follows_way_points,
-          starts_at_a_way_point, goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
-          ice_that_presses_against_its_way_holds_a_ship, a_wall_makes_no_ship_beset, refusals_name_their_key)
+          starts_at_a_way_point, past_all_its_legs_it_keeps_its_heading, goes_round_its_circle,
+          speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
+          a_wall_makes_no_ship_beset, refusals_name_their_key)
