@@ -195,11 +195,17 @@ static void tell_period(const pattern_view *v)
 /* Without the rounding about an axis. */
 static double tidy(double metres) { return fabs(metres) < 1e-6 ? 0 : metres; }
 
+/* Whether a place is in the domain, so far from its edges. */
+static bool is_inside(const pattern_view *v, vec2 at, double room)
+{
+    const scenario_domain *d = &v->s->domain;
+    return fmin(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y)) >= room;
+}
+
 /* Whether a place is in the domain; tells if it is not. */
 static bool place_is_inside(const pattern_view *v, double time, vec2 at)
 {
-    const scenario_domain *d = &v->s->domain;
-    if (at.x >= d->x_min && at.x <= d->x_max && at.y >= d->y_min && at.y <= d->y_max)
+    if (is_inside(v, at, 0))
         return true;
     log_write(v->ctx, LOG_WARNING,
               "%s.propulsion.pattern: at %.4g s it leads to (%s, %s) m, outside of the domain, where there is "
@@ -215,6 +221,41 @@ static double way_ahead(const pattern_view *v, const world *w, int32_t row, doub
     vec3 at = w->bodies.position[w->vessels.body[w->propulsion.vessel[row]]];
     double begun = vec2_length(vec2_make(at.x - v->set->x, at.y - v->set->y));
     return begun + fmin(v->set->speed, v->set->open_water_speed) * time;
+}
+
+/* The first loop at a way point that leads out of the domain within the run: into a wall, where half the beam is room
+   for the hull, or to where there is no ice. */
+static void tell_loop_outside(const pattern_view *v, const course_part *c, double beam)
+{
+    const bool walls = v->s->domain.boundary == DOMAIN_WALLS;
+    double fastest = fmin(v->set->speed, v->set->open_water_speed), way = 0;
+    if (!walls && v->s->ice.source == ICE_NONE)
+        return;
+    for (int32_t i = 0; i + 1 < c->count; i++) {
+        const vec2 legs[] = {i > 0 ? c->place[i - 1] : c->begins, c->place[i], c->place[i + 1]};
+        double leg = vec2_length(vec2_sub(legs[1], legs[0])), end;
+        way += leg;
+        if (!track_turns_about(legs[0], legs[1], legs[2]))
+            continue;
+        const track path = track_of_legs(legs, 3, 0, v->set->turning.corner, &end);
+        for (int k = 1; k < PLACES; k++) {
+            double on = (end - leg) * k / PLACES;
+            vec2 at = track_at(&path, leg + on).at;
+            if (way + on > fastest * v->s->run.duration)
+                return;
+            if (is_inside(v, at, walls ? 0.5 * beam : 0))
+                continue;
+            log_write(v->ctx, LOG_WARNING,
+                      "%s.propulsion.waypoints[%d]: the loop on which %s turns about there leads to (%s, %s) m, %s: "
+                      "enlarge the domain, put the point farther in, or take a lower speed",
+                      v->entry->path, key_of(v, legs[1]), vessel_title_of(v->entry).text,
+                      coordinate_text_of(tidy(at.x)).text, coordinate_text_of(tidy(at.y)).text,
+                      walls ? "where the hull meets a wall of the domain"
+                            : "outside of the domain, where there is no ice");
+            return;
+        }
+        way += end - leg;
+    }
 }
 
 static void tell_outside(const pattern_view *v, const model *m, const world *w, int32_t row)
@@ -277,6 +318,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
         tell_left_out(&v, legs.begins, w->vessels.length[row]);
         tell_short_leg(&v, &legs);
         tell_loop(&v, &legs);
+        tell_loop_outside(&v, &legs, m->vessels.data[row].particulars.beam);
         return;
     }
     if (s->domain.boundary != DOMAIN_FEEDING)

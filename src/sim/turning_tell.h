@@ -1,4 +1,4 @@
-/* What is told of how a ship that drives itself turns, before a run: its circle in open water, and patterns that ask
+/* What is told of how a ship that drives itself turns, before a run: its circle in open water, and tracks that ask
    for more than that, or that lead out of the domain.  One module with vessel_check, which asks. */
 #ifndef SIM_TURNING_TELL_H
 #define SIM_TURNING_TELL_H

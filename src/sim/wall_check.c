@@ -229,7 +229,8 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
         if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, place, reach))
             return;
     }
-    /* A ship that steers for a point turns before it stands there: the point itself lies in the basin. */
+    /* A ship that steers for a point turns before it stands there: the point itself lies in the basin.  Loops beyond
+       one are looked at with what is told of turns (turning_tell.c). */
     const box2 none = {{0, 0}, {0, 0}};
     for (int32_t i = 0; !is_automatic(v->propulsion.bollard_pull) && i < course.count; i++) {
         const scenario_course_point *p = &v->propulsion.waypoints.data[i];

@@ -141,9 +141,19 @@ holds 'waypoints\[0\]: it is 87.* m from where the ship begins, and corners of .
 told bends.yaml "vessel.propulsion.speed: at 0.1 m/s the ship, stopped by ice, pushes with 29 % of its pull|waits" \
     --set vessel.propulsion.speed=0.1 --set "vessel.propulsion.waypoints[1].x=-500" \
     --set "vessel.propulsion.waypoints[1].y=0" --set vessel.propulsion.steering_angle_deg=80
+grep 'the loop on which' err && fail "told of a loop that the run does not reach"
 holds '^warning: vessel.propulsion.steering_angle_deg: past 5.* degrees of helm the rudders of the vessel turn' err
 holds 'vessel.propulsion.waypoints\[0\]: a corner of more than 135 degrees: the vessel turns about on a loop' err
 grep 'beset_speed' err && fail "a ship that waits is told to back again and again"
+# The loop reaches beyond the point, into a wall or out of the ice.
+about=(--set "vessel.propulsion.waypoints[1].x=-500" --set "vessel.propulsion.waypoints[1].y=0" --set run.duration=600)
+loop="waypoints[0]: the loop on which the vessel turns about there leads to"
+told bends.yaml "$loop|outside of the domain" "${about[@]}"
+walls=(--set ice.source=none --set domain.boundary=walls)
+told bends.yaml "$loop|meets a wall" "${about[@]}" "${walls[@]}"
+wide=(--set domain.x_min=-3000 --set domain.x_max=3000 --set domain.y_min=-3000 --set domain.y_max=3000)
+expect 0 "$FRAM" check bends.yaml "${about[@]}" "${walls[@]}" "${wide[@]}"
+grep 'the loop on which' err && fail "told of a loop with room"
 for way in $turns=ahead environment.hull_drag.water_form=1 vessel.propulsion.speed=0.1; do
     expect 0 "$FRAM" check round.yaml --set "$way"
     grep 'its track has turns' err && fail "told of $way"
