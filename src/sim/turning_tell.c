@@ -109,25 +109,41 @@ static void tell_left_out(const pattern_view *v, vec2 begins, double length)
     }
 }
 
-/* The first leg that is shorter than its corners take. */
-static void tell_short_leg(const pattern_view *v, const course_part *c)
+/* Place i of the course; -1: where it begins. */
+static vec2 place_of_course(const course_part *c, int32_t i) { return i < 0 ? c->begins : c->place[i]; }
+
+static double length_of_leg(const course_part *c, int32_t i)
 {
-    double radius = v->set->turning.corner, before = 0;
-    for (int32_t i = 0; i < c->count; i++) {
-        vec2 from = i > 0 ? c->place[i - 1] : c->begins, to = c->place[i];
-        double here = i + 1 < c->count ? track_corner_takes(from, to, c->place[i + 1], radius) : 0;
-        double leg = vec2_length(vec2_sub(to, from)), takes = before + here;
-        before = here;
-        if (leg >= takes)
-            continue;
-        log_write(
-            v->ctx, LOG_WARNING,
-            "%s.propulsion.waypoints[%d]: it is %.4g m from %s, and corners of %.4g m radius take %.4g m of that: "
-            "they are rounded by %.4g m; take a longer leg, or a lower speed",
-            v->entry->path, key_of(v, to), leg, i > 0 ? "the point before" : "where the ship begins", radius, takes,
-            radius * leg / takes);
-        return;
+    return vec2_length(vec2_sub(c->place[i], place_of_course(c, i - 1)));
+}
+
+/* The radius of the corner at a place. */
+static double radius_left(const course_part *c, int32_t i, double radius)
+{
+    vec2 point[5];
+    int32_t count = 0, first = i > 0 ? i - 2 : -1;
+    for (int32_t k = first; k <= i + 2 && k < c->count; k++)
+        point[count++] = place_of_course(c, k);
+    return track_corner_left(point, count, i - first, radius);
+}
+
+/* The corner that its legs leave the least of its radius. */
+static void tell_short_legs(const pattern_view *v, const course_part *c)
+{
+    double radius = v->set->turning.corner, least = radius;
+    int32_t at = 0, count = 0;
+    for (int32_t i = 0; i + 1 < c->count; i++) {
+        double left = radius_left(c, i, radius);
+        count += left < radius;
+        at = left < least ? i : at;
+        least = fmin(left, least);
     }
+    if (count > 0)
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.waypoints[%d]: legs of %.4g and %.4g m leave its corner %.4g m of a radius of %.4g m, "
+                  "the least of %d that %s less: take longer legs, or a lower speed",
+                  v->entry->path, key_of(v, c->place[at]), length_of_leg(c, at), length_of_leg(c, at + 1), least,
+                  radius, (int)count, count == 1 ? "has" : "have");
 }
 
 /* The first corner that is too sharp to be rounded. */
@@ -316,7 +332,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
         tell_left_out(&v, legs.begins, w->vessels.length[row]);
-        tell_short_leg(&v, &legs);
+        tell_short_legs(&v, &legs);
         tell_loop(&v, &legs);
         tell_loop_outside(&v, &legs, m->vessels.data[row].particulars.beam);
         return;

@@ -110,7 +110,7 @@ static double turn_at(vec2 before, vec2 corner, vec2 after)
     return angle_between(real_atan2(in.y, in.x), real_atan2(out.y, out.x));
 }
 
-double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius)
+static double corner_takes(vec2 before, vec2 corner, vec2 after, double radius)
 {
     double sharp = fabs(turn_at(before, corner, after));
     return sharp > SHARPEST ? 0 : radius * real_tan(0.5 * sharp);
@@ -131,7 +131,7 @@ static track_course legs_of(const vec2 *point, int32_t count, double radius)
     for (int32_t i = 1; i < c.count; i++)
         c.leg[i] = vec2_length(vec2_sub(point[i], point[i - 1]));
     for (int32_t i = 1; i + 1 < c.count; i++)
-        c.takes[i] = track_corner_takes(point[i - 1], point[i], point[i + 1], radius);
+        c.takes[i] = corner_takes(point[i - 1], point[i], point[i + 1], radius);
     return c;
 }
 
@@ -142,6 +142,12 @@ static double part_of(const track_course *c, int32_t i)
         return 1;
     double in = c->leg[i] / (c->takes[i - 1] + c->takes[i]), out = c->leg[i + 1] / (c->takes[i] + c->takes[i + 1]);
     return fmin(1, fmin(in, out));
+}
+
+double track_corner_left(const vec2 *point, int32_t count, int32_t i, double radius)
+{
+    const track_course c = legs_of(point, count, radius);
+    return part_of(&c, i) * radius;
 }
 
 /* What a corner takes of each of its legs. */

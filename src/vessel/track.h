@@ -47,8 +47,9 @@ track track_of_pattern(const pattern_shape *p, double radius);
 track track_of_bend(vec2 at, double heading, double curvature, double *way);
 /* Whether a corner is so sharp, more than 135 degrees, that a ship turns about at it, on a loop beyond it. */
 bool track_turns_about(vec2 before, vec2 corner, vec2 after);
-/* What a corner that is rounded by this radius takes of each of its legs [m]; a loop takes nothing. */
-double track_corner_takes(vec2 before, vec2 corner, vec2 after, double radius);
+/* What the corner at point i, which is neither end, has of this radius [m]: its legs may be too short for more, by what
+   corners at their other ends take too.  Two points on either side tell, where there are such. */
+double track_corner_left(const vec2 *point, int32_t count, int32_t i, double radius);
 /* Legs from point to point, none of no length, from where the corner at point `at` (0: none) leaves its legs; corners
    are rounded by this radius [m], or by as much less as the legs are shorter than their corners take.  Has as many legs
    as there are pieces for; *corner: way to the end of the first of its corners [m], infinity without one.  Corners

@@ -136,7 +136,10 @@ grep 'its track has turns' err && fail "told of one leg"
 sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}/' drive.yaml >bends.yaml
 told bends.yaml "vessel.propulsion: $sides|vessel.current_coefficients" --set "vessel.propulsion.speed=auto"
 # Its legs are shorter than its corner takes.
-holds 'waypoints\[0\]: it is 87.* m from where the ship begins, and corners of .* they are rounded by' err
+holds 'waypoints\[0\]: legs of 8.* and 80 m leave its corner 80 m of a radius of .* m, the least of 1 that has less' err
+# Two corners on a leg share it: of all of them the one with the shortest is told.
+sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}, {x: 140, y: 80}, {x: 140, y: 200}/' drive.yaml >shares.yaml
+told shares.yaml "waypoints[1]: legs of 80 and 50 m leave its corner 25 m of a radius of|the least of 3 that have less"
 # Out and back, so slowly that ice stops it for good, with more helm than its rudders can use.
 told bends.yaml "vessel.propulsion.speed: at 0.1 m/s the ship, stopped by ice, pushes with 29 % of its pull|waits" \
     --set vessel.propulsion.speed=0.1 --set "vessel.propulsion.waypoints[1].x=-500" \
