@@ -68,6 +68,7 @@ typedef struct course_part {
     vec2 begins;
     const vec2 *place;
     int32_t count;
+    double length; /* of the ship [m] */
 } course_part;
 
 static course_part course_part_of(const world *w, int32_t row)
@@ -76,28 +77,28 @@ static course_part course_part_of(const world *w, int32_t row)
     int32_t first = 0, vessel = w->propulsion.vessel[row];
     while (first < c->count && c->vessel[first] != vessel)
         first++;
-    course_part out = {w->propulsion.from[row], c->place + first, 0};
+    course_part out = {w->propulsion.from[row], c->place + first, 0, w->vessels.length[vessel]};
     while (first + out.count < c->count && c->vessel[first + out.count] == vessel)
         out.count++;
     return out;
 }
 
-/* Which of the way points that are given a place of the course is: some are left out there. */
-static int key_of(const pattern_view *v, vec2 place)
+/* Which of the way points that are given place i of the course is: some are left out there. */
+static int key_of(const pattern_view *v, const course_part *c, int32_t i)
 {
     const scenario_propulsion *p = &v->entry->keys->propulsion;
-    int32_t i = 0;
-    while (i + 1 < p->waypoints.count && (p->waypoints.data[i].x != place.x || p->waypoints.data[i].y != place.y))
-        i++;
-    return (int)i;
+    int32_t key = course_first(p, c->begins, c->length);
+    for (int32_t k = 0; k < i; k++)
+        key = course_next(p, key, c->length);
+    return (int)key;
 }
 
 /* The first way point that is too near to the one before to lead anywhere, after those where the ship begins. */
-static void tell_left_out(const pattern_view *v, vec2 begins, double length)
+static void tell_left_out(const pattern_view *v, const course_part *c)
 {
     const scenario_propulsion *p = &v->entry->keys->propulsion;
-    for (int32_t last = course_first(p, begins, length), next; last < p->waypoints.count; last = next) {
-        next = course_next(p, last, length);
+    for (int32_t last = course_first(p, c->begins, c->length), next; last < p->waypoints.count; last = next) {
+        next = course_next(p, last, c->length);
         if (next == last + 1)
             continue;
         const scenario_course_point *a = &p->waypoints.data[last], *b = a + 1;
@@ -142,8 +143,8 @@ static void tell_short_legs(const pattern_view *v, const course_part *c)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.waypoints[%d]: legs of %.4g and %.4g m leave its corner %.4g m of a radius of %.4g m, "
                   "the least of %d that %s less: take longer legs, or a lower speed",
-                  v->entry->path, key_of(v, c->place[at]), length_of_leg(c, at), length_of_leg(c, at + 1), least,
-                  radius, (int)count, count == 1 ? "has" : "have");
+                  v->entry->path, key_of(v, c, at), length_of_leg(c, at), length_of_leg(c, at + 1), least, radius,
+                  (int)count, count == 1 ? "has" : "have");
 }
 
 /* The first corner that is too sharp to be rounded. */
@@ -155,8 +156,7 @@ static void tell_loop(const pattern_view *v, const course_part *c)
         log_write(v->ctx, LOG_INFO,
                   "%s.propulsion.waypoints[%d]: a corner of more than 135 degrees: %s turns about on a loop, which "
                   "reaches up to %.0f m beyond it",
-                  v->entry->path, key_of(v, c->place[i]), vessel_title_of(v->entry).text,
-                  LOOP_FAR * v->set->turning.corner);
+                  v->entry->path, key_of(v, c, i), vessel_title_of(v->entry).text, LOOP_FAR * v->set->turning.corner);
         return;
     }
 }
@@ -264,7 +264,7 @@ static void tell_loop_outside(const pattern_view *v, const course_part *c, doubl
             log_write(v->ctx, LOG_WARNING,
                       "%s.propulsion.waypoints[%d]: the loop on which %s turns about there leads to (%s, %s) m, %s: "
                       "enlarge the domain, put the point farther in, or take a lower speed",
-                      v->entry->path, key_of(v, legs[1]), vessel_title_of(v->entry).text,
+                      v->entry->path, key_of(v, c, i), vessel_title_of(v->entry).text,
                       coordinate_text_of(tidy(at.x)).text, coordinate_text_of(tidy(at.y)).text,
                       walls ? "where the hull meets a wall of the domain"
                             : "outside of the domain, where there is no ice");
@@ -331,7 +331,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     tell_helm_of_use(&v);
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
-        tell_left_out(&v, legs.begins, w->vessels.length[row]);
+        tell_left_out(&v, &legs);
         tell_short_legs(&v, &legs);
         tell_loop(&v, &legs);
         tell_loop_outside(&v, &legs, m->vessels.data[row].particulars.beam);

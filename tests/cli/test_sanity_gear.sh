@@ -140,6 +140,10 @@ holds 'waypoints\[0\]: legs of 8.* and 80 m leave its corner 80 m of a radius of
 # Two corners on a leg share it: of all of them the one with the shortest is told.
 sed 's/{x: 90, y: 0}/&, {x: 90, y: 80}, {x: 140, y: 80}, {x: 140, y: 200}/' drive.yaml >shares.yaml
 told shares.yaml "waypoints[1]: legs of 80 and 50 m leave its corner 25 m of a radius of|the least of 3 that have less"
+# Of points at the same place the one that turns about is named, and counted with those that are left out.
+sed 's/{x: 90, y: 0}/{x: 0, y: 0}, &, &, {x: 90, y: 900}, {x: 900, y: 400}, &, {x: 900, y: 90}/' drive.yaml >named.yaml
+expect 0 "$FRAM" check named.yaml
+holds 'waypoints\[5\]: a corner of more than 135 degrees' err
 # Out and back, so slowly that ice stops it for good, with more helm than its rudders can use.
 told bends.yaml "vessel.propulsion.speed: at 0.1 m/s the ship, stopped by ice, pushes with 29 % of its pull|waits" \
     --set vessel.propulsion.speed=0.1 --set "vessel.propulsion.waypoints[1].x=-500" \
