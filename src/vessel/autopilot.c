@@ -108,18 +108,32 @@ static double askew(const turning_ability *t, double bends, double curvature)
     return fmin(fmax(t->drift * bends * curvature, -most), most);
 }
 
+/* A ship is far outside of a bend where its foot goes with less than this part of its speed. */
+static const double FAR_OUTSIDE = 0.5;
+
+/* How far the foot of a ship comes as it goes, in parts of its way.  Far outside of a narrow bend it hardly moves:
+   looked for as far on as the ship comes it would be on the next bend, or the one after, and a ship between the two
+   sails away for good.  Closed tracks have no such bends side by side. */
+static double part_of_way(const autopilot_view *v, const track *path, double way)
+{
+    track_place foot = track_at(path, way);
+    double part = 1 / fmax(1 - foot.curvature * track_off(&foot, v->place), 1);
+    return part < FAR_OUTSIDE && !path->closed ? part : 1;
+}
+
 double autopilot_rate(const autopilot_view *v, const turning_ability *t, const motion_observer *seen, const track *path,
                       double way)
 {
     double speed = vec2_length(v->velocity), turn = v->turn - v->frame_turn, u = speed_of(t, v->ahead);
     double course = has_course(v) ? real_atan2(v->velocity.y, v->velocity.x) : v->heading;
+    double part = part_of_way(v, path, way);
     /* Where the ship is going to be when it turns as it is told now. */
     vec2 there = vec2_add(v->place, vec2_scale(heading_vector(course + 0.5 * turn * v->lag), speed * v->lag));
-    double ahead = track_foot(path, way + speed * v->lag, there);
+    double ahead = track_foot(path, way + part * speed * v->lag, there);
     track_place foot = track_at(path, ahead);
     double off = track_off(&foot, there);
     /* A bend is begun before it comes, as early as the ship takes to turn as the bend asks. */
-    double bend = t->reach * t->reach / t->corner, from = ahead - 0.5 * bend, to = ahead + 0.5 * bend;
+    double bend = part * t->reach * t->reach / t->corner, from = ahead - 0.5 * bend, to = ahead + 0.5 * bend;
     double curvature = (track_turned(path, to) - track_turned(path, from)) / bend;
     double change = (track_at(path, to).curvature - track_at(path, from).curvature) / bend;
     /* Back to the track, with the frame, and askew as the ship is in a turn; in as long as in still water. */

@@ -233,6 +233,23 @@ START_TEST(points_on_each_other_are_one)
 }
 END_TEST
 
+/* Bends to either side, much narrower than the ship can turn, on legs of about its length: it comes back from wide of
+   them, and goes on along the last leg. */
+START_TEST(bends_that_are_too_narrow_lead_no_ship_away)
+{
+    static const char *const sets[] = {"vessel.propulsion.speed=4", "vessel.speed=4"};
+    scene k;
+    scene_open_with(&k,
+                    LARGE_WITH(", waypoints: [{x: 100, y: 0}, {x: 143.5, y: -72}, {x: 57.6, y: -98.9}, {x: 170.8, y: "
+                               "-233.7}, {x: 318.5, y: -145.5}, {x: 385, y: -224.7}, {x: 4220.4, y: -1360.6}]"),
+                    sets, 2);
+    scene_steps(&k, (int)(800 / STEP));
+    printf("after bends that are too narrow: leg %d, %.1f m off\n", (int)k.w.propulsion.leg[0], k.w.propulsion.off[0]);
+    ck_assert_msg(fabs(k.w.propulsion.off[0]) < 300, "%g m off", k.w.propulsion.off[0]);
+    scene_close(&k);
+}
+END_TEST
+
 /* Three rounds of a square of way points, begun amidst a side: how far off the ship is at most in the last of them,
    and of how wide a circle, in sides, it stays beside. */
 static double worst_on_square(double side, double *round)
@@ -704,8 +721,9 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
           patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored,
-          points_on_each_other_are_one, a_square_of_way_points_is_kept_as_a_pattern,
-          a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from, a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
+          points_on_each_other_are_one, bends_that_are_too_narrow_lead_no_ship_away,
+          a_square_of_way_points_is_kept_as_a_pattern, a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told,
+          slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
+          a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
           a_leg_along_a_current_is_kept_as_in_still_water, a_period_is_that_of_the_round_that_is_sailed,
           ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes, a_model_is_steered_as_its_ship)
