@@ -11,6 +11,7 @@ Rules (CONTRIBUTING.md says why):
   - files of src/ have at most 500 lines (kernels and all others 800) of at most 120 columns, no reminders of unfinished
     work and no paths of one machine;
   - docs/architecture.md names files that are there;
+  - at the top stand the files of TOP and no other, such as what a run that was tried there left;
   - no libm function whose last bits differ between machines is called in src/.
 
 Prints file:line: message for each breach; exit code 1 when there is one.
@@ -25,6 +26,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from libm import TRANSCENDENTAL  # noqa: E402
 
+TOP = {".clang-format", ".clang-tidy", ".gitignore", "CHANGELOG.md", "CITATION.cff", "CMakeLists.txt",
+       "CMakePresets.json", "CONTRIBUTING.md", "LICENSE", "Makefile", "README.md"}
 FLOOR = {
     "base": 1,
     "geometry": 2,
@@ -210,6 +213,9 @@ def main():
         print(f"{path}:{line}: {message}")
         count += 1
     for path in own_files():
+        if path.parent == ROOT and path.name not in TOP:
+            print(f"{path.name}:1: at the top of the tree stands none but {', '.join(sorted(TOP))}")
+            count += 1
         if path.suffix not in TEXT_SUFFIXES and path.name not in ("Makefile", "run"):
             continue
         try:

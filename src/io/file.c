@@ -1,10 +1,12 @@
 /* Files through the calls of POSIX, so that every failure is seen where it happens. */
+#include "base/clock.h"
 #include "io/fill.h"
 #include "io/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <math.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -201,9 +203,10 @@ static fram_status refuse_writing(const file_writer *w, fram_error *error)
     return file_error(error, w->path, "write", w->failed);
 }
 
-/* How long a stream may be full: after a wish to stop, and before one that does not wait by itself is looked at again
-   [ms].  A reader that reads at all is there sooner. */
+/* How long a stream that does not wait by itself is full before it is looked at again [ms]. */
 enum { ROOM_WAIT = 100 };
+/* How long a reader is waited for after a wish to stop, in all [s]: for one that reads, and pauses, it is enough. */
+#define STOPPED_WAIT 0.5
 
 /* Whether a stop was asked for and the writing may wait for a reader, which may never take what there is no room for.
    A file's bytes are written all the same. */
@@ -213,15 +216,25 @@ static bool is_stopped_stream(const file_writer *w)
     return stop_is_asked(w->ctx->stop) && fstat(w->descriptor, &about) == 0 && !S_ISREG(about.st_mode);
 }
 
-/* False only where nothing was taken all the while: what is wrong with a descriptor is for write to say. */
-static bool wait_for_room(const file_writer *w)
+/* At most so many milliseconds.  False only where nothing was taken all the while: what is wrong with a descriptor is
+   for write to say. */
+static bool wait_for_room(const file_writer *w, int most)
 {
     struct pollfd stream = {.fd = w->descriptor, .events = POLLOUT};
     int answer;
     do
-        answer = poll(&stream, 1, ROOM_WAIT);
+        answer = poll(&stream, 1, most);
     while (answer < 0 && errno == EINTR);
     return answer != 0;
+}
+
+/* Whether there is room after a wish to stop, for which what is left of the patience is waited. */
+static bool room_is_left(file_writer *w)
+{
+    double since = clock_wall(), patience = fmax(STOPPED_WAIT - w->waited, 0);
+    bool room = wait_for_room(w, (int)(1000 * patience));
+    w->waited += clock_wall() - since;
+    return room;
 }
 
 /* Bytes to the system; remembers the first failure. */
@@ -230,7 +243,7 @@ static fram_status write_out(file_writer *w, const char *data, size_t size, fram
     for (size_t done = 0; done < size && !w->failed;) {
         size_t part = size - done;
         if (is_stopped_stream(w)) {
-            if (!wait_for_room(w)) {
+            if (!room_is_left(w)) {
                 w->failed = EINTR;
                 break;
             }
@@ -242,7 +255,7 @@ static fram_status write_out(file_writer *w, const char *data, size_t size, fram
         else if (put_now == 0)
             w->failed = EIO;
         else if (errno == EAGAIN)
-            wait_for_room(w); /* who shares the stream has set it not to wait */
+            wait_for_room(w, ROOM_WAIT); /* who shares the stream has set it not to wait */
         else if (errno != EINTR)
             w->failed = errno;
     }

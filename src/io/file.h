@@ -42,6 +42,7 @@ typedef struct file_writer {
     size_t filled;
     uint64_t length; /* of the file, once the buffer is written */
     int failed;      /* errno of the first write that failed, 0 */
+    double waited;   /* for room in a stream since a stop was asked for [s] */
 } file_writer;
 
 /* An empty file, whatever was there, but what has no beginning of its own (io/fill.h).  When this or file_open fails,

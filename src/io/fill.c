@@ -45,12 +45,13 @@ static int descriptor_of(const char *path)
         return -1;
     for (int i = 0; i < LINKS_MOST; i++) {
         ssize_t length = readlink(at, target, sizeof target - 1);
+        char *slash = strrchr(at, '/'), *name = slash ? slash + 1 : at;
+        bool number = slash && *name && strspn(name, "0123456789") == strlen(name);
+        if (number && (length > 0 || errno == ENOENT) && is_of_descriptors(at, name))
+            return (int)strtol(name, NULL, 10); /* one that is not open is for who writes to refuse */
         if (length <= 0)
             return -1;
         target[length] = '\0';
-        char *slash = strrchr(at, '/'), *name = slash ? slash + 1 : at;
-        if (slash && is_of_descriptors(at, name))
-            return (int)strtol(name, NULL, 10);
         char *to = target[0] == '/' ? at : name;
         if (snprintf(to, sizeof at - (size_t)(to - at), "%s", target) >= (int)(sizeof at - (size_t)(to - at)))
             return -1;

@@ -4,13 +4,13 @@
 #include "model/scenario_vessel.h"
 
 /* The blocks of poses and of forces without these, a pose with its contact force, a force on a vessel; and floes that
-   touch a vessel in ice, about. */
-enum { HEADS_BYTES = 104, POSE_BYTES = RECORD_POSE_SIZE + 2, FORCE_BYTES = 32, FLOES_AT_VESSEL = 16 };
+   touch vessels in ice, about. */
+enum { HEADS_BYTES = 104, POSE_BYTES = RECORD_POSE_SIZE + 2, FORCE_BYTES = 32, FLOES_AT_VESSELS = 16 };
 
-/* pulls: mooring lines and thrusters of all vessels. */
-static double frame_size(double bodies, double vessels, double pulls, bool ice)
+/* pulls: mooring lines and thrusters of all vessels; meet: there are vessels and ice. */
+static double frame_size(double bodies, double pulls, bool meet)
 {
-    double forces = pulls + (ice ? FLOES_AT_VESSEL * vessels : 0);
+    double forces = pulls + (meet ? FLOES_AT_VESSELS : 0);
     return HEADS_BYTES + POSE_BYTES * bodies + FORCE_BYTES * forces;
 }
 
@@ -19,7 +19,7 @@ double frame_size_of_world(const world *w)
     int32_t bodies = 0;
     for (int32_t i = 0; i < w->bodies.count; i++)
         bodies += body_is_alive(&w->bodies, i) && w->bodies.motion[i] != MOTION_STATIC;
-    return frame_size(bodies, w->vessels.count, w->lines.count + w->thrusters.count, w->floes.count > 0);
+    return frame_size(bodies, w->lines.count + w->thrusters.count, w->vessels.count > 0 && w->floes.count > 0);
 }
 
 double frame_size_of_scenario(const scenario *s, double floes)
@@ -34,5 +34,5 @@ double frame_size_of_scenario(const scenario *s, double floes)
         for (int32_t i = 0; i < keys->mooring.lines.count; i++)
             pulls += (double)keys->mooring.lines.data[i].count;
     }
-    return frame_size(floes + vessels, vessels, pulls, floes > 0);
+    return frame_size(floes + vessels, pulls, vessels > 0 && floes > 0);
 }

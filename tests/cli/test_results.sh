@@ -197,6 +197,9 @@ echo mine >notes.txt
 expect 2 "$FRAM" report run -o /proc/self/cwd/notes.txt -q
 expect 2 "$FRAM" export run --geojson --time 1 -o /proc/self/cwd/notes.txt -q
 same "$(cat notes.txt)" mine "a file behind /proc"
+# A stream that is not open is refused as that, not for the ending of its name.
+expect 2 "$FRAM" report run -o /dev/fd/9 -q
+says "/dev/fd/9: cannot open for writing" err
 # Nothing stands beside a page that goes into a stream.
 ln -s /dev/stdout out.html
 "$FRAM" manage run -o out.html >streamed 2>err || fail "ice management does not go to a stream: $(cat err)"

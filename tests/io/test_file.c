@@ -186,12 +186,14 @@ END_TEST
 
 static char bulk[200000];
 
+static void pause_for(int milliseconds) { nanosleep(&(struct timespec){.tv_nsec = milliseconds * 1000000L}, NULL); }
+
 /* A program that comes late, and wants all that is in `bulk` and nothing behind it. */
-static pid_t late_reader(const char *path)
+static pid_t late_reader(const char *path, int milliseconds)
 {
     pid_t reader = fork();
     if (reader == 0) {
-        nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+        pause_for(milliseconds);
         FILE *pipe = fopen(path, "rb");
         size_t got = pipe ? fread(bulk, 1, sizeof bulk, pipe) : 0;
         _exit(got == sizeof bulk && fgetc(pipe) == EOF ? 0 : 1);
@@ -206,12 +208,46 @@ START_TEST(a_pipe_waits_for_its_reader)
     file_writer w;
     int state = 0;
     ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
-    pid_t reader = late_reader(s.path);
+    pid_t reader = late_reader(s.path, 20);
     assert_ok(file_create(&ctx, s.path, &w, &error), error);
     assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
     assert_ok(file_close(&w, &error), error);
     ck_assert_int_eq(waitpid(reader, &state, 0), reader);
     ck_assert_int_eq(state, 0);
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+/* After a stop a reader that pauses is waited for, in all for less than one takes that reads little by little. */
+START_TEST(a_stop_waits_for_a_reader_that_pauses_not_for_a_slow_one)
+{
+    context_init(&ctx);
+    ctx.stop = &stop;
+    scratch s = scratch_make();
+    file_writer w;
+    int state = 0;
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    int own = open(s.path, O_RDONLY | O_NONBLOCK);
+    stop = 1;
+    pid_t reader = late_reader(s.path, 150);
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
+    assert_ok(file_close(&w, &error), error);
+    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
+    ck_assert_int_eq(state, 0);
+    reader = fork();
+    for (int i = 0; reader == 0 && i < 50; i++) {
+        pause_for(50);
+        (void)!read(own, bulk, 4096);
+    }
+    if (reader == 0)
+        _exit(0);
+    assert_ok(file_create(&ctx, s.path, &w, &error), error);
+    assert_fails(file_write(&w, bulk, sizeof bulk, &error), error, FRAM_INTERRUPTED, "the reader takes no more");
+    file_abandon(&w);
+    ck_assert_int_eq(kill(reader, SIGKILL), 0);
+    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
+    ck_assert_int_eq(close(own), 0);
     scratch_remove(&s, "pipe");
 }
 END_TEST
@@ -225,7 +261,7 @@ START_TEST(a_stream_that_does_not_wait_is_waited_for)
     char name[64];
     int state = 0;
     ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
-    pid_t reader = late_reader(s.path);
+    pid_t reader = late_reader(s.path, 20);
     int own = open(s.path, O_RDWR | O_NONBLOCK); /* not the reader's too, who would wait for its own end */
     snprintf(name, sizeof name, "/dev/fd/%d", own);
     assert_ok(file_create(&ctx, access(name, F_OK) == 0 ? name : s.path, &w, &error), error);
@@ -449,7 +485,7 @@ END_TEST
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
           a_pipe_is_not_waited_for, a_reader_that_goes_ends_the_writing, a_stop_ends_the_waiting_for_a_reader,
           a_stop_leaves_out_only_what_a_pipe_has_no_room_for, a_pipe_waits_for_its_reader,
-          a_stream_that_does_not_wait_is_waited_for, a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once,
-          a_partial_write_is_seen, replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place,
-          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
-          memory_runs_out)
+          a_stop_waits_for_a_reader_that_pauses_not_for_a_slow_one, a_stream_that_does_not_wait_is_waited_for,
+          a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once, a_partial_write_is_seen,
+          replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
+          devices_and_links_are_written_through, a_bare_name_is_here, memory_runs_out)

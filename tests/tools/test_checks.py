@@ -100,6 +100,13 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/floe.c:501: 501 lines; at most 500", said)
         self.assertEqual(said.count("lines; at most"), 1)
 
+    def test_files_at_the_top(self):
+        self.plant("README.md", "Read me.\n")
+        self.plant("scenes/demo.yaml", "run: {}\n")
+        self.assertEqual(self.rooms(), "")
+        self.plant("demo.yaml", "run: {}\n")
+        self.assertIn("demo.yaml:1: at the top of the tree stands none but .clang-format", self.rooms())
+
     def test_files_that_the_architecture_names(self):
         self.plant("src/ice/floe.c", "int x;\n")
         self.plant("docs/architecture.md", "See `ice/floe.c` and\n`ice/crack.c`, `fuzz/corpus`.\n")
