@@ -113,12 +113,12 @@ static const double FAR_OUTSIDE = 0.5;
 
 /* How far the foot of a ship comes as it goes, in parts of its way.  Far outside of a narrow bend it hardly moves:
    looked for as far on as the ship comes it would be on the next bend, or the one after, and a ship between the two
-   sails away for good.  Closed tracks have no such bends side by side. */
+   sails away for good.  Closed tracks and single bends have no such bends side by side. */
 static double part_of_way(const autopilot_view *v, const track *path, double way)
 {
     track_place foot = track_at(path, way);
     double part = 1 / fmax(1 - foot.curvature * track_off(&foot, v->place), 1);
-    return part < FAR_OUTSIDE && !path->closed ? part : 1;
+    return part < FAR_OUTSIDE && !path->closed && path->count > 1 ? part : 1;
 }
 
 double autopilot_rate(const autopilot_view *v, const turning_ability *t, const motion_observer *seen, const track *path,

@@ -10,8 +10,9 @@
 #include <stdint.h>
 
 /* A leg and its corner are two pieces, or five with a loop; of way points near to each other an autopilot sees several
-   corners at once.  So many of them are enough for a track of legs. */
-enum { TRACK_PIECES = 24, TRACK_POINTS = TRACK_PIECES / 2 + 5 };
+   corners at once.  So many of them are enough for a track of legs: sixty legs of a twentieth of a ship, the least that
+   there are, reach farther than its helm looks ahead. */
+enum { TRACK_PIECES = 128, TRACK_POINTS = TRACK_PIECES / 2 + 5 };
 
 typedef struct track_piece {
     double length;    /* [m] */

@@ -280,9 +280,32 @@ static double worst_on_square(double side, double *round)
     return worst;
 }
 
-/* Corners of way points are known before the leg that leads to them, as those of a pattern are: where its legs are so
-   short that nothing straight is left of them a square is gone round as a circle within it, and where they are longer
-   it is kept. */
+/* A round of way points on a circle, with so many of them: how far beside it the ship is at most. */
+static double worst_on_ring(double radius, int legs)
+{
+    char text[12000], points[11000];
+    int length = 0;
+    for (int i = 1; i <= legs; i++)
+        length += snprintf(points + length, sizeof points - (size_t)length, "%s{x: %.6f, y: %.6f}", i > 1 ? ", " : "",
+                           radius * sin(2 * PI * i / legs), radius - radius * cos(2 * PI * i / legs));
+    snprintf(text, sizeof text, SMALL_WITH(", speed: 4, waypoints: [%s]"), points);
+    static const char *const sets[] = {"vessel.speed=4"};
+    scene k;
+    scene_open_with(&k, text, sets, 1);
+    double worst = 0;
+    for (double time = 0; time < 0.9 * 2 * PI * radius / 4; time += STEP) {
+        scene_steps(&k, 1);
+        vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+        if (time > 0.3 * 2 * PI * radius / 4)
+            worst = fmax(worst, fabs(vec2_length(vec2_make(r.x, r.y - radius)) - radius));
+    }
+    scene_close(&k);
+    return worst;
+}
+
+/* Corners of way points are known before the leg that leads to them, as those of a pattern are, however many of them
+   lie as far ahead as the ship's helm looks: where its legs are so short that nothing straight is left of them a square
+   is gone round as a circle within it, and where they are longer it is kept. */
 START_TEST(a_square_of_way_points_is_kept_as_a_pattern)
 {
     const pattern_case any = {"square", 4, 5, 4, false, NULL};
@@ -297,6 +320,9 @@ START_TEST(a_square_of_way_points_is_kept_as_a_pattern)
     double wide = worst_on_square(2.2 * corner, &round);
     printf("%.1f m off where more is straight\n", wide);
     ck_assert_msg(wide < 7, "%g m", wide);
+    double dense = worst_on_ring(3 * corner, 270);
+    printf("a ring of 270 way points: %.1f m beside it\n", dense);
+    ck_assert_msg(dense < 5, "%g m", dense);
 }
 END_TEST
 
