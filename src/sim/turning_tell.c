@@ -94,7 +94,7 @@ static int key_of(const pattern_view *v, const course_part *c, int32_t i)
 }
 
 /* The first way point that is too near to the one before to lead anywhere, after those where the ship begins. */
-static void tell_left_out(const pattern_view *v, const course_part *c)
+static void tell_near_points(const pattern_view *v, const course_part *c)
 {
     const scenario_propulsion *p = &v->entry->keys->propulsion;
     for (int32_t last = course_first(p, c->begins, c->length), next; last < p->waypoints.count; last = next) {
@@ -331,7 +331,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     tell_helm_of_use(&v);
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
-        tell_left_out(&v, &legs);
+        tell_near_points(&v, &legs);
         tell_short_legs(&v, &legs);
         tell_loop(&v, &legs);
         tell_loop_outside(&v, &legs, m->vessels.data[row].particulars.beam);
