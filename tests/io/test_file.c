@@ -98,14 +98,21 @@ START_TEST(missing_files_and_folders_are_named)
 }
 END_TEST
 
+/* A folder with a named pipe, whose name is in `path`. */
+static scratch pipe_make(void)
+{
+    scratch s = scratch_make();
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    return s;
+}
+
 /* Opening a pipe without a writer must not hang. */
 START_TEST(a_pipe_is_not_waited_for)
 {
     context_init(&ctx);
-    scratch s = scratch_make();
+    scratch s = pipe_make();
     char *data;
     size_t size;
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     assert_fails(file_read(&ctx, s.path, 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "regular file");
     scratch_remove(&s, "pipe");
 }
@@ -115,9 +122,8 @@ END_TEST
 START_TEST(a_reader_that_goes_ends_the_writing)
 {
     context_init(&ctx);
-    scratch s = scratch_make();
+    scratch s = pipe_make();
     file_writer w;
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     int reader = open(s.path, O_RDONLY | O_NONBLOCK);
     ck_assert_int_ge(reader, 0);
     assert_ok(file_create(&ctx, s.path, &w, &error), error);
@@ -146,10 +152,9 @@ START_TEST(a_stop_ends_the_waiting_for_a_reader)
 {
     context_init(&ctx);
     ctx.stop = &stop;
-    scratch s = scratch_make();
+    scratch s = pipe_make();
     file_writer w;
     static const char large[200000];
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     stop_soon();
     assert_fails(file_create(&ctx, s.path, &w, &error), error, FRAM_INTERRUPTED, "waiting for a reader");
     int reader = open(s.path, O_RDONLY | O_NONBLOCK);
@@ -167,10 +172,9 @@ START_TEST(a_stop_leaves_out_only_what_a_pipe_has_no_room_for)
 {
     context_init(&ctx);
     ctx.stop = &stop;
-    scratch s = scratch_make();
+    scratch s = pipe_make();
     file_writer w;
     static char large[200000];
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     int reader = open(s.path, O_RDONLY | O_NONBLOCK);
     stop = 1;
     assert_ok(file_create(&ctx, s.path, &w, &error), error);
@@ -201,19 +205,29 @@ static pid_t late_reader(const char *path, int milliseconds)
     return reader;
 }
 
+static void write_bulk(const char *path)
+{
+    file_writer w;
+    assert_ok(file_create(&ctx, path, &w, &error), error);
+    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
+    assert_ok(file_close(&w, &error), error);
+}
+
+/* It had what it wants. */
+static void assert_read(pid_t reader)
+{
+    int state;
+    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
+    ck_assert_int_eq(state, 0);
+}
+
 START_TEST(a_pipe_waits_for_its_reader)
 {
     context_init(&ctx);
-    scratch s = scratch_make();
-    file_writer w;
-    int state = 0;
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    scratch s = pipe_make();
     pid_t reader = late_reader(s.path, 20);
-    assert_ok(file_create(&ctx, s.path, &w, &error), error);
-    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
-    assert_ok(file_close(&w, &error), error);
-    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
-    ck_assert_int_eq(state, 0);
+    write_bulk(s.path);
+    assert_read(reader);
     scratch_remove(&s, "pipe");
 }
 END_TEST
@@ -223,18 +237,14 @@ START_TEST(a_stop_waits_for_a_reader_that_pauses_not_for_a_slow_one)
 {
     context_init(&ctx);
     ctx.stop = &stop;
-    scratch s = scratch_make();
+    scratch s = pipe_make();
     file_writer w;
     int state = 0;
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     int own = open(s.path, O_RDONLY | O_NONBLOCK);
     stop = 1;
     pid_t reader = late_reader(s.path, 150);
-    assert_ok(file_create(&ctx, s.path, &w, &error), error);
-    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
-    assert_ok(file_close(&w, &error), error);
-    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
-    ck_assert_int_eq(state, 0);
+    write_bulk(s.path);
+    assert_read(reader);
     reader = fork();
     for (int i = 0; reader == 0 && i < 50; i++) {
         pause_for(50);
@@ -256,21 +266,15 @@ END_TEST
 START_TEST(a_stream_that_does_not_wait_is_waited_for)
 {
     context_init(&ctx);
-    scratch s = scratch_make();
-    file_writer w;
+    scratch s = pipe_make();
     char name[64];
-    int state = 0;
-    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
     pid_t reader = late_reader(s.path, 20);
     int own = open(s.path, O_RDWR | O_NONBLOCK); /* not the reader's too, who would wait for its own end */
     snprintf(name, sizeof name, "/dev/fd/%d", own);
-    assert_ok(file_create(&ctx, access(name, F_OK) == 0 ? name : s.path, &w, &error), error);
-    assert_ok(file_write(&w, bulk, sizeof bulk, &error), error);
-    assert_ok(file_close(&w, &error), error);
+    write_bulk(access(name, F_OK) == 0 ? name : s.path);
     ck_assert(fcntl(own, F_GETFL) & O_NONBLOCK);
     ck_assert_int_eq(close(own), 0);
-    ck_assert_int_eq(waitpid(reader, &state, 0), reader);
-    ck_assert_int_eq(state, 0);
+    assert_read(reader);
     scratch_remove(&s, "pipe");
 }
 END_TEST
