@@ -47,20 +47,20 @@ def case(out):
         name = f"books/{scene.replace(' ', '_')}"
         all_keys = {"run__duration": END, "run__transient": 0, "output__frame_interval": 0, **keys}
         s = ladder.run(path(scene), name, **all_keys)
-        force = max(abs(f) for axis in AXES for f in s[f"ice_force_{axis}"])
+        force = ladder.greatest(abs(f) for axis in AXES for f in s[f"ice_force_{axis}"])
         enter("largest ice force [kN]", f"{force / 1e3:.0f}")
 
         def gap(total, parts):
-            return max(abs(t - sum(p)) for t, *p in zip(s[total], *(s[part] for part in parts))) / force
+            return ladder.greatest(abs(t - sum(p)) for t, *p in zip(s[total], *(s[part] for part in parts))) / force
 
-        parts = max(gap(f"ice_force_{a}", [f"ice_force_{p}_{a}" for p in PARTS]) for a in AXES)
-        zones = max(gap(f"ice_force_{a}", [f"ice_force_{z}_{a}" for z in ZONES]) for a in AXES)
+        parts = ladder.greatest(gap(f"ice_force_{a}", [f"ice_force_{p}_{a}" for p in PARTS]) for a in AXES)
+        zones = ladder.greatest(gap(f"ice_force_{a}", [f"ice_force_{z}_{a}" for z in ZONES]) for a in AXES)
         with world.World(path(scene), **all_keys) as w:
             mass = w.bodies("vessel")[0][1].mass
         step = s["time"][1] - s["time"][0]
-        pull = max(abs(s[f"tow_force_{a}"][i] + s[f"ice_force_{a}"][i] + s[f"fluid_force_{a}"][i]
-                       - mass * (s[f"velocity_{a}"][i] - s[f"velocity_{a}"][i - 1]) / step)
-                   for a in ("x", "y") for i in range(1, len(s["time"]))) / force
+        pull = ladder.greatest(abs(s[f"tow_force_{a}"][i] + s[f"ice_force_{a}"][i] + s[f"fluid_force_{a}"][i]
+                                   - mass * (s[f"velocity_{a}"][i] - s[f"velocity_{a}"][i - 1]) / step)
+                               for a in ("x", "y") for i in range(1, len(s["time"]))) / force
         # What the twelve digits of the files leave open: half a digit of each of two velocities.
         digits = mass * 2 * 0.5e-11 / step / force
         # At constant speed, after the ramp, the joint of the carriage holds the hull as well as the solver converges.
@@ -85,9 +85,10 @@ def case(out):
         enter("events", str(count))
         if not count:
             continue
-        areas = max(abs(p - q - lost + gained) / p for p, q, lost, gained in
-                    zip(e["floe_area"], e["pieces_area"], e["area_lost"], e["area_gained"]))
-        worst = max((lost + gained) / p for p, lost, gained in zip(e["floe_area"], e["area_lost"], e["area_gained"]))
+        areas = ladder.greatest(abs(p - q - lost + gained) / p for p, q, lost, gained in
+                                zip(e["floe_area"], e["pieces_area"], e["area_lost"], e["area_gained"]))
+        worst = ladder.greatest((lost + gained) / p for p, lost, gained in
+                                zip(e["floe_area"], e["area_lost"], e["area_gained"]))
         share = (sum(e["mass_lost"]) + sum(e["mass_gained"])) / before
         c.check(areas <= 1e-9, f"{scene}: areas of {count} events close to {areas:.0e}, at most 1e-9")
         c.check(worst <= 1e-3, f"{scene}: {100 * worst:.4f} % of a floe lost and gained in an event at most, 0.1 % "

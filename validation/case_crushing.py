@@ -45,7 +45,7 @@ def impact(corner_first, exponent, dt):
             ways.append(s.position[0] - start)
             if stop is not None and w.time > stop + 20 * dt:
                 break
-        return max(forces), max(ways), stop, abs(speed), (times, forces, ways)
+        return ladder.greatest(forces), ladder.greatest(ways), stop, abs(speed), (times, forces, ways)
 
 
 def exact(corner_first, exponent):
@@ -121,8 +121,8 @@ def case(out):
     cap = STRENGTH * 6 * 0.8
     for trims, allowed in (("false", 1e-6), ("true", 1e-2)):
         wall = wall_into_floe(trims)
-        spread = max(abs(-f[0] / cap - 1) for f in wall)
-        level = max(abs(f[2]) / cap for f in wall)
+        spread = ladder.greatest(abs(-f[0] / cap - 1) for f in wall)
+        level = ladder.greatest(abs(f[2]) / cap for f in wall)
         name = f"wall, crush_trims {trims}"
         c.rows.append([f"{name}, 3 h deep", "10", f"{-min(f[0] for f in wall) / 1e3:.3f}", f"{cap / 1e3:.3f}",
                        *5 * [""]])

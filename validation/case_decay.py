@@ -94,13 +94,13 @@ def case(out):
         errors = []
         for dt in STEPS:
             times, ways = follow(name, dt)
-            errors.append(max(abs(x - exact(name, t)) for t, x in zip(times, ways)) / amplitude)
+            errors.append(ladder.greatest(abs(x - exact(name, t)) for t, x in zip(times, ways)) / amplitude)
             order = math.log2(errors[-2] / errors[-1]) if len(errors) > 1 else None
             c.rows.append([name, f"{2 * math.pi / w:.4f}", z, dt, f"{errors[-1]:.2e}",
                            "" if order is None else f"{order:.2f}"])
         curves[name] = (times, [x / amplitude for x in ways])
         orders = ladder.observed_order(errors)
-        c.check(min(orders) >= 0.9, f"{name}: observed orders {orders[0]:.2f}, {orders[1]:.2f}, at least 0.9")
+        c.check(ladder.least(orders) >= 0.9, f"{name}: observed orders {orders[0]:.2f}, {orders[1]:.2f}, at least 0.9")
         c.check(errors[-1] <= 0.02, f"{name}: {100 * errors[-1]:.2f} % of the amplitude off at 0.01 s, at most 2 %")
 
     def draw(axes):

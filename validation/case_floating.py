@@ -78,14 +78,14 @@ def case(out):
     path, worst = cube(), 0.0
     for t, exact in CUBE:
         found = ladder.answer("hull", path, "--draught", t)["volume_m3"]
-        worst = max(worst, abs(found / exact - 1))
+        worst = ladder.greatest(worst, abs(found / exact - 1))
         c.rows.append([f"cube, immersion {t:.4g} m: volume", f"{found:.10g} m3", f"{exact:.10g}",
                        f"{found / exact - 1:.1e}"])
     c.check(worst <= 2e-9, f"volumes to {worst:.0e}, at most 2e-9 (digits of the source)")
     worst = 0.0
     for heel, exact in LEVERS:
         found = lever(heel)
-        worst = max(worst, abs(found / exact - 1))
+        worst = ladder.greatest(worst, abs(found / exact - 1))
         c.rows.append([f"box, GZ at {heel} deg", f"{found:.10g} m", f"{exact:.10g}", f"{found / exact - 1:.1e}"])
     c.check(worst <= 2e-9, f"levers to {worst:.0e}, at most 2e-9")
 

@@ -62,8 +62,8 @@ def follow(roll, pitch, dt):
             w.step(round(0.1 / dt))
             o, turn, e = look()
             away = [a - b for a, b in zip(turn, first[1])]
-            momentum = max(momentum, world.length(away) / world.length(first[1]))
-            energy = max(energy, abs(e / first[2] - 1))
+            momentum = ladder.greatest(momentum, world.length(away) / world.length(first[1]))
+            energy = ladder.greatest(energy, abs(e / first[2] - 1))
             times.append(round(w.time, 6))
             spins.append(o)
     return times, spins, momentum, energy
@@ -87,7 +87,7 @@ def case(out):
         for dt in STEPS:
             times, spins, momentum, energy = follow(roll, pitch, dt)
             exact = euler(spins[0], times)
-            errors.append(max(world.length([a - b for a, b in zip(o, e)]) for o, e in zip(spins, exact)))
+            errors.append(ladder.greatest(world.length([a - b for a, b in zip(o, e)]) for o, e in zip(spins, exact)))
             order = math.log2(errors[-2] / errors[-1]) if len(errors) > 1 else None
             c.rows.append([name, dt, f"{momentum:.1e}", f"{energy:.1e}", f"{errors[-1]:.2e}",
                            "" if order is None else f"{order:.2f}"])

@@ -43,10 +43,11 @@ def case(out):
     for n, v, e, o, order, load, radius in zip(FACETS, volumes, errors, own, orders, loads, radii):
         c.rows.append([n, f"{v:.6f}", f"{o:.0e}", f"{100 * e:.3f} %", "" if order is None else f"{order:.2f}",
                        f"{load / 1e3:.0f}", f"{100 * (load / loads[-1] - 1):+.1f} %", f"{radius:.2f}"])
-    c.check(max(own) <= 1e-9, f"volume of each mesh to {max(own):.0e}")
-    c.check(min(orders[1:]) >= 1.8, f"volume to the round cone: orders {min(orders[1:]):.2f} to "
-                                    f"{max(orders[1:]):.2f}, at least 1.8")
-    worst = max(abs(f / loads[-1] - 1) for f, n in zip(loads, FACETS) if n >= 24)
+    worst = ladder.greatest(own)
+    c.check(worst <= 1e-9, f"volume of each mesh to {worst:.0e}")
+    lowest = ladder.least(orders[1:])
+    c.check(lowest >= 1.8, f"volume to the round cone: orders {lowest:.2f} to {max(orders[1:]):.2f}, at least 1.8")
+    worst = ladder.greatest(abs(f / loads[-1] - 1) for f, n in zip(loads, FACETS) if n >= 24)
     c.check(worst <= 0.05, f"load from 24 sides on: {100 * worst:.1f} % from the finest at most, 5 % expected")
 
     def draw(axes):

@@ -25,7 +25,7 @@ def compare(c, name, hull, expected):
         c.rows.append([name, what, f"{value:.8g}", f"{got:.8g}", f"{100 * (got / value - 1):.4f} %"])
         c.check(abs(got / value - 1) <= 5e-3, f"{name}: {what} within 0.5 %")
     volumes = now["volume_integrals_m3"]
-    spread = max(volumes) / min(volumes) - 1
+    spread = ladder.greatest(volumes) / ladder.least(volumes) - 1
     c.check(spread <= 1e-6, f"{name}: the three volume integrals agree to {spread:.0e}, at most 1e-6")
 
 

@@ -53,15 +53,16 @@ def case(out):
         for w in WIDTHS:
             plain, law = load(w, h, 0), load(w, h, -0.16)
             found[w, h] = plain, law
-            worst = max(worst, abs(plain / (STRENGTH * w * h) - 1), abs(law / (STRENGTH * (w * h) ** 0.84) - 1))
+            worst = ladder.greatest(worst, abs(plain / (STRENGTH * w * h) - 1),
+                                    abs(law / (STRENGTH * (w * h) ** 0.84) - 1))
             c.rows.append([w, h, f"{plain / 1e6:.2f}", f"{law / 1e6:.2f}", f"{iso(w, h) / 1e6:.2f}",
                            f"{plain / iso(w, h):.2f}", f"{law / iso(w, h):.2f}"])
     c.check(abs(iso(5, 1) / 8.50271e6 - 1) < 1e-5, "the rule gives the source's 8.503 MN for 5 m in 1 m")
     c.check(worst <= 1e-9, f"Fram's own law: {worst:.0e} off at most")
     ratios = [found[w, h][0] / iso(w, h) for h in THICKNESSES for w in WIDTHS]
     laws = [found[w, h][1] / iso(w, h) for h in THICKNESSES for w in WIDTHS]
-    c.check(min(laws) > 0.5 and max(laws) < 1.5, f"with the exponent: {min(laws):.2f} to {max(laws):.2f} of the rule, "
-                                                 "0.5 to 1.5 expected")
+    c.check(ladder.least(laws) > 0.5 and ladder.greatest(laws) < 1.5,
+            f"with the exponent: {min(laws):.2f} to {max(laws):.2f} of the rule, 0.5 to 1.5 expected")
     c.found = (f"Constant pressure gives {min(ratios):.2f} to {max(ratios):.2f} of the rule, growing with the width; "
                f"with the exponent {min(laws):.2f} to {max(laws):.2f}. Use the exponent for contacts wider than a "
                "few metres.")

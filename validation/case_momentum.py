@@ -57,9 +57,9 @@ def follow(kind, rigid):
         while w.time < 60 - 1e-9:
             w.step()
             now = books(w)
-            linear = max(linear, abs(now[0] - first[0]) / scale, abs(now[1] - first[1]) / scale)
-            angular = max(angular, abs(now[2] - first[2]) / arm)
-            growth = max(growth, now[3] / first[3] - energies[-1])
+            linear = ladder.greatest(linear, abs(now[0] - first[0]) / scale, abs(now[1] - first[1]) / scale)
+            angular = ladder.greatest(angular, abs(now[2] - first[2]) / arm)
+            growth = ladder.greatest(growth, now[3] / first[3] - energies[-1])
             times.append(w.time)
             energies.append(now[3] / first[3])
     return linear, angular, growth, (times, energies)

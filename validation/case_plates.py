@@ -130,7 +130,7 @@ output: {{frame_interval: 0, csv_interval: {self.step:.17g}}}
         self.late = event["time"][0] - self.step - self.away - self.way / self.speed
         self.found = event["load"][0]
         self.off = self.found / self.load - 1
-        self.after = max(abs(f) for f in ladder.after(series, "ice_force_z", event["time"][0] - self.step / 2))
+        self.after = ladder.greatest(map(abs, ladder.after(series, "ice_force_z", event["time"][0] - self.step / 2)))
         return self
 
     def row(self, label, after=False):
@@ -175,7 +175,7 @@ def heavy(c, each):
     for ice in THIN:
         loads = [p.found for p in each if p.ice == ice]
         off = [load / loads[-1] - 1 for load in loads[:-1]]
-        c.check(max(map(abs, off)) <= HEAVY,
+        c.check(ladder.greatest(map(abs, off)) <= HEAVY,
                 f"{ice[0]:g} m of ice with inertia, {HEAVY_SPEED} m/s: at steps of "
                 f"{', '.join(f'{1000 * p.step:g}' for p in each if p.ice == ice)} ms "
                 f"{', '.join(f'{100 * (p.found / p.load):.0f}' for p in each if p.ice == ice)} % of what breaks it at "
@@ -228,7 +228,7 @@ def case(out):
     heavy(c, of_heavy)
     for plate, size in zip(tiles, TILES):
         c.rows.append(plate.row(f"50 m, tiles {size}{'' if size == 'auto' else ' m'}"))
-    c.check(max(p.found for p in tiles) <= 1.001 * min(p.found for p in tiles),
+    c.check(ladder.greatest(p.found for p in tiles) <= 1.001 * ladder.least(p.found for p in tiles),
             f"tiles of other sizes: {min(p.found for p in tiles) / 1e3:.1f} to "
             f"{max(p.found for p in tiles) / 1e3:.1f} kN")
     for (w, v), pair in after.items():

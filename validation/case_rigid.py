@@ -93,14 +93,14 @@ def case(out):
         before, orders = None, []
         for dt, value in values:
             error = abs(value - exact)
-            order = math.log2(before / error) if before and error > 0 and ordered else None
+            order = math.log2(before / error) if before and error != 0 and ordered else None
             c.rows.append([what, f"{dt:g}", f"{value:.8g} {unit}", f"{exact:.8g}", f"{error:.1e}",
                            f"{order:.2f}" if order is not None else ""])
             before = error
             orders += [] if order is None else [order]
         c.check(error <= bound, f"{what}: {error:.1e} {unit} off at the smallest step, at most {bound:g}")
         if orders:
-            c.check(min(orders) >= 0.9, f"{what}: observed order {min(orders):.2f}, at least 0.9")
+            c.check(ladder.least(orders) >= 0.9, f"{what}: observed order {ladder.least(orders):.2f}, at least 0.9")
 
     stop = 4 / (2 * 0.1 * GRAVITY)
     ways = {dt: slide(dt, 0) for dt in (0.02, 0.01, 0.005)}

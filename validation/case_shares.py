@@ -68,8 +68,8 @@ def means(s, series):
     rows = [k for k, t in enumerate(series["time"]) if t - s.transient > 1e-9 * t]
     parts = {m: -statistics.fmean(series[f"mechanism_{m}_x"][k] for k in rows) for m in MECHANISMS}
     load = series["ice_force_x"]
-    off = max(abs(sum(series[f"mechanism_{m}_x"][k] for m in MECHANISMS) - f) for k, f in enumerate(load))
-    return parts, off / max(map(abs, load))
+    off = ladder.greatest(abs(sum(series[f"mechanism_{m}_x"][k] for m in MECHANISMS) - f) for k, f in enumerate(load))
+    return parts, off / ladder.greatest(map(abs, load))
 
 
 def case(out):

@@ -20,7 +20,7 @@ def case(out):
     for a, exact in EXACT:
         now = ladder.answer("ice", "sheet", "--a-over-l", a, "--nu", 0.3)
         used, table = now["sigma_h2_over_P"] / exact - 1, now["exact_sigma_h2_over_P"] / exact - 1
-        used_error, table_error = max(used_error, abs(used)), max(table_error, abs(table))
+        used_error, table_error = ladder.greatest(used_error, abs(used)), ladder.greatest(table_error, abs(table))
         c.rows.append([a, exact, now["sigma_h2_over_P"], f"{100 * used:.2f} %", now["exact_sigma_h2_over_P"],
                        f"{100 * table:.4f} %"])
     c.check(used_error <= 0.01, f"the value in use: {100 * used_error:.2f} % at most, 1 % allowed")

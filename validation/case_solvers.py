@@ -54,7 +54,7 @@ def case(out):
         apart, of_apart = ladder.mean_and_error([a - b for a, b in zip(values, best)])
         residual = [r for s in runs[kind] for r in ladder.after(s, "solver_residual", START)]
         share = sum(first_impulse(s) for s in runs[kind]) / sum(firsts) - 1
-        sigmas = abs(apart) / of_apart if of_apart > 0 else 0.0
+        sigmas = abs(apart) / of_apart if of_apart != 0 else 0.0
         c.rows.append([kind, f"{mean / 1e3:.1f}", f"{error / 1e3:.1f}", f"{apart / 1e3:+.1f}", f"{sigmas:.2f}",
                        f"{1e3 * sum(residual) / len(residual):.4f}", f"{100 * share:+.2f} %"])
         if kind != "accurate":

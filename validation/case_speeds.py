@@ -76,9 +76,9 @@ def case(out):
             c.check(0.75 <= ratio <= 1.25, f"{h} m: {ratio:.2f} of the speed in the trials, expected 0.75 to 1.25")
         else:
             c.check(1 <= ratio <= 1.5, f"{h} m: {ratio:.2f} of the stated speed, expected 1 to 1.5")
-    c.check(found == sorted(found, reverse=True), "slower in thicker ice")
+    c.check(ladder.rises(found[::-1]), "slower in thicker ice")
     thick = series[-1]
-    way, rams = max(thick["position_x"]) - thick["position_x"][0], max(thick["rams"])
+    way, rams = max(thick["position_x"]) - thick["position_x"][0], ladder.greatest(thick["rams"])
     c.rows.append([TOO_THICK, "-", "", f"rams {rams:.0f} times", "", f"{formula_speed(TOO_THICK) / KNOT:.1f}"])
     c.check(rams >= 1, f"{TOO_THICK:g} m: besets and rams, {rams:.0f} times in {2 * DURATION} s, over {way:.0f} m")
 

@@ -74,14 +74,14 @@ def case(out):
         limit = min(law, crush) if r > 0 else crush
         c.rows.append([h, d, r or "off", *(f"{f / 1e6:.2f}" for f in found), f"{law / 1e6:.2f}" if r else "",
                        f"{crush / 1e6:.0f}"])
-        worst = max(abs(f / limit - 1) for f in found)
+        worst = ladder.greatest(abs(f / limit - 1) for f in found)
         c.check(worst <= 0.01, f"{h} m, {d:g} m wide, R {r:g}: {100 * worst:.2f} % off")
     for h, slope in RAFTS:
         found, crush = [load(h, 100.0, 0, dt, slope, RAFT_SPEED) for dt in STEPS], STRENGTH * h * 100
         limit = min(100 * raft(h, slope), crush)
         c.rows.append([h, 100, f"edges of {slope:g} deg", *(f"{f / 1e6:.4f}" for f in found),
                        f"{limit / 1e6:.4f}" if limit < crush else "breaks before", f"{crush / 1e6:.0f}"])
-        worst = max(abs(f / limit - 1) for f in found)
+        worst = ladder.greatest(abs(f / limit - 1) for f in found)
         c.check(worst <= 0.01, f"{h} m, edges of {slope:g} degrees: {100 * worst:.2f} % off")
     c.found = ("The bound is the law itself; no rubble is made, floes overlap instead. With R of 2 a floe of 1 m and "
                "100 m presses with a twelfth of what crushes it.")

@@ -77,8 +77,8 @@ def forces(text, steps):
 
 def apart(a, b):
     """Largest difference of two histories over the largest force."""
-    largest = max(map(world.length, a))
-    return max(world.length([x - y for x, y in zip(p, q)]) for p, q in zip(a, b)) / largest, largest
+    largest = ladder.greatest(map(world.length, a))
+    return ladder.greatest(world.length([x - y for x, y in zip(p, q)]) for p, q in zip(a, b)) / largest, largest
 
 
 def case(out):

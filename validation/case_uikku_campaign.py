@@ -93,7 +93,7 @@ def jobs():
 
 def published(loads):
     """The published three of each start's loads, and their means over the starts [kN]."""
-    each = [(statistics.fmean(x), statistics.pstdev(x), max(x)) for x in loads]
+    each = [(statistics.fmean(x), statistics.pstdev(x), ladder.greatest(x)) for x in loads]
     return each, [statistics.fmean(column) for column in zip(*each)]
 
 
@@ -211,7 +211,7 @@ def case(out):
     for test in SPREAD:
         base = first_length(runs[f"{test}_{-STARTS[0]:g}"])
         of = {v: first_length(runs[f"{test}_{v.replace(' ', '_')}"]) for v in VARIANTS}
-        spans[test] = min(base, *of.values()), max(base, *of.values())
+        spans[test] = ladder.least(base, *of.values()), ladder.greatest(base, *of.values())
         measured = ROWS[test][5]
         c.check(spans[test][0] <= measured <= spans[test][1],
                 f"test {test}: measured {measured} kN, over the first ship length {base:.0f} as fixed; "

@@ -28,8 +28,9 @@ def case(out):
     worst = 0.0
     for a, eta, x, capacity in ROWS:
         now = ladder.answer("ice", "wedge", "--a-over-l", a)
-        error = max(abs(now["capacity_C"] / capacity - 1), abs(now["x_max"] / x - 1), abs(now["eta0"] / eta - 1))
-        worst = max(worst, error)
+        error = ladder.greatest(abs(now["capacity_C"] / capacity - 1), abs(now["x_max"] / x - 1),
+                                abs(now["eta0"] / eta - 1))
+        worst = ladder.greatest(worst, error)
         c.rows.append([a, f"{capacity:.9f}", f"{now['capacity_C']:.9f}", f"{x:.9f}", f"{now['x_max']:.9f}",
                        f"{error:.1e}"])
     c.check(worst <= 1e-9, f"largest relative error {worst:.1e}, at most 1e-9")

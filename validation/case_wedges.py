@@ -58,7 +58,7 @@ def case(out):
             c.rows[-1][-3:] = [f"{mean / 1e3:.1f}", f"{error / 1e3:.1f}", f"{mean_radius(n):.2f}"]
     errors = [capacity[n] / last["wedge_capacity"] - 1 for n in (2, 4, 8)]
     orders = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
-    c.check(min(orders) >= 1, f"capacity: observed orders in 1/N {orders[0]:.2f}, {orders[1]:.2f}, at least 1")
+    c.check(ladder.least(orders) >= 1, f"capacity: observed orders in 1/N {orders[0]:.2f}, {orders[1]:.2f}, at least 1")
     mean, error = resistance[OF_SHIP[0]]
     for n in OF_SHIP[1:]:
         off, doubt = resistance[n][0] / mean - 1, 2 * math.hypot(error, resistance[n][1]) / mean

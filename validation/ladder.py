@@ -136,6 +136,26 @@ def after(series, name, start):
     return [v for t, v in zip(series["time"], series[name]) if t - start > 1e-9 * t]
 
 
+def greatest(first, *others):
+    """As max(), but a NaN where one is among them: max() passes over one that is not the first, and a check with it."""
+    return _outermost(max, first, others)
+
+
+def least(first, *others):
+    """As min(), in the same way."""
+    return _outermost(min, first, others)
+
+
+def _outermost(choose, first, others):
+    values = [first, *others] if others else list(first)
+    return next((value for value in values if math.isnan(value)), choose(values))
+
+
+def rises(values):
+    """Whether none is less than the one before it; not with a NaN among them, which sorted() leaves where it is."""
+    return all(a <= b for a, b in zip(values, values[1:]))
+
+
 def mean_and_error(values):
     """Mean and its standard error."""
     spread = statistics.stdev(values) if len(values) > 1 else math.nan

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """A case of the validation book still runs: its worlds, its page and its verdict, by the library as it is now.  One
-that cannot be made does not agree, and runs are read again as long as the files that they name are the same."""
+that cannot be made does not agree, and runs are read again as long as the files that they name are the same.  A NaN
+agrees with nothing, wherever it stands."""
 import contextlib
 import io
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -13,6 +15,7 @@ import tempfile
 ROOT = pathlib.Path(os.environ["FRAM_SOURCE"])
 sys.path.insert(0, str(ROOT / "validation"))
 import case_squeeze  # noqa: E402
+import case_towed_box  # noqa: E402
 import ladder  # noqa: E402
 import run  # noqa: E402
 
@@ -31,6 +34,29 @@ def read_again(path, beam):
     return ladder.REUSED == ["hull"]
 
 
+def exact_box(of):
+    """What a case of the towed box asks for, but one sideways load."""
+    w, h, exponent, step = of
+    load = case_towed_box.STRENGTH * w * h if exponent == 0 else case_towed_box.case_iso.iso(w, h)
+    last = (w, h) == case_towed_box.ROWS[-1] and step == case_towed_box.STEPS[-1]
+    return load, load, math.nan if last else 0.0
+
+
+def check_nan():
+    """max(), min() and sorted() pass over one that is not the first."""
+    for values in ((1.0, math.nan, 2.0), (math.nan, 1.0), (1.0, 2.0, math.nan)):
+        assert math.isnan(ladder.greatest(values)) and math.isnan(ladder.least(*values)), values
+        assert not ladder.rises(values), values
+    assert ladder.greatest(abs(x) for x in (-3, 2)) == 3 and ladder.least(0.0, 1.0, -1.0) == -1
+    assert ladder.rises([1, 1, 2]) and not ladder.rises([2, 1])
+    asked = ladder.run_all, case_towed_box.job, case_towed_box.loads
+    ladder.run_all, case_towed_box.job, case_towed_box.loads = list, lambda *of: of, exact_box
+    box = case_towed_box.case(None)
+    ladder.run_all, case_towed_box.job, case_towed_box.loads = asked
+    assert [good for _, good in box.checks] == [False, True], box.checks
+
+
+check_nan()
 with tempfile.TemporaryDirectory() as out:
     done = subprocess.run([sys.executable, str(ROOT / "validation" / "run.py"), "--only", "squeeze", "--out", out],
                           capture_output=True, text=True)
