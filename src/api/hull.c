@@ -115,20 +115,29 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     return hull_end(h, status, out);
 }
 
+/* Angles and parallel body are what is usual for an icebreaker, which vessel/hull.c tells. */
 static void fram_hull_particulars_fill(fram_hull_particulars *p)
 {
+    const double usual = (double)NAN;
+    hull_particulars h = {.form = HULL_ICEBREAKER,
+                          .stem_angle = usual,
+                          .entrance_angle = usual,
+                          .flare_angle = usual,
+                          .stern_angle = usual,
+                          .parallel_midbody = usual};
+    hull_particulars_fill(&h);
     *p = (fram_hull_particulars){.size = sizeof *p,
                                  .length = 100,
                                  .beam = 20,
                                  .draught = 7,
                                  .freeboard = 4,
-                                 .stem_angle = radians(30),
-                                 .entrance_angle = radians(30),
-                                 .flare_angle = radians(8),
-                                 .stern_angle = radians(30),
-                                 .parallel_midbody = 0.4,
-                                 .bilge_radius = (double)NAN,
-                                 .transom = (double)NAN};
+                                 .stem_angle = h.stem_angle,
+                                 .entrance_angle = h.entrance_angle,
+                                 .flare_angle = h.flare_angle,
+                                 .stern_angle = h.stern_angle,
+                                 .parallel_midbody = h.parallel_midbody,
+                                 .bilge_radius = usual,
+                                 .transom = usual};
 }
 DEFINITION_DEFAULT(fram_hull_particulars, fram_hull_particulars)
 

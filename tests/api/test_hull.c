@@ -177,14 +177,18 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-/* An icebreaker, whose bow and stern differ: heave turns it in pitch and not in roll; its pieces fill it together; and
-   no more is copied than there is room for. */
+/* An icebreaker of the usual angles, whose bow and stern differ: heave turns it in pitch and not in roll; its pieces
+   fill it together; and no more is copied than there is room for. */
 START_TEST(an_icebreaker)
 {
     fram_context *shared = open_context();
     fram_hull *hull = NULL;
     fram_hull_particulars p;
     fram_hull_particulars_default(&p);
+    const double degree = 3.14159265358979 / 180;
+    const double usual[] = {30 * degree, 30 * degree, 8 * degree, 30 * degree, 0.4};
+    const double found[] = {p.stem_angle, p.entrance_angle, p.flare_angle, p.stern_angle, p.parallel_midbody};
+    assert_array_absolute(found, usual, 5, 1e-14);
     fram_error error = {0};
     assert_ok(fram_hull_make(shared, &p, &hull, &error), error);
     fram_hull_floating f;
