@@ -1,4 +1,4 @@
-/* How a prism stands in a plan view, and which lies over which. */
+/* How a prism stands in a plan view, which lies over which, and which part is to be shown. */
 #include "io/plan_view.h"
 
 #include <math.h>
@@ -26,4 +26,52 @@ void plan_shapes_sort(plan_shape *shapes, int32_t count)
 {
     if (count > 1)
         qsort(shapes, (size_t)count, sizeof *shapes, compare_heights);
+}
+
+/* Water around a hull outside the usual window, over its larger side. */
+#define HULL_MARGIN 0.5
+/* How many times the larger side of the usual window one with everything in it may have. */
+#define EXTENDED_MOST 4
+
+static box2 boxes_joined(box2 a, box2 b)
+{
+    return (box2){{fmin(a.lo.x, b.lo.x), fmin(a.lo.y, b.lo.y)}, {fmax(a.hi.x, b.hi.x), fmax(a.hi.y, b.hi.y)}};
+}
+
+static bool boxes_meet(box2 a, box2 b)
+{
+    return a.lo.x < b.hi.x && b.lo.x < a.hi.x && a.lo.y < b.hi.y && b.lo.y < a.hi.y;
+}
+
+static double larger_side(box2 b) { return fmax(b.hi.x - b.lo.x, b.hi.y - b.lo.y); }
+
+static box2 box_widened(box2 b, double by) { return (box2){{b.lo.x - by, b.lo.y - by}, {b.hi.x + by, b.hi.y + by}}; }
+
+/* As large as the usual one, or as the hull is. */
+static box2 window_around(box2 usual, box2 hull)
+{
+    vec2 middle = vec2_scale(vec2_add(hull.lo, hull.hi), 0.5), half = vec2_scale(vec2_sub(usual.hi, usual.lo), 0.5);
+    return boxes_joined((box2){vec2_sub(middle, half), vec2_add(middle, half)}, hull);
+}
+
+box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
+{
+    box2 all = usual, first = usual;
+    bool found = false;
+    for (int32_t i = 0; i < count; i++) {
+        const plan_shape *s = &shapes[i];
+        if ((s->style != PLAN_DECK && s->style != PLAN_WATERLINE) || s->outline.count == 0)
+            continue;
+        box2 hull = polygon_bounds(s->outline);
+        if (boxes_meet(hull, usual))
+            return usual;
+        double side = larger_side(hull);
+        if (!(side >= 0 && side < HUGE_VAL)) /* of a run that came to no numbers */
+            continue;
+        hull = box_widened(hull, HULL_MARGIN * side);
+        first = found ? first : hull;
+        found = true;
+        all = boxes_joined(all, hull);
+    }
+    return larger_side(all) <= EXTENDED_MOST * larger_side(usual) ? all : window_around(usual, first);
 }

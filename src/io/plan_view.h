@@ -31,6 +31,10 @@ void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thi
 /* By ascending height, so that what floats is drawn over what lies under it; ties by style, so that the tiles of level
    ice follow each other, and by the place of their vertices, which are all in one array. */
 void plan_shapes_sort(plan_shape *shapes, int32_t count);
+/* The window that shows a vessel: the usual one where something of a hull is in it, or there is none.  Else it is
+   larger by as much as takes in all hulls, or, where they are so far that little would be told apart, as large, with
+   the first hull in its middle.  Sorted shapes. */
+box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count);
 
 typedef struct plan_arrow {
     vec2 from, to;

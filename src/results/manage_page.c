@@ -305,7 +305,7 @@ static fram_status plan(management_page *p, fram_error *error)
         status = replay_plan_make(&r, &now, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &shapes, error);
     bool before = now.time < time - 0.5 * m->d.s.run.time_step;
     snprintf(caption, sizeof caption, "t = %.4g s%s", now.time, before ? ", the last frame before" : "");
-    plan_view view = {.window = domain_box(d),
+    plan_view view = {.window = plan_window(domain_box(d), shapes.shapes.data, shapes.shapes.count),
                       .title = title,
                       .caption = caption,
                       .shapes = shapes.shapes.data,

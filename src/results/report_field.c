@@ -110,7 +110,7 @@ static fram_status draw_map(report *r, const replay *from, const replay_moment *
     fram_status status = replay_plan_make(from, m, PLAN_COLOUR_PLAIN, 0, 1, 0, mark_time, &plan, error);
     if (status == FRAM_OK)
         status = replay_plan_lines(from, &r->d.s, &plan, error);
-    plan_view view = {.window = domain_box(s),
+    plan_view view = {.window = plan_window(domain_box(s), plan.shapes.data, plan.shapes.count),
                       .title = mark_time > 0 ? "The field at the end" : "The field at the start",
                       .caption = caption,
                       .shapes = plan.shapes.data,

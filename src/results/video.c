@@ -150,11 +150,11 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     image_text_fitted(page, left, top - 5, 12, false, right - left, text);
 }
 
-static box2 plan_window(const video *v, int width, int height)
+static box2 shown_window(const video *v, int width, int height)
 {
     const scenario_domain *d = &v->s.domain;
     if (!(v->options->span > 0) || !v->plan.has_vessel)
-        return domain_box(d);
+        return plan_window(domain_box(d), v->plan.shapes.data, v->plan.shapes.count);
     double half = v->options->span / 2, upright = half * height / width;
     vec2 c = v->plan.vessel;
     return (box2){{c.x - half, c.y - upright}, {c.x + half, c.y + upright}};
@@ -204,7 +204,7 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
     if (status != FRAM_OK)
         return status;
     plan_flows flows = plan_flows_at(v->ctx, &v->s, time);
-    plan_view view = {.window = plan_window(v, width - 28, height - 108),
+    plan_view view = {.window = shown_window(v, width - 28, height - 108),
                       .title = v->s.title[0] ? v->s.title : "Fram",
                       .caption = caption,
                       .shapes = v->plan.shapes.data,

@@ -48,6 +48,42 @@ START_TEST(sorted)
 }
 END_TEST
 
+/* A field of 100 by 40 m and a ship of 20 by 4 m on course along X, with half its length of water around it outside. */
+START_TEST(a_hull_outside)
+{
+    const box2 usual = {{0, 0}, {100, 40}};
+    const struct {
+        vec2 ship, other; /* their centres */
+        box2 window;
+    } rows[] = {
+        {{50, 20}, {500, 20}, usual}, /* one is seen */
+        {{109, 20}, {-9, 41}, usual}, /* parts are */
+        {{140, 20}, {120, 20}, {{0, 0}, {160, 40}}},
+        {{-30, 20}, {50, -20}, {{-50, -32}, {100, 40}}},
+        {{50, 20}, {(double)NAN, 20}, usual},
+        {{(double)NAN, 20}, {140, 20}, {{0, 0}, {160, 40}}},
+        {{1000, 20}, {120, 20}, {{950, 0}, {1050, 40}}}, /* too far off */
+        {{120, 20}, {1e300, 20}, {{70, 0}, {170, 40}}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        vec2 hull[2][4];
+        for (int k = 0; k < 4; k++) {
+            vec2 corner = {k == 1 || k == 2 ? 10 : -10, k < 2 ? -2 : 2};
+            hull[0][k] = vec2_add(rows[i].ship, corner);
+            hull[1][k] = vec2_add(rows[i].other, corner);
+        }
+        const plan_shape s[] = {{.outline = {hull[0], 4}, .style = PLAN_FLOE},
+                                {.outline = {hull[0], 4}, .style = PLAN_DECK},
+                                {.outline = {hull[1], 4}, .style = PLAN_WATERLINE}};
+        box2 found = plan_window(usual, s, 3), expected = rows[i].window;
+        assert_vec2_close(found.lo, expected.lo, 1e-9);
+        assert_vec2_close(found.hi, expected.hi, 1e-9);
+        found = plan_window(usual, s, 1); /* of floes alone */
+        assert_vec2_close(found.lo, usual.lo, 0);
+    }
+}
+END_TEST
+
 static plan_flows flows_of(const char *text, double time)
 {
     context ctx;
@@ -373,12 +409,12 @@ START_TEST(texts_beside_a_narrow_plan)
 }
 END_TEST
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history,
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, flows_that_move, flows_of_a_history,
           pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
           labels_that_cover_each_other, texts_beside_a_narrow_plan)
 
 #else
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, flows_that_move, flows_of_a_history)
 
 #endif
