@@ -13,8 +13,12 @@ fram_status run_find_change(context *ctx, run_data *d, fram_error *error)
     return status;
 }
 
-void run_warn_change(context *ctx, const run_data *d)
+void run_warn_change(context *ctx, const run_data *d) { run_warn_changes(ctx, d->folder, d->is_changed); }
+
+void run_warn_changes(context *ctx, const char *first, int32_t count)
 {
-    if (d->is_changed)
-        log_write(ctx, LOG_WARNING, "%s: " RUN_IS_CHANGED, d->folder);
+    if (count == 1)
+        log_write(ctx, LOG_WARNING, "%s: " RUN_IS_CHANGED, first);
+    else if (count > 1)
+        log_write(ctx, LOG_WARNING, "%s and %d more: " RUN_IS_CHANGED, first, (int)count - 1);
 }

@@ -74,6 +74,8 @@ fram_status run_find_change(context *ctx, run_data *d, fram_error *error);
     "scenario.yaml was changed since the run was made, or another Fram made it: what is told of the scenario is " \
     "what stands there now"
 void run_warn_change(context *ctx, const run_data *d);
+/* The same once of so many runs, of which the first is in this folder; of none nothing. */
+void run_warn_changes(context *ctx, const char *first, int32_t count);
 
 /* Whether the run has no end: it goes on, or was killed. */
 bool run_is_open(const run_data *d);

@@ -105,7 +105,8 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;
-    run_warn_change(ctx, &d);
+    if (d.is_changed && runs->changed++ == 0)
+        runs->first_changed = folder;
     const double *t = run_channel(&d, "time");
     int32_t vessel;
     if (d.series.rows == 0)
@@ -285,6 +286,7 @@ fram_status series_read(context *ctx, const series_source *source, series_data *
     out->set.step = source->step > 0 ? source->step : 0;
     for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
         status = read_file(ctx, source, i, &runs, out, error);
+    run_warn_changes(ctx, runs.first_changed, runs.changed);
     series_runs_free(ctx, &runs);
     int64_t values = 0;
     for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)

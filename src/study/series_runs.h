@@ -15,6 +15,8 @@ typedef struct series_runs {
     ARRAY(series_run) run;
     text_buffer keys; /* of the first one's condition, "key: value" a line */
     bool told;        /* that one is of another condition */
+    int32_t changed;  /* whose scenario is not the one that they were made of */
+    const char *first_changed;
 } series_runs;
 
 /* Adds a run, whose folder's name must stay.  FRAM_ERROR_INPUT where it is a copy of one before: the same scenario and

@@ -472,6 +472,11 @@ same "$(value 'j["same_as_read"], j["changed_a"], j["changed_b"]')" "True True F
 expect 0 "$FRAM" compare run edited --json
 same "$(value 'j["same_scenario"], j["same_as_read"]')" "False False" "scenarios that are not"
 
+# Of several runs it is told once.
+expect 0 "$FRAM" extremes edited made
+says "warning: edited and 1 more: scenario.yaml was changed since" err
+same "$(grep -c "was changed" err)" 1 "warnings of two runs that were changed"
+
 # A run that was killed has come as far as its series; of its track and its state nothing is known.
 cp -r run killed
 as_killed killed
