@@ -280,14 +280,24 @@ static bool events_name_vessels(const run_note *n)
     return false;
 }
 
+/* Whether the run has written results of a vessel on station: the scenario may have been changed since. */
+static bool has_station_file(const report *r)
+{
+    char path[PATH_ROOM];
+    bool found = false;
+    for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && !run_is_open(&r->d); v++) {
+        vessel_file name = vessel_file_name(&r->d.s, v, "station", ".json");
+        found = found || (path_join(r->d.folder, name.text, path, NULL) == FRAM_OK && file_is_readable(path));
+    }
+    return found;
+}
+
 /* Where more of them stand than the page shows: run.json lists so many, the file of a vessel on station all of its. */
 static void more_events(report *r, double shown)
 {
     const run_note *n = &r->d.note;
     double listed = n->events.count, all = listed + n->events_left_out;
-    bool kept = false;
-    for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && !run_is_open(&r->d); v++)
-        kept = kept || station_has_results(&r->d.s, v);
+    bool kept = has_station_file(r);
     if (all > listed)
         html_paragraph(&r->page, "The first %.0f of %.0f events; run.json lists the first %.0f%s.", shown, all, listed,
                        !kept                             ? ""

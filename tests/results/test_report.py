@@ -469,6 +469,10 @@ def check_late(folder):
         assert band == ("verdict bad" in page) == (lost is not None), (lost, band)
         # A single vessel has no name that a column could tell.
         assert ('time [s]</th><th class="w">event</th>' in page) == (lost is not None), "heads of the events"
+    # It is named where the run has written it.
+    (run / "station.json").unlink()
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    assert "events; run.json lists the first 41.</p>" in (run / "report.html").read_text()
     assert "did not hold its station" in page and "as far as the run went" not in page
     # Lines are told in their own unit, however little ice there is.
     assert ">load on the vessel [N]<" in page and ">lines and thrusters [kN]<" in page, re.findall("<th.*?</th>", page)
