@@ -227,7 +227,7 @@ END_TEST
 START_TEST(what_is_asked_for_stands_in_the_command_too)
 {
     static const char *const more[] = {"--comment=two words", "--nice=5", "--account ice", "--qos=\"a\""};
-    const slurm_options options = {"long", "1:00:00", more, 4, 2, 0, false, 3};
+    slurm_options options = {"long", "1:00:00", more, 4, 2, 0, false, 3};
     context ctx;
     scheduler s;
     slurm_pool queue;
@@ -248,6 +248,10 @@ START_TEST(what_is_asked_for_stands_in_the_command_too)
     ck_assert_ptr_nonnull(script);
     *script = '\0';
     ck_assert_str_eq(line, "--parsable|--array|0-1%3|--partition|long|--time|1:00:00|--comment=two words|--nice=5|");
+    /* The scheduler is asked as often as is wished, else every half minute. */
+    assert_bits(slurm_poll(&queue), 30);
+    options.poll = 2;
+    assert_bits(slurm_poll(&queue), 2);
     slurm_free(&queue);
     end(&s);
 }
