@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const command_row commands[] = {
@@ -244,10 +245,30 @@ static bool open_standard_streams(void)
     return true;
 }
 
+/* Who shares the stream may have set it not to wait, and what a full one does not take is lost to stdio.  Opened once
+   more it waits, for this command alone; one that cannot be, as a socket, waits for all that share it. */
+static void wait_at_standard_output(void)
+{
+    struct stat about;
+    int flags = fcntl(STDOUT_FILENO, F_GETFL);
+    if (flags < 0 || !(flags & O_NONBLOCK) || (flags & O_ACCMODE) == O_RDONLY || fstat(STDOUT_FILENO, &about) != 0)
+        return;
+    if (S_ISFIFO(about.st_mode) || S_ISCHR(about.st_mode)) {
+        /* Nor does it wait here, for a reader that has gone. */
+        int own = open("/proc/self/fd/1", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+        if (own >= 0) {
+            (void)dup2(own, STDOUT_FILENO);
+            close(own);
+        }
+    }
+    (void)fcntl(STDOUT_FILENO, F_SETFL, flags & ~O_NONBLOCK);
+}
+
 int main(int argc, char **argv)
 {
     if (!open_standard_streams())
         return EXIT_RUN_FAILED;
+    wait_at_standard_output();
     if (argc < 2) {
         print_help(stderr);
         return EXIT_BAD_INPUT;

@@ -31,6 +31,27 @@ code=0
 "$FRAM" check scene.yaml --json >&- 2>err || code=$?
 same "$code" 1 "exit code of an answer to a stream that is closed"
 says "standard output: cannot be written" err
+# A pipe that its owner has set not to wait is full at first, and takes the whole answer then; it stays as it was set.
+expect 0 "$FRAM" keys
+python3 -S - <<'PY' || fail "an answer to a full pipe that does not wait"
+import os, subprocess
+to_read, to = os.pipe()
+os.set_blocking(to, False)
+before = 0
+try:
+    while True:
+        before += os.write(to, bytes(4096))
+except BlockingIOError:
+    pass
+fram = subprocess.Popen([os.environ["FRAM"], "keys"], stdout=to)
+try:
+    raise SystemExit(f"ended with {fram.wait(0.1)} before anything was read")
+except subprocess.TimeoutExpired:
+    pass
+assert not os.get_blocking(to)
+os.close(to)
+assert open(to_read, "rb").read()[before:] == open("out", "rb").read() and fram.wait() == 0
+PY
 
 # A folder that is taken away in the middle is a failed run, and so is one whose end cannot be written.
 sed 's/duration: 4/duration: 4000/' scene.yaml >long.yaml
