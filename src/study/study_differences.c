@@ -147,11 +147,11 @@ static bool add_difference_table(study_page *p, const condition_pairs *pairs, co
     double confidence = p->f->s->seeds.confidence;
     html_paragraph(
         &p->page,
-        "A condition less the first one that differs from it in one key alone, or each one before it where few "
-        "conditions differ in several: the mean of the differences of runs of the same seed, with half its interval "
-        "(Student's t of pairs). \"higher\" and \"lower\": the interval of %g %% does not hold 0; of %.0f such "
-        "intervals of what differs in nothing one does so by chance. differences.csv has them too, and those of means "
-        "without pairs (Welch's).",
+        "A condition less, for each key, the first one that differs from it in that key alone, or each one before it "
+        "where few conditions differ in several: the mean of the differences of runs of the same seed, with half its "
+        "interval (Student's t of pairs). \"higher\" and \"lower\": the interval of %g %% does not hold 0; of %.0f "
+        "such intervals of what differs in nothing one does so by chance. differences.csv has them too, and those of "
+        "means without pairs (Welch's).",
         100 * confidence, 1 / (1 - confidence));
     if (pairs->count > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d; differences.csv has all.", CONDITIONS_OF_TABLE);
