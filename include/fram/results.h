@@ -181,7 +181,7 @@ typedef struct fram_capability_definition {
     const char *folder;          /* for the results; must be named */
     bool force;                  /* write into a folder that is not empty */
     bool formula;                /* ice load by a published formula for ships in broken ice, not measured */
-    double measure;              /* 120: simulated seconds of each run that measures the ice load */
+    double measure;              /* 120: simulated seconds of each run that measures the ice load; formula: no other */
     int directions;              /* 36, evenly round */
     double speed_step;           /* 0.1 [m/s] */
     double speed_most;           /* 1 [m/s] */

@@ -259,10 +259,13 @@ fram_status(fram_video)(fram_context *c, const char *run, const fram_video_defin
 
 /* ---- capability ---- */
 
+/* Simulated seconds of a run that measures the ice load, unless others are asked for. */
+static const double USUAL_MEASURE = 120;
+
 static void fram_capability_fill(fram_capability_definition *definition)
 {
     *definition = (fram_capability_definition){.size = sizeof *definition,
-                                               .measure = 120,
+                                               .measure = USUAL_MEASURE,
                                                .directions = 36,
                                                .speed_step = 0.1,
                                                .speed_most = 1,
@@ -286,6 +289,16 @@ static fram_status check_ice_from(const fram_capability_definition *d, fram_erro
                          "expected runs, since something is asked of the ice from them, found none");
     fram_status status = number_check("unbroken_as", d->unbroken_as, 0, 1e4, error);
     return status == FRAM_OK ? number_check("window", d->window, 0, 1e5, error) : status;
+}
+
+/* With ice from runs it is the formula that does not belong there, as capability_write says. */
+static fram_status check_measure(const fram_capability_definition *d, fram_error *error)
+{
+    if (!d->formula || d->ice_from_count > 0 || d->measure == USUAL_MEASURE)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "measure",
+                     "expected none with the formula, which takes the place of runs that measure, found %g s",
+                     d->measure);
 }
 
 /* The ice that came to the vessel in all runs together. */
@@ -342,6 +355,8 @@ fram_status(fram_capability)(const fram_scenario *from, const fram_capability_de
     status = check_tables(from, d->folder, error);
     if (status == FRAM_OK)
         status = check_ice_from(d, error);
+    if (status == FRAM_OK)
+        status = check_measure(d, error);
     if (status == FRAM_OK && d->ice_from_count > 0)
         status = read_met_ice(&from->context->inner, &from->inner, d, &met, error);
     if (status != FRAM_OK)

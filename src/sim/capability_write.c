@@ -142,7 +142,7 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
 {
     const capability_options *o = &c->options;
     text_format(ctx, b, "{\n  \"ice_load\": \"%s\",\n", ice_load_source(c));
-    add_member(ctx, b, "measuring_time_s", o->measure);
+    add_member(ctx, b, "measuring_time_s", c->loads.measured ? o->measure : (double)NAN);
     add_member(ctx, b, "wind_speed_m_s", c->wind_speed);
     add_member(ctx, b, "ice_thickness_m", c->thickness);
     add_member(ctx, b, "ice_concentration", c->concentration);

@@ -33,7 +33,7 @@ for d, r in zip(j["directions"], rows):
     assert d["after_worst_failure"]["speed"] <= d["intact"]["speed"] + 1e-9, "a failure makes nothing better"
     assert d["use"] == [float(u["use[1]"]) for u in use if u["from_bow_clockwise[deg]"] == r["from_bow_clockwise[deg]"]]
     assert len(d["use"]) == 5, "use"
-head = {"measuring_time_s": 120, "wind_speed_m_s": 0, "ice_thickness_m": 0.7, "ice_concentration": 0.7,
+head = {"measuring_time_s": None, "wind_speed_m_s": 0, "ice_thickness_m": 0.7, "ice_concentration": 0.7,
         "allowance": 1.25, "line_safety_intact": 2, "line_safety_after_failure": 1.43, "speed_step_m_s": 0.2,
         "speed_most_m_s": 1}
 assert {name: j[name] for name in head} == head, j
@@ -68,7 +68,11 @@ expect 2 "$FRAM" capability mixed.yaml -o "$scratch/b" --formula
 says 'ice.populations: expected none' err
 expect 0 "$FRAM" capability mixed.yaml -o mixed --measure 3 --directions 4 --speed-step 0.2 --speed-most 0.2
 python3 -c 'import json; j = json.load(open("mixed/capability.json"))
-assert 0.5 < j["ice_thickness_m"] < 0.7 and abs(j["ice_concentration"] - 0.6) < 0.01, j' || fail "what ice was met"
+assert 0.5 < j["ice_thickness_m"] < 0.7 and abs(j["ice_concentration"] - 0.6) < 0.01, j
+assert j["measuring_time_s"] == 3, j' || fail "what ice was met"
+# The formula measures nothing, however long.
+expect 2 "$FRAM" capability mixed.yaml -o "$scratch/b" --formula --measure 3
+says '--measure: expected none with the formula' err
 # Level ice is measured from when it comes to the hull, across the opening that the ship lies in; or there is no load.
 level=$FRAM_SOURCE/scenes/turret_turning.yaml
 expect 0 "$FRAM" capability "$level" -o level --measure 6 --directions 4 --speed-step 0.3 --speed-most 0.3
@@ -129,10 +133,11 @@ vessels:
     thrusters: [{x: 20, thrust: 4.0e4}, {x: -20, thrust: 4.0e4}]
     current_coefficients: {table: [{angle_deg: 0, cx: -0.1}, {angle_deg: 180, cx: 0.1}]}
 END
-expect 0 "$FRAM" capability fleet.yaml -o fleet --formula --directions 4 --vessel kept --allowance 1.1 \
+expect 0 "$FRAM" capability fleet.yaml -o fleet --measure 9 --directions 4 --vessel kept --allowance 1.1 \
     --line-safety 3 --line-safety-damaged 2.5
 says 'warning: vessels[1].current_coefficients: at 0 degrees' err
 same "$(python3 -S -c 'import json; j = json.load(open("fleet/capability.json"))
-print(j["allowance"], j["line_safety_intact"], j["line_safety_after_failure"])')" "1.1 3 2.5" "factors that are given"
+print(j["allowance"], j["line_safety_intact"], j["line_safety_after_failure"], j["measuring_time_s"])')" \
+    "1.1 3 2.5 None" "factors that are given, and what was measured of no ice"
 
 finish "fram capability: as it should be"
