@@ -110,7 +110,7 @@ static void print_population(const fram_field *field, int number)
     fram_error error;
     if (fram_field_population_get(field, number, &p, &error) != FRAM_OK)
         return;
-    printf("  population %d: %d floes, %.6g m2; distance from its size law %.2g (Kolmogorov and Smirnov)\n", number,
+    printf("  population %d: %d floes, %.6g m2; distance from its size law %.2g (Kolmogorov and Smirnov)\n", number + 1,
            p.floes, p.area, p.size_distance);
     printf("    diameter of equal area   floes   the law\n");
     for (int i = 0; i < FRAM_FIELD_BINS; i++)

@@ -37,7 +37,7 @@ static fram_status check_population(const field_population *p, int32_t number, f
         fault = "the elongation must be between 1 and 20";
     if (!fault)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations", "population %d: %s", number, fault);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations", "population %d: %s", number + 1, fault);
 }
 
 static fram_status check_request(const field_packed_request *r, fram_error *error)

@@ -120,6 +120,10 @@ expect 0 "$FRAM" field packed.yaml --threads 4 -o again.geojson
 cmp -s packed.geojson again.geojson || fail "the field depends on the number of threads"
 says "moved rigidly" out
 says "the law" out
+# Sentences count populations from 1, in the log too.
+for name in out err; do
+    same "$(grep -o "^ *population [0-9]*" $name | xargs)" "population 1 population 2" "populations in $name"
+done
 expect 0 "$FRAM" field packed.yaml --set run.seed=4 -o again.geojson
 cmp -s packed.geojson again.geojson && fail "the field does not depend on the seed"
 printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \

@@ -366,6 +366,8 @@ START_TEST(wrong_requests_are_refused_by_name)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         r = request_of(&bad[i].p, 1, 0.8, 100, 1);
         assert_fails(make(&f, &r), f.error, FRAM_ERROR_INPUT, bad[i].message);
+        ck_assert_str_eq(f.error.key, "populations");
+        ck_assert_msg(strncmp(f.error.message, "population 1: ", 14) == 0, "%s", f.error.message);
         drop(&f);
     }
 }
