@@ -101,6 +101,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
                                     .offset = {d->offset[0], d->offset[1]},
                                     .crop = d->crop,
                                     .domain = window_of(d),
+                                    .window = true,
                                     .simplify = d->simplify,
                                     .bad = (import_bad)d->bad,
                                     .smallest_area = d->smallest_area};
@@ -178,7 +179,7 @@ int(fram_field_notes)(const fram_field *f, fram_field_note *notes, int room, siz
                                       .ring = place->ring,
                                       .line = place->line,
                                       .dropped = note->dropped,
-                                      .reason = import_event_text(note->event),
+                                      .reason = import_event_text(note->event, f->made.crop),
                                       .outside = note->event == IMPORT_NOTE_OUTSIDE};
         result_give(result_row(notes, size, i), size, &full);
     }

@@ -147,13 +147,25 @@ static int generate_field(fram_context *context, const common_options *common, c
     return status == FRAM_OK ? code : answer_error(common, &error);
 }
 
+/* Of what says where floes lie the library names members of its definition. */
+static void name_options(fram_error *error)
+{
+    static const char members[] = "look at scale, offset and crop";
+    char *at = strstr(error->message, members);
+    if (at)
+        snprintf(at, sizeof error->message - (size_t)(at - error->message), "look at --scale, --x, --y and --crop");
+}
+
 static int make_field(fram_context *context, const common_options *common, const field_words *w, fram_field **field)
 {
     fram_error error = {0};
     if (w->scenario)
         return generate_field(context, common, w, field);
     fram_status status = fram_field_load(context, w->path, &w->field, field, &error);
-    return status == FRAM_OK ? -1 : answer_error(common, &error);
+    if (status == FRAM_OK)
+        return -1;
+    name_options(&error);
+    return answer_error(common, &error);
 }
 
 static fram_status write_files(const field_words *w, const fram_field *field, fram_error *error)

@@ -28,7 +28,7 @@ void import_place_name(const import_place *p, char out[IMPORT_NAME_SIZE])
     snprintf(out, IMPORT_NAME_SIZE, "feature %d, polygon %d, ring %d", (int)p->feature, (int)p->polygon, (int)p->ring);
 }
 
-const char *import_event_text(import_event event)
+const char *import_event_text(import_event event, bool window)
 {
     static const char *const text[IMPORT_EVENT_COUNT] = {
         [IMPORT_NOTE_OPEN] = "is not closed: its last position is not its first one",
@@ -42,7 +42,7 @@ const char *import_event_text(import_event event)
         [IMPORT_NOTE_OVERLAP] = "overlaps a smaller floe",
         [IMPORT_NOTE_SLIVER] = "is a sliver beside the smaller floe that was cut out of it",
     };
-    return text[event];
+    return window && event == IMPORT_NOTE_OUTSIDE ? "is outside the window" : text[event];
 }
 
 /* One import. */
@@ -80,6 +80,11 @@ static fram_status refuse(const importing *m, const char *what, vec2 at)
     return FRAM_ERROR_INPUT;
 }
 
+static const char *event_text(const importing *m, import_event event)
+{
+    return import_event_text(event, m->options->window);
+}
+
 /* A fault of a ring: refused, or noted as dropped or mended. */
 static fram_status note_fault(importing *m, import_event event, bool can_mend, vec2 at, bool *mended)
 {
@@ -91,11 +96,11 @@ static fram_status note_fault(importing *m, import_event event, bool can_mend, v
     /* A repair fills holes, also those that islands are in open water. */
     if (m->options->as_it_is && event == IMPORT_NOTE_HOLE)
         snprintf(what, sizeof what, "%s; cut its polygon in two that have none, for a repair would fill it",
-                 import_event_text(event));
+                 event_text(m, event));
     else if (m->options->as_it_is)
-        snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" can", import_event_text(event));
+        snprintf(what, sizeof what, "%s; mend the file, as \"fram field\" can", event_text(m, event));
     else
-        snprintf(what, sizeof what, "%s; bad rings can be dropped%s", import_event_text(event),
+        snprintf(what, sizeof what, "%s; bad rings can be dropped%s", event_text(m, event),
                  can_mend ? " or repaired" : "");
     return refuse(m, what, at);
 }
@@ -316,13 +321,15 @@ static fram_status refuse_without_rings(const importing *m)
 }
 
 /* Room for what is told of the rings outside. */
-#define OUTSIDE_TEXT 96
+#define OUTSIDE_TEXT 128
+/* What says where floes and domain lie, in a scenario. */
+#define PLACE_KEYS "ice.file_scale, ice.file_x, ice.file_y and domain"
 
 /* What to look at where all of a file was left out for one reason; "" where its words say all. */
-static const char *remedy_of(import_event event)
+static const char *remedy_of(const importing *m, import_event event)
 {
     if (event == IMPORT_NOTE_OUTSIDE)
-        return "; look at scale, offset and domain";
+        return m->options->window ? "; look at scale, offset and crop" : "; look at " PLACE_KEYS;
     return event == IMPORT_NOTE_KEPT_OUT ? "; look at where these lie, and at ice.keep_out_margin" : "";
 }
 
@@ -335,14 +342,13 @@ static fram_status refuse_empty(const importing *m)
     if (rings == 0)
         return refuse_without_rings(m);
     if (loss.outside > 0)
-        snprintf(others, sizeof others, "; %d lie outside the domain: look at scale, offset and domain",
-                 (int)loss.outside);
+        snprintf(others, sizeof others, "; %d lie outside the domain: look at " PLACE_KEYS, (int)loss.outside);
     if (loss.count == 0)
         return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "no floe is left of %d rings: none winds round an area", rings);
     return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
                      "no floe is left of %d rings: %d of them or of their pieces were left out because each %s%s%s",
-                     rings, (int)loss.count, import_event_text(loss.event), remedy_of(loss.event), others);
+                     rings, (int)loss.count, event_text(m, loss.event), remedy_of(m, loss.event), others);
 }
 
 static fram_status import_all(importing *m, bool crops)

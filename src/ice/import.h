@@ -41,6 +41,7 @@ typedef struct import_options {
     bool tile; /* with crop, where the field repeats itself beyond `domain`: all stay whole if they fit to their copies
                   and each lies in the domain or beside it, no farther off than it is wide */
     box2 domain;     /* [m] */
+    bool window;     /* somebody chose `domain` for this file: words call it a window and name members, not keys */
     double simplify; /* largest distance by which an outline may change [m]; 0: not at all */
     import_bad bad;
     bool lengths;            /* the rings are such even if they look like degrees */
@@ -66,8 +67,8 @@ typedef enum import_event {
     IMPORT_NOTE_SLIVER,   /* repair: a piece that such a cut leaves is too thin for a floe */
     IMPORT_EVENT_COUNT
 } import_event;
-/* "crosses or touches itself" */
-const char *import_event_text(import_event event);
+/* "crosses or touches itself"; window: of import_options */
+const char *import_event_text(import_event event, bool window);
 
 typedef struct import_note {
     int32_t ring; /* of import_rings */

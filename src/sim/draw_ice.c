@@ -65,7 +65,7 @@ static void log_notes(context *ctx, const import_rings *rings, const import_fiel
         const import_note *n = &field->notes.data[i];
         char name[IMPORT_NAME_SIZE];
         import_place_name(&rings->place.data[n->ring], name);
-        log_write(ctx, LOG_DEBUG, "%s (%.9g, %.9g): %s; %s", name, n->at.x, n->at.y, import_event_text(n->event),
+        log_write(ctx, LOG_DEBUG, "%s (%.9g, %.9g): %s; %s", name, n->at.x, n->at.y, import_event_text(n->event, false),
                   n->dropped ? "left out" : "mended");
     }
 }

@@ -45,6 +45,7 @@ expect 0 "$FRAM" field floes.geojson --bad drop --centre --json
 same "$(value 'max(abs(a - b) for a, b in zip(j["bounds_m"], (-25.05, -5, 25.05, 5))) < 1e-12')" True "in the centre"
 expect 0 "$FRAM" field floes.geojson --bad drop --crop 5,0,25,10 --json
 same "$(value 'j["floes"], j["area_m2"], j["concentration"]')" "1 50 0.25" "cut at a window"
+same "$(value '"is outside the window" in [d["reason"] for d in j["dropped"]]')" True "what lies outside of it"
 expect 0 "$FRAM" field floes.geojson --bad repair --smallest 30 --json
 same "$(value 'j["floes"], len(j["dropped"])')" "2 2" "without small floes"
 
@@ -339,12 +340,12 @@ none_left() {
     shift
     expect 2 "$FRAM" field "$@"
     says "$words" err
-    case $words in *outside*) ;; *) ! grep -qF "look at scale" err || fail "scale is to blame: $(cat err)" ;; esac
+    case $words in *outside*) ;; *) ! grep -q "look at .*scale" err || fail "scale is to blame: $(cat err)" ;; esac
 }
 none_left "left of 1 rings: 1 of them or of their pieces were left out because each crosses" bow.geojson --bad drop
 none_left "4 of them or of their pieces were left out because each is under the smallest area" once.geojson \
     --smallest 1000
-none_left "each is outside the domain; look at scale, offset and domain" once.geojson --crop 900,0,999,9
+none_left "each is outside the window; look at --scale, --x, --y and --crop" once.geojson --crop 900,0,999,9
 # A floe as wide as the domain, with its vessel in it, and thirteen beside: those come last, and are no reason.
 python3 - <<'END' >wide.wkt
 for x in list(range(900, 1550, 50)) + [-50]:
@@ -356,8 +357,9 @@ vessel: {hull: {length: 20, beam: 6, draught: 2, freeboard: 2}}
 ice: {source: file, file: wide.wkt}
 domain: {x_min: -40, x_max: 40, y_min: -40, y_max: 40}
 END
-none_left "at ice.keep_out_margin; 13 lie outside the domain: look at scale, offset and domain" wide.yaml
+none_left "13 lie outside the domain: look at ice.file_scale, ice.file_x, ice.file_y and domain" wide.yaml
 says "of 14 rings: 1 of them or of their pieces were left out because each is in the way of a vessel" err
+says "look at where these lie, and at ice.keep_out_margin; 13 lie" err
 # With twelve under the smallest area too, those are the most of what is in the domain.
 cp wide.wkt small.wkt
 for y in {-30..-19}; do echo "POLYGON ((20 $y, 20.5 $y, 20.5 $y.5, 20 $y.5, 20 $y))"; done >>small.wkt
