@@ -13,8 +13,10 @@ refused() {
 
 expect 0 "$FRAM" check ship.yaml
 grep '^warning' err && fail "a warning without reason"
+radii=""
 for scene in "$FRAM_SOURCE"/scenes/*.yaml; do
     expect 0 "$FRAM" check "$scene"
+    radii+=$(sed -n 's/^vessel icebreaker .* loops of its track have \(.*\) m$/ \1/p' err)
     # Its ship makes 3.7 m/s in steps for half of that, as its results were measured.
     [[ $scene == */drillship_circle.yaml ]] && sed -i '/^warning: vessel icebreaker and the ice move 0.05 m past/d' err
     # Its rows and averages are 13 steps of 0.04 s apart and long, as its results were measured.
@@ -24,6 +26,9 @@ for scene in "$FRAM_SOURCE"/scenes/*.yaml; do
     [[ $scene == */turret_turning.yaml ]] && sed -i '/^warning: ice.smallest_floe_area: 2 m2 is more/d' err
     grep '^warning' err && fail "$scene warns"
 done
+# shellcheck disable=SC2086  # a list of numbers
+says "$(printf '%.0f\n' $radii | sort -nru | xargs | sed 's/ /, /; s/ \([0-9]*\)$/ and \1/') m of radius" \
+    "$FRAM_SOURCE/docs/limits.md"
 
 # A number in another unit.
 refused domain.band "expected less than half of the domain, 160 m, found 200 m" --set domain.band=200
