@@ -252,7 +252,8 @@ int command_video(const command_row *self, int argc, char **argv)
     fram_video_definition d;
     fram_video_default(&d);
     const option_row rows[] = {
-        {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the video (RUN/run.mp4), or the folder of --pictures"},
+        {"--output", "-o", OPTION_TEXT, &d.output, "FILE",
+         "the video (RUN/run.mp4), or the folder of --pictures (RUN/video)"},
         {"--colour", NULL, OPTION_TEXT, &d.colour, "NAME", "plain, speed (default), force, thickness or age"},
         {"--speed", NULL, OPTION_SIZE, &d.speed, "X", "simulated seconds per second (so that it lasts 30 s at most)"},
         {"--camera", NULL, OPTION_TEXT, &d.camera, "NAME",

@@ -6,7 +6,7 @@
 #include "results/video_scene.h"
 
 typedef struct video_options {
-    const char *output; /* NULL: FOLDER/run.mp4 */
+    const char *output; /* NULL: FOLDER/run.mp4, or the folder FOLDER/video */
     plan_colour colour;
     video_camera camera;
     double speed; /* simulated seconds per second of video; <= 0: such that it lasts 30 s at most, 1 at least */

@@ -506,7 +506,9 @@ if [ $pictures = yes ]; then
     [ ! -e endless ] || fail "a refused video left a folder"
     expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
     cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
-    # A model looks as it does in full size.
+    # A model looks as it does in full size.  Pictures go into the folder that the help tells.
+    expect 0 "$FRAM" video --help
+    says "the folder of --pictures (RUN/video)" out
     for scale in 30 0.2; do
         python3 -S - $scale >model.yaml <<'PY'
 import sys
@@ -517,7 +519,7 @@ ice: {{source: none}}
 domain: {{x_min: {-2 * k}, x_max: {2 * k}, y_min: {-1.5 * k}, y_max: {1.5 * k}}}""")
 PY
         expect 0 "$FRAM" run model.yaml -o model$scale -q
-        expect 0 "$FRAM" video model$scale --pictures --camera follow --width 480 --height 360 -o model$scale/video
+        expect 0 "$FRAM" video model$scale --pictures --camera follow --width 480 --height 360
     done
     expect 0 python3 "$FRAM_SOURCE/tests/cli/pixels.py" hulls model*/video/frame-000000.png
     # A folder with something in it is left alone; by force a shorter series leaves nothing of a longer one.
