@@ -237,8 +237,8 @@ fram_status series_read_csv(context *ctx, const char *path, const series_source 
             status =
                 error_set(error, FRAM_ERROR_INPUT, path, 1, "time", "expected the unit [s], found [%s]", time_unit);
         else if (want.time < 0)
-            status = error_set(error, FRAM_ERROR_INPUT, path, 1, "time",
-                               "the file has no column `time`: give the step between rows");
+            status = error_set(error, FRAM_ERROR_INPUT, path, 0, "step",
+                               "is missing: there is no column `time`, so give the time between rows");
     }
     if (status == FRAM_OK)
         status = read_lines(ctx, &want, text, rows, value, error);

@@ -390,7 +390,8 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", back, "--channel", "x"), "back.csv:1002:", "found one of -1004 s, to -5")
         falls = self.write("time,x\n# down\n3,1\n2,2\n1,1\n0,2\n", "falls.csv")
         self.refused(("fatigue", falls, "--channel", "x"), "falls.csv:4:", "rising times", "found 2 after 3")
-        self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"), ":1: time:", "step")
+        self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"),
+                     "timeless.csv:0: --step: is missing", "no column `time`")
         self.refused(("extremes", self.write("time[s],x\n1,1\n2,2\n", "timed.csv"), "--channel", "x", "--step", "2"),
                      "timed.csv:0: --step:", "column `time`")
         self.refused(("fatigue", self.write("time[s],x\n1,1\n", "one.csv"), "--channel", "x"), "one value alone")
