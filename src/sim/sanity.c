@@ -282,39 +282,70 @@ static void tell_hull(const teller *t, const vessel_entry *e)
 }
 
 /* What a vessel turns about in a field of floes, global: amidships, or its turret.  Beyond the edge of a drifting sheet
-   there is open water, not a band: there the ship is looked at as it lies. */
-static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 start, double *reach)
+   there is open water, not a band: there the ship is looked at as it lies.  reach: from there along X and Y; a vessel
+   that is led keeps its heading. */
+static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 start, vec2 *reach)
 {
     bool turret = v->mode == VESSEL_FREE && v->mooring.turret && v->mooring.lines.count > 0;
     turret = turret && scene->ice.source != ICE_LEVEL;
     double c = real_cos(radians(start.z)), s = real_sin(radians(start.z));
     double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
     double along = 0.5 * v->hull.length + fabs(x), across = 0.5 * v->hull.beam + fabs(y);
-    *reach = sqrt(along * along + across * across);
+    double most = sqrt(along * along + across * across);
+    if (v->hull.form == HULL_CONE)
+        most = 0.5 * v->hull.length + sqrt(x * x + y * y);
+    *reach = vec2_make(most, most);
+    if (v->mode != VESSEL_FREE && v->hull.form != HULL_CONE)
+        *reach = vec2_make(fabs(c) * along + fabs(s) * across, fabs(s) * along + fabs(c) * across);
     return vec2_make(start.x + c * x - s * y, start.y + s * x + c * y);
 }
 
-static double edge_from(const scenario_domain *d, vec2 at)
+/* How far a place is from the nearer edge along X, and along Y; negative outside. */
+static vec2 edges_from(const scenario_domain *d, vec2 at)
 {
-    return fmin(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
+    return vec2_make(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
 }
 
-/* Nearest edge of a fed domain within the reach of the vessel, turned any way: the band moves floes through the hull.
- */
+/* A number above 0, rounded up to the three digits that are told: who does as told has enough. */
+static double told_upward(double value)
+{
+    double unit = 1;
+    while (value >= 1000 * unit)
+        unit *= 10;
+    while (value < 100 * unit)
+        unit /= 10;
+    return ceil(value / unit * (1 - 1e-12)) * unit;
+}
+
+/* Of a reach [m]: what is missing to it by rounding. */
+#define ROOM_ROUNDED 1e-9
+
+/* Nearest edge of a fed domain within the reach of the vessel, turned any way it may be: the band moves floes through
+   the hull. */
+static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
+{
+    const scenario_domain *d = &t->s->domain;
+    vec2 reach, at = turns_about(t->s, e->keys, start, &reach), edge = edges_from(d, at);
+    double band = sanity_least_band(t->s);
+    bool along_x = reach.x - edge.x > reach.y - edge.y;
+    double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
+    if (d->boundary == DOMAIN_FEEDING && most - room > ROOM_ROUNDED * most)
+        sanity_say(t->tell, t->to,
+                   "domain: its edge%s is %.4g m from %s, which reaches %.4g m%s; enlarge the domain by %.3g m or more "
+                   "on that side",
+                   band > 0 ? " with the band" : "", room, e->path, most,
+                   e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it", told_upward(most - room));
+}
+
 static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
 {
     const scenario_domain *d = &t->s->domain;
     const scenario_vessel *v = e->keys;
     if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
-    double reach, band = sanity_least_band(t->s), edge = edge_from(d, vec2_make(v->x, v->y));
-    double room = edge_from(d, turns_about(t->s, v, start, &reach)) - band;
-    if (d->boundary == DOMAIN_FEEDING && room < reach)
-        sanity_say(
-            t->tell, t->to,
-            "domain: its edge%s is %.4g m from %s, which reaches %.4g m as it turns; enlarge the domain by %.3g m or "
-            "more on that side",
-            band > 0 ? " with the band" : "", room, e->path, reach, reach - room);
+    tell_room(t, e, start);
+    vec2 from = edges_from(d, vec2_make(v->x, v->y));
+    double edge = fmin(from.x, from.y);
     if (edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam))
         sanity_say(t->tell, t->to,
                    "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no "

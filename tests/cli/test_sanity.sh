@@ -79,6 +79,21 @@ told ship.yaml "its edge with the band is 59.99 m from vessel, which reaches 68.
     --set vessel.mooring.turret=true --set vessel.mooring.x=30
 expect 0 "$FRAM" check ship.yaml --set domain.x_max=100 --set vessel.mooring.x=30
 grep 'domain: its edge' err && fail "a ship that turns about amidships is told of the edge"
+# A vessel that is led lies as it heads, a round one reaches its radius; with the metres that are told it has room.
+sed 's/mode: free/mode: towed/; /mooring:/,/thrusters/d' ship.yaml >led.yaml
+expect 0 "$FRAM" check led.yaml --set domain.y_min=-20 --set domain.band=10
+grep 'domain: its edge' err && fail "a ship that never turns is told to reach as far as it is long"
+told led.yaml "its edge with the band is 10 m from vessel, which reaches 38 m towards it|by 28 m or more" \
+    --set domain.y_min=-20 --set domain.band=10 --set vessel.heading_deg=90
+told led.yaml "its edge with the band is 30 m from vessel, which reaches 37.66 m towards it|by 7.66 m or more" \
+    --set domain.x_min=-40 --set domain.band=10 --set vessel.heading_deg=30
+expect 0 "$FRAM" check led.yaml --set domain.x_min=-47.66 --set domain.band=10 --set vessel.heading_deg=30
+grep 'domain: its edge' err && fail "the metres that are told do not suffice"
+round=(--set vessel.hull.form=cone --set vessel.hull.length=19 --set vessel.hull.flare_angle_deg=30)
+told ship.yaml "its edge with the band is 9 m from vessel, which reaches 9.5 m as it turns|by 0.5 m or more" \
+    --set domain.x_min=-19 --set domain.band=10 "${round[@]}"
+expect 0 "$FRAM" check ship.yaml --set domain.x_min=-19.5 --set domain.band=10 "${round[@]}"
+grep 'domain: its edge' err && fail "a round hull is told to reach beyond its radius"
 told ship.yaml "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
     --set environment.wind_direction_deg=0
 # Of ice that has its own drift, whatever tells the current.
