@@ -198,8 +198,7 @@ static fram_status ice_area(context *ctx, box2 extent, const polygon_list *openi
     return status;
 }
 
-/* Where a sheet that drifts is at the start, however far it reaches. */
-static box2 sheet_extent(const scenario *s)
+box2 build_sheet_extent(const scenario *s)
 {
     const scenario_level *l = &s->ice.level;
     return (box2){{automatic_or(l->x_min, -HUGE_VAL), automatic_or(l->y_min, -HUGE_VAL)},
@@ -213,7 +212,7 @@ static box2 box_common(box2 a, box2 b)
 
 double build_ice_in_domain(const scenario *s)
 {
-    box2 domain = domain_box(&s->domain), extent = sheet_extent(s), part = box_common(extent, domain);
+    box2 domain = domain_box(&s->domain), extent = build_sheet_extent(s), part = box_common(extent, domain);
     bool there = box_area(part) > 0;
     double area = there ? box_area(part) : fmin(box_area(domain), box_area(extent));
     for (int32_t i = 0; there && i < s->ice.level.openings.count; i++) {
@@ -263,7 +262,7 @@ fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, 
 {
     if (s->ice.source != ICE_LEVEL || s->domain.boundary != DOMAIN_FEEDING)
         return FRAM_OK;
-    box2 extent = sheet_extent(s);
+    box2 extent = build_sheet_extent(s);
     *out = (drift_definition){.drifts = true,
                               .window = domain_box(&s->domain),
                               .extent = extent,

@@ -12,6 +12,8 @@ fram_status build_level(context *ctx, const scenario *s, world *w, field_report 
 tile_grid build_tiles(const scenario *s);
 /* What is fixed of level ice that drifts; out stays as it is without. */
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error);
+/* Where a sheet that drifts is at the start, however far it reaches. */
+box2 build_sheet_extent(const scenario *s);
 /* Mass of a drifting sheet's ice in the domain at the start, of a domain full of it, or of all of it if that is less,
    where none is there yet [kg]; less where openings overlap one another, and never under 0. */
 double build_ice_in_domain(const scenario *s);

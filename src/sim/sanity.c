@@ -379,12 +379,6 @@ static void tell_basin(const teller *t)
     }
 }
 
-static bool vessel_moves(const scenario_vessel *v)
-{
-    bool driven = v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
-    return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
-}
-
 /* Told of the scenario as a whole: a vessel at rest meets what another one pushes. */
 static void tell_rest(const teller *t)
 {
@@ -394,7 +388,7 @@ static void tell_rest(const teller *t)
     bool moves = n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] || n->wind_file[0] ||
                  n->current_profile_file[0] || d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
     for (int32_t i = 0; i < count; i++)
-        moves = moves || vessel_moves(scenario_vessel_entry(t->s, i).keys);
+        moves = moves || sanity_vessel_moves(scenario_vessel_entry(t->s, i).keys);
     if (!moves && count > 0 && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
         sanity_say(t->tell, t->to, "%s.speed: neither vessel nor ice, water or wind moves: no load will come",
                    scenario_vessel_entry(t->s, 0).path);

@@ -211,6 +211,40 @@ static void tell_drift(const teller *t)
 
 /* ---- level ice ---- */
 
+/* When what lies from lo to hi and goes at a speed is over what lies from at to end: from when on, until when. */
+static void narrow_time(double lo, double hi, double speed, double at, double end, double time[2])
+{
+    bool there = lo < end && hi > at;
+    double first = there ? 0 : HUGE_VAL, last = there ? HUGE_VAL : 0;
+    if (speed != 0) {
+        first = (speed > 0 ? at - hi : end - lo) / speed;
+        last = (speed > 0 ? end - lo : at - hi) / speed;
+    }
+    time[0] = fmax(time[0], first);
+    time[1] = fmin(time[1], last);
+}
+
+/* A sheet that begins outside of the domain, and that its drift takes past it, away from it or not as far as to it. */
+static void tell_sheet_outside(const teller *t)
+{
+    const scenario_domain *d = &t->s->domain;
+    const ice_drift drift = scenario_drift(t->s);
+    if (!drift.fed || drift.file[0])
+        return;
+    box2 sheet = build_sheet_extent(t->s);
+    vec3 goes = scenario_velocity(drift.speed, drift.towards_deg);
+    double time[2] = {0, t->s->run.duration};
+    narrow_time(sheet.lo.x, sheet.hi.x, goes.x, d->x_min, d->x_max, time);
+    narrow_time(sheet.lo.y, sheet.hi.y, goes.y, d->y_min, d->y_max, time);
+    double gap =
+        fmax(fmax(sheet.lo.x - d->x_max, d->x_min - sheet.hi.x), fmax(sheet.lo.y - d->y_max, d->y_min - sheet.hi.y));
+    if (time[0] >= time[1])
+        sanity_say(t->tell, t->to,
+                   "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m towards %g degrees in "
+                   "the run: there will be no ice",
+                   gap, drift.speed * t->s->run.duration, drift.towards_deg);
+}
+
 static void tell_level(const teller *t)
 {
     const scenario_level *l = &t->s->ice.level;
@@ -220,19 +254,11 @@ static void tell_level(const teller *t)
         return;
     bool moves = false;
     for (int32_t v = 0; v < scenario_vessel_count(t->s); v++)
-        moves = moves || scenario_vessel_entry(t->s, v).keys->speed > 0;
+        moves = moves || sanity_vessel_moves(scenario_vessel_entry(t->s, v).keys);
     if (!i->breakable && (moves || d->boundary == DOMAIN_FEEDING))
         sanity_say(t->tell, t->to, "ice.breakable: false makes a wall of level ice: set it to true to let it break");
-    const ice_drift drift = scenario_drift(t->s);
-    double way = drift.speed * t->s->run.duration;
-    double gap = fmax(automatic_or(l->x_min, d->x_min) - d->x_max, d->x_min - automatic_or(l->x_max, d->x_max));
-    gap = fmax(gap, fmax(automatic_or(l->y_min, d->y_min) - d->y_max, d->y_min - automatic_or(l->y_max, d->y_max)));
-    if (drift.fed && !drift.file[0] && gap > way)
-        sanity_say(t->tell, t->to,
-                   "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m in the run: there will "
-                   "be no ice",
-                   gap, way);
-    double mass = drift.fed ? build_ice_in_domain(t->s) : 0;
+    tell_sheet_outside(t);
+    double mass = scenario_drift(t->s).fed ? build_ice_in_domain(t->s) : 0;
     if (automatic_or(l->mass, HUGE_VAL) < mass)
         sanity_say(t->tell, t->to,
                    "ice.level.mass: %.4g kg is less than that of the ice in the domain, %.4g kg: give all that slows "

@@ -22,6 +22,13 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN]);
 /* A hull by its particulars; that of a file has its size in the file. */
 static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
 
+/* Whether it goes anywhere by itself or as it is led. */
+static inline bool sanity_vessel_moves(const scenario_vessel *v)
+{
+    bool driven = v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
+    return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
+}
+
 /* Of what a box of its hull displaces. */
 #define SANITY_BLOCK 0.7
 

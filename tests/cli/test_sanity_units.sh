@@ -70,6 +70,20 @@ all_told tank.yaml ice.crushing_strength=500 -- "is less than the flexural stren
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
+# Away from the domain, and past it; across its corner it comes in.
+none="ice.level: the sheet begins 10 m outside of the domain, and drifts 240 m towards 180 degrees|will be no ice"
+all_told level.yaml ice.level.x_max=-170 -- "$none"
+all_told level.yaml ice.level.x_min=170 ice.level.y_min=170 -- "$none"
+all_told level.yaml ice.level.x_min=170 ice.level.y_min=170 environment.current_direction_deg=225 --
+# Whatever moves the vessel.
+sed 's/propulsion: {[^}]*}/thrusters: [{x: -25, thrust: 2.0e5, setting: 1}]/' drive.yaml >thrust.yaml
+for scene in path drive thrust; do
+    sed 's/^ice:.*/ice: {source: level}/' $scene.yaml >wall.yaml
+    told wall.yaml "ice.breakable: false makes a wall of level ice"
+done
+sed 's/^ice:.*/ice: {source: level}/' towed.yaml >wall.yaml
+expect 0 "$FRAM" check wall.yaml --set vessel.speed=0
+grep 'makes a wall' err && fail "a vessel that rests is told of a wall"
 all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=140 ice.level.mass=5e6 --
 all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=170 ice.level.x_max=190 ice.level.y_min=0 \
     ice.level.y_max=20 ice.level.mass=3e5 --
