@@ -150,6 +150,41 @@ static fram_status check_speeds(const scenario *s, fram_error *error)
     return status;
 }
 
+static fram_status check_floe_speed(const scenario *s, int32_t number, fram_error *error)
+{
+    const scenario_floe *f = &s->ice.floes.data[number];
+    const double v[3] = {f->velocity_x, f->velocity_y, f->velocity_z};
+    double h = automatic_or(f->thickness, s->ice.thickness), speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double square = f->shape == FLOE_REGULAR ? 4 * f->radius * f->radius : f->length * f->length + f->width * f->width;
+    double reach = 0.5 * sqrt(square + h * h);
+    int most = fabs(v[1]) > fabs(v[0]);
+    most = fabs(v[2]) > fabs(v[most]) ? 2 : most;
+    char key[40];
+    snprintf(key, sizeof key, "ice.floes[%d].velocity_%c", (int)number, "xyz"[most]);
+    if (!(speed < s->run.speed_limit))
+        return fault(s, error, key,
+                     "expected a floe that moves at less than run.speed_limit, at which a run ends, %g m/s, found %g "
+                     "m/s",
+                     s->run.speed_limit, speed);
+    if (fabs(f->spin) * reach < s->run.speed_limit)
+        return FRAM_OK;
+    snprintf(key, sizeof key, "ice.floes[%d].spin", (int)number);
+    return fault(s, error, key,
+                 "expected a turn at less than run.speed_limit, at which a run ends, %g m/s, found %g m/s at %g m from "
+                 "the centre of the floe",
+                 s->run.speed_limit, fabs(f->spin) * reach, reach);
+}
+
+/* The rim of a floe that turns keeps under that speed too. */
+static fram_status check_floe_speeds(const scenario *s, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < s->ice.floes.count && status == FRAM_OK; i++)
+        if (!s->ice.floes.data[i].fixed)
+            status = check_floe_speed(s, i, error);
+    return status;
+}
+
 static fram_status check_friction(const scenario *s, fram_error *error)
 {
     const scenario_friction *f = &s->ice.friction;
@@ -371,6 +406,8 @@ static fram_status check_ice(const scenario *s, fram_error *error)
         status = check_field(s, error);
     if (status == FRAM_OK)
         status = check_floe_places(s, error);
+    if (status == FRAM_OK)
+        status = check_floe_speeds(s, error);
     if (status == FRAM_OK)
         status = check_level(s, error);
     if (status != FRAM_OK || ice->source == ICE_NONE || !s->environment.water)

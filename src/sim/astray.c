@@ -52,6 +52,19 @@ static bool is_pushed(const world *w, int32_t body)
     return pushed;
 }
 
+/* What nothing touches. */
+static const char *remedy_alone(const world *w, int32_t body, bool pushed)
+{
+    if (w->bodies.material[body] == MATERIAL_ICE)
+        return pushed ? "nothing touches it: look at " FORCES_TOLD ", then at its velocity at the start"
+                      : "nothing touches it: look at its velocity at the start, at run.time_step, and at the warnings "
+                        "that the notes of the scenario give";
+    return pushed ? "nothing touches it: look at " FORCES_TOLD ", then at its mass, lines, thrusters and coefficients"
+                  : "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre "
+                    "of gravity, at lines, thrusters and coefficients, and at the warnings that the notes of the "
+                    "scenario give";
+}
+
 const char *astray_remedy(const world *w, int32_t body)
 {
     if (!body_is_dynamic(&w->bodies, body) || goes_as_towed(w, body))
@@ -60,8 +73,5 @@ const char *astray_remedy(const world *w, int32_t body)
     if (is_touched(w, body))
         return pushed ? "contacts act on it: look at " FORCES_TOLD "; a smaller run.time_step may help too"
                       : "contacts act on it; a smaller run.time_step may help";
-    return pushed ? "nothing touches it: look at " FORCES_TOLD ", then at its mass, lines, thrusters and coefficients"
-                  : "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre "
-                    "of gravity, at lines, thrusters and coefficients, and at the warnings that the notes of the "
-                    "scenario give";
+    return remedy_alone(w, body, pushed);
 }

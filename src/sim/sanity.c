@@ -60,6 +60,7 @@ static const usual usual_values[] = {
     {"ice.level.line_load", 1e3, 1e7, 2, "what drifting ice drives with", "give N/m, not kN/m or MN/m"},
     {"ice.floes[].velocity_x", -5, 5, 0.5, "what floes move with", "give m/s"},
     {"ice.floes[].velocity_y", -5, 5, 0.5, "what floes move with", "give m/s"},
+    {"ice.floes[].velocity_z", -5, 5, 0.5, "what floes move with", "give m/s"},
     {"ice.floes[].spin", -1, 1, -0.5, "what floes turn with", "give rad/s, not deg/s"},
     {"run.solver.contact_skin", 0, 0.01, 1, "what lets packed ice rest", "give metres"},
     {"run.solver.tolerance", 0, 0.01, 0.5, "what residuals are worth", "give m/s"},

@@ -101,8 +101,22 @@ all_told level.yaml ice.smallest_floe_area=9 -- \
     "smallest_floe_area: 9 m2 is 0.88 of the pieces that break off|wedges of about 10.2 m2|take 1 m2 or less"
 all_told level.yaml ice.smallest_floe_area=2.5 --
 all_told level.yaml output.frame_interval=0 --
-all_told floes.yaml "ice.floes[0].x=19" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \
-    "ice.floes[0]: 211.1 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
+all_told floes.yaml "ice.floes[0].x=19" "ice.floes[0].velocity_y=20" "ice.floes[0].velocity_z=-20" \
+    "ice.floes[0].spin=5" -- "ice.floes[0]: 211.1 m2 of the floe|inside the hull" "velocity_y: 20 m/s" \
+    "velocity_z: -20 m/s" "spin: 5 rad/s|not deg/s"
+# Over run.speed_limit, of 100 m/s, a run would end at once: the whole way counts, and the rim, 14.2 m off.
+# too_fast KEY SPEED OPTIONS...
+too_fast() {
+    local key=$1 speed=$2 options=()
+    for words in "${@:3}"; do options+=(--set "ice.floes[0].$words"); done
+    expect 2 "$FRAM" check floes.yaml "${options[@]}"
+    says "ice.floes[0].$key: expected a" err
+    says "less than run.speed_limit, at which a run ends, 100 m/s, found $speed m/s" err
+}
+too_fast velocity_z 100 velocity_z=-100
+too_fast velocity_y 103.923 velocity_x=60 velocity_y=-60.0001 velocity_z=60
+too_fast spin 106.132 spin=-7.5
+expect 0 "$FRAM" check floes.yaml --set "ice.floes[0].velocity_z=200" --set "ice.floes[0].fixed=true"
 all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
     "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
 all_told floes.yaml "ice.floes[0].width=0.5" -- "ice.floes[0]: 0.5 m is less than it is thick, 1 m"

@@ -56,6 +56,7 @@ START_TEST(floes_that_go_astray_are_told)
             fram_error error = {0};
             step_with(boundaries[b], (vec3){1e5, 0, 0}, threads, &error);
             ck_assert_msg(strstr(error.message, "run.speed_limit"), "%s", error.message);
+            ck_assert_msg(strstr(error.message, "velocity at the start"), "%s", error.message);
             for (int k = 0; k < 4; k++) {
                 step_with(boundaries[b],
                           (vec3){k == 0 || k == 3 ? nan : 0, k == 1 || k == 3 ? nan : 0, k == 2 ? nan : 0}, threads,
