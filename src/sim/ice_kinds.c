@@ -42,6 +42,13 @@ static ice_range with_soonest(ice_range r)
     return r;
 }
 
+ice_kind ice_kind_of_population(const scenario_ice *i, const scenario_population *p)
+{
+    return (ice_kind){automatic_or(p->thickness, i->thickness),
+                      automatic_or(p->flexural_strength, i->flexural_strength),
+                      automatic_or(p->crushing_strength, i->crushing_strength)};
+}
+
 /* By keys. */
 static ice_range ice_range_of(const scenario_ice *i)
 {
@@ -54,11 +61,7 @@ static ice_range ice_range_of(const scenario_ice *i)
                   true);
     for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
-        take_kind(i, &r,
-                  (ice_kind){automatic_or(p->thickness, own.thickness),
-                             automatic_or(p->flexural_strength, own.flexural_strength),
-                             automatic_or(p->crushing_strength, own.crushing_strength)},
-                  p->breakable);
+        take_kind(i, &r, ice_kind_of_population(i, p), p->breakable);
     }
     /* Those of a file are beside the populations that fill the water between them. */
     if (i->source == ICE_FILE || !(r.thickest.thickness > 0))

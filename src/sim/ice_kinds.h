@@ -21,6 +21,8 @@ bool ice_all_breaks(const scenario_ice *i);
 /* Of all ice that the scenario makes; of floes of a file by those that were made.  made: the world of the scenario
    before its first step; NULL: there is none, and all goes by keys. */
 ice_range ice_range_made(const scenario_ice *i, const world *made);
+/* What the floes of a population are in the mean: what it leaves out is that of all ice. */
+ice_kind ice_kind_of_population(const scenario_ice *i, const scenario_population *p);
 /* With the rest of what all ice has in common. */
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k);
 

@@ -149,10 +149,11 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN])
 
 /* The area on which a crushing strength is judged, where its pressure goes with the area: the thickness of its ice,
    squared [m2].  0: on any. */
-static double judged_on(const scenario_ice *i, const void *member)
+static double judged_on(const teller *t, const void *member)
 {
-    double h = member == &i->crushing_strength ? i->thickness : 0;
-    if (i->crushing_exponent == 0)
+    const scenario_ice *i = &t->s->ice;
+    double h = member == &i->crushing_strength ? sanity_own_thickness(i, t->made) : 0;
+    if (i->crushing_exponent == 0 || isinf(h))
         return 0;
     for (int32_t k = 0; k < i->populations.count; k++)
         if (member == &i->populations.data[k].crushing_strength)
@@ -173,7 +174,7 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     sanity_pattern(path, pattern);
     if (is_angle(pattern))
         tell_radians(t, path, value);
-    double area = judged_on(&t->s->ice, member), judged = value;
+    double area = judged_on(t, member), judged = value;
     if (area > 0)
         judged = sanity_pressure_on(&t->s->ice, value, area, on);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {

@@ -276,23 +276,59 @@ double sanity_pressure_on(const scenario_ice *i, double strength, double area, c
     return pressure;
 }
 
-static void tell_strength(const teller *t)
+/* The strengths of ice of a kind.  key: that of the one in crushing; whose: who has the other one. */
+static void tell_pair(const teller *t, const ice_kind *k, const char *key, const char *whose)
 {
     const scenario_ice *i = &t->s->ice;
     char on[SANITY_ON_AREA] = "";
-    double pressure = i->crushing_strength;
+    double pressure = k->crushing_strength;
     if (i->crushing_exponent != 0)
-        pressure = sanity_pressure_on(i, pressure, i->thickness * i->thickness, on);
-    if (pressure < i->flexural_strength)
+        pressure = sanity_pressure_on(i, pressure, k->thickness * k->thickness, on);
+    if (pressure < k->flexural_strength)
         sanity_say(t->tell, t->to,
-                   "ice.crushing_strength: %.4g Pa%s is less than the flexural strength, %.4g Pa: ice is stronger in "
-                   "compression than in bending; are they swapped?",
-                   i->crushing_strength, on, i->flexural_strength);
+                   "%s: %.4g Pa%s is less than the flexural strength%s, %.4g Pa: ice is stronger in compression than "
+                   "in bending; are they swapped?",
+                   key, k->crushing_strength, on, whose, k->flexural_strength);
+}
+
+double sanity_own_thickness(const scenario_ice *i, const world *made)
+{
+    if (i->populations.count == 0)
+        return ice_range_made(i, made).thinnest.thickness;
+    double h = i->source == ICE_FILE ? i->thickness : HUGE_VAL;
+    for (int32_t k = 0; k < i->populations.count; k++)
+        if (is_automatic(i->populations.data[k].crushing_strength))
+            h = fmin(h, automatic_or(i->populations.data[k].thickness, i->thickness));
+    return h;
+}
+
+/* Populations that have a strength of their own, and the pair of ice.* where some floe takes both. */
+static void tell_strength(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    bool taken = i->populations.count == 0 || i->source == ICE_FILE;
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const scenario_population *p = &i->populations.data[k];
+        bool crushes = !is_automatic(p->crushing_strength), bends = !is_automatic(p->flexural_strength);
+        const ice_kind kind = ice_kind_of_population(i, p);
+        char key[64] = "ice.crushing_strength", whose[48] = "";
+        if (crushes)
+            snprintf(key, sizeof key, "ice.populations[%d].crushing_strength", (int)k);
+        else if (bends)
+            snprintf(whose, sizeof whose, " of ice.populations[%d]", (int)k);
+        if (crushes || bends)
+            tell_pair(t, &kind, key, whose);
+        taken = taken || !(crushes || bends);
+    }
+    const ice_kind own = {sanity_own_thickness(i, t->made), i->flexural_strength, i->crushing_strength};
+    if (taken)
+        tell_pair(t, &own, "ice.crushing_strength", "");
+    double thinnest = ice_range_made(i, t->made).thinnest.thickness;
     bool varies = i->strength.flexural_variation > 0 || i->strength.crushing_variation > 0;
-    if (varies && i->strength.correlation_length < i->thickness)
+    if (varies && i->strength.correlation_length < thinnest)
         sanity_say(t->tell, t->to,
                    "ice.strength.correlation_length: %.4g m is less than the ice is thick, %.4g m: give metres",
-                   i->strength.correlation_length, i->thickness);
+                   i->strength.correlation_length, thinnest);
 }
 
 /* Heights from which a floe falls, in thicknesses or metres. */

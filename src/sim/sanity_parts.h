@@ -58,6 +58,8 @@ double sanity_least_band(const scenario *s);
     "ice.populations[%d] asks for, and those that are made are larger than it says; give a smaller area, or " \
     "the run.scale (%g) by which it is found"
 
+/* The thinnest ice that takes ice.crushing_strength [m]; infinite: all has a strength of its own. */
+double sanity_own_thickness(const scenario_ice *i, const world *made);
 /* The crushing pressure on an area of ice of a strength [Pa], and the words that say so after the strength. */
 enum { SANITY_ON_AREA = 80 };
 double sanity_pressure_on(const scenario_ice *i, double strength, double area, char words[SANITY_ON_AREA]);

@@ -1,4 +1,5 @@
 #include "base/number_text.h"
+#include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
 #include "vessel/plane_motion.h"
@@ -249,8 +250,8 @@ static void tell_motion(const teller *t)
                    "%s.course_deg: the vessel is moved at %.4g degrees to its bow, towards %.4g with its heading at "
                    "%.4g: both are counter-clockwise from X",
                    t->e->path, drift, automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
-    double way = vessel_way(v, r->duration);
-    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && way < t->s->ice.thickness &&
+    double way = vessel_way(v, r->duration), thinnest = ice_range_made(&t->s->ice, t->made).thinnest.thickness;
+    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && way < thinnest &&
         t->s->ice.source != ICE_NONE && t->s->domain.boundary != DOMAIN_FEEDING)
         sanity_say(t->tell, t->to, "%s.speed: the vessel moves %.3g m in the run, less than the ice is thick: give m/s",
                    t->e->path, way);

@@ -131,6 +131,22 @@ all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diamet
 all_told packed.yaml "ice.populations[0].diameter=150" -- \
     "populations[0].diameter: the mean, 150 m, is outside of the sizes that are drawn|10 to 100 m"
 
+# Of populations with strengths of their own those are judged, and ice.* where some floe takes it.
+kinds='{size: constant, thickness: 0.2, flexural_strength: 3e5, crushing_strength: 5e5}'
+sed "s/^ice:.*/ice: {source: packed, thickness: 3, breakable: true, populations: [$kinds]}/" towed.yaml >kinds.yaml
+all_told kinds.yaml ice.flexural_strength=2e6 ice.crushing_strength=5e5 vessel.speed=0.01 \
+    ice.strength.flexural_variation=0.1 ice.strength.correlation_length=0.5 --
+own="ice.populations[0].crushing_strength: 2e+05 Pa"
+all_told kinds.yaml "ice.populations[0].crushing_strength=2e5" ice.strength.flexural_variation=0.1 \
+    ice.strength.correlation_length=0.1 -- "$own is less than the flexural strength, 3e+05 Pa" \
+    "correlation_length: 0.1 m is less than the ice is thick, 0.2 m"
+all_told kinds.yaml "ice.populations[0].crushing_strength=2e5" ice.crushing_exponent=-0.5 run.time_step=0.001 --
+all_told kinds.yaml "ice.populations[0].crushing_strength=auto" ice.crushing_strength=2e5 -- \
+    "ice.crushing_strength: 2e+05 Pa is less than the flexural strength of ice.populations[0], 3e+05 Pa"
+sed 's/populations: \[/&{size: constant}, /' kinds.yaml >both.yaml
+all_told both.yaml ice.crushing_strength=4e5 -- \
+    "ice.crushing_strength: 4e+05 Pa is less than the flexural strength, 5e+05 Pa"
+
 # No water is left: the key that took it is named.
 sed 's/^ice: {/&open_water: [{length: 900, width: 900}], /' towed.yaml >bare.yaml
 expect 2 "$FRAM" run bare.yaml -o bare
