@@ -150,6 +150,7 @@ static bool has_one_propeller(const idle_question *q) { return q->v->propulsion.
 static bool has_no_table(const scenario_flow *c) { return c->table.count == 0 && !c->table_file[0]; }
 static bool has_no_current_table(const idle_question *q) { return has_no_table(&q->v->current_coefficients); }
 static bool has_no_wind_table(const idle_question *q) { return has_no_table(&q->v->wind_coefficients); }
+static bool has_drift_file(const idle_question *q) { return q->s->domain.drift_file[0] != '\0'; }
 static bool has_current_file(const idle_question *q) { return q->s->environment.current_file[0] != '\0'; }
 static bool has_wind_file(const idle_question *q) { return q->s->environment.wind_file[0] != '\0'; }
 static bool is_no_estimate(const idle_question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_ESTIMATE; }
@@ -255,6 +256,7 @@ static const idle_rule rules[] = {
     {"domain.band", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_x", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_y", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
+    {"domain.drift_direction_deg", has_drift_file, "domain.drift_file tells the drift"},
     {"domain.drift_direction_deg", has_no_drift, "there is no domain.drift_speed"},
     {"domain.wall_height", has_no_walls, NO_WALLS},
     {"domain.wall_thickness", has_no_walls, NO_WALLS},
@@ -362,7 +364,9 @@ static const idle_rule rules[] = {
     {"environment.current_speed", is_dry_and_still, DRY},
     {"environment.current_file", is_dry_and_still, DRY},
     {"environment.current_profile_file", is_dry_and_still, DRY},
+    {"environment.current_direction_deg", is_dry_and_still, DRY},
     {"environment.wind_speed", is_dry, DRY},
+    {"environment.wind_direction_deg", is_dry, DRY},
     {"environment.wind_file", is_dry, DRY},
     {"environment.air_density", is_dry, DRY},
     {"environment.floe_added_mass", is_dry, DRY},
@@ -371,8 +375,10 @@ static const idle_rule rules[] = {
     {"environment.hull_drag.", is_dry, DRY},
     {"environment.hull_drag.", wets_no_hull, TOLD_HULLS},
     {"environment.current_speed", has_current_file, "environment.current_file tells the current"},
+    {"environment.current_direction_deg", has_current_file, "environment.current_file tells the current"},
     {"environment.current_direction_deg", has_no_current, "there is no environment.current_speed"},
     {"environment.wind_speed", has_wind_file, "environment.wind_file tells the wind"},
+    {"environment.wind_direction_deg", has_wind_file, "environment.wind_file tells the wind"},
     {"environment.wind_direction_deg", has_no_wind, "there is no environment.wind_speed"},
 };
 

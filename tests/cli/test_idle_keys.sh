@@ -92,8 +92,9 @@ done
 # Without water nothing flows, but for a current that is the drift of an endless field.
 sed 's/^domain/environment: {water: false}\n&/' field.yaml >dry.yaml
 before=$(hash_of dry.yaml)
-for key in current_speed=0.5 current_file=drift.csv wind_speed=20 wind_file=drift.csv air_density=1.3 \
-    floe_added_mass=true floe_damping=0.5 ice_drag.water_skin=0.05 hull_drag.water_form=0.5; do
+for key in current_speed=0.5 current_direction_deg=30 current_file=drift.csv wind_speed=20 wind_direction_deg=30 \
+    wind_file=drift.csv air_density=1.3 floe_added_mass=true floe_damping=0.5 ice_drag.water_skin=0.05 \
+    hull_drag.water_form=0.5; do
     printf 'time[s],x[m/s],y[m/s]\n0,0.4,0\n' >drift.csv
     idle dry.yaml environment.$key "environment.water is false"
 done
@@ -253,7 +254,17 @@ for key in stem_angle_deg=40 entrance_angle_deg=40 flare_angle_deg=20 stern_angl
     idle box.yaml vessel.hull.$key "hull.form is box"
 done
 idle box.yaml environment.current_speed=3 "environment.current_file tells the current"
-idle box.yaml environment.current_direction_deg=30 "there is no environment.current_speed"
+idle box.yaml environment.current_direction_deg=30 "environment.current_file tells the current"
+# Beside a speed that the file replaces, too; the same of winds and of drift.
+told box.yaml "environment.current_direction_deg: without effect, since environment.current_file tells" \
+    --set environment.current_speed=3 --set environment.current_direction_deg=30
+for speed in 0 3; do
+    told box.yaml "environment.wind_direction_deg: without effect, since environment.wind_file tells the wind" \
+        --set environment.wind_file=drift.csv --set environment.wind_direction_deg=30 \
+        --set environment.wind_speed=$speed
+done
+told fed.yaml "domain.drift_direction_deg: without effect, since domain.drift_file tells the drift" \
+    --set domain.drift_speed=auto --set domain.drift_file=drift.csv --set domain.drift_direction_deg=30
 idle box.yaml vessel.station.offset_limit=0.1 "mode is not free"
 idle box.yaml vessel.mooring.equilibrium=false "there are no mooring.lines"
 idle box.yaml vessel.wind_coefficients.frontal_area=90 "wind_coefficients has no table"

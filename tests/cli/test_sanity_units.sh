@@ -275,7 +275,8 @@ all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv
     "domain.drift_file: the last row of minutes.csv is of 10 s|not minutes" \
     "environment.wind_file: knots.csv goes up to 80 m/s|not knots" \
     "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run" \
-    "environment.wind_speed: without effect" "environment.current_speed: without effect"
+    "environment.wind_speed: without effect" "environment.current_speed: without effect" \
+    "environment.wind_direction_deg: without effect" "environment.current_direction_deg: without effect"
 # box NAME X0 X1 Y0 Y1 Z0 Z1: a closed mesh
 box() {
     {
