@@ -9,7 +9,8 @@
 /* ---- the ship ---- */
 
 /* Radii of gyration over beam and length: 0.3 to 0.45 and 0.2 to 0.3 are usual (Lewis 1989, Principles of Naval
-   Architecture III); under and over these a part of the length was given for metres, or metres of another ship. */
+   Architecture III); under and over these a part of the length was given for metres, or metres of another ship.  What
+   stands deeper than it is long and wide, as a spar, has its mass spread over its height. */
 #define ROLL_LEAST 0.15
 #define ROLL_MOST 0.7
 #define YAW_LEAST 0.1
@@ -29,8 +30,11 @@ static void tell_inertia(const teller *t)
     const scenario_vessel *v = t->e->keys;
     if (!sanity_own_hull(v) || v->mode == VESSEL_PRESCRIBED)
         return;
-    tell_gyration(t, "gyration_roll", v->gyration_roll, "beam", v->hull.beam, ROLL_LEAST, ROLL_MOST);
-    tell_gyration(t, "gyration_pitch", v->gyration_pitch, "length", v->hull.length, YAW_LEAST, YAW_MOST);
+    double height = v->hull.draught + v->hull.freeboard;
+    tell_gyration(t, "gyration_roll", v->gyration_roll, height > v->hull.beam ? "height" : "beam",
+                  fmax(v->hull.beam, height), ROLL_LEAST, ROLL_MOST);
+    tell_gyration(t, "gyration_pitch", v->gyration_pitch, height > v->hull.length ? "height" : "length",
+                  fmax(v->hull.length, height), YAW_LEAST, YAW_MOST);
     bool wide = v->hull.beam > v->hull.length;
     tell_gyration(t, "gyration_yaw", v->gyration_yaw, wide ? "beam" : "length", fmax(v->hull.length, v->hull.beam),
                   YAW_LEAST, YAW_MOST);

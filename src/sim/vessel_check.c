@@ -274,12 +274,18 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    double size = scenario_size(s);
-    if (p->length < SHORTEST * fmin(1, size) || p->length > VESSEL_LONGEST * fmax(1, size))
+    double least = SHORTEST * fmin(1, scenario_size(s)), most = VESSEL_LONGEST * fmax(1, scenario_size(s));
+    if (p->length > most)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: a file in millimetres wants "
                   "hull.file_scale 0.001, one in feet 0.3048",
-                  e->path, p->length, SHORTEST * fmin(1, size), VESSEL_LONGEST * fmax(1, size));
+                  e->path, p->length, least, most);
+    if (p->length < least)
+        log_write(
+            ctx, LOG_WARNING,
+            "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: hull.file_scale, now %g, is too "
+            "small, or give run.scale of a model",
+            e->path, p->length, least, most, e->keys->hull.file_scale);
     if (p->beam > p->length)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,

@@ -295,6 +295,16 @@ told ship.yaml "thrusters[1].diameter: 28 m|draught" --set "vessel.thrusters[1].
 told ship.yaml "gyration_roll: 0.35 m is 0.0184 of the beam|metres" --set vessel.gyration_roll=0.35
 told drive.yaml "gyration_yaw: 0.5 m is 0.0333 of the beam" --set vessel.hull.length=12 --set vessel.hull.form=box \
     --set vessel.hull.beam=15 --set vessel.gyration_yaw=0.5
+# Radii of a spar are those of its height.
+spar="form: cone, length: 30, beam: 30, draught: 100, freeboard: 10, flare_angle_deg: 0"
+sed "s/hull: {.*/hull: {$spar}/; s/depth: 120/depth: 400/" ship.yaml >spar.yaml
+radii=(--set vessel.gyration_roll=33 --set vessel.gyration_pitch=33)
+expect 0 "$FRAM" check spar.yaml "${radii[@]}"
+grep 'gyration_' err && fail "the radii of a spar are told"
+told spar.yaml "gyration_roll: 12 m is 0.109 of the height, 110 m" --set vessel.gyration_roll=12 \
+    --set vessel.gyration_pitch=12
+told spar.yaml "gyration_pitch: 75 m is 0.682 of the height, 110 m" --set vessel.gyration_roll=75 \
+    --set vessel.gyration_pitch=75
 told ship.yaml "fender_stiffness: 50 N/m|not kN/m" --set vessel.fender_stiffness=50
 told ship.yaml "ice.crushing_strength: 2000 Pa|not kPa or MPa" --set ice.crushing_strength=2000
 told ship.yaml "centre_of_gravity_z, 12 m" --set vessel.centre_of_gravity_z=12
