@@ -62,6 +62,16 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
     return FRAM_OK;
 }
 
+/* Half an interval over its mean: what is over 1 was meant as per cent. */
+static fram_status read_within(const study_source *r, const yaml_node *k, double *out)
+{
+    fram_status status = study_number(r, k, 1e-6, 1e9, out);
+    if (status == FRAM_OK && *out > 1)
+        return study_refuse(r, k, "expected a part of the mean, 1 at most, found %g: %g per cent are %g", *out, *out,
+                            *out / 100);
+    return status;
+}
+
 static fram_status read_seeds_member(const study_source *r, const yaml_node *k, bool *most_given)
 {
     static const char *const names[] = {"least",          "most",       "mean_within", "largest_within",
@@ -70,12 +80,12 @@ static fram_status read_seeds_member(const study_source *r, const yaml_node *k, 
     const char *name = study_key(r, k);
     int64_t whole = 0;
     if (strcmp(name, "mean_within") == 0)
-        return study_number(r, k, 1e-6, 10, &s->mean_within);
+        return read_within(r, k, &s->mean_within);
     if (strcmp(name, "largest_within") == 0)
-        return study_number(r, k, 1e-6, 10, &s->largest_within);
+        return read_within(r, k, &s->largest_within);
     if (strcmp(name, "extreme_within") == 0) {
         s->extreme_line = k->line;
-        return study_number(r, k, 1e-6, 10, &s->extreme_within);
+        return read_within(r, k, &s->extreme_within);
     }
     if (strcmp(name, "confidence") == 0)
         return study_number(r, k, 0.01, 0.9999, &s->confidence);

@@ -382,17 +382,17 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         extent = self.fram("check", study)
         self.assertEqual((extent["runs_least"], extent["runs_most"]), (2, 9))
         # The page asks for more seeds where the study would, not where half the interval is over a tenth.
-        for within, tells in (("5", None), ("0.001", "wider than 0.1 % of the mean")):
+        for within, tells in (("1", None), ("0.001", "wider than 0.1 % of the mean")):
             asked = self.write(f"seeds: {{least: 2, most: 3, mean_within: {within}}}\n")
             self.fram(asked, "-o", self.at / "out")
             page = (self.at / "out" / "study.html").read_text()
             self.assertEqual("Seeds with &quot;more&quot;" in page or 'Seeds with "more"' in page, tells is not None)
             self.assertIn(tells or "Conditions", page)
         # Until a rare load is known: ten runs carry a law, and any interval will do.
-        rare = self.write("seeds: {least: 4, most: 14, extreme_within: 10}\nextremes: {duration: 30s}\n")
+        rare = self.write("seeds: {least: 4, most: 14, extreme_within: 1}\nextremes: {duration: 30s}\n")
         self.assertEqual(self.fram(rare, "-o", self.at / "rare")["runs"], 10)
         self.assertEqual(self.fram("list", self.at / "rare")["list"][0]["wanted"], 10)
-        self.assertIn("extreme_within: 10", (self.at / "rare" / "effective.yaml").read_text())
+        self.assertIn("extreme_within: 1", (self.at / "rare" / "effective.yaml").read_text())
         # The program of a run that is short takes its time all the same.
         self.assertGreater(extent["run_s"], 0.1)
         self.assertGreaterEqual(extent["run_s_packed"], extent["run_s"])
@@ -758,6 +758,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
         self.refused("seeds: 0x10\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
+        for key in ("mean_within", "largest_within", "extreme_within"):
+            self.refused(f"seeds: {{least: 5, most: 9, {key}: 5}}\n", f"2: {key}: expected a part", "per cent are 0.05")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")
         self.refused("seeds:\n  least: 4\n  most: 40\n  extreme_within: 0.1\n",
                      "study.yaml:5: extreme_within: takes `extremes`")
