@@ -12,6 +12,7 @@
 #include "study/study_folder.h"
 #include "study/study_record.h"
 #include "study/study_run.h"
+#include "study/study_warnings.h"
 #include "study/study_worst.h"
 #include "study/twins.h"
 
@@ -89,12 +90,13 @@ static step_look step_look_of(const bench_look *l)
 }
 
 /* Time and bytes of a run of one condition, added to those of the others. */
-static fram_status measure_condition(context *ctx, const fram_study *s, int32_t condition, fram_study_extent *out,
-                                     fram_error *error)
+static fram_status measure_condition(const fram_study *s, int32_t condition, study_warnings *warnings,
+                                     fram_study_extent *out, fram_error *error)
 {
     scenario one = {0};
     bench_look found[LOOKS] = {{0}};
     double build = 0;
+    context telling = study_warnings_of(warnings, condition), *ctx = &telling;
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
@@ -120,6 +122,7 @@ typedef struct condition_looks {
     hull_store store;
     text_buffer known; /* files that were read */
     double bytes;      /* the most that a run may take of memory */
+    study_warnings *warnings;
 } condition_looks;
 
 /* Builds the vessels of a condition, and takes its name, by which a study tells it from others. */
@@ -132,7 +135,7 @@ static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t 
     if (status != FRAM_OK)
         return status;
     looks->bytes = fmax(looks->bytes, scene_size_of(&one).bytes);
-    status = study_build_check(ctx, &s->inner, condition, &one, &looks->store, error);
+    status = study_build_check(looks->warnings, condition, &one, &looks->store, error);
     if (status == FRAM_OK)
         status = condition_name_find(ctx, &one, &looks->known, &name, error);
     memcpy(id, name.id, CONDITION_ID);
@@ -142,12 +145,13 @@ static fram_status look_at_condition(context *ctx, const fram_study *s, int32_t 
 }
 
 /* All conditions, for those that are not measured: how many differ, and how many of their runs go at a time. */
-static fram_status look_at_conditions(context *ctx, const fram_study *s, int32_t *differ, int *jobs, fram_error *error)
+static fram_status look_at_conditions(context *ctx, const fram_study *s, study_warnings *warnings, int32_t *differ,
+                                      int *jobs, fram_error *error)
 {
     int32_t count = s->inner.conditions;
     char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)count, CONDITION_ID);
     fram_status status = id ? FRAM_OK : error_memory(error);
-    condition_looks looks = {.bytes = 0};
+    condition_looks looks = {.warnings = warnings};
     for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
         status = work_continue(ctx, "looking at the conditions", c, count, error);
         if (status == FRAM_OK)
@@ -180,11 +184,13 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     /* What a run says of its start is not asked here. */
     context quiet = s->context->inner;
     quiet.verbosity = quiet.verbosity > LOG_WARNING ? LOG_WARNING : quiet.verbosity;
-    status = look_at_conditions(&quiet, s, &differ, &e.jobs, error);
+    study_warnings warnings = {.ctx = &quiet, .s = inner};
+    status = look_at_conditions(&quiet, s, &warnings, &differ, &e.jobs, error);
     if (status == FRAM_OK)
-        status = measure_condition(&quiet, s, 0, &e, error);
+        status = measure_condition(s, 0, &warnings, &e, error);
     if (status == FRAM_OK && last > 0)
-        status = measure_condition(&quiet, s, last, &e, error);
+        status = measure_condition(s, last, &warnings, &e, error);
+    status = study_warnings_end(&warnings, status, error);
     if (status != FRAM_OK)
         return status;
     e.differ = differ;

@@ -4,7 +4,6 @@
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/station_results.h"
-#include "sim/build.h"
 #include "study/conditions.h"
 #include "study/run_row.h"
 #include "study/study_extremes.h"
@@ -260,26 +259,25 @@ static bool is_varied(const study *s, const char *key)
     return false;
 }
 
-/* "condition 3 (ice.thickness=1, vessel.speed=2): "; nothing where there is but one way to run. */
-enum { CONDITION_ROOM = 160 };
-static void spell_condition(const study *s, int32_t condition, char out[CONDITION_ROOM])
+void study_spell_condition(const study *s, int32_t condition, study_condition_text *out)
 {
+    enum { ROOM = sizeof out->text };
     size_t used = 0;
-    out[0] = '\0';
+    out->text[0] = '\0';
     if (s->keys.count == 0)
         return;
-    used += (size_t)snprintf(out, CONDITION_ROOM, "condition %d (", (int)condition + 1);
+    used += (size_t)snprintf(out->text, ROOM, "condition %d (", (int)condition + 1);
     for (int32_t k = 0; k < s->keys.count; k++) {
-        char one[CONDITION_ROOM];
+        char one[ROOM];
         int length = snprintf(one, sizeof one, "%s%.60s=%.60s", k > 0 ? ", " : "", s->keys.data[k],
                               study_value(s, condition, k));
         /* What has no room is told by conditions.csv. */
-        bool fits = used + (size_t)length + sizeof ", ...): " <= CONDITION_ROOM;
-        used += (size_t)snprintf(out + used, CONDITION_ROOM - used, "%s", fits ? one : ", ...");
+        bool fits = used + (size_t)length + sizeof ", ...): " <= ROOM;
+        used += (size_t)snprintf(out->text + used, ROOM - used, "%s", fits ? one : ", ...");
         if (!fits)
             break;
     }
-    snprintf(out + used, CONDITION_ROOM - used, "): ");
+    snprintf(out->text + used, ROOM - used, "): ");
 }
 
 /* A value that the study gave has its place in the study file or in the table of conditions. */
@@ -287,7 +285,8 @@ void study_place_error(const study *s, int32_t condition, fram_error *error)
 {
     if (!error)
         return;
-    char file[sizeof error->file], message[sizeof error->message], key[sizeof error->key], name[CONDITION_ROOM];
+    char file[sizeof error->file], message[sizeof error->message], key[sizeof error->key];
+    study_condition_text name;
     int line = error->line, column = error->column;
     memcpy(file, error->file, sizeof file);
     memcpy(message, error->message, sizeof message);
@@ -303,8 +302,8 @@ void study_place_error(const study *s, int32_t condition, fram_error *error)
         }
         snprintf(file, sizeof file, "%s", s->table && !set ? s->table : s->file);
     }
-    spell_condition(s, condition, name);
-    error_set(error, FRAM_ERROR_INPUT, file, line, key, "%s%s", name, message);
+    study_spell_condition(s, condition, &name);
+    error_set(error, FRAM_ERROR_INPUT, file, line, key, "%s%s", name.text, message);
     error->column = column;
 }
 
@@ -331,17 +330,6 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
         study_place_error(s, condition, error);
     text_list_free(ctx, &items);
     text_free(ctx, &text);
-    return status;
-}
-
-fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, hull_store *store,
-                              fram_error *error)
-{
-    context quiet = *ctx;
-    quiet.verbosity = LOG_ERROR;
-    fram_status status = build_check(&quiet, one, store, error);
-    if (status == FRAM_ERROR_INPUT)
-        study_place_error(s, condition, error);
     return status;
 }
 

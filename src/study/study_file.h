@@ -19,7 +19,6 @@
 #define STUDY_STUDY_FILE_H
 
 #include "model/scenario.h"
-#include "sim/build_hull.h"
 #include "study/study.h"
 
 /* The most bytes of a study file and of what its conditions come from: the most conditions with tens of keys each are a
@@ -35,12 +34,13 @@ fram_status study_parse(context *ctx, const char *name, const char *data, size_t
 /* The scenario of one run; on success free with scenario_free. */
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
                            fram_error *error);
+/* "condition 3 (ice.thickness=1, vessel.speed=2): "; nothing where there is but one way to run. */
+typedef struct study_condition_text {
+    char text[160];
+} study_condition_text;
+void study_spell_condition(const study *s, int32_t condition, study_condition_text *out);
 /* An error of a condition's scenario, or of the run that is made of it: tells the condition and its values, and, where
    the study gave the value, the place in the study file or its table. */
 void study_place_error(const study *s, int32_t condition, fram_error *error);
-/* Whether the vessels of a condition's scenario can be built, for what only shows then: a hull that closes nowhere, a
-   mass that sinks.  store: for those of the next condition.  Warnings are not told: a run tells them. */
-fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, hull_store *store,
-                              fram_error *error);
 
 #endif

@@ -13,6 +13,7 @@
 #include "study/processes.h"
 #include "study/study_file.h"
 #include "study/study_record.h"
+#include "study/study_warnings.h"
 
 #include <errno.h>
 #include <locale.h>
@@ -150,7 +151,8 @@ static bool holds(context *ctx, const char *path, const text_buffer *text)
 }
 
 /* The scenario of a condition at seed 0, to be run with other seeds from any folder. */
-static fram_status write_condition(study_folder *f, int32_t condition, hull_store *store, fram_error *error)
+static fram_status write_condition(study_folder *f, int32_t condition, hull_store *store, study_warnings *warnings,
+                                   fram_error *error)
 {
     const scenario_print_options options = {.absolute_paths = true};
     scenario one = {0};
@@ -167,7 +169,7 @@ static fram_status write_condition(study_folder *f, int32_t condition, hull_stor
         status = error_memory(error);
     bool fresh = status == FRAM_OK && !holds(f->ctx, path, &text);
     if (fresh)
-        status = study_build_check(f->ctx, f->s, condition, &one, store, error);
+        status = study_build_check(warnings, condition, &one, store, error);
     if (status == FRAM_OK)
         status = make_folder(f, "runs", f->id[condition], error);
     if (status == FRAM_OK && fresh)
@@ -243,12 +245,14 @@ static fram_status lock_folder(const char *path, int *lock, fram_error *error)
 static fram_status write_conditions(study_folder *f, fram_error *error)
 {
     hull_store store = {.next = 0};
+    study_warnings warnings = {.ctx = f->ctx, .s = f->s};
     fram_status status = FRAM_OK;
     for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++) {
         status = work_continue(f->ctx, "looking at the conditions", c, f->s->conditions, error);
         if (status == FRAM_OK)
-            status = write_condition(f, c, &store, error);
+            status = write_condition(f, c, &store, &warnings, error);
     }
+    status = study_warnings_end(&warnings, status, error);
     hull_store_free(f->ctx, &store);
     if (status == FRAM_INTERRUPTED)
         status = error_set(error, status, f->path, 0, NULL,

@@ -56,7 +56,7 @@ class Folders(StudyTest):
                                           + "vary: {grid: {vessel.speed: [1, 2]}}\n")
         done = subprocess.run([FRAM, "study", moved / "study.yaml", "-o", self.at / "out"], check=True,
                               capture_output=True, text=True)
-        self.assertNotIn("warning", done.stderr)
+        self.assertNotIn("was of a study of", done.stderr)
         self.assertIn("3 carried out now", done.stderr)
         # One of something else is left alone, --force or not.
         (self.at / "mine").mkdir()
@@ -64,6 +64,31 @@ class Folders(StudyTest):
         error = self.fram(study, "-o", self.at / "mine", "--force", code=2)["error"]
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
+
+    def test_each_warning_of_a_scenario_is_told_once_with_its_condition(self):
+        """Of sentences that differ in their numbers alone those of three conditions, and how many have others."""
+        def warned(*words):
+            done = subprocess.run([FRAM, "study", *words], check=True, capture_output=True, text=True)
+            lines = done.stderr.splitlines()
+            first = next((i for i, line in enumerate(lines) if line.endswith(" runs")), len(lines))
+            self.assertEqual([line for line in lines[first:] if line.startswith("warning: ")], [])
+            return [line for line in lines[:first] if line.startswith("warning: ")]
+
+        study = self.write("set: {run.duration: 0.1, run.transient: 0, vessel.mode: free, ice.source: none,"
+                           " environment.wind_speed: 80}\nkeep: summary\n"
+                           "vary: {grid: {vessel.centre_of_gravity_z: [0, 5, 5.5, 5.75, 6, 6.5]}}\n")
+        told = warned(study, "-o", self.at / "out")
+        self.assertEqual(len(set(told)), len(told))
+        of = "warning: condition {} (vessel.centre_of_gravity_z={}): "
+        self.assertEqual([line.split(" is outside")[0] for line in told if "wind_speed" in line],
+                         [of.format(1, 0) + "environment.wind_speed: 80 m/s"])
+        self.assertEqual([line.split(": its")[0] for line in told if "capsizes" in line],
+                         [of.format(*c) + "the vessel capsizes" for c in ((2, 5), (3, 5.5), (4, 5.75))])
+        self.assertEqual(told[-1], "warning: 2 more conditions have warnings like these, with other numbers")
+        self.assertEqual(warned("check", study), told)
+        # Not of conditions that are there, nor where nothing is to be told.
+        self.assertEqual(warned(study, "-o", self.at / "out"), [])
+        self.assertEqual(warned("check", study, "--quiet"), [])
 
     def contents(self, folder):
         return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}

@@ -1,0 +1,96 @@
+#include "study/study_warnings.h"
+
+#include "sim/build.h"
+#include "sim/notes.h"
+#include "study/study_file.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* Conditions of which sentences are told that differ in their numbers alone, as where conditions vary what is told. */
+enum { LIKE_MOST = 3 };
+
+static const char *skip_number(const char *at)
+{
+    at += *at == '-';
+    while (isdigit((unsigned char)*at) || *at == '.')
+        at++;
+    const char *power = at + 1 + (at[0] == 'e' && (at[1] == '+' || at[1] == '-'));
+    if (*at == 'e' && isdigit((unsigned char)*power))
+        for (at = power; isdigit((unsigned char)*at);)
+            at++;
+    return at;
+}
+
+static bool begins_number(const char *at)
+{
+    return isdigit((unsigned char)at[0]) || (at[0] == '-' && isdigit((unsigned char)at[1]));
+}
+
+static bool is_like(const char *a, const char *b)
+{
+    while (*a && *b) {
+        bool number = begins_number(a);
+        if (number != begins_number(b) || (!number && *a != *b))
+            return false;
+        a = number ? skip_number(a) : a + 1;
+        b = number ? skip_number(b) : b + 1;
+    }
+    return *a == *b;
+}
+
+static void tell_once(void *user, log_level level, const char *text)
+{
+    study_warnings *w = user;
+    study_condition_text name;
+    int like = 0;
+    int32_t last = w->condition;
+    for (int32_t i = 0; i < w->told.count; i++) {
+        if (strcmp(w->told.data[i], text) == 0)
+            return;
+        if (w->by.data[i] == last || w->by.data[i] == w->condition || !is_like(w->told.data[i], text))
+            continue;
+        like++;
+        last = w->by.data[i];
+    }
+    if (like >= LIKE_MOST) {
+        w->more += w->other != w->condition + 1;
+        w->other = w->condition + 1;
+        return;
+    }
+    if (!array_push(w->ctx, &w->by, w->condition) || !text_list_add(w->ctx, &w->told, text))
+        w->failed = true;
+    study_spell_condition(w->s, w->condition, &name);
+    log_write(w->ctx, level, "%s%s", name.text, text);
+}
+
+context study_warnings_of(study_warnings *w, int32_t condition)
+{
+    context telling = *w->ctx;
+    w->condition = condition;
+    telling.log = w->ctx->log ? tell_once : NULL;
+    telling.log_user = w;
+    telling.verbosity = telling.verbosity < LOG_WARNING ? telling.verbosity : LOG_WARNING;
+    return telling;
+}
+
+fram_status study_build_check(study_warnings *w, int32_t condition, const scenario *one, hull_store *store,
+                              fram_error *error)
+{
+    context telling = study_warnings_of(w, condition);
+    scenario_log_warnings(&telling, one, NULL, NULL);
+    fram_status status = build_check(&telling, one, store, error);
+    if (status == FRAM_ERROR_INPUT)
+        study_place_error(w->s, condition, error);
+    return status;
+}
+
+fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error)
+{
+    if (w->more > 0)
+        log_write(w->ctx, LOG_WARNING, "%d more condition%s warnings like these, with other numbers", (int)w->more,
+                  w->more == 1 ? " has" : "s have");
+    text_list_free(w->ctx, &w->told);
+    array_free(w->ctx, &w->by);
+    return status == FRAM_OK && w->failed ? error_memory(error) : status;
+}

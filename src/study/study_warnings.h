@@ -1,0 +1,30 @@
+/* Warnings of the scenarios of a study: each is told once, with the first condition that has it. */
+#ifndef STUDY_STUDY_WARNINGS_H
+#define STUDY_STUDY_WARNINGS_H
+
+#include "model/scenario.h"
+#include "sim/build_hull.h"
+#include "study/study.h"
+
+/* Begins with ctx and s alone. */
+typedef struct study_warnings {
+    context *ctx; /* into whose log they go */
+    const study *s;
+    int32_t condition;   /* that is looked at */
+    text_list told;      /* sentences, without their conditions */
+    int32_array by;      /* the condition of each */
+    int32_t more, other; /* conditions with others like those, and the number of the last of them */
+    bool failed;         /* no memory */
+} study_warnings;
+
+/* A context that tells warnings as those of a condition; stays good as long as w. */
+context study_warnings_of(study_warnings *w, int32_t condition);
+/* Warns of a condition's scenario by its keys, and looks whether its vessels can be built, for what only shows then: a
+   hull that closes nowhere, a mass that sinks.  store: for those of the next condition.  Makes no ice. */
+fram_status study_build_check(study_warnings *w, int32_t condition, const scenario *one, hull_store *store,
+                              fram_error *error);
+/* Tells how many conditions have others like those that were told, and frees what w holds.  status: of the looking,
+   which it returns, or that there was no memory for what was told. */
+fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error);
+
+#endif
