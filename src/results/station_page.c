@@ -140,14 +140,12 @@ static fram_status draw_station(context *ctx, const station_data *d, const stati
     }
     int32_t n = d->rows;
     int32_t first = station_first_row(d, s->run.transient);
-    double largest = 0;
     vec2_array hull = {0};
     double_array edge[2] = {0};
     fram_status status = enclose(ctx, d, first, &hull, edge, error);
-    for (int32_t i = first; i < n; i++)
-        largest = fmax(largest, d->offset.data[i]);
-    /* A limit that is far away would leave nothing of the track to be seen. */
-    bool far = limit > FAR_LIMIT * largest;
+    /* A limit that is far away would leave nothing of the track to be seen, which is drawn before the transient's end
+       too. */
+    bool far = limit > FAR_LIMIT * largest_of(&d->offset);
     char note[96];
     snprintf(note, sizeof note,
              far ? "offset of the watched point; the limit, %.3g m, lies outside"

@@ -67,5 +67,13 @@ def whole(folders):
         assert all(min(at(width - x, y)) > 200 for x in (1, 2, 3) for y in range(height - 200, height - 180)), folder
 
 
+def limit(files):
+    """The footprint of a page of keeping station has the limit's circle, which is green."""
+    _, _, at = read(files[0])
+    green = sum(g > r + 60 and g > b + 20 for r, g, b in (at(x, y) for x in range(20, 640) for y in range(60, 620, 8)))
+    assert green > 50, green
+
+
 if __name__ == "__main__":
-    {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole}[sys.argv[1]](sys.argv[2:])
+    {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole,
+     "limit": limit}[sys.argv[1]](sys.argv[2:])

@@ -138,6 +138,10 @@ expect 0 "$FRAM" run "$scratch/scene.yaml" -o early -q --until 0.001
 expect 2 "$FRAM" extremes early --channel offset_x
 says "it has made no step yet that has one; \`fram resume early\` goes on with it" err
 
+# A limit that the track came near before the transient's end is in the footprint, which shows that.
+expect 0 "$FRAM" run "$scratch/scene.yaml" -o start -q --until 15
+! built_with cairo || python3 "$FRAM_SOURCE/tests/cli/pixels.py" limit start/station.png || fail "start/station.png"
+
 # What is required of a vessel that nothing holds is judged as well.
 cat >adrift.yaml <<'END'
 run: {duration: 4, time_step: 0.1}
