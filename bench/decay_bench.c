@@ -109,14 +109,12 @@ static bool draw(const picture *pictures, const char *path)
                                  PANEL_WIDTH,
                                  PANEL_HEIGHT,
                                  false};
-    const page p = {"Free decay from rest at a small amplitude",
-                    panels,
-                    2 * MODES,
-                    "",
-                    0,
-                    0,
-                    2 * PANEL_WIDTH,
-                    TOP + MODES * PANEL_HEIGHT};
+    const page p = {.title = "Free decay from rest at a small amplitude",
+                    .panels = panels,
+                    .panel_count = 2 * MODES,
+                    .text = "",
+                    .width = 2 * PANEL_WIDTH,
+                    .height = TOP + MODES * PANEL_HEIGHT};
     context ctx;
     context_init(&ctx);
     fram_error error = {0};

@@ -271,17 +271,35 @@ void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold
     }
 }
 
-/* [pixels] */
-enum { LINE_HEIGHT = 19 };
+/* From one line to the next, and how far lines that go on are set in [pixels]. */
+enum { LINE_HEIGHT = 19, SET_IN = 14 };
 
-void image_text_lines(cairo_t *page, double x, double y, double size, const char *text)
+/* How many bytes of a line of `length` fit in the room: whole words, one at least. */
+static size_t words_that_fit(cairo_t *page, double size, double room, const char *line, size_t length)
 {
+    char part[SHOWN_MOST];
+    size_t fitting = 0;
+    for (size_t n = 0; n < length; fitting = n) {
+        n += strspn(line + n, " ");
+        n += strcspn(line + n, " \n");
+        snprintf(part, sizeof part, "%.*s", (int)n, line);
+        if (fitting > 0 && image_text_width(page, size, false, part) > room)
+            break;
+    }
+    return fitting;
+}
+
+void image_text_lines(cairo_t *page, double x, double y, double size, double room, const char *text)
+{
+    double in = 0;
     for (const char *line = text; *line; y += LINE_HEIGHT) {
-        char one[256];
-        size_t length = strcspn(line, "\n");
-        snprintf(one, sizeof one, "%.*s", (int)length, line);
-        image_text(page, x, y, size, ALIGN_LEFT, false, one);
-        line += length + (line[length] == '\n');
+        char one[SHOWN_MOST];
+        size_t length = strcspn(line, "\n"), n = words_that_fit(page, size, room - in, line, length);
+        snprintf(one, sizeof one, "%.*s", (int)n, line);
+        image_text_fitted(page, x + in, y, size, false, room - in, one);
+        in = n < length ? SET_IN : 0;
+        line += n;
+        line += n < length ? strspn(line, " ") : *line == '\n';
     }
 }
 

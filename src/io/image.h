@@ -51,8 +51,9 @@ void image_text(cairo_t *page, double x, double y, double size, image_align alig
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
 /* Text that begins at (x, y) and goes on for `room` pixels at most: what is cut off ends in dots. */
 void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold, double room, const char *text);
-/* Text of many lines, the first with its baseline at (x, y); of each up to 255 bytes are shown. */
-void image_text_lines(cairo_t *page, double x, double y, double size, const char *text);
+/* Text of many lines, the first with its baseline at (x, y); those that are longer than `room` pixels go on below,
+   set in, from word to word. */
+void image_text_lines(cairo_t *page, double x, double y, double size, double room, const char *text);
 #endif
 
 /* "636 kN", or meganewtons from 1000 kN on. */

@@ -14,7 +14,7 @@ fram_status page_write(context *ctx, const page *p, const char *path, fram_error
         return status;
     image_set_colour(paper, (image_colour){0.1, 0.1, 0.1});
     image_text_fitted(paper, EDGE, 38, 20, true, p->width - 2 * EDGE, p->title);
-    image_text_lines(paper, p->text_x, p->text_y, 13, p->text);
+    image_text_lines(paper, p->text_x, p->text_y, 13, p->text_width, p->text);
     for (int32_t i = 0; i < p->panel_count; i++) {
         const page_panel *panel = &p->panels[i];
         cairo_save(paper);

@@ -14,8 +14,8 @@ typedef struct page {
     const char *title;
     const page_panel *panels;
     int32_t panel_count;
-    const char *text; /* lines, each ended by a newline */
-    int text_x, text_y;
+    const char *text;               /* lines, each ended by a newline */
+    int text_x, text_y, text_width; /* lines that are longer go on below [pixels] */
     int width, height;
 } page;
 

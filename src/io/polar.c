@@ -158,7 +158,7 @@ static void draw(cairo_t *page, const polar_chart *p)
     for (int32_t i = 0; i < p->curve_count; i++)
         draw_curve(page, p, i);
     draw_value_scale(page, p);
-    image_text_lines(page, TEXT_X, 262, 12, p->text);
+    image_text_lines(page, TEXT_X, 262, 12, POLAR_WIDTH - TEXT_X - 10, p->text);
 }
 
 fram_status polar_write(context *ctx, const polar_chart *p, const char *path, fram_error *error)

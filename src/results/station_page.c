@@ -13,7 +13,8 @@
 /* A limit of more than so many largest offsets is not drawn. */
 #define FAR_LIMIT 6
 
-enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, CIRCLE = 73 };
+/* TEXT_WIDTH: up to the charts beside it [pixels]. */
+enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, TEXT_LEFT = 60, TEXT_WIDTH = 580, CIRCLE = 73 };
 
 /* The first events of the vessel. */
 static void describe_events(context *ctx, const station_data *d, text_buffer *b)
@@ -178,7 +179,7 @@ static fram_status draw_station(context *ctx, const station_data *d, const stati
     bool named = scenario_names_vessels(s);
     snprintf(title, sizeof title, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
              (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, d->vessel).keys->name : "");
-    const page p = {title, panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
+    const page p = {title, panels, 5, text, TEXT_LEFT, 660, TEXT_WIDTH, PAGE_WIDTH, PAGE_HEIGHT};
     if (status == FRAM_OK)
         status = page_write(ctx, &p, path, error);
     array_free(ctx, &hull);

@@ -74,6 +74,12 @@ def limit(files):
     assert green > 50, green
 
 
+def apart(files):
+    """The words of a page of keeping station end before its charts."""
+    _, _, at = read(files[0])
+    assert all(min(at(x, y)) > 200 for x in range(642, 664) for y in range(640, 1130)), "words in the charts"
+
+
 if __name__ == "__main__":
     {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole,
-     "limit": limit}[sys.argv[1]](sys.argv[2:])
+     "limit": limit, "apart": apart}[sys.argv[1]](sys.argv[2:])

@@ -222,6 +222,11 @@ expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=60
 holds 'vessel box begins .* m off; it is not stable: any touch turns the vessel from it, to heading -120' err
 expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=-120
 holds 'vessel box begins at the equilibrium of its mooring, .* m off$' err
+# An event that names a vessel at length is broken before the charts.
+expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.approach.limit=1e5 \
+    --set vessels.weak.name=a_vessel_of_24_letters-1
+says 'vessel a_vessel_of_24_letters-1 is at' err
+! built_with cairo || python3 "$FRAM_SOURCE/tests/cli/pixels.py" apart two/station-box.png || fail "two/station-box.png"
 
 # A table of a scenario in another folder is named with that folder, its line and its key.
 mkdir tables

@@ -60,6 +60,54 @@ START_TEST(texts_end_in_their_room)
 }
 END_TEST
 
+/* Columns of a part of a page that have ink. */
+static int inked(cairo_t *page, int left, int right, int top, int bottom)
+{
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    int columns = 0;
+    for (int x = left; x < right; x++) {
+        bool ink = false;
+        for (int y = top; y < bottom; y++)
+            ink = ink || data[y * cairo_image_surface_get_stride(surface) + 4 * x] < 200;
+        columns += ink;
+    }
+    return columns;
+}
+
+/* Lines that are too long go on below, set in, from word to word. */
+START_TEST(lines_are_broken_at_words)
+{
+    enum { LINES = 5, STEP = 19, LEFT = 10, ROOM = 240, HIGH = LINES * STEP + 10 };
+    static const struct {
+        const char *text;
+        int lines, set_in; /* how many, and which one of them is */
+    } rows[] = {{"one line\n  another\n\nend", 4, 1},
+                {"a line with many words, of which one is the last\nend", 3, 1},
+                {"a_word_that_is_longer_than_the_room_is_cut_off", 1, -1},
+                {"", 0, -1}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        cairo_t *page = NULL;
+        fram_error error;
+        int lines = 0;
+        ck_assert_int_eq(image_begin(WIDTH, HIGH, &page, &error), FRAM_OK);
+        image_set_colour(page, (image_colour){0, 0, 0});
+        image_text_lines(page, LEFT, STEP, 13, ROOM, rows[i].text);
+        for (int k = 0; k < LINES; k++) {
+            int top = k * STEP + 6, bottom = top + STEP - 1;
+            if (inked(page, 0, WIDTH, top, bottom) == 0)
+                continue;
+            lines = k + 1;
+            ck_assert_int_eq(inked(page, LEFT, LEFT + 6, top, bottom) == 0, k == rows[i].set_in);
+        }
+        ck_assert_msg(lines == rows[i].lines, "%zu: %d lines", i, lines);
+        ck_assert_int_eq(inked(page, LEFT + ROOM, WIDTH, 0, HIGH), 0);
+        cairo_destroy(page);
+    }
+}
+END_TEST
+
 /* Whether the page has other than white on an upright line. */
 static bool is_marked(cairo_t *page, int x, int top, int bottom)
 {
@@ -138,22 +186,6 @@ START_TEST(ticks_have_the_digits_of_their_step)
 }
 END_TEST
 
-/* Columns of an upright stripe in which a page has ink. */
-static int inked(cairo_t *page, int left, int right, int height)
-{
-    cairo_surface_t *surface = cairo_get_target(page);
-    cairo_surface_flush(surface);
-    const unsigned char *data = cairo_image_surface_get_data(surface);
-    int columns = 0;
-    for (int x = left; x < right; x++) {
-        bool ink = false;
-        for (int y = 0; y < height; y++)
-            ink = ink || data[y * cairo_image_surface_get_stride(surface) + 4 * x] < 200;
-        columns += ink;
-    }
-    return columns;
-}
-
 /* Labels end before the title of their axis and before the edge of the page, and do not meet. */
 START_TEST(labels_have_their_room)
 {
@@ -167,10 +199,10 @@ START_TEST(labels_have_their_room)
         fram_error error;
         ck_assert_int_eq(image_begin(WIDE, HIGH, &page, &error), FRAM_OK);
         chart_draw(page, &c, WIDE, HIGH, false);
-        ck_assert_int_gt(inked(page, 0, GAP, HIGH), 8);
-        ck_assert_int_eq(inked(page, GAP, LABELS, HIGH), 0);
-        ck_assert_int_gt(inked(page, LABELS, 80, HIGH), 40);
-        ck_assert_int_eq(inked(page, WIDE - 1, WIDE, HIGH), 0);
+        ck_assert_int_gt(inked(page, 0, GAP, 0, HIGH), 8);
+        ck_assert_int_eq(inked(page, GAP, LABELS, 0, HIGH), 0);
+        ck_assert_int_gt(inked(page, LABELS, 80, 0, HIGH), 40);
+        ck_assert_int_eq(inked(page, WIDE - 1, WIDE, 0, HIGH), 0);
         cairo_destroy(page);
     }
     /* Of ticks that stand closer than their labels are wide every second one is told, zero among them. */
@@ -221,8 +253,8 @@ START_TEST(legends_have_their_room)
 }
 END_TEST
 
-TEST_MAIN("fitted", texts_end_in_their_room, bands_have_gaps, ticks_have_the_digits_of_their_step,
-          labels_have_their_room, legends_have_their_room)
+TEST_MAIN("fitted", texts_end_in_their_room, lines_are_broken_at_words, bands_have_gaps,
+          ticks_have_the_digits_of_their_step, labels_have_their_room, legends_have_their_room)
 
 #else
 
