@@ -197,7 +197,8 @@ static fram_status draw_extremes(context *ctx, const fram_extremes_definition *d
                                  const extreme_result *results, int count, fram_error *error)
 {
     char quantity[200];
-    snprintf(quantity, sizeof quantity, "%.100s [%s]", d->source.channel ? d->source.channel : "load", unit);
+    snprintf(quantity, sizeof quantity, *unit ? "%.100s [%s]" : "%.100s%s",
+             d->source.channel ? d->source.channel : "load", unit);
     fram_status status = work_continue(ctx, "drawing", 1, 1, error);
     return status == FRAM_OK ? extremes_chart_write(ctx, results, count, quantity, d->duration, d->draw, error)
                              : status;

@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #ifdef FRAM_HAVE_CAIRO
 
@@ -16,6 +17,7 @@ static const image_colour chart_grid = {0.90, 0.91, 0.92};
 static const double log_of_ten = 2.302585092994045684;
 
 typedef struct chart_frame {
+    double width, height;            /* of the chart with all that stands beside its axes [pixels] */
     double left, right, top, bottom; /* pixels */
     double x0, x1, y0, y1;           /* data; decades on a logarithmic axis */
     double step;                     /* of the ticks of both axes, where they have one scale; 0: each has its own */
@@ -108,7 +110,7 @@ static void find_range(const chart *c, chart_frame *f)
 /* ---- axes ---- */
 
 /* [pixels] What stands beside the axes: least margins, the title and its gap to the labels, and that between two labels
-   of the x axis. */
+   of the x axis; TITLE_EDGE: from a long title to the chart's edge. */
 enum {
     MARGIN_LEFT = 86,
     MARGIN_RIGHT = 22,
@@ -116,6 +118,7 @@ enum {
     LABEL_GAP = 7,
     BETWEEN_LABELS = 5,
     PAGE_EDGE = 1,
+    TITLE_EDGE = 4,
     TICK_SIZE = 12
 };
 
@@ -176,6 +179,16 @@ static void draw_x_axis(cairo_t *page, const chart_frame *f)
     }
 }
 
+/* About `middle` of a chart that is so long; a name that is too long loses its end, never its unit. */
+static void draw_title(cairo_t *page, double x, double y, double middle, double length, const char *title)
+{
+    char part[IMAGE_FITTED_SIZE];
+    const char *unit = strrchr(title, '['), *end = unit ? unit : title + strlen(title);
+    double room = 2 * (fmin(middle, length - middle) - TITLE_EDGE);
+    end -= unit > title && unit[-1] == ' ';
+    image_text(page, x, y, 13, ALIGN_CENTRE, false, image_fit(page, 13, false, room, title, end, part));
+}
+
 static void draw_axes(cairo_t *page, const chart *c, const chart_frame *f)
 {
     cairo_set_line_width(page, 1);
@@ -187,11 +200,12 @@ static void draw_axes(cairo_t *page, const chart *c, const chart_frame *f)
     cairo_line_to(page, f->right, floor(f->bottom) + 0.5);
     cairo_stroke(page);
     image_set_colour(page, CHART_INK);
-    image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
+    double across = (f->left + f->right) / 2, down = (f->top + f->bottom) / 2;
+    draw_title(page, across, f->bottom + 40, across, f->width, c->x_label);
     cairo_save(page);
-    cairo_translate(page, 18, (f->top + f->bottom) / 2);
+    cairo_translate(page, 18, down);
     cairo_rotate(page, -PI / 2);
-    image_text(page, 0, 0, 13, ALIGN_CENTRE, false, c->y_label);
+    draw_title(page, 0, 0, down, f->height, c->y_label);
     cairo_restore(page);
 }
 
@@ -350,7 +364,12 @@ typedef struct chart_margins {
 
 static chart_frame frame_of(cairo_t *page, const chart *c, int width, int height, bool equal, chart_margins m)
 {
-    chart_frame f = {.left = m.left, .right = width - m.right, .top = c->subtitle[0] ? 78 : 58, .bottom = height - 58};
+    chart_frame f = {.width = width,
+                     .height = height,
+                     .left = m.left,
+                     .right = width - m.right,
+                     .top = c->subtitle[0] ? 78 : 58,
+                     .bottom = height - 58};
     f.top += chart_legend_more(page, c, f.right - f.left, f.bottom - f.top);
     find_range(c, &f);
     if (equal)

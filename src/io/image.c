@@ -246,29 +246,32 @@ void image_text(cairo_t *page, double x, double y, double size, image_align alig
     cairo_show_text(page, shown);
 }
 
-/* More than any title of a scenario has. */
-enum { FITTED_MOST = 512 };
-
-void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold, double room, const char *text)
+const char *image_fit(cairo_t *page, double size, bool bold, double room, const char *text, const char *end,
+                      char part[IMAGE_FITTED_SIZE])
 {
-    char part[FITTED_MOST];
-    double width = image_text_width(page, size, bold, text);
-    size_t length = strlen(text), most = sizeof part - sizeof "...";
-    if (width <= room) {
-        image_text(page, x, y, size, ALIGN_LEFT, bold, text);
-        return;
-    }
+    double width = image_text_width(page, size, bold, text), kept = image_text_width(page, size, bold, end);
+    size_t length = (size_t)(end - text), taken = sizeof "..." + strlen(end);
+    size_t most = taken < IMAGE_FITTED_SIZE ? IMAGE_FITTED_SIZE - taken : 0;
+    if (width <= room)
+        return text;
     /* What would fit of letters that are all alike, and a quarter more. */
-    size_t likely = room > 0 ? (size_t)(1.25 * room / width * (double)length) + 1 : 0;
+    size_t likely = room > kept ? (size_t)(1.25 * (room - kept) / (width - kept) * (double)length) + 1 : 0;
     for (size_t n = likely < most ? likely : most; n > 0; n--) {
         if (n >= length || ((unsigned char)text[n] & 0xC0U) == 0x80U)
             continue; /* within a character of UTF-8 */
-        snprintf(part, sizeof part, "%.*s...", (int)n, text);
-        if (image_text_width(page, size, bold, part) <= room) {
-            image_text(page, x, y, size, ALIGN_LEFT, bold, part);
-            return;
-        }
+        snprintf(part, IMAGE_FITTED_SIZE, "%.*s...%s", (int)n, text, end);
+        if (image_text_width(page, size, bold, part) <= room)
+            return part;
     }
+    snprintf(part, IMAGE_FITTED_SIZE, "%s", end);
+    return part;
+}
+
+void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold, double room, const char *text)
+{
+    char part[IMAGE_FITTED_SIZE];
+    const char *fitting = image_fit(page, size, bold, room, text, text + strlen(text), part);
+    image_text(page, x, y, size, ALIGN_LEFT, bold, fitting);
 }
 
 /* From one line to the next, and how far lines that go on are set in [pixels]. */

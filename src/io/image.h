@@ -49,6 +49,11 @@ typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
 /* Text with its baseline at (x, y), UTF-8; a byte that is none is shown as a question mark. */
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
+/* What of a text fits in `room` pixels: all of it, or its beginning with dots, and what begins at `end` in it, as a
+   unit, whole in any case.  Written to part where it is not the text itself. */
+enum { IMAGE_FITTED_SIZE = 512 };
+const char *image_fit(cairo_t *page, double size, bool bold, double room, const char *text, const char *end,
+                      char part[IMAGE_FITTED_SIZE]);
 /* Text that begins at (x, y) and goes on for `room` pixels at most: what is cut off ends in dots. */
 void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold, double room, const char *text);
 /* Text of many lines, the first with its baseline at (x, y); those that are longer than `room` pixels go on below,

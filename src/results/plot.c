@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 1280, HEIGHT = 460, LABEL = 64 };
+/* LABEL: of a channel's name, and its unit in brackets with a prefix. */
+enum { WIDTH = 1280, HEIGHT = 460, LABEL = COLUMN_NAME_SIZE + UNIT_SIZE + 4 };
 
 /* A panel: the channels of one unit. */
 typedef struct panel {

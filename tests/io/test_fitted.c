@@ -60,6 +60,26 @@ START_TEST(texts_end_in_their_room)
 }
 END_TEST
 
+/* What is at the end, as a unit, is never cut off. */
+START_TEST(ends_are_kept)
+{
+    static const char text[] = "a_vessel.a_channel_of_it [kN m]";
+    const char *end = strchr(text, ' ');
+    cairo_t *page = NULL;
+    fram_error error;
+    ck_assert_int_eq(image_begin(WIDTH, HEIGHT, &page, &error), FRAM_OK);
+    const double all = image_text_width(page, 13, false, text), least = image_text_width(page, 13, false, end);
+    for (double room = 0; room < all + 9; room += 9) {
+        char part[IMAGE_FITTED_SIZE];
+        const char *found = image_fit(page, 13, false, room, text, end, part);
+        ck_assert_int_eq(found == text, room >= all);
+        ck_assert_str_eq(found + strlen(found) - strlen(end), end);
+        ck_assert(image_text_width(page, 13, false, found) <= fmax(room, least));
+    }
+    cairo_destroy(page);
+}
+END_TEST
+
 /* Columns of a part of a page that have ink. */
 static int inked(cairo_t *page, int left, int right, int top, int bottom)
 {
@@ -212,6 +232,29 @@ START_TEST(labels_have_their_room)
 }
 END_TEST
 
+/* A long title of an axis ends where its chart does, whatever stands beside that. */
+START_TEST(titles_have_their_room)
+{
+    enum { WIDE = 300, HIGH = 240, BESIDE = 150 };
+    static const char title[] = "a name of a vessel. and of a channel which are longer than the chart is wide [kN m]";
+    const double at[2] = {0, 1};
+    const chart_line line = chart_line_make("", at, at, 2, false);
+    const chart c = chart_make("", "", title, title, &line, 1);
+    cairo_t *page = NULL;
+    fram_error error;
+    ck_assert_int_eq(image_begin(WIDE + 2 * BESIDE, HIGH + 2 * BESIDE, &page, &error), FRAM_OK);
+    cairo_translate(page, BESIDE, BESIDE);
+    chart_draw(page, &c, WIDE, HIGH, false);
+    for (int side = 0; side < 2; side++) {
+        const int left = side * (WIDE + BESIDE), top = side * (HIGH + BESIDE);
+        ck_assert_int_eq(inked(page, left, left + BESIDE, 0, HIGH + 2 * BESIDE), 0);
+        ck_assert_int_eq(inked(page, 0, WIDE + 2 * BESIDE, top, top + BESIDE), 0);
+    }
+    ck_assert_int_gt(inked(page, BESIDE, BESIDE + 23, BESIDE, BESIDE + HIGH), 8);
+    cairo_destroy(page);
+}
+END_TEST
+
 /* Whether a page has ink between two columns and two rows. */
 static bool has_ink(cairo_t *page, int left, int right, int top, int bottom)
 {
@@ -253,8 +296,8 @@ START_TEST(legends_have_their_room)
 }
 END_TEST
 
-TEST_MAIN("fitted", texts_end_in_their_room, lines_are_broken_at_words, bands_have_gaps,
-          ticks_have_the_digits_of_their_step, labels_have_their_room, legends_have_their_room)
+TEST_MAIN("fitted", texts_end_in_their_room, ends_are_kept, lines_are_broken_at_words, bands_have_gaps,
+          ticks_have_the_digits_of_their_step, labels_have_their_room, titles_have_their_room, legends_have_their_room)
 
 #else
 

@@ -276,6 +276,8 @@ class Statistics(unittest.TestCase):
                 star = fit["scale"] - fit["shape"] * fit["threshold"]
                 half = 1.96 * (1 + fit["shape"]) / row["peaks"] ** 0.5
                 self.close((row["scale_star"], row["shape_half"]), (star, half), 1e-3)
+        # Without a unit the title of the upright axis is the one letter.
+        self.assertEqual((self.at / "one.svg").read_text().count('x="18" y='), 1)
         # Below the probability plot stand shape and scale over the threshold.
         self.assertEqual(heights[0], 3 * heights[1])
         file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
