@@ -262,17 +262,22 @@ void html_grid_end(html_page *p) { add(p, "</div>\n"); }
 
 fram_status html_chart(html_page *p, const chart *c, bool wide, fram_error *error)
 {
+    return html_chart_named(p, c, c->title, wide, error);
+}
+
+fram_status html_chart_named(html_page *p, const chart *c, const char *name, bool wide, fram_error *error)
+{
     enum { HALF = 620, WHOLE = 1240, HEIGHT = 400 };
     text_buffer svg = {0};
     fram_status status = chart_svg(p->ctx, c, wide ? WHOLE : HALF, HEIGHT, &svg, error);
     if (status == FRAM_OK) {
         add(p, wide ? "<figure class=\"wide\"><img alt=\"" : "<figure><img alt=\"");
-        html_escaped(p, c->title);
+        html_escaped(p, name);
         add(p, "\" src=\"data:image/svg+xml;base64,");
         base64_text(p->ctx, &p->text, svg.data, (size_t)svg.count);
         add(p, "\"></figure>\n");
     } else if (status == FRAM_ERROR_UNSUPPORTED) {
-        html_paragraph(p, "%s: not drawn, for this build has no cairo.", c->title);
+        html_paragraph(p, "%s: not drawn, for this build has no cairo.", name);
         status = FRAM_OK;
     }
     text_free(p->ctx, &svg);

@@ -55,6 +55,8 @@ void html_grid_begin(html_page *p);
 void html_grid_end(html_page *p);
 /* Without cairo a note stands in its place.  wide: over the whole width of the page. */
 fram_status html_chart(html_page *p, const chart *c, bool wide, fram_error *error);
+/* One that is called by another name than its title where it is not seen. */
+fram_status html_chart_named(html_page *p, const chart *c, const char *name, bool wide, fram_error *error);
 /* A PNG. */
 void html_picture(html_page *p, const void *png, size_t size, const char *caption);
 /* Text as it stands, in small type. */

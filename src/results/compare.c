@@ -222,12 +222,14 @@ typedef struct overlay {
     bool free; /* its axis need not hold zero: far from the origin a way would not be seen */
 } overlay;
 
-static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
+/* vessel: "vessel tug"; "": of the world, or of the only one.  In the title a long name would be cut off. */
+static fram_status overlay_chart(pair *p, const overlay *o, const char *vessel, fram_error *error)
 {
     chart_line lines[2];
     double *scaled[2] = {NULL, NULL};
     static const char *const names[2] = {"A", "B"};
-    char label[48];
+    char label[48], name[120];
+    snprintf(name, sizeof name, "%s%s%s", o->title, *vessel ? ", " : "", vessel);
     snprintf(label, sizeof label, *o->unit.name ? "%s [%s]" : "%s%s", o->label, o->unit.name);
     int32_t n = 0;
     fram_status status = FRAM_OK;
@@ -245,9 +247,9 @@ static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
         lines[n++].colour = k + 2;
     }
     if (status == FRAM_OK && n > 0) {
-        chart c = chart_make(o->title, "", "time [s]", label, lines, n);
+        chart c = chart_make(o->title, vessel, "time [s]", label, lines, n);
         c.free_y = o->free;
-        status = html_chart(&p->page, &c, false, error);
+        status = html_chart_named(&p->page, &c, name, false, error);
     }
     memory_free(p->ctx, scaled[0]);
     memory_free(p->ctx, scaled[1]);
@@ -258,14 +260,14 @@ static fram_status overlay_chart(pair *p, const overlay *o, fram_error *error)
 static fram_status overlay_charts(pair *p, const overlay *o, fram_error *error)
 {
     const scenario *s;
-    fram_status status = overlay_chart(p, o, error);
+    fram_status status = overlay_chart(p, o, "", error);
     for (int32_t at = 0, v = 0; status == FRAM_OK && (s = next_vessel(p, at, &v)); at++) {
-        char full[120];
         const vessel_channel name = vessel_channel_name(s, v, o->channel);
+        const vessel_entry entry = scenario_vessel_entry(s, v);
+        const vessel_title title = vessel_title_of(&entry);
         overlay of_vessel = *o;
-        snprintf(full, sizeof full, "%s, vessel %.*s", o->title, (int)VESSEL_NAME_MOST, scenario_vessel_name(s, v));
-        of_vessel.channel = name.text, of_vessel.title = full;
-        status = overlay_chart(p, &of_vessel, error);
+        of_vessel.channel = name.text;
+        status = overlay_chart(p, &of_vessel, title.text, error);
     }
     return status;
 }

@@ -111,10 +111,22 @@ expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula --vessel barge
 # The longest names are read again; a name that begins as an option does is refused.
 long=an-ice_breaker-of-1977-x
 "$FRAM" run "$scene" -o "$scratch/long" --quiet --set run.duration=0.1 --set run.transient=0 \
-    --set vessels.icebreaker.name=$long || fail "a vessel has not a name of ${#long} characters"
+    --set vessels.icebreaker.name=$long --set vessels.tug.name=${long%x}y ||
+    fail "a vessel has not a name of ${#long} characters"
 ! built_with cairo || "$FRAM" plot "$scratch/long" $long.mechanism_accumulation_moment_x -o "$scratch/l.svg" --quiet ||
     fail "the longest column of a vessel cannot be read"
 "$FRAM" compare "$scratch/long" "$run" -o "$scratch/l.html" --quiet || fail "there is no comparison of long names"
+! built_with cairo || python3 - "$scratch/l.html" $long ${long%x}y <<'END' || fail "two charts have one title"
+import base64, re, sys
+page, heads = open(sys.argv[1]).read(), []
+for name in sys.argv[2:]:
+    alt = re.escape(f"Ice load along X, averaged, vessel {name}")
+    chart = base64.b64decode(re.search(f'alt="{alt}" src="data:image/svg\\+xml;base64,([^"]+)"', page)[1]).decode()
+    shapes = dict(re.findall(r'id="(glyph[-0-9]+)">\n<path [^>]* d="([^"]*)"', chart))
+    # Title and subtitle.
+    heads.append([shapes[g] for g in re.findall(r'href="#(glyph[-0-9]+)" x="[^"]*" y="(?:28|48)"', chart)])
+assert min(map(len, heads)) > 40 and heads[0] != heads[1], heads
+END
 "$FRAM" report "$scratch/long" --quiet || fail "there is no report of long names"
 ! built_with netcdf || "$FRAM" export "$scratch/long" --netcdf --quiet || fail "there is no export of long names"
 expect 2 "$FRAM" check "$scene" --set vessels.icebreaker.name=${long}l
