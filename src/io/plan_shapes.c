@@ -1,4 +1,4 @@
-/* How a prism stands in a plan view, which lies over which, and which part is to be shown. */
+/* How a prism stands in a plan view, which lies over which, which part is to be shown, and what is seen of all. */
 #include "io/plan_view.h"
 
 #include <math.h>
@@ -74,4 +74,26 @@ box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
         all = boxes_joined(all, hull);
     }
     return larger_side(all) <= EXTENDED_MOST * larger_side(usual) ? all : window_around(usual, first);
+}
+
+/* With the sides of a prism that tilts. */
+static box2 bounds_of(const plan_shape *s)
+{
+    box2 b = polygon_bounds(s->outline);
+    vec2 half = vec2_make(0.5 * fabs(s->drop.x), 0.5 * fabs(s->drop.y));
+    return (box2){vec2_sub(b.lo, half), vec2_add(b.hi, half)};
+}
+
+plan_used plan_find_used(const plan_view *view)
+{
+    plan_used seen = {.line = false};
+    for (int32_t i = 0; i < view->shape_count; i++) {
+        const plan_shape *s = &view->shapes[i];
+        seen.style[s->style] = seen.style[s->style] || boxes_meet(bounds_of(s), view->window);
+    }
+    for (int32_t i = 0; i < view->line_count; i++) {
+        vec2 end[2] = {view->lines[i].upper, view->lines[i].anchor};
+        seen.line = seen.line || boxes_meet(polygon_bounds((polygon){end, 2}), view->window);
+    }
+    return seen;
 }

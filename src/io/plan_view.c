@@ -171,11 +171,10 @@ static int32_t draw_level_ice(cairo_t *page, const map *m, const plan_shape *sha
     return n;
 }
 
-static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool used[PLAN_STYLE_COUNT])
+static void draw_shapes(cairo_t *page, const map *m, const plan_view *view)
 {
     for (int32_t i = 0; i < view->shape_count;) {
         const plan_shape *s = &view->shapes[i];
-        used[s->style] = true;
         if (s->style == PLAN_LEVEL_ICE) {
             i += draw_level_ice(page, m, s, view->shape_count - i);
         } else {
@@ -372,10 +371,10 @@ static void draw_global_axes(cairo_t *page, double x, double y)
     image_text(page, x - 4, y - 29, 12, ALIGN_LEFT, true, "Y");
 }
 
-static void draw_plan_legend(cairo_t *page, const plan_view *view, const bool used[PLAN_STYLE_COUNT], double right,
-                             double y)
+static void draw_plan_legend(cairo_t *page, const plan_view *view, double right, double y)
 {
-    if (view->line_count > 0) {
+    plan_used seen = plan_find_used(view);
+    if (seen.line) {
         static const char name[] = "mooring line";
         right -= image_text_width(page, 12, false, name);
         image_set_colour(page, plan_ink);
@@ -388,7 +387,7 @@ static void draw_plan_legend(cairo_t *page, const plan_view *view, const bool us
         right -= 36;
     }
     for (int s = PLAN_STYLE_COUNT - 1; s >= 0; s--) {
-        if (!used[s])
+        if (!seen.style[s])
             continue;
         right -= image_text_width(page, 12, false, looks[s].name);
         image_set_colour(page, plan_ink);
@@ -412,14 +411,13 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     map m = {.top = ABOVE, .window = view->window};
     m.scale = fmin((width - 2 * PLAN_MARGIN) / w, (height - ABOVE - BELOW) / h);
     m.left = (width - w * m.scale) / 2;
-    bool used[PLAN_STYLE_COUNT] = {false};
     cairo_save(page);
     cairo_rectangle(page, m.left, m.top, w * m.scale, h * m.scale);
     cairo_clip(page);
     image_set_colour(page, water);
     cairo_paint(page);
     cairo_set_antialias(page, CAIRO_ANTIALIAS_FAST);
-    draw_shapes(page, &m, view, used);
+    draw_shapes(page, &m, view);
     draw_lines(page, &m, view);
     draw_marks(page, &m, view);
     draw_arrows(page, &m, view);
@@ -439,7 +437,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     if (view->scale_name)
         plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, end + 16, right, below);
     else
-        draw_plan_legend(page, view, used, right, below);
+        draw_plan_legend(page, view, right, below);
 }
 
 /* How large a page is whose plan has `longest` pixels along its longer side. */

@@ -83,6 +83,12 @@ typedef struct plan_view {
     double scale_lo, scale_hi;
 } plan_view;
 
+/* What a legend is to name: of what the bounds meet the window. */
+typedef struct plan_used {
+    bool style[PLAN_STYLE_COUNT], line; /* mooring lines */
+} plan_used;
+plan_used plan_find_used(const plan_view *view);
+
 /* `longest`: pixels of the longer side.  SVG when the path ends in .svg, else PNG.  FRAM_ERROR_UNSUPPORTED without
    cairo. */
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error);

@@ -146,6 +146,12 @@ bool scenario_averages_begin_early(const scenario *s, double first, double span)
 
 box2 domain_box(const scenario_domain *d) { return (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}; }
 
+box2 domain_with_walls(const scenario_domain *d)
+{
+    double t = d->boundary == DOMAIN_WALLS ? d->wall_thickness : 0;
+    return (box2){{d->x_min - t, d->y_min - t}, {d->x_max + t, d->y_max + t}};
+}
+
 ice_drift scenario_drift(const scenario *s)
 {
     const scenario_domain *d = &s->domain;

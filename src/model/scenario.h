@@ -99,6 +99,8 @@ fram_status scenario_check(const scenario *s, fram_error *error);
 void scenario_locate(const scenario *s, fram_error *error);
 /* The domain from above. */
 box2 domain_box(const scenario_domain *d);
+/* With its walls, where it has such: what pictures show. */
+box2 domain_with_walls(const scenario_domain *d);
 /* What moves the ice far from vessels: the current, or where an endless field is told its own, that. */
 typedef struct ice_drift {
     const char *file;   /* of a history, in place of the speed; empty: none */

@@ -288,7 +288,6 @@ static fram_status telling_time(const manage_run *m, char title[64], double *tim
 static fram_status plan(management_page *p, fram_error *error)
 {
     const manage_run *m = p->m;
-    const scenario_domain *d = &m->d.s.domain;
     replay r;
     replay_moment now = {0};
     replay_plan shapes = {0};
@@ -305,7 +304,7 @@ static fram_status plan(management_page *p, fram_error *error)
         status = replay_plan_make(&r, &now, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &shapes, error);
     bool before = now.time < time - 0.5 * m->d.s.run.time_step;
     snprintf(caption, sizeof caption, "t = %.4g s%s", now.time, before ? ", the last frame before" : "");
-    plan_view view = {.window = plan_window(domain_box(d), shapes.shapes.data, shapes.shapes.count),
+    plan_view view = {.window = plan_window(domain_with_walls(&m->d.s.domain), shapes.shapes.data, shapes.shapes.count),
                       .title = title,
                       .caption = caption,
                       .shapes = shapes.shapes.data,

@@ -99,18 +99,29 @@ static fram_status sizes(report *r, fram_error *error)
 
 /* ---- maps ---- */
 
+static bool any_inside(const vec2_array *points, box2 box)
+{
+    for (int32_t i = 0; i < points->count; i++) {
+        vec2 p = points->data[i];
+        if (p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y)
+            return true;
+    }
+    return false;
+}
+
 static fram_status draw_map(report *r, const replay *from, const replay_moment *m, double mark_time, fram_error *error)
 {
     replay_plan plan = {0};
     text_buffer png = {0};
     char caption[96];
-    const scenario_domain *s = &r->d.s.domain;
-    snprintf(caption, sizeof caption, "t = %g s%s", m->time, mark_time > 0 ? "; crosses: where floes broke" : "");
     plan_flows flows = plan_flows_at(r->ctx, &r->d.s, m->time);
     fram_status status = replay_plan_make(from, m, PLAN_COLOUR_PLAIN, 0, 1, 0, mark_time, &plan, error);
     if (status == FRAM_OK)
         status = replay_plan_lines(from, &r->d.s, &plan, error);
-    plan_view view = {.window = plan_window(domain_box(s), plan.shapes.data, plan.shapes.count),
+    const box2 window = plan_window(domain_with_walls(&r->d.s.domain), plan.shapes.data, plan.shapes.count);
+    snprintf(caption, sizeof caption, "t = %g s%s", m->time,
+             any_inside(&plan.marks, window) ? "; crosses: where floes broke" : "");
+    plan_view view = {.window = window,
                       .title = mark_time > 0 ? "The field at the end" : "The field at the start",
                       .caption = caption,
                       .shapes = plan.shapes.data,

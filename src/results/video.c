@@ -152,9 +152,8 @@ static void draw_curve(const video *v, cairo_t *page, double now)
 
 static box2 shown_window(const video *v, int width, int height)
 {
-    const scenario_domain *d = &v->s.domain;
     if (!(v->options->span > 0) || !v->plan.has_vessel)
-        return plan_window(domain_box(d), v->plan.shapes.data, v->plan.shapes.count);
+        return plan_window(domain_with_walls(&v->s.domain), v->plan.shapes.data, v->plan.shapes.count);
     double half = v->options->span / 2, upright = half * height / width;
     vec2 c = v->plan.vessel;
     return (box2){{c.x - half, c.y - upright}, {c.x + half, c.y + upright}};

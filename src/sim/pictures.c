@@ -142,10 +142,7 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
     plan_flows flows = plan_flows_at(ctx, s, w->clock.time[0]);
     char caption[256];
     caption_of(w, caption, sizeof caption);
-    double border = s->domain.boundary == DOMAIN_WALLS ? s->domain.wall_thickness : 0;
-    const box2 usual = {{s->domain.x_min - border, s->domain.y_min - border},
-                        {s->domain.x_max + border, s->domain.y_max + border}};
-    plan_view view = {.window = plan_window(usual, p.shape.data, p.shape.count),
+    plan_view view = {.window = plan_window(domain_with_walls(&s->domain), p.shape.data, p.shape.count),
                       .title = s->title[0] ? s->title : "Fram",
                       .caption = caption,
                       .shapes = p.shape.data,

@@ -1,6 +1,8 @@
 """What pictures show where texts are to stand: pixels.py WHAT FILE..., exit code 1 where it is otherwise."""
+import base64
 import os
 import pathlib
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(os.environ["FRAM_SOURCE"]) / "tests" / "views"))
@@ -8,7 +10,11 @@ import chromium  # noqa: E402
 
 
 def read(path):
-    width, height, channels, rows = chromium.pixels(pathlib.Path(path).read_bytes())
+    """Of a page its first PNG."""
+    data = pathlib.Path(path).read_bytes()
+    if path.endswith(".html"):
+        data = base64.b64decode(re.search(rb"data:image/png;base64,([^\"]+)", data)[1])
+    width, height, channels, rows = chromium.pixels(data)
     return width, height, lambda x, y: tuple(rows[y][channels * x:channels * x + 3])
 
 
@@ -80,6 +86,19 @@ def apart(files):
     assert all(min(at(x, y)) > 200 for x in range(642, 664) for y in range(640, 1130)), "words in the charts"
 
 
+def walls(files):
+    """Plans have a wall on each of their four sides."""
+    for file in files:
+        width, height, at = read(file)
+
+        def is_wall(x, y):
+            return sum(abs(a - b) for a, b in zip(at(x, y), (115, 107, 102))) < 9
+        across = [x for x in range(width) if all(is_wall(x, y) for y in range(120, 240, 8))]
+        down = [y for y in range(64, height) if all(is_wall(x, y) for x in range(2 * width // 5, 3 * width // 5, 8))]
+        for found, size in ((across, width), (down, height)):
+            assert found and found[0] < size / 2 < found[-1], (file, found)
+
+
 if __name__ == "__main__":
     {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole,
-     "limit": limit, "apart": apart}[sys.argv[1]](sys.argv[2:])
+     "limit": limit, "apart": apart, "walls": walls}[sys.argv[1]](sys.argv[2:])

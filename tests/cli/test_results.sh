@@ -374,6 +374,7 @@ done
 grep -oE '(src|href)="[^"]{0,20}' run/report.html | grep -v '"data:image' && fail "the report fetches something"
 ! grep -q '<script' run/report.html || fail "the report has a script"
 [ $pictures = no ] || holds 'data:image/svg+xml;base64' run/report.html
+[ $pictures = no ] || holds 'crosses: where floes broke' run/report.html
 python3 - <<'PY' || fail "the report's HTML does not nest"
 from html.parser import HTMLParser
 class Nest(HTMLParser):
@@ -455,6 +456,9 @@ for words in "compare thin edited -o both.html" "manage edited" "why edited --pe
 done
 holds "of B.*scenario.yaml was changed" both.html
 grep -q "of A" both.html && fail "a scenario that was not changed is told as changed"
+# Plans show the whole domain with its walls.
+[ $pictures = no ] || python3 "$FRAM_SOURCE/tests/cli/pixels.py" walls run/report.html edited/manage.html ||
+    fail "a plan leaves walls out"
 # One of a Fram that lacked a key has another hash, and is read as the same.
 cp -r run older
 sed -i 's/"scenario_hash": "......../"scenario_hash": "01234567/' older/run.json
@@ -547,6 +551,7 @@ PY
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" scales {orbit,plan}-* || fail "texts cover each other"
     expect 0 "$FRAM" video run --pictures --fps 1 --speed 3 --width 320 --height 700 -o upright
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" whole upright || fail "a picture cuts the field off"
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" walls plan-700x480/frame-000000.png || fail "a plan leaves walls out"
     expect 2 "$FRAM" video run -o no/such/run.mp4
     says "cannot open for writing" err
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4

@@ -55,6 +55,7 @@ for text in "vessel ship comes within" 'time \[s\]</th><th class="w">vessel</th>
     "Ice load, vessel icebreaker" "Station keeping, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done
+grep -q "crosses: where floes broke" "$run/report.html" && fail "crosses of nothing that broke"
 ! built_with cairo ||
     "$FRAM" plot "$run" ship.offset_x tug.hull_contact_force_y -o "$scratch/p.svg" --quiet || fail "the plot failed"
 expect 2 "$FRAM" plot "$run" ice_force_x -o "$scratch/q.svg"

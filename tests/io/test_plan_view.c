@@ -84,6 +84,30 @@ START_TEST(a_hull_outside)
 }
 END_TEST
 
+/* A legend names what the window shows a part of, a tilted prism by its sides, and not what lies beside it. */
+START_TEST(styles_in_the_window)
+{
+    const vec2 ring[4][4] = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
+                             {{10, -12}, {12, -12}, {12, 12}, {10, 12}},
+                             {{9, 9}, {11, 9}, {11, 11}, {9, 11}},
+                             {{11, 0}, {12, 0}, {12, 1}, {11, 1}}};
+    const plan_shape shapes[5] = {{.outline = {ring[0], 4}, .style = PLAN_DECK},
+                                  {.outline = {ring[1], 4}, .style = PLAN_WALL},
+                                  {.outline = {ring[2], 4}, .style = PLAN_FLOE},
+                                  {.outline = {ring[3], 4}, .style = PLAN_FIXED_ICE, .drop = {3, 0}},
+                                  {.outline = {ring[3], 4}, .style = PLAN_LEVEL_ICE}};
+    const plan_line lines[2] = {{{11, 0}, {40, 0}}, {{5, 0}, {40, 0}}};
+    for (int32_t count = 1; count <= 2; count++) {
+        const plan_view view = {
+            .window = {{-10, -10}, {10, 10}}, .shapes = shapes, .shape_count = 5, .lines = lines, .line_count = count};
+        const plan_used seen = plan_find_used(&view);
+        for (int style = 0; style < PLAN_STYLE_COUNT; style++)
+            ck_assert_int_eq(seen.style[style], style == PLAN_DECK || style == PLAN_FLOE || style == PLAN_FIXED_ICE);
+        ck_assert_int_eq(seen.line, count > 1);
+    }
+}
+END_TEST
+
 static plan_flows flows_of(const char *text, double time)
 {
     context ctx;
@@ -409,12 +433,13 @@ START_TEST(texts_beside_a_narrow_plan)
 }
 END_TEST
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, flows_that_move, flows_of_a_history,
-          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
-          labels_that_cover_each_other, texts_beside_a_narrow_plan)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, styles_in_the_window, flows_that_move,
+          flows_of_a_history, pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams,
+          mooring_lines, flows_are_drawn, labels_that_cover_each_other, texts_beside_a_narrow_plan)
 
 #else
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, flows_that_move, flows_of_a_history)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, styles_in_the_window, flows_that_move,
+          flows_of_a_history)
 
 #endif
