@@ -9,7 +9,15 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { POLAR_WIDTH = 1300, POLAR_HEIGHT = 860, MIDDLE_X = 470, MIDDLE_Y = 470, RADIUS = 330, TEXT_X = 950 };
+enum {
+    POLAR_WIDTH = 1300,
+    POLAR_HEIGHT = 860,
+    MIDDLE_X = 470,
+    MIDDLE_Y = 470,
+    RADIUS = 330,
+    TEXT_X = 950,
+    HEAD_X = 40
+};
 
 static const image_colour polar_ink = {0.2, 0.2, 0.2}, polar_grid = {0.55, 0.57, 0.60}, beyond = {0.62, 0.62, 0.64};
 /* Colour-blind safe (Okabe and Ito 2008). */
@@ -148,8 +156,8 @@ static void draw_value_scale(cairo_t *page, const polar_chart *p)
 static void draw(cairo_t *page, const polar_chart *p)
 {
     image_set_colour(page, polar_ink);
-    image_text(page, 40, 38, 20, ALIGN_LEFT, true, p->title);
-    image_text(page, 40, 60, 13, ALIGN_LEFT, false, p->subtitle);
+    image_text_fitted(page, HEAD_X, 38, 20, true, POLAR_WIDTH - 2 * HEAD_X, p->title);
+    image_text_fitted(page, HEAD_X, 60, 13, false, POLAR_WIDTH - 2 * HEAD_X, p->subtitle);
     draw_cells(page, p);
     draw_rings(page, p);
     draw_spokes(page);

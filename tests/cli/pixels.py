@@ -99,6 +99,13 @@ def walls(files):
             assert found and found[0] < size / 2 < found[-1], (file, found)
 
 
+def head(files):
+    """A title that is too long ends before the edge, in dots."""
+    width, _, at = read(files[0])
+    inked = [x for x in range(width) if any(max(at(x, y)) < 128 for y in range(20, 45))]
+    assert inked[0] >= 38 and width - 80 < inked[-1] < width - 38, (inked[0], inked[-1])
+
+
 if __name__ == "__main__":
     {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole,
-     "limit": limit, "apart": apart, "walls": walls}[sys.argv[1]](sys.argv[2:])
+     "limit": limit, "apart": apart, "walls": walls, "head": head}[sys.argv[1]](sys.argv[2:])

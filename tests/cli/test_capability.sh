@@ -9,9 +9,12 @@ says '"file"' out
 sides='environment.hull_drag.water_form: 0.1 is of a hull that goes ahead'
 grep -F "${sides%% *}" err && fail "told of a hull whose side is damped"
 estimate='--formula --directions 4 --set vessel.hydrodynamics.source=estimate'
+long='A title that goes on and on, over the whole of the picture and over its legend, until there is no more room'
 # shellcheck disable=SC2086
-expect 0 "$FRAM" capability "$scene" -o "$scratch/ahead" $estimate
+expect 0 "$FRAM" capability "$scene" -o "$scratch/ahead" $estimate --set "title=$long, $long"
 says "$sides" err
+! built_with cairo || python3 "$FRAM_SOURCE/tests/cli/pixels.py" head "$scratch/ahead/capability.png" ||
+    fail "a title runs out of capability.png"
 # shellcheck disable=SC2086
 expect 0 "$FRAM" capability "$scene" -o "$scratch/sides" $estimate --set environment.hull_drag.water_form=1
 grep -F "${sides%% *}" err && fail "told of the drag of a ship's side"
