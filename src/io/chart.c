@@ -105,6 +105,8 @@ static void find_range(const chart *c, chart_frame *f)
     double pad = c->log_y ? 0 : CHART_PAD * (f->y1 - f->y0);
     f->y1 += f->y1 > 0 || c->free_y ? pad : 0;
     f->y0 -= f->y0 < 0 || c->free_y ? pad : 0;
+    if (c->y_to > c->y_from)
+        f->y0 = c->y_from, f->y1 = c->y_to;
 }
 
 /* ---- axes ---- */

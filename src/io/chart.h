@@ -30,6 +30,8 @@ typedef struct chart {
     int32_t line_count;
     bool log_x, log_y; /* values that are not positive are left out */
     bool free_y;       /* the y axis need not begin at zero */
+    /* Of a plain y axis, where the second is larger: lines that go on beyond it run out of the frame. */
+    double y_from, y_to;
 } chart;
 
 /* How far a plain y axis goes on beyond its values, to each side of zero on which there are some, in parts of its

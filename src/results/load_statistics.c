@@ -117,7 +117,8 @@ static void load_range(const double *value, int32_t count, double *low, double *
         }
 }
 
-double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut)
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut,
+                       double axis[2])
 {
     double low = 0, high = 0, least = 0, greatest = 0;
     for (int32_t k = 0; k < lines; k++)
@@ -130,11 +131,13 @@ double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines
     bottom -= bottom < 0 ? pad : 0;
     top += top > 0 ? pad : 0;
     *cut = LOAD_CUT_NONE;
+    axis[0] = axis[1] = 0;
     if (!(high > low) || (least >= bottom && greatest <= top))
         return largest;
     *cut = largest < bottom || largest > top ? LOAD_CUT_LARGEST : LOAD_CUT_SOME;
     for (int32_t i = 0; i < count; i++)
         if (isfinite(raw[i]))
-            raw[i] = fmin(fmax(raw[i], from), to);
+            raw[i] = fmin(fmax(raw[i], bottom - pad), top + pad);
+    axis[0] = bottom, axis[1] = top;
     return largest;
 }

@@ -26,9 +26,11 @@ typedef enum load_cut {
 } load_cut;
 
 /* Where values of single steps lie beyond the axis of a chart that shows them as far as the averaged values and zero,
-   and a tenth of that range beyond, they end there.  averaged: `lines` arrays of `count` values.  Returns the value of
-   largest size before that, 0 without any. */
-double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut);
+   and a tenth of that range beyond, they run out of it: they end only where nobody sees it, for where they end inside
+   they look like values that stay the same.  axis: of that chart, from which value to which; 0 and 0 where all is
+   shown.  averaged: `lines` arrays of `count` values.  Returns the value of largest size before that, 0 without any. */
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, load_cut *cut,
+                       double axis[2]);
 
 /* Values at equal distances `step` in time, each a mean over a window that ends there, 0: none.  Without values all is
    empty.  false: no memory. */

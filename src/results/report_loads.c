@@ -140,8 +140,11 @@ static fram_status station_picture(report *r, fram_error *error)
     if (access(path, F_OK) != 0 && errno == ENOENT)
         return FRAM_OK;
     status = file_read(r->ctx, path, 64 << 20, &png, &size, error);
+    bool moored = scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring.lines.count > 0;
     if (status == FRAM_OK)
-        html_picture(&r->page, png, size, "Footprint, offsets, heading, loads and lines");
+        html_picture(&r->page, png, size,
+                     moored ? "Footprint, offsets, heading, loads and lines"
+                            : "Footprint, offsets, heading, loads and power");
     memory_free(r->ctx, png);
     return status;
 }

@@ -106,7 +106,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
         static const char *const beyond[] = {"", "; some lie beyond the picture", ", beyond the picture"};
         load_cut cut;
-        double spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut);
+        double axis[2], spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut, axis);
         const chart_line lines[] = {
             chart_line_make("along the vessel, each step", column[TIMES].data, column[RAW_X].data, rows, false),
             chart_line_make("along X, averaged", column[TIMES].data, column[MEAN_X].data, rows, true),
@@ -125,6 +125,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g %s%s",
                  scenario_averaging_window(s), of_mean, spike, unit.name, beyond[cut]);
         chart c = chart_make(title, subtitle, "time [s]", force, lines, 3);
+        c.y_from = axis[0], c.y_to = axis[1];
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }
     for (int k = 0; k < CHANNELS; k++)

@@ -264,6 +264,26 @@ static bool has_ink(cairo_t *page, int left, int right, int top, int bottom)
     return found;
 }
 
+/* What lies beyond an axis that ends before it runs out of the frame, up to its edge and no further. */
+START_TEST(lines_run_out_of_the_frame)
+{
+    enum { WIDE = 620, HIGH = 400, TOP = 58 };
+    const double x[3] = {0, 1, 2}, y[3] = {0, 9, 0};
+    const chart_line line = chart_line_make("", x, y, 3, true);
+    for (int cut = 0; cut < 2; cut++) {
+        chart c = chart_make("", "", "", "", &line, 1);
+        c.y_to = cut ? 2 : 0;
+        cairo_t *page = NULL;
+        fram_error error;
+        ck_assert_int_eq(image_begin(WIDE, HIGH, &page, &error), FRAM_OK);
+        chart_draw(page, &c, WIDE, HIGH, false);
+        ck_assert_int_eq(has_ink(page, 90, 570, TOP, TOP + 3), cut);
+        ck_assert(!has_ink(page, 90, 570, 0, TOP));
+        cairo_destroy(page);
+    }
+}
+END_TEST
+
 /* Names that are wider than the plot together stand in rows above it, and a colour that comes again is dashed. */
 START_TEST(legends_have_their_room)
 {
@@ -297,7 +317,8 @@ START_TEST(legends_have_their_room)
 END_TEST
 
 TEST_MAIN("fitted", texts_end_in_their_room, ends_are_kept, lines_are_broken_at_words, bands_have_gaps,
-          ticks_have_the_digits_of_their_step, labels_have_their_room, titles_have_their_room, legends_have_their_room)
+          ticks_have_the_digits_of_their_step, labels_have_their_room, titles_have_their_room,
+          lines_run_out_of_the_frame, legends_have_their_room)
 
 #else
 

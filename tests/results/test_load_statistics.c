@@ -129,21 +129,27 @@ START_TEST(bars_hold_their_own_values)
 }
 END_TEST
 
-/* The axis shows the averaged loads: spikes beyond it end a tenth of their range from them, and the largest is told. */
+/* The axis shows the averaged loads and a tenth of their range beyond, with the chart's margin of 5 %: spikes beyond go
+   on out of the frame, and the largest is told. */
 START_TEST(spikes)
 {
     double raw[4] = {0, -700, 90, 400};
     const double x[4] = {0, -100, -50, 0}, y[4] = {0, 40, 100, (double)NAN};
     const double *const averaged[] = {x, y};
     load_cut cut = LOAD_CUT_NONE;
-    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -700, 0);
+    double axis[2];
+    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut, axis), -700, 0);
     ck_assert_int_eq(cut, LOAD_CUT_LARGEST);
+    assert_absolute(axis[0], -132, 1e-12);
+    assert_absolute(axis[1], 132, 1e-12);
     assert_absolute(raw[0], 0, 0);
-    assert_absolute(raw[1], -120, 1e-12);
+    assert_absolute(raw[1], -144, 1e-12);
     assert_absolute(raw[2], 90, 0);
-    assert_absolute(raw[3], 120, 1e-12);
-    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -120, 1e-12);
+    assert_absolute(raw[3], 144, 1e-12);
+    raw[1] = -131, raw[3] = 130;
+    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut, axis), -131, 0);
     ck_assert_int_eq(cut, LOAD_CUT_NONE);
+    ck_assert(axis[0] == 0 && axis[1] == 0);
 }
 END_TEST
 
@@ -159,13 +165,14 @@ START_TEST(spikes_on_the_axis)
     } cases[] = {{one, {-100, -10}, {-100, -10}, -100, LOAD_CUT_NONE},
                  {one, {-110, 0}, {-110, 0}, -110, LOAD_CUT_NONE},
                  {two, {-131, 130}, {-131, 130}, -131, LOAD_CUT_NONE},
-                 {two, {-134, 130}, {-120, 120}, -134, LOAD_CUT_LARGEST},
-                 {one, {-100, 20}, {-100, 10}, -100, LOAD_CUT_SOME},
+                 {two, {-134, 130}, {-134, 130}, -134, LOAD_CUT_LARGEST},
+                 {one, {-100, 30}, {-100, 21}, -100, LOAD_CUT_SOME},
                  {one, {-100, (double)NAN}, {-100, (double)NAN}, -100, LOAD_CUT_NONE}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double raw[2] = {cases[i].raw[0], cases[i].raw[1]};
+        double axis[2];
         load_cut cut;
-        assert_absolute(load_spikes_cut(raw, cases[i].averaged, 1, 2, &cut), cases[i].largest, 0);
+        assert_absolute(load_spikes_cut(raw, cases[i].averaged, 1, 2, &cut, axis), cases[i].largest, 0);
         ck_assert_msg(cut == cases[i].cut, "case %zu: %d", i, (int)cut);
         for (int k = 0; k < 2; k++)
             ck_assert_msg(raw[k] == cases[i].drawn[k] || isnan(cases[i].drawn[k]), "case %zu: %g", i, raw[k]);
