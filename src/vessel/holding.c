@@ -35,6 +35,14 @@ static bool balances(const holding_case *c, vec3 demand, vec3 *missed)
     return reached;
 }
 
+/* Whether what thrusters miss of a demand leaves them the heading: no moment, but for what that has a price. */
+static bool holds_turn(const holding_case *c, vec3 demand, vec3 missed)
+{
+    double lever = 0.5 * c->length;
+    demand.z /= lever;
+    return fabs(missed.z) <= ALLOCATION_NEAR * lever * vec3_length(demand);
+}
+
 /* The thruster nearest to its limit, by the orders. */
 static int32_t nearest_to_limit(const holding_case *c)
 {
@@ -84,6 +92,7 @@ typedef struct rest_load {
     steady_load load;
     const void *user;
     vec3 thrust;      /* that the thrusters give, vessel frame */
+    bool turns;       /* nothing but the lines holds the heading */
     double stiffness; /* that keeps a given heading [N m/rad] */
 } rest_load;
 
@@ -130,7 +139,9 @@ static holding hold_by_lines(const holding_case *c, const rest_load *rest, doubl
     vec3 position = c->position;
     quat orientation = quat_from_roll_pitch_yaw(0, 0, c->heading);
     holding out = {.number = -1};
-    if (!mooring_nearest_balance(c->lines, c->vessel, c->length, rest_of, &held, &position, &orientation)) {
+    bool found = (rest->turns ? mooring_rest : mooring_nearest_balance)(c->lines, c->vessel, c->length, rest_of, &held,
+                                                                        &position, &orientation);
+    if (!found) {
         out.use = HUGE_VAL;
         return out;
     }
@@ -168,7 +179,8 @@ holding holding_find(const holding_case *c, steady_load load, const void *user)
         return (holding){use, thrusters ? HOLDING_THRUSTER : HOLDING_NOTHING, busiest, use, 0, 0, 0};
     if (thrusters)
         balances(c, demand, &missed);
-    rest_load rest = {c, load, user, vec3_sub(demand, missed), 0};
+    bool turns = !c->heading_given && !(thrusters && holds_turn(c, demand, missed));
+    rest_load rest = {c, load, user, vec3_sub(demand, missed), turns, 0};
     if (thrusters && c->heading_alone) /* what force comes with the moment is for the lines */
         rest.thrust = thruster_ordered_effect(c->thrusters, c->vessel);
     holding out = hold_by_lines(c, &rest, sqrt(steady.x * steady.x + steady.y * steady.y));

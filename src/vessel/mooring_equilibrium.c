@@ -302,17 +302,32 @@ bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double len
     return take_pose(&b, at, position, orientation, &residual);
 }
 
+/* Where a vessel that is put at `start` comes to rest; near: Newton's pose, which is as good as any where it is that
+   rest, and is taken where there is none. */
+static vec3 rest_from(const balance *b, vec3 start, vec3 near)
+{
+    vec3 low, high;
+    return find_rest(b, start, &low, &high) && !is_rest(b, near, low, high) ? narrow_rest(b, low, high) : near;
+}
+
+bool mooring_rest(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
+                  vec3 *position, quat *orientation)
+{
+    vec3 attitude = quat_roll_pitch_yaw(*orientation);
+    balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
+    double residual;
+    vec3 start = vec3_make(position->x, position->y, length * attitude.z);
+    return take_pose(&b, rest_from(&b, start, balance_near(&b, start)), position, orientation, &residual);
+}
+
 bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                          vec3 *position, quat *orientation, mooring_balance *out)
 {
-    vec3 attitude = quat_roll_pitch_yaw(*orientation), low, high;
+    vec3 attitude = quat_roll_pitch_yaw(*orientation);
     balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
     vec3 start = vec3_make(position->x, position->y, length * attitude.z);
-    vec3 at = balance_near(&b, start), rest = at;
+    vec3 at = balance_near(&b, start), rest = rest_from(&b, start, at);
     bool meant = misses_no_more(&b, at, BALANCED) && fabs(at.z - start.z) <= radians(MEANT_DEG) * length;
-    /* Newton's pose is as good as any where it is that rest. */
-    if (find_rest(&b, start, &low, &high) && !is_rest(&b, at, low, high))
-        rest = narrow_rest(&b, low, high);
     if (!meant)
         at = rest;
     out->turn_left = (rest.z - at.z) / length;

@@ -173,6 +173,46 @@ START_TEST(turned_by_the_load_alone)
 }
 END_TEST
 
+/* A drift along X that pushes with 1e5 N, and turns a ship across it as Munk's moment does. */
+static vec3 moment_of_munk(const void *user, double heading)
+{
+    (void)user;
+    return vec3_make(1e5, 0, 4e6 * real_sin(2 * heading));
+}
+
+static vec3 moment_of_a_vane(const void *user, double heading)
+{
+    vec3 load = moment_of_munk(user, heading);
+    return vec3_make(load.x, load.y, -load.z);
+}
+
+/* What holds no heading is turned from a balance that does not hold, be it near, or that of its own heading.  Thrusters
+   that give the moment hold the heading. */
+START_TEST(no_balance_that_any_touch_ends)
+{
+    static const double across[] = {40, 50, 0, 90};
+    for (size_t k = 0; k < sizeof across / sizeof *across; k++) {
+        held h;
+        double offset = 1e5 / (2 * 5e4 + 2 * 4e5 / 600);
+        hold_begin(&h);
+        add_springs(&h, 4, 5e4, 1e6);
+        h.c.heading = radians(across[k]);
+        holding at = holding_find(&h.c, moment_of_munk, NULL);
+        assert_absolute(degrees(at.turn), 90 - across[k], 1e-3);
+        assert_relative(at.offset, offset, 1e-3);
+        at = holding_find(&h.c, moment_of_a_vane, NULL);
+        assert_absolute(degrees(at.turn), across[k], 1e-3);
+        add_thruster(&h, supply_tunnel(30));
+        add_thruster(&h, supply_tunnel(-30));
+        h.c.heading_alone = true;
+        at = holding_find(&h.c, moment_of_munk, NULL);
+        assert_absolute(at.turn, 0, 1e-6);
+        assert_relative(at.offset, offset, 1e-3);
+        hold_end(&h);
+    }
+}
+END_TEST
+
 /* Thrusters that hold the heading alone, wherever they are: the moment is reached, and the lines hold what comes with
    it. */
 START_TEST(a_moment_alone)
@@ -202,4 +242,5 @@ START_TEST(a_moment_alone)
 }
 END_TEST
 
-TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone)
+TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone,
+          no_balance_that_any_touch_ends)
