@@ -5,7 +5,7 @@
 /* The multiple of a load that thrusters balance is sought from one over this to this, to this part of itself. */
 #define MOST_MULTIPLE 1e4
 #define MULTIPLE_PRECISION 1e-4
-/* A turret's ship is kept at its heading by a spring of this many times the load's force on its length. */
+/* A ship whose heading is held is kept there by a spring of this many times the load's force on its length. */
 #define HEADING_STIFFNESS 1e4
 
 const char *holding_item_name(holding_item item)
@@ -93,7 +93,7 @@ typedef struct rest_load {
     const void *user;
     vec3 thrust;      /* that the thrusters give, vessel frame */
     bool turns;       /* nothing but the lines holds the heading */
-    double stiffness; /* that keeps a given heading [N m/rad] */
+    double stiffness; /* that keeps a heading which is held [N m/rad] */
 } rest_load;
 
 static vec3 rest_of(const void *user, double heading)
@@ -101,7 +101,7 @@ static vec3 rest_of(const void *user, double heading)
     const rest_load *r = user;
     vec3 sum = r->load(r->user, heading);
     sum = vec3_add(sum, plane_to_global(heading, r->thrust));
-    if (r->c->heading_given)
+    if (!r->turns)
         sum.z = -r->stiffness * plane_angle(heading - r->c->heading);
     return sum;
 }

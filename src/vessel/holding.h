@@ -39,7 +39,7 @@ typedef struct holding {
 } holding;
 
 /* Where neither a turret nor thrusters hold the heading (these do while they give all of the moment), lines hold the
-   vessel where it comes to rest, turned by its load from `heading`; else in the balance next to that, stable or not.
+   vessel where it comes to rest, turned by its load from `heading`; else it keeps that.
    load: force [N] and yaw moment about the centre of mass [N m], global frame, for a heading [rad].
    thruster_use is 1 over the largest multiple of the load, or of its moment alone, that the thrusters balance, each
    within its limits and allowed sectors; its number that of the thruster which is nearest to its limit then. */

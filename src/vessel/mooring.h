@@ -90,8 +90,8 @@ bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length,
 /* The same for a vessel that stays in no balance which any touch ends.  Pose, load and false as above. */
 bool mooring_rest(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                   vec3 *position, quat *orientation);
-/* The balance that Newton's method finds from that pose on, stable or not: for a load that holds the heading.  Where it
-   finds none, the one to which the moment turns the vessel.  Pose, load and false as above. */
+/* The balance that Newton's method finds from that pose on, stable or not: for a load that holds the heading.
+   Pose, load and false as above. */
 bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                              vec3 *position, quat *orientation);
 

@@ -294,12 +294,8 @@ bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double len
     vec3 attitude = quat_roll_pitch_yaw(*orientation);
     balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
     double residual;
-    vec3 start = vec3_make(position->x, position->y, length * attitude.z), low, high;
-    vec3 at = balance_near(&b, start);
-    /* Lines that end near one point hardly turn a vessel, thrust and load do: Newton's method goes astray there. */
-    if (!misses_no_more(&b, at, FOUND) && find_rest(&b, start, &low, &high))
-        at = narrow_rest(&b, low, high);
-    return take_pose(&b, at, position, orientation, &residual);
+    vec3 start = vec3_make(position->x, position->y, length * attitude.z);
+    return take_pose(&b, balance_near(&b, start), position, orientation, &residual);
 }
 
 /* Where a vessel that is put at `start` comes to rest; near: Newton's pose, which is as good as any where it is that

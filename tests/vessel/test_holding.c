@@ -213,6 +213,28 @@ START_TEST(no_balance_that_any_touch_ends)
 }
 END_TEST
 
+/* Lines that end before the centre of mass turn the ship as they give, which the thrusters that hold it do not let
+   them. */
+START_TEST(a_heading_that_thrusters_hold)
+{
+    held h;
+    hold_begin(&h);
+    add_springs(&h, 4, 5e4, 1e6);
+    for (int i = 0; i < h.lines.count; i++) {
+        h.lines.fairlead[i].x += 20;
+        h.lines.anchor[i].x += 20;
+    }
+    add_thruster(&h, supply_tunnel(30));
+    add_thruster(&h, supply_tunnel(-30));
+    h.c.heading_alone = true;
+    vec3 load = {0, 1e5, 4e6};
+    holding at = holding_find(&h.c, steady, &load);
+    assert_absolute(at.turn, 0, 1e-3);
+    assert_relative(at.offset, 1e5 / (2 * 5e4 + 2 * 4e5 / 600), 1e-2);
+    hold_end(&h);
+}
+END_TEST
+
 /* Thrusters that hold the heading alone, wherever they are: the moment is reached, and the lines hold what comes with
    it. */
 START_TEST(a_moment_alone)
@@ -243,4 +265,4 @@ START_TEST(a_moment_alone)
 END_TEST
 
 TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone,
-          no_balance_that_any_touch_ends)
+          no_balance_that_any_touch_ends, a_heading_that_thrusters_hold)
