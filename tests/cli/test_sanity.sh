@@ -85,9 +85,9 @@ expect 0 "$FRAM" check led.yaml --set domain.y_min=-20 --set domain.band=10
 grep 'domain: its edge' err && fail "a ship that never turns is told to reach as far as it is long"
 told led.yaml "its edge with the band is 10 m from vessel, which reaches 38 m towards it|by 28 m or more" \
     --set domain.y_min=-20 --set domain.band=10 --set vessel.heading_deg=90
-told led.yaml "its edge with the band is 30 m from vessel, which reaches 37.66 m towards it|by 7.66 m or more" \
-    --set domain.x_min=-40 --set domain.band=10 --set vessel.heading_deg=30
-expect 0 "$FRAM" check led.yaml --set domain.x_min=-47.66 --set domain.band=10 --set vessel.heading_deg=30
+told led.yaml "its edge with the band is 30 m from vessel, which reaches 39.07 m towards it|by 9.08 m or more" \
+    --set domain.x_min=-40 --set domain.band=10 --set vessel.heading_deg=10
+expect 0 "$FRAM" check led.yaml --set domain.x_min=-49.08 --set domain.band=10 --set vessel.heading_deg=10
 grep 'domain: its edge' err && fail "the metres that are told do not suffice"
 round=(--set vessel.hull.form=cone --set vessel.hull.length=19 --set vessel.hull.flare_angle_deg=30)
 told ship.yaml "its edge with the band is 9 m from vessel, which reaches 9.5 m as it turns|by 0.5 m or more" \

@@ -56,7 +56,7 @@ done
 expect 0 "$FRAM" check mm.yaml --set vessel.hull.file_scale=0.001 --set domain.boundary=open
 # One in metres that is read as if in millimetres, or a model.
 sed 's/mm.obj/metres.obj/' mm.yaml >metres.yaml
-told metres.yaml "vessel.hull.file: the waterline is 2 m long|hull.file_scale, now 0.05, is too small, or give run.scale" \
+told metres.yaml "hull.file: the waterline is 2 m long|hull.file_scale, now 0.05, is too small, or give run.scale of" \
     --set vessel.hull.file_scale=0.05
 grep 'millimetres' err && fail "a hull that is too short is told to be in millimetres"
 finish "ships in the scale of a model, and models with numbers of ships, are told with key and remedy"
