@@ -146,6 +146,22 @@ static void reverse(vec2 *v, int32_t count)
     }
 }
 
+/* The outlines of all that a ring winds round that meets itself, as at a place. */
+static fram_status mend_crossed(importing *m, polygon p, vec2 at)
+{
+    import_meetings met;
+    bool cut = false;
+    fram_status status = import_count_meetings(m->ctx, p, &met, m->error);
+    if (status == FRAM_OK && met.elsewhere == 0)
+        status = import_cut_at_corners(m->ctx, p, &m->pieces, &cut, m->error);
+    if (status != FRAM_OK || cut)
+        return status;
+    if (import_meets_too_often(p, &met))
+        return refuse(
+            m, "crosses or touches itself too often to be repaired; simplify it before, or have bad rings dropped", at);
+    return overlay_make_valid(m->plane, p, &m->pieces, m->error);
+}
+
 /* The sound outlines of the ring at work, in m->pieces; none when it is left out. */
 static fram_status sound_pieces(importing *m)
 {
@@ -169,12 +185,7 @@ static fram_status sound_pieces(importing *m)
     char reason[OVERLAY_REASON_SIZE];
     overlay_is_valid(m->plane, p, reason, &at);
     status = note_fault(m, IMPORT_NOTE_CROSSED, true, at, &mended);
-    bool too_often = false;
-    if (status == FRAM_OK && mended)
-        status = import_crosses_too_often(m->ctx, p, &too_often, m->error);
-    if (too_often)
-        return refuse(m, "crosses itself too often to be repaired; bad rings can be dropped", at);
-    return status == FRAM_OK && mended ? overlay_make_valid(m->plane, p, &m->pieces, m->error) : status;
+    return status == FRAM_OK && mended ? mend_crossed(m, p, at) : status;
 }
 
 /* ---- pieces of a ring ---- */

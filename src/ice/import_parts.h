@@ -16,8 +16,20 @@ typedef ARRAY(import_pair) import_pair_array;
 fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,
                          fram_error *error);
 
-/* Whether a ring crosses itself so often that it is no outline to be repaired.  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
-fram_status import_crosses_too_often(context *ctx, polygon p, bool *too_often, fram_error *error);
+/* How often a ring meets itself. */
+typedef struct import_meetings {
+    int64_t corners;   /* pairs of corners at one place */
+    int64_t elsewhere; /* edges that cross, and corners on an edge */
+} import_meetings;
+
+/* Counts them, on to where they are too many where not all are of corners.  No vertex of p is the one before.
+   FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
+fram_status import_count_meetings(context *ctx, polygon p, import_meetings *out, fram_error *error);
+/* Whether overlay_make_valid would take more than some ten seconds for a ring, in which nobody can stop it. */
+bool import_meets_too_often(polygon p, const import_meetings *met);
+/* What overlay_make_valid would append to out, for a ring that meets itself at common corners alone; cut: false, and
+   nothing was appended, where it crosses itself there.  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
+fram_status import_cut_at_corners(context *ctx, polygon p, polygon_list *out, bool *cut, fram_error *error);
 
 /* Whether floes are a tile that repeats itself beyond options->domain, as options->tile says: none overlaps another or
    a copy of one. */
