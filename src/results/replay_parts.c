@@ -3,6 +3,7 @@
 #include "base/sort.h"
 #include "base/transcendental.h"
 #include "geometry/overlay.h"
+#include "vessel/hull_plan.h"
 
 #include <stdlib.h>
 
@@ -148,7 +149,7 @@ static fram_status unite(solid_plan *s, int32_t first, int32_t count, polygon_li
         if (!polygon_list_push(s->ctx, &parts, (polygon){s->upper.data[i].corner, 3}))
             status = error_memory(s->error);
     if (status == FRAM_OK)
-        status = overlay_union(s->plane, &parts, out, s->error);
+        status = hull_plan_unite(s->ctx, s->plane, &parts, out, s->error);
     polygon_list_free(s->ctx, &parts);
     return status;
 }

@@ -7,6 +7,7 @@
 #include "sim/build_keep_out.h"
 #include "sim/build_level.h"
 #include "sim/draw_ice.h"
+#include "vessel/hull_plan.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -113,7 +114,7 @@ fram_status build_plan(context *ctx, const world *w, int32_t body, build_slab sl
         status = error_memory(error);
     /* Where no union is found, the outline alone is right, if larger. */
     if (status == FRAM_OK && polygon_list_count(&parts) > 1 &&
-        overlay_union(w->scratch.plane, &parts, &together, &unused) == FRAM_ERROR_MEMORY)
+        hull_plan_unite(ctx, w->scratch.plane, &parts, &together, &unused) == FRAM_ERROR_MEMORY)
         status = error_memory(error);
     double area = build_plan_area(&together);
     bool apart = area > 0 && area < (1 - OPEN_PART) * polygon_area(whole), good = status == FRAM_OK;

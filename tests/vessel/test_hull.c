@@ -1,5 +1,6 @@
 /* Generated hulls: closed, exactly of the given particulars, convex pieces that fill them, zones. */
 #include "samples.h"
+#include "vessel/hull_plan.h"
 
 typedef struct hull {
     mesh surface;
@@ -253,5 +254,52 @@ START_TEST(zones)
 }
 END_TEST
 
+/* Squares of 2 m, `apart` from each other. */
+static bool add_squares(context *ctx, polygon_list *out, int across, double apart)
+{
+    bool good = true;
+    for (int i = 0; i < across * across && good; i++) {
+        double x = (2 + apart) * (i % across), y = (2 + apart) * (i / across);
+        good =
+            polygon_list_push(ctx, out, (polygon){(const vec2[]){{x, y}, {x + 2, y}, {x + 2, y + 2}, {x, y + 2}}, 4});
+    }
+    return good;
+}
+
+/* Parts of a plan that overlap, touch and stand alone, as one by one; and so many that these would take a minute. */
+START_TEST(parts_of_a_plan_are_united_where_they_lie_together)
+{
+    enum { MANY = 60 };
+    static const double apart[] = {-0.5, 0, 1e-12, 0.5};
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    overlay *plane = overlay_create(&ctx);
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++) {
+        polygon_list parts = {0}, together = {0}, expected = {0};
+        /* One of other parts, before and behind them in the order of places. */
+        const vec2 other[3] = {{-5, 0.5}, {-4, 0.25}, {-4.5, 1}}, bridge[3] = {{1, 1}, {3.5, 1.25}, {1, 1.5}};
+        ck_assert(add_squares(&ctx, &parts, 3, apart[i]) && polygon_list_push(&ctx, &parts, (polygon){other, 3}) &&
+                  polygon_list_push(&ctx, &parts, (polygon){bridge, 3}));
+        assert_ok(overlay_union(plane, &parts, &expected, &error), error);
+        assert_ok(hull_plan_unite(&ctx, plane, &parts, &together, &error), error);
+        ck_assert_int_eq(polygon_list_count(&together), apart[i] > 1e-3 ? 9 : polygon_list_count(&expected));
+        ck_assert_int_eq(together.vertex.count, expected.vertex.count);
+        ck_assert_mem_eq(together.vertex.data, expected.vertex.data,
+                         (size_t)expected.vertex.count * sizeof *expected.vertex.data);
+        polygon_list_free(&ctx, &parts);
+        polygon_list_free(&ctx, &together);
+        polygon_list_free(&ctx, &expected);
+    }
+    polygon_list parts = {0}, together = {0};
+    ck_assert(add_squares(&ctx, &parts, MANY, 1));
+    assert_ok(hull_plan_unite(&ctx, plane, &parts, &together, &error), error);
+    ck_assert_int_eq(polygon_list_count(&together), MANY * MANY);
+    polygon_list_free(&ctx, &parts);
+    polygon_list_free(&ctx, &together);
+    overlay_free(plane);
+}
+END_TEST
+
 TEST_MAIN("hull", box, icebreaker, icebreaker_waterline, icebreaker_limits, port_mirrors_starboard, wrong_particulars,
-          memory_runs_out, zones)
+          memory_runs_out, zones, parts_of_a_plan_are_united_where_they_lie_together)
