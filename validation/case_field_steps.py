@@ -40,7 +40,8 @@ def found(rule, dt, series):
         kinds = ladder.fractures(f"field_steps/{rule}_{dt:g}_{seed}")["kind"]
         averaged = [-f / 1e3 for f in ladder.after(run, "ice_force_averaged_x", BEGIN)]
         raw = [-f / 1e3 for f in ladder.after(run, "ice_force_x", BEGIN)]
-        each.append((kinds.count(2), kinds.count(1), statistics.fmean(raw), max(averaged), max(raw)))
+        each.append((kinds.count(2), kinds.count(1), statistics.fmean(raw), ladder.greatest(averaged),
+                     ladder.greatest(raw)))
     return ladder.means_and_errors(each)
 
 

@@ -157,9 +157,10 @@ def rises(values):
 
 
 def mean_and_error(values):
-    """Mean and its standard error."""
-    spread = statistics.stdev(values) if len(values) > 1 else math.nan
-    return statistics.fmean(values), spread / math.sqrt(len(values))
+    """Mean and its standard error; stdev() raises an error of its own where one of them is a NaN."""
+    mean = statistics.fmean(values)
+    spread = statistics.stdev(values) if len(values) > 1 and not math.isnan(mean) else math.nan
+    return mean, spread / math.sqrt(len(values))
 
 
 def means_and_errors(each):

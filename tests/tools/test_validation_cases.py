@@ -14,6 +14,8 @@ import tempfile
 
 ROOT = pathlib.Path(os.environ["FRAM_SOURCE"])
 sys.path.insert(0, str(ROOT / "validation"))
+import case_field_steps  # noqa: E402
+import case_positioning  # noqa: E402
 import case_squeeze  # noqa: E402
 import case_towed_box  # noqa: E402
 import ladder  # noqa: E402
@@ -56,7 +58,29 @@ def check_nan():
     assert [good for _, good in box.checks] == [False, True], box.checks
 
 
+def follow(bandwidth):
+    """A loop whose offset has a NaN behind its first value, with the slowest observer."""
+    return [0.0, 1.0, 2.0], [0.0, math.nan if bandwidth < 1 else 1.2, 1.3 if bandwidth < 1 else 0.5]
+
+
+def check_nan_of_runs():
+    """One in a largest load, beside a sound mean, and one in a peak."""
+    load = {"time": (0.0, 30.0, 40.0, 50.0), "ice_force_x": (0.0, -1e3, -2e3, -3e3)}
+    load["ice_force_averaged_x"] = (0.0, -1e3, math.nan, -3e3)
+    asked = ladder.fractures, ladder.figure, case_positioning.follow, case_positioning.exact
+    ladder.fractures, ladder.figure = lambda _: {"kind": ()}, lambda *_: None
+    case_positioning.follow = follow
+    case_positioning.exact = lambda: ([0.0, 1.0], [0.0, case_positioning.PEAK], [0.0, case_positioning.INTEGRAL])
+    breaks = case_field_steps.found("response", 0.01, iter([load] * 16))
+    positioning = case_positioning.case(None)
+    ladder.fractures, ladder.figure, case_positioning.follow, case_positioning.exact = asked
+    assert breaks[2][0] == 2 and all(map(math.isnan, breaks[3])) and breaks[4][0] == 3, breaks
+    text, good = positioning.checks[-1]
+    assert "lag shows" in text and not good, positioning.checks
+
+
 check_nan()
+check_nan_of_runs()
 with tempfile.TemporaryDirectory() as out:
     done = subprocess.run([sys.executable, str(ROOT / "validation" / "run.py"), "--only", "squeeze", "--out", out],
                           capture_output=True, text=True)
