@@ -38,11 +38,13 @@ typedef struct holding {
     double offset, turn;           /* of the watched point [m], of the heading [rad] */
 } holding;
 
-/* Where neither a turret nor thrusters hold the heading (these do while they give all of the moment), lines hold the
-   vessel where it comes to rest, turned by its load from `heading`; else it keeps that.
+/* Where neither a turret nor thrusters hold the heading, lines hold the vessel where it comes to rest, turned by its
+   load from `heading`; else it keeps that.  Thrusters hold it while they give all of the moment of load and lines, and
+   the vessel is turned back from a degree beside; else they push on as they do at `heading`, in the vessel's frame.
    load: force [N] and yaw moment about the centre of mass [N m], global frame, for a heading [rad].
-   thruster_use is 1 over the largest multiple of the load, or of its moment alone, that the thrusters balance, each
-   within its limits and allowed sectors; its number that of the thruster which is nearest to its limit then. */
+   thruster_use is 1 over the largest multiple of the load, or of its moment alone, that the thrusters balance (with
+   lines and no turret the moment is that of load and lines), each within its limits and allowed sectors; its number
+   that of the thruster which is nearest to its limit then. */
 holding holding_find(const holding_case *c, steady_load load, const void *user);
 
 /* "thruster", "line", ... */

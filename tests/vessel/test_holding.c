@@ -213,10 +213,50 @@ START_TEST(no_balance_that_any_touch_ends)
 }
 END_TEST
 
-/* Lines that end before the centre of mass turn the ship as they give, which the thrusters that hold it do not let
-   them. */
+/* None with the bow in the drift; from there it turns the ship to port, or to starboard, wherever it lies. */
+static vec3 moment_to_one_side(const void *user, double heading)
+{
+    double most = *(const double *)user, s = real_sin(heading);
+    return vec3_make(1e5, 0, most * s * s * real_cos(heading));
+}
+
+/* Thrusters that can give no moment hold no heading, though none is missed: a propeller on the centreline, with the bow
+   in a drift that turns the ship across, and tunnels that push all they can, across one that turns it along. */
+START_TEST(no_heading_without_a_moment)
+{
+    held h;
+    hold_begin(&h);
+    add_springs(&h, 4, 5e4, 1e7);
+    add_thruster(&h, supply_main(0));
+    holding at = holding_find(&h.c, moment_of_munk, NULL);
+    assert_absolute(degrees(at.turn), 90, 1e-3);
+    at = holding_find(&h.c, moment_of_a_vane, NULL);
+    assert_absolute(degrees(at.turn), 0, 1e-3);
+    for (double most = -4e8; most < 5e8; most += 8e8) {
+        at = holding_find(&h.c, moment_to_one_side, &most);
+        assert_absolute(degrees(at.turn), 90, 1e-3);
+    }
+    vec3 little = {1e5, 0, 1e3};
+    ck_assert(isinf(holding_find(&h.c, steady, &little).use));
+    h.b.thrusters.failed[0] = 1;
+    add_thruster(&h, supply_tunnel(30));
+    add_thruster(&h, supply_tunnel(-30));
+    h.c.heading = 0.5 * PI;
+    at = holding_find(&h.c, moment_of_a_vane, NULL);
+    assert_absolute(degrees(at.turn), 0, 1e-3);
+    h.b.thrusters.ahead[1] = h.b.thrusters.ahead[2] = h.b.thrusters.astern[1] = h.b.thrusters.astern[2] = 2e4;
+    at = holding_find(&h.c, moment_of_a_vane, NULL);
+    assert_absolute(degrees(at.turn), 90, 1e-3);
+    hold_end(&h);
+}
+END_TEST
+
+/* Lines that end before the centre of mass turn the ship as they give, by 20 m times 1e5 N.  Thrusters that give what
+   load and lines leave hold it; what is beyond their couple turns the ship about the end of the lines, until these turn
+   it less. */
 START_TEST(a_heading_that_thrusters_hold)
 {
+    static const double moments[] = {4e6, 1.3e7, -1.1e7};
     held h;
     hold_begin(&h);
     add_springs(&h, 4, 5e4, 1e6);
@@ -227,11 +267,70 @@ START_TEST(a_heading_that_thrusters_hold)
     add_thruster(&h, supply_tunnel(30));
     add_thruster(&h, supply_tunnel(-30));
     h.c.heading_alone = true;
-    vec3 load = {0, 1e5, 4e6};
-    holding at = holding_find(&h.c, steady, &load);
-    assert_absolute(at.turn, 0, 1e-3);
-    assert_relative(at.offset, 1e5 / (2 * 5e4 + 2 * 4e5 / 600), 1e-2);
+    double most = 60 * h.b.thrusters.ahead[0];
+    ck_assert(most > 1.1e7 && most < 1.3e7);
+    for (size_t k = 0; k < sizeof moments / sizeof *moments; k++) {
+        double asked = moments[k] - 2e6;
+        vec3 load = {0, 1e5, moments[k]};
+        holding at = holding_find(&h.c, steady, &load);
+        assert_relative(at.thruster_use, fmin(fabs(asked) / most, 1), 1e-3);
+        double cosine = (most + moments[k]) / 2e6; /* of the turn at which what is left vanishes */
+        assert_absolute(cos(at.turn), fabs(asked) < most ? 1 : cosine, 1e-5);
+        if (fabs(asked) < most)
+            assert_relative(at.offset, 1e5 / (2 * 5e4 + 2 * 4e5 / 600), 1e-2);
+    }
     hold_end(&h);
+}
+END_TEST
+
+/* What is beyond the thrusters turns the ship on its lines, be it ever so little. */
+START_TEST(turned_by_what_is_missed)
+{
+    held h;
+    hold_begin(&h);
+    add_springs(&h, 4, 5e4, 1e7);
+    for (int i = 0; i < h.lines.count; i++) {
+        vec3 out = plane_to_global(0.5 * PI * i, vec3_make(35, 0, 0));
+        h.lines.fairlead[i] = vec3_add(h.lines.fairlead[i], out);
+        h.lines.anchor[i] = vec3_add(h.lines.anchor[i], out);
+    }
+    add_thruster(&h, supply_tunnel(30));
+    add_thruster(&h, supply_tunnel(-30));
+    h.c.heading_alone = true;
+    vec3 load = {0, 0, 60 * h.b.thrusters.ahead[0] + 5e5};
+    assert_relative(holding_find(&h.c, steady, &load).turn, 5e5 / (4 * 4e5 * 35 * (1 + 35 / 600.0)), 1e-3);
+    hold_end(&h);
+}
+END_TEST
+
+/* A thruster at one end pushes the ship aside, and lines that end elsewhere turn it as they give.  On the far side of
+   their end it turns the ship the other way than about the centre of mass, and holds nothing. */
+START_TEST(turned_by_the_thruster_and_its_lines)
+{
+    static const double ends[] = {60, -15, -40};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        held h;
+        hold_begin(&h);
+        add_springs(&h, 4, 5e4, 1e7);
+        for (int i = 0; i < h.lines.count; i++) {
+            h.lines.fairlead[i].x += ends[k];
+            h.lines.anchor[i].x += ends[k];
+        }
+        add_thruster(&h, supply_tunnel(-30));
+        h.c.heading_alone = true;
+        vec3 load = {0, 0, 1e6};
+        holding at = holding_find(&h.c, steady, &load);
+        double push = 1e6 / (30 + ends[k]);
+        if (push > 0) {
+            assert_relative(at.thruster_use, push / h.b.thrusters.ahead[0], 1e-3);
+            assert_relative(at.offset, push / (2 * 5e4 + 2 * 4e5 / 600), 1e-2);
+            assert_absolute(at.turn, 0, 1e-4);
+        } else {
+            assert_relative(at.thruster_use, 1, 1e-9);
+            ck_assert(isinf(at.use));
+        }
+        hold_end(&h);
+    }
 }
 END_TEST
 
@@ -265,4 +364,5 @@ START_TEST(a_moment_alone)
 END_TEST
 
 TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone,
-          no_balance_that_any_touch_ends, a_heading_that_thrusters_hold)
+          no_balance_that_any_touch_ends, no_heading_without_a_moment, a_heading_that_thrusters_hold,
+          turned_by_what_is_missed, turned_by_the_thruster_and_its_lines)
