@@ -43,6 +43,9 @@ static bool boxes_meet(box2 a, box2 b)
     return a.lo.x < b.hi.x && b.lo.x < a.hi.x && a.lo.y < b.hi.y && b.lo.y < a.hi.y;
 }
 
+/* What a run that came to no numbers leaves is not: fmin and fmax pass over a NaN. */
+static bool is_finite(box2 b) { return isfinite(b.lo.x) && isfinite(b.lo.y) && isfinite(b.hi.x) && isfinite(b.hi.y); }
+
 static double larger_side(box2 b) { return fmax(b.hi.x - b.lo.x, b.hi.y - b.lo.y); }
 
 static box2 box_widened(box2 b, double by) { return (box2){{b.lo.x - by, b.lo.y - by}, {b.hi.x + by, b.hi.y + by}}; }
@@ -65,10 +68,9 @@ box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
         box2 hull = polygon_bounds(s->outline);
         if (boxes_meet(hull, usual))
             return usual;
-        double side = larger_side(hull);
-        if (!(side >= 0 && side < HUGE_VAL)) /* of a run that came to no numbers */
+        if (!is_finite(hull))
             continue;
-        hull = box_widened(hull, HULL_MARGIN * side);
+        hull = box_widened(hull, HULL_MARGIN * larger_side(hull));
         first = found ? first : hull;
         found = true;
         all = boxes_joined(all, hull);
