@@ -57,6 +57,15 @@ static box2 window_around(box2 usual, box2 hull)
     return boxes_joined((box2){vec2_sub(middle, half), vec2_add(middle, half)}, hull);
 }
 
+/* Widened about its middle to the proportions of the usual one: pictures of a run are of one size, and make a film. */
+static box2 in_proportion(box2 b, box2 usual)
+{
+    vec2 middle = vec2_scale(vec2_add(b.lo, b.hi), 0.5), full = vec2_sub(usual.hi, usual.lo);
+    double times = fmax((b.hi.x - b.lo.x) / full.x, (b.hi.y - b.lo.y) / full.y);
+    vec2 half = vec2_scale(full, 0.5 * times);
+    return (box2){vec2_sub(middle, half), vec2_add(middle, half)};
+}
+
 box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
 {
     box2 all = usual, first = usual;
@@ -75,7 +84,11 @@ box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
         found = true;
         all = boxes_joined(all, hull);
     }
-    return larger_side(all) <= EXTENDED_MOST * larger_side(usual) ? all : window_around(usual, first);
+    if (!found)
+        return usual;
+    all = in_proportion(all, usual);
+    bool near = larger_side(all) <= EXTENDED_MOST * larger_side(usual);
+    return near ? all : in_proportion(window_around(usual, first), usual);
 }
 
 /* With the sides of a prism that tilts. */

@@ -440,6 +440,9 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
         draw_plan_legend(page, view, right, below);
 }
 
+/* Windows of one proportion have pages of one size: rounding takes no pixel away [pixels]. */
+#define PIXEL_SLACK 1e-6
+
 /* How large a page is whose plan has `longest` pixels along its longer side. */
 static fram_status size_page(const plan_view *view, int longest, int *width, int *height, fram_error *error)
 {
@@ -447,8 +450,8 @@ static fram_status size_page(const plan_view *view, int longest, int *width, int
     if (!(w > 0 && h > 0))
         return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the plan view's window is empty");
     double scale = longest / fmax(w, h);
-    *width = (int)fmax(w * scale + 2 * PLAN_MARGIN, LEAST_WIDTH);
-    *height = (int)(h * scale + ABOVE + BELOW);
+    *width = (int)fmax(w * scale + PIXEL_SLACK + 2 * PLAN_MARGIN, LEAST_WIDTH);
+    *height = (int)(h * scale + PIXEL_SLACK + ABOVE + BELOW);
     return FRAM_OK;
 }
 

@@ -33,7 +33,7 @@ void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thi
 void plan_shapes_sort(plan_shape *shapes, int32_t count);
 /* The window that shows a vessel: the usual one where something of a hull is in it, or there is none.  Else it is
    larger by as much as takes in all hulls, or, where they are so far that little would be told apart, as large, with
-   the first hull in its middle.  Sorted shapes. */
+   the first hull in its middle.  Its sides are to each other as those of the usual one.  Sorted shapes. */
 box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count);
 
 typedef struct plan_arrow {

@@ -48,7 +48,8 @@ START_TEST(sorted)
 }
 END_TEST
 
-/* A field of 100 by 40 m and a ship of 20 by 4 m on course along X, with half its length of water around it outside. */
+/* A field of 100 by 40 m and a ship of 20 by 4 m on course along X, with half its length of water around it outside,
+   in windows of the field's proportions. */
 START_TEST(a_hull_outside)
 {
     const box2 usual = {{0, 0}, {100, 40}};
@@ -58,10 +59,12 @@ START_TEST(a_hull_outside)
     } rows[] = {
         {{50, 20}, {500, 20}, usual}, /* one is seen */
         {{109, 20}, {-9, 41}, usual}, /* parts are */
-        {{140, 20}, {120, 20}, {{0, 0}, {160, 40}}},
-        {{-30, 20}, {50, -20}, {{-50, -32}, {100, 40}}},
+        {{140, 20}, {120, 20}, {{0, -12}, {160, 52}}},
+        {{-30, 20}, {50, -20}, {{-65, -32}, {115, 40}}},
+        {{50, -100}, {50, -100}, {{-140, -112}, {240, 40}}}, /* 3.8 times as large */
+        {{50, -130}, {50, -130}, {{0, -150}, {100, -110}}},  /* more than 4 times */
         {{50, 20}, {(double)NAN, 20}, usual},
-        {{(double)NAN, 20}, {140, 20}, {{0, 0}, {160, 40}}},
+        {{(double)NAN, 20}, {140, 20}, {{0, -12}, {160, 52}}},
         {{(double)NAN, 20}, {1000, 20}, {{950, 0}, {1050, 40}}},
         {{1000, 20}, {120, 20}, {{950, 0}, {1050, 40}}}, /* too far off */
         {{120, 20}, {1e300, 20}, {{70, 0}, {170, 40}}},
@@ -434,9 +437,36 @@ START_TEST(texts_beside_a_narrow_plan)
 }
 END_TEST
 
+/* Pictures of a ship that leaves the field are as large as those before, rounding included. */
+START_TEST(pictures_of_one_size)
+{
+    enum { LONGEST = 800, WIDE = LONGEST + 28, HIGH = LONGEST * 2 / 5 + 108 };
+    context ctx;
+    context_init(&ctx);
+    for (int k = 0; k < 5; k++) {
+        double x = k == 0 ? 50 : 110 + 1.7 * k, y = 20 + 0.9 * k;
+        const vec2 ring[4] = {{x - 10, y - 2}, {x + 10, y - 2}, {x + 10, y + 2}, {x - 10, y + 2}};
+        const plan_shape s = {.outline = {ring, 4}, .style = PLAN_DECK};
+        const plan_view view = {.window = plan_window((box2){{0, 0}, {100, 40}}, &s, 1),
+                                .title = "",
+                                .caption = "",
+                                .shapes = &s,
+                                .shape_count = 1};
+        text_buffer png = {0};
+        fram_error error;
+        assert_ok(plan_view_png(&ctx, &view, LONGEST, &png, &error), error);
+        const unsigned char *size = (const unsigned char *)png.data + 16; /* behind the words PNG and IHDR */
+        ck_assert_int_eq(256 * size[2] + size[3], WIDE);
+        ck_assert_int_eq(256 * size[6] + size[7], HIGH);
+        text_free(&ctx, &png);
+    }
+}
+END_TEST
+
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, styles_in_the_window, flows_that_move,
           flows_of_a_history, pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams,
-          mooring_lines, flows_are_drawn, labels_that_cover_each_other, texts_beside_a_narrow_plan)
+          mooring_lines, flows_are_drawn, labels_that_cover_each_other, texts_beside_a_narrow_plan,
+          pictures_of_one_size)
 
 #else
 
