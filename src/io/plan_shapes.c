@@ -1,6 +1,8 @@
 /* How a prism stands in a plan view, which lies over which, which part is to be shown, and what is seen of all. */
 #include "io/plan_view.h"
 
+#include "geometry/predicate.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -43,6 +45,32 @@ static bool boxes_meet(box2 a, box2 b)
     return a.lo.x < b.hi.x && b.lo.x < a.hi.x && a.lo.y < b.hi.y && b.lo.y < a.hi.y;
 }
 
+/* Something of an edge lies inside: their bounds meet, and not all of the box is on one side of the edge's line. */
+static bool edge_meets(vec2 a, vec2 b, box2 box)
+{
+    const vec2 end[2] = {a, b}, corner[4] = {box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}};
+    bool left = false, right = false;
+    if (!boxes_meet(polygon_bounds((polygon){end, 2}), box))
+        return false;
+    for (int i = 0; i < 4; i++) {
+        int side = orientation(a, b, corner[i]);
+        left = left || side > 0;
+        right = right || side < 0;
+    }
+    return left == right; /* neither: an edge that is a point */
+}
+
+/* Something of an outline lies inside: of an edge, or the whole box lies in the outline. */
+static bool outline_meets(polygon p, box2 box)
+{
+    if (!boxes_meet(polygon_bounds(p), box))
+        return false;
+    for (int32_t i = 0; i < p.count; i++)
+        if (edge_meets(p.vertex[i], p.vertex[i + 1 < p.count ? i + 1 : 0], box))
+            return true;
+    return polygon_contains(p, vec2_scale(vec2_add(box.lo, box.hi), 0.5));
+}
+
 /* What a run that came to no numbers leaves is not: fmin and fmax pass over a NaN. */
 static bool is_finite(box2 b) { return isfinite(b.lo.x) && isfinite(b.lo.y) && isfinite(b.hi.x) && isfinite(b.hi.y); }
 
@@ -75,7 +103,7 @@ box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
         if ((s->style != PLAN_DECK && s->style != PLAN_WATERLINE) || s->outline.count == 0)
             continue;
         box2 hull = polygon_bounds(s->outline);
-        if (boxes_meet(hull, usual))
+        if (outline_meets(s->outline, usual))
             return usual;
         if (!is_finite(hull))
             continue;
@@ -91,12 +119,22 @@ box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
     return near ? all : in_proportion(window_around(usual, first), usual);
 }
 
-/* With the sides of a prism that tilts. */
-static box2 bounds_of(const plan_shape *s)
+static box2 box_moved(box2 b, vec2 way) { return (box2){vec2_add(b.lo, way), vec2_add(b.hi, way)}; }
+
+/* Of a prism that tilts its upper face, or a side. */
+static bool shape_meets(const plan_shape *s, box2 window)
 {
-    box2 b = polygon_bounds(s->outline);
-    vec2 half = vec2_make(0.5 * fabs(s->drop.x), 0.5 * fabs(s->drop.y));
-    return (box2){vec2_sub(b.lo, half), vec2_add(b.hi, half)};
+    polygon p = s->outline;
+    vec2 half = vec2_scale(s->drop, 0.5);
+    if (outline_meets(p, box_moved(window, half)))
+        return true;
+    for (int32_t i = 0; i < p.count && vec2_length(s->drop) > 0; i++) {
+        vec2 a = p.vertex[i], b = p.vertex[i + 1 < p.count ? i + 1 : 0];
+        const vec2 side[4] = {vec2_sub(a, half), vec2_sub(b, half), vec2_add(b, half), vec2_add(a, half)};
+        if (outline_meets((polygon){side, 4}, window))
+            return true;
+    }
+    return false;
 }
 
 plan_used plan_find_used(const plan_view *view)
@@ -104,11 +142,9 @@ plan_used plan_find_used(const plan_view *view)
     plan_used seen = {.line = false};
     for (int32_t i = 0; i < view->shape_count; i++) {
         const plan_shape *s = &view->shapes[i];
-        seen.style[s->style] = seen.style[s->style] || boxes_meet(bounds_of(s), view->window);
+        seen.style[s->style] = seen.style[s->style] || shape_meets(s, view->window);
     }
-    for (int32_t i = 0; i < view->line_count; i++) {
-        vec2 end[2] = {view->lines[i].upper, view->lines[i].anchor};
-        seen.line = seen.line || boxes_meet(polygon_bounds((polygon){end, 2}), view->window);
-    }
+    for (int32_t i = 0; i < view->line_count; i++)
+        seen.line = seen.line || edge_meets(view->lines[i].upper, view->lines[i].anchor, view->window);
     return seen;
 }

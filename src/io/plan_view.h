@@ -83,7 +83,7 @@ typedef struct plan_view {
     double scale_lo, scale_hi;
 } plan_view;
 
-/* What a legend is to name: of what the bounds meet the window. */
+/* What a legend is to name: of what something lies in the window. */
 typedef struct plan_used {
     bool style[PLAN_STYLE_COUNT], line; /* mooring lines */
 } plan_used;

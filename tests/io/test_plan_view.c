@@ -88,26 +88,59 @@ START_TEST(a_hull_outside)
 }
 END_TEST
 
-/* A legend names what the window shows a part of, a tilted prism by its sides, and not what lies beside it. */
+/* One across a corner of the field is in it by its edges, not by the bounds around it. */
+START_TEST(a_hull_across_a_corner)
+{
+    const box2 usual = {{-10, -10}, {10, 10}}, larger = {{-15.5, -15.5}, {46.5, 46.5}};
+    const vec2 ring[2][4] = {{{30, 0}, {31, 1}, {1, 31}, {0, 30}}, {{24, -6}, {25, -5}, {-5, 25}, {-6, 24}}};
+    for (int i = 0; i < 2; i++) {
+        const plan_shape s = {.outline = {ring[i], 4}, .style = PLAN_DECK};
+        box2 found = plan_window(usual, &s, 1), expected = i == 0 ? larger : usual;
+        assert_vec2_close(found.lo, expected.lo, 1e-9);
+        assert_vec2_close(found.hi, expected.hi, 1e-9);
+    }
+}
+END_TEST
+
+/* A legend names what the window shows a part of, a tilted prism by its sides, and not what lies beside it, though the
+   bounds of an outline across a corner meet the window. */
 START_TEST(styles_in_the_window)
 {
-    const vec2 ring[4][4] = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
-                             {{10, -12}, {12, -12}, {12, 12}, {10, 12}},
-                             {{9, 9}, {11, 9}, {11, 11}, {9, 11}},
-                             {{11, 0}, {12, 0}, {12, 1}, {11, 1}}};
-    const plan_shape shapes[5] = {{.outline = {ring[0], 4}, .style = PLAN_DECK},
-                                  {.outline = {ring[1], 4}, .style = PLAN_WALL},
-                                  {.outline = {ring[2], 4}, .style = PLAN_FLOE},
-                                  {.outline = {ring[3], 4}, .style = PLAN_FIXED_ICE, .drop = {3, 0}},
-                                  {.outline = {ring[3], 4}, .style = PLAN_LEVEL_ICE}};
-    const plan_line lines[2] = {{{11, 0}, {40, 0}}, {{5, 0}, {40, 0}}};
-    for (int32_t count = 1; count <= 2; count++) {
-        const plan_view view = {
-            .window = {{-10, -10}, {10, 10}}, .shapes = shapes, .shape_count = 5, .lines = lines, .line_count = count};
+    const struct {
+        vec2 ring[4], drop;
+        bool seen;
+    } rows[] = {
+        {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 0}, true},
+        {{{10, -12}, {12, -12}, {12, 12}, {10, 12}}, {0, 0}, false},
+        {{{9, 9}, {11, 9}, {11, 11}, {9, 11}}, {0, 0}, true},
+        {{{11, 0}, {12, 0}, {12, 1}, {11, 1}}, {3, 0}, true},
+        {{{11, 0}, {12, 0}, {12, 1}, {11, 1}}, {-3, 0}, true},
+        {{{11, 0}, {12, 0}, {12, 1}, {11, 1}}, {0, 0}, false},
+        {{{-20, -1}, {20, -1}, {20, 1}, {-20, 1}}, {0, 0}, true}, /* from side to side */
+        {{{-90, -90}, {90, -90}, {90, 90}, {-90, 90}}, {0, 0}, true},
+        {{{30, 0}, {31, 1}, {1, 31}, {0, 30}}, {0, 0}, false}, /* across a corner */
+        {{{30, 0}, {31, 1}, {1, 31}, {0, 30}}, {8, 8}, false},
+        {{{30, 0}, {31, 1}, {1, 31}, {0, 30}}, {12, 12}, true},
+    };
+    for (int i = 0; i < (int)(sizeof rows / sizeof *rows); i++) {
+        plan_style style = (plan_style)(i % PLAN_STYLE_COUNT);
+        const plan_shape shape = {.outline = {rows[i].ring, 4}, .drop = rows[i].drop, .style = style};
+        const plan_view view = {.window = {{-10, -10}, {10, 10}}, .shapes = &shape, .shape_count = 1};
         const plan_used seen = plan_find_used(&view);
-        for (int style = 0; style < PLAN_STYLE_COUNT; style++)
-            ck_assert_int_eq(seen.style[style], style == PLAN_DECK || style == PLAN_FLOE || style == PLAN_FIXED_ICE);
-        ck_assert_int_eq(seen.line, count > 1);
+        for (int k = 0; k < PLAN_STYLE_COUNT; k++)
+            ck_assert_msg(seen.style[k] == (k == i % PLAN_STYLE_COUNT && rows[i].seen), "row %d, style %d", i, k);
+    }
+}
+END_TEST
+
+START_TEST(lines_in_the_window)
+{
+    const plan_line lines[] = {
+        {{11, 0}, {40, 0}}, {{25, 0}, {0, 25}},  {{40, 10}, {-40, 10}}, /* beside, along a side */
+        {{5, 0}, {40, 0}},  {{-40, 3}, {40, 4}}, {{15, 0}, {0, 15}},    {{5, 5}, {5, 5}}};
+    for (int i = 0; i < 7; i++) {
+        const plan_view view = {.window = {{-10, -10}, {10, 10}}, .lines = &lines[i], .line_count = 1};
+        ck_assert_msg(plan_find_used(&view).line == (i > 2), "line %d", i);
     }
 }
 END_TEST
@@ -463,14 +496,14 @@ START_TEST(pictures_of_one_size)
 }
 END_TEST
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, styles_in_the_window, flows_that_move,
-          flows_of_a_history, pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams,
-          mooring_lines, flows_are_drawn, labels_that_cover_each_other, texts_beside_a_narrow_plan,
-          pictures_of_one_size)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
+          lines_in_the_window, flows_that_move, flows_of_a_history, pieces_on_edge_and_under_the_sheet,
+          floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn, labels_that_cover_each_other,
+          texts_beside_a_narrow_plan, pictures_of_one_size)
 
 #else
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, styles_in_the_window, flows_that_move,
-          flows_of_a_history)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
+          lines_in_the_window, flows_that_move, flows_of_a_history)
 
 #endif
