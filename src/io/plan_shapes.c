@@ -94,26 +94,41 @@ static box2 in_proportion(box2 b, box2 usual)
     return (box2){vec2_sub(middle, half), vec2_add(middle, half)};
 }
 
-box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
+static bool is_hull(const plan_shape *s) { return s->style == PLAN_DECK || s->style == PLAN_WATERLINE; }
+
+/* Around all parts of the hull whose owner is the next after *owner, with the water around it; false: no more. */
+static bool next_hull(const plan_shape *shapes, int32_t count, int32_t *owner, box2 *hull)
 {
-    box2 all = usual, first = usual;
+    const int32_t after = *owner;
     bool found = false;
     for (int32_t i = 0; i < count; i++) {
         const plan_shape *s = &shapes[i];
-        if ((s->style != PLAN_DECK && s->style != PLAN_WATERLINE) || s->outline.count == 0)
+        if (!is_hull(s) || s->owner <= after || (found && s->owner > *owner))
             continue;
-        box2 hull = polygon_bounds(s->outline);
-        if (outline_meets(s->outline, usual))
-            return usual;
-        if (!is_finite(hull))
+        box2 part = polygon_bounds(s->outline);
+        if (!is_finite(part))
             continue;
-        hull = box_widened(hull, HULL_MARGIN * larger_side(hull));
-        first = found ? first : hull;
+        *hull = found && s->owner == *owner ? boxes_joined(*hull, part) : part;
+        *owner = s->owner;
         found = true;
-        all = boxes_joined(all, hull);
     }
-    if (!found)
+    if (found)
+        *hull = box_widened(*hull, HULL_MARGIN * larger_side(*hull));
+    return found;
+}
+
+box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count)
+{
+    box2 first, next;
+    int32_t owner = INT32_MIN;
+    for (int32_t i = 0; i < count; i++)
+        if (is_hull(&shapes[i]) && outline_meets(shapes[i].outline, usual))
+            return usual;
+    if (!next_hull(shapes, count, &owner, &first))
         return usual;
+    box2 all = boxes_joined(usual, first);
+    while (next_hull(shapes, count, &owner, &next))
+        all = boxes_joined(all, next);
     all = in_proportion(all, usual);
     bool near = larger_side(all) <= EXTENDED_MOST * larger_side(usual);
     return near ? all : in_proportion(window_around(usual, first), usual);

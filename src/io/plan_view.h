@@ -22,6 +22,7 @@ typedef struct plan_shape {
     vec2 drop;       /* plan way from the upper face of a prism to its lower one: its sides are seen; 0: none [m] */
     double height;   /* of what covers others, or is covered [m] */
     plan_style style;
+    int32_t owner;  /* of a part of a hull: the row of its vessel */
     bool has_value; /* filled by `value`, 0 to 1, on the colours of image_ramp instead of its style's colour */
     float value;
 } plan_shape;
@@ -33,7 +34,8 @@ void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thi
 void plan_shapes_sort(plan_shape *shapes, int32_t count);
 /* The window that shows a vessel: the usual one where something of a hull is in it, or there is none.  Else it is
    larger by as much as takes in all hulls, or, where they are so far that little would be told apart, as large, with
-   the first hull in its middle.  Its sides are to each other as those of the usual one.  Sorted shapes. */
+   the hull of the first vessel in its middle, all parts of it.  Its sides are to each other as those of the usual one.
+   Shapes in any order. */
 box2 plan_window(box2 usual, const plan_shape *shapes, int32_t count);
 
 typedef struct plan_arrow {

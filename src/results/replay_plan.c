@@ -45,7 +45,7 @@ static bool add_shape(const replay *r, const replay_moment *m, int32_t outline, 
         return true;
     const replay_pose *p = &m->poses.data[row];
     const replay_body *b = &r->bodies.data[p->body];
-    plan_shape shape = {.outline = polygon_list_get(&m->outlines, outline)};
+    plan_shape shape = {.outline = polygon_list_get(&m->outlines, outline), .owner = b->vessel};
     shape.style = b->solid                       ? PLAN_DECK
                   : b->material == MATERIAL_WALL ? PLAN_WALL
                   : b->material == MATERIAL_HULL ? PLAN_DECK

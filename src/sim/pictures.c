@@ -51,13 +51,14 @@ static bool add_prism_plan(context *ctx, plan_store *p, const world *w, int32_t 
 /* Height of the waterline over the hull's size: rounding would miss what stands in one of no height. */
 #define WATERLINE_PART 1e-6
 
-static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t body, fram_error *error)
+static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t vessel, fram_error *error)
 {
+    const int32_t body = w->vessels.body[vessel];
     const double high = WATERLINE_PART * w->shapes.shapes.radius[w->bodies.shape[body]];
     for (int wet = 0; wet < 2; wet++) {
         polygon_list plan = {0};
         fram_status status = build_plan(ctx, w, body, wet ? (build_slab){-high, high} : build_slab_all(), &plan, error);
-        plan_shape shape = {.style = wet ? PLAN_WATERLINE : PLAN_DECK, .height = HUGE_VAL};
+        plan_shape shape = {.style = wet ? PLAN_WATERLINE : PLAN_DECK, .owner = vessel, .height = HUGE_VAL};
         bool good = status == FRAM_OK;
         for (int32_t k = 0; good && k < polygon_list_count(&plan); k++) {
             polygon outline = polygon_list_get(&plan, k);
@@ -86,8 +87,8 @@ static fram_status collect(context *ctx, plan_store *p, const world *w, fram_err
         if (is_kind(w, i, SHAPE_PRISM) && !add_prism_plan(ctx, p, w, i))
             return error_memory(error);
     }
-    for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (!is_kind(w, i, SHAPE_SOLID))
+    for (int32_t i = 0; i < w->vessels.count; i++) {
+        if (!is_kind(w, w->vessels.body[i], SHAPE_SOLID))
             continue;
         fram_status status = add_hull(ctx, p, w, i, error);
         if (status != FRAM_OK)

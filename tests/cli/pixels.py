@@ -63,6 +63,16 @@ def hulls(files):
     assert max(red) > 1000 and max(red) - min(red) < 0.01 * max(red), red
 
 
+def twin(files):
+    """Plans have water in their middle, and as much of a hull above as below it."""
+    for file in files:
+        width, height, at = read(file)
+        middle = (height + 20) // 2
+        red = [y for y in range(64, height - 44) if at(width // 2, y)[0] > 200]
+        above = sum(y < middle for y in red)
+        assert middle not in red and above > 30 and abs(len(red) - 2 * above) < 4, (file, red)
+
+
 def whole(folders):
     """The field ends before the sides of the picture, where only water is, and so do the words under it."""
     for folder in folders:
@@ -107,5 +117,5 @@ def head(files):
 
 
 if __name__ == "__main__":
-    {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "whole": whole,
+    {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "twin": twin, "whole": whole,
      "limit": limit, "apart": apart, "walls": walls, "head": head}[sys.argv[1]](sys.argv[2:])

@@ -56,18 +56,21 @@ START_TEST(a_hull_outside)
     const struct {
         vec2 ship, other; /* their centres */
         box2 window;
+        int32_t owner[2];
     } rows[] = {
-        {{50, 20}, {500, 20}, usual}, /* one is seen */
-        {{109, 20}, {-9, 41}, usual}, /* parts are */
-        {{140, 20}, {120, 20}, {{0, -12}, {160, 52}}},
-        {{-30, 20}, {50, -20}, {{-65, -32}, {115, 40}}},
-        {{50, -100}, {50, -100}, {{-140, -112}, {240, 40}}}, /* 3.8 times as large */
-        {{50, -130}, {50, -130}, {{0, -150}, {100, -110}}},  /* more than 4 times */
-        {{50, 20}, {(double)NAN, 20}, usual},
-        {{(double)NAN, 20}, {140, 20}, {{0, -12}, {160, 52}}},
-        {{(double)NAN, 20}, {1000, 20}, {{950, 0}, {1050, 40}}},
-        {{1000, 20}, {120, 20}, {{950, 0}, {1050, 40}}}, /* too far off */
-        {{120, 20}, {1e300, 20}, {{70, 0}, {170, 40}}},
+        {{50, 20}, {500, 20}, usual, {0, 1}}, /* one is seen */
+        {{109, 20}, {-9, 41}, usual, {0, 1}}, /* parts are */
+        {{140, 20}, {120, 20}, {{0, -12}, {160, 52}}, {0, 1}},
+        {{-30, 20}, {50, -20}, {{-65, -32}, {115, 40}}, {0, 1}},
+        {{50, -100}, {50, -100}, {{-140, -112}, {240, 40}}, {0, 1}}, /* 3.8 times as large */
+        {{50, -130}, {50, -130}, {{0, -150}, {100, -110}}, {0, 1}},  /* more than 4 times */
+        {{50, 20}, {(double)NAN, 20}, usual, {0, 1}},
+        {{(double)NAN, 20}, {140, 20}, {{0, -12}, {160, 52}}, {0, 1}},
+        {{(double)NAN, 20}, {1000, 20}, {{950, 0}, {1050, 40}}, {0, 1}},
+        {{1000, 20}, {120, 20}, {{950, 0}, {1050, 40}}, {0, 1}}, /* too far off */
+        {{120, 20}, {1e300, 20}, {{70, 0}, {170, 40}}, {0, 1}},
+        {{1000, 20}, {-4000, 20}, {{-4050, 0}, {-3950, 40}}, {1, 0}},
+        {{1000, 10}, {1000, 30}, {{940, -4}, {1060, 44}}, {0, 0}}, /* the hulls of a catamaran */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         vec2 hull[2][4];
@@ -77,8 +80,8 @@ START_TEST(a_hull_outside)
             hull[1][k] = vec2_add(rows[i].other, corner);
         }
         const plan_shape s[] = {{.outline = {hull[0], 4}, .style = PLAN_FLOE},
-                                {.outline = {hull[0], 4}, .style = PLAN_DECK},
-                                {.outline = {hull[1], 4}, .style = PLAN_WATERLINE}};
+                                {.outline = {hull[0], 4}, .style = PLAN_DECK, .owner = rows[i].owner[0]},
+                                {.outline = {hull[1], 4}, .style = PLAN_WATERLINE, .owner = rows[i].owner[1]}};
         box2 found = plan_window(usual, s, 3), expected = rows[i].window;
         assert_vec2_close(found.lo, expected.lo, 1e-9);
         assert_vec2_close(found.hi, expected.hi, 1e-9);
