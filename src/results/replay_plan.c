@@ -104,6 +104,16 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     return good ? FRAM_OK : error_memory(error);
 }
 
+bool replay_plan_marks_in(const replay_plan *p, box2 window)
+{
+    for (int32_t i = 0; i < p->marks.count; i++) {
+        vec2 at = p->marks.data[i];
+        if (at.x >= window.lo.x && at.x <= window.hi.x && at.y >= window.lo.y && at.y <= window.hi.y)
+            return true;
+    }
+    return false;
+}
+
 /* Horizontal distance of the anchor at the start of a vessel's line, by its number among those of the vessel, from 1
    [m]; 0: it has not so many. */
 static double anchor_distance(const scenario *s, int32_t vessel, int32_t number)

@@ -34,6 +34,8 @@ typedef struct replay_plan {
    last `mark_time` seconds. */
 fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colour colour, double lo, double hi,
                              double arrow, double mark_time, replay_plan *out, fram_error *error);
+/* Whether a picture of that window shows a mark. */
+bool replay_plan_marks_in(const replay_plan *p, box2 window);
 /* Mooring lines of the current frame: from where they pull towards their anchors, as far off as the scenario says; none
    where the record has no forces.  The run's time interpolates bodies, not forces: lines are those of the frame. */
 fram_status replay_plan_lines(const replay *r, const scenario *s, replay_plan *out, fram_error *error);

@@ -99,16 +99,6 @@ static fram_status sizes(report *r, fram_error *error)
 
 /* ---- maps ---- */
 
-static bool any_inside(const vec2_array *points, box2 box)
-{
-    for (int32_t i = 0; i < points->count; i++) {
-        vec2 p = points->data[i];
-        if (p.x >= box.lo.x && p.x <= box.hi.x && p.y >= box.lo.y && p.y <= box.hi.y)
-            return true;
-    }
-    return false;
-}
-
 static fram_status draw_map(report *r, const replay *from, const replay_moment *m, double mark_time, fram_error *error)
 {
     replay_plan plan = {0};
@@ -120,7 +110,7 @@ static fram_status draw_map(report *r, const replay *from, const replay_moment *
         status = replay_plan_lines(from, &r->d.s, &plan, error);
     const box2 window = plan_window(domain_with_walls(&r->d.s.domain), plan.shapes.data, plan.shapes.count);
     snprintf(caption, sizeof caption, "t = %g s%s", m->time,
-             any_inside(&plan.marks, window) ? "; crosses: where floes broke" : "");
+             replay_plan_marks_in(&plan, window) ? "; crosses: where floes broke" : "");
     plan_view view = {.window = window,
                       .title = mark_time > 0 ? "The field at the end" : "The field at the start",
                       .caption = caption,

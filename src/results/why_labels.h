@@ -11,8 +11,10 @@
    push comes from, its colour the part of the load up to `most` [%].  Returns how many. */
 int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d, double most, double length,
                    plan_label labels[PEAK_FLOES]);
-/* What bears most of the load, if any does, and what the marks are; span: of the crosses [s]; labels: how many. */
+/* What bears most of the load, if any does, and what the marks in the window are; span: of the crosses [s]; labels: how
+   many. */
 enum { WHY_CAPTION = 200 };
-void why_caption(const peak_detail *d, double span, int32_t labels, char out[WHY_CAPTION]);
+void why_caption(const peak_detail *d, const replay_plan *plan, box2 window, double span, int32_t labels,
+                 char out[WHY_CAPTION]);
 
 #endif

@@ -140,11 +140,15 @@ static box2 peak_window(const peak_detail *d, double reach)
     return box;
 }
 
-void why_caption(const peak_detail *d, double span, int32_t labels, char out[WHY_CAPTION])
+void why_caption(const peak_detail *d, const replay_plan *plan, box2 window, double span, int32_t labels,
+                 char out[WHY_CAPTION])
 {
-    snprintf(out, WHY_CAPTION,
-             "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last %.3g s%s",
-             d->floe_count > 0 ? mechanism_text(peak_main_mechanism(d->mechanism)) : "no ice touches the vessel", span,
+    char breaks[48] = "";
+    if (replay_plan_marks_in(plan, window))
+        snprintf(breaks, sizeof breaks, "; crosses: breaks of the last %.3g s", span);
+    snprintf(out, WHY_CAPTION, "%s%s%s%s",
+             d->floe_count > 0 ? mechanism_text(peak_main_mechanism(d->mechanism)) : "no ice touches the vessel",
+             d->floe_count > 0 ? "; arrows: forces of floes on the hull, and chains behind them" : "", breaks,
              labels > 0 ? "; discs: floes that no frame shows" : "");
 }
 
@@ -179,8 +183,9 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         const char *on = scenario_vessel_name(&y->run.s, y->vessel);
         snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
                  d->load * unit.factor, unit.name, d->time);
-        why_caption(d, span, label_count, caption);
-        plan_view view = {.window = peak_window(d, reach),
+        const box2 window = peak_window(d, reach);
+        why_caption(d, &plan, window, span, label_count, caption);
+        plan_view view = {.window = window,
                           .title = title,
                           .caption = caption,
                           .shapes = plan.shapes.data,

@@ -41,19 +41,27 @@ START_TEST(floes_without_an_outline)
 }
 END_TEST
 
-/* A moment that nothing bears on has no mechanism, not the first of their list. */
+/* A moment that nothing bears on has no mechanism, not the first of their list, and no arrows; crosses are told of
+   where the window has one. */
 START_TEST(the_caption_tells_what_bears)
 {
     static peak_detail d;
     char caption[WHY_CAPTION];
-    why_caption(&d, 5, 0, caption);
-    ck_assert_msg(strncmp(caption, "no ice touches the vessel; arrows", 33) == 0, "%s", caption);
-    ck_assert_ptr_nonnull(strstr(caption, "of the last 5 s"));
-    ck_assert_ptr_null(strstr(caption, "discs"));
+    vec2 place[2] = {{11, 3}, {9, 3}};
+    const box2 window = {{-10, -10}, {10, 10}};
+    replay_plan plan = {.marks = {.data = place, .count = 0}};
+    why_caption(&d, &plan, window, 5, 0, caption);
+    ck_assert_str_eq(caption, "no ice touches the vessel");
+    plan.marks.count = 1;
+    why_caption(&d, &plan, window, 5, 0, caption);
+    ck_assert_str_eq(caption, "no ice touches the vessel");
+    plan.marks.count = 2;
+    why_caption(&d, &plan, window, 5, 0, caption);
+    ck_assert_str_eq(caption, "no ice touches the vessel; crosses: breaks of the last 5 s");
     d.floe_count = 1;
     d.mechanism[MECHANISM_BENDING] = 10;
-    why_caption(&d, 0.25, 1, caption);
-    ck_assert_msg(strncmp(caption, "bending of ice", 14) == 0, "%s", caption);
+    why_caption(&d, &plan, window, 0.25, 1, caption);
+    ck_assert_msg(strncmp(caption, "bending of ice", 14) == 0 && strstr(caption, "; arrows: "), "%s", caption);
     ck_assert_ptr_nonnull(strstr(caption, "of the last 0.25 s; discs: floes that no frame shows"));
 }
 END_TEST
