@@ -93,7 +93,7 @@ seed_interval difference_of_pairs(const double *a, const double *b, int32_t coun
     *pairs = s.count;
     seed_interval out = {s.count > 0 ? s.mean : (double)NAN, (double)NAN};
     if (s.count > 1)
-        out.half = student_quantile(confidence, s.count - 1) * sqrt(s.square / (s.count - 1) / s.count);
+        out.half = student_half(confidence, s.count - 1, s.square / (s.count - 1) / s.count);
     return out;
 }
 
@@ -110,6 +110,8 @@ seed_interval difference_of_means(const double *a, int32_t a_count, const double
     if (x.count < 2 || y.count < 2)
         return out;
     double of_x = x.square / (x.count - 1) / x.count, of_y = y.square / (y.count - 1) / y.count, both = of_x + of_y;
+    if (!isfinite(both))
+        return out; /* of sums that overflow no share is a number */
     /* Samples without any scatter differ for certain. */
     *freedom = x.count + y.count - 2;
     if (both > 0) {
@@ -118,6 +120,6 @@ seed_interval difference_of_means(const double *a, int32_t a_count, const double
         double degrees = 1 / (share * share / (x.count - 1) + rest * rest / (y.count - 1));
         *freedom = (int32_t)(degrees * (1 + 1e-12));
     }
-    out.half = student_quantile(confidence, *freedom) * sqrt(both);
+    out.half = student_half(confidence, *freedom, both);
     return out;
 }

@@ -22,7 +22,8 @@ bool study_pairs(context *ctx, const study *s, condition_pairs *out);
    number. */
 seed_interval difference_of_pairs(const double *a, const double *b, int32_t count, double confidence, int32_t *pairs);
 /* Difference of the means of samples that have nothing in common and may scatter differently (Welch 1947), with half
-   its interval: Student's t of *freedom degrees, by Satterthwaite (1946), rounded down.  NaNs are left out. */
+   its interval: Student's t of *freedom degrees, by Satterthwaite (1946), rounded down.  NaNs are left out;
+   values whose squares overflow have no interval, and no degrees. */
 seed_interval difference_of_means(const double *a, int32_t a_count, const double *b, int32_t b_count, double confidence,
                                   int32_t *freedom);
 

@@ -20,7 +20,7 @@ seed_interval seed_interval_of(const double *value, int32_t count, double confid
         return out;
     for (int32_t i = 0; i < count; i++)
         square += isnan(value[i]) ? 0 : (value[i] - out.mean) * (value[i] - out.mean);
-    out.half = student_quantile(confidence, n - 1) * sqrt(square / (n - 1) / n);
+    out.half = student_half(confidence, n - 1, square / (n - 1) / n);
     return out;
 }
 

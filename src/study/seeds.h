@@ -5,7 +5,8 @@
 
 #include "study/study.h"
 
-/* A mean over seeds with half the width of its confidence interval (Student's t); NaN for fewer than two values. */
+/* A mean over seeds with half the width of its confidence interval (Student's t); NaN for fewer than two values, or
+   too large ones. */
 typedef struct seed_interval {
     double mean, half;
 } seed_interval;

@@ -6,6 +6,8 @@
 
 /* Beyond, the square of t is no number. */
 #define FAR_T 1e100
+/* More degrees change a quantile by less than 2e-5, and have more terms than anybody waits for. */
+enum { FREEDOM_MOST = 1000000 };
 
 double student_within(double t, int freedom)
 {
@@ -26,6 +28,9 @@ double student_within(double t, int freedom)
 double student_quantile(double confidence, int freedom)
 {
     double lo = 0, hi = 1;
+    if (freedom < 1)
+        return (double)NAN;
+    freedom = freedom < FREEDOM_MOST ? freedom : FREEDOM_MOST;
     while (student_within(hi, freedom) < confidence && hi < 1e300)
         hi *= 2;
     /* Until the two are neighbours. */
@@ -36,4 +41,9 @@ double student_quantile(double confidence, int freedom)
             hi = mid;
     }
     return hi;
+}
+
+double student_half(double confidence, int freedom, double variance)
+{
+    return isfinite(variance) ? student_quantile(confidence, freedom) * sqrt(variance) : (double)NAN;
 }

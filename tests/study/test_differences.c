@@ -56,6 +56,12 @@ START_TEST(means_without_pairs_are_compared_by_welch)
     ck_assert_int_eq(freedom, 1);
     ck_assert(isfinite(of.half));
     ck_assert(isnan(difference_of_means(right, 1, left, 10, 0.95, &freedom).half));
+    /* Their squares are no numbers. */
+    const double large[2] = {1e160, 3e160};
+    of = difference_of_means(large, 2, other, 2, 0.95, &freedom);
+    ck_assert(isnan(of.half) && freedom == 0);
+    assert_relative(of.mean, 2e160, 1e-12);
+    ck_assert(isnan(difference_of_pairs(large, other, 2, 0.95, &freedom).half));
 }
 END_TEST
 

@@ -13,6 +13,8 @@ START_TEST(the_interval_is_students)
     assert_relative(i.mean, 2.5, 1e-15);
     assert_relative(i.half, 3.182446305284263 * sqrt(5.0 / 3 / 4), 1e-12);
     ck_assert(isnan(seed_interval_of(value, 1, 0.95).half));
+    const double large[] = {1e200, 3e200};
+    ck_assert(isnan(seed_interval_of(large, 2, 0.95).half));
 }
 END_TEST
 

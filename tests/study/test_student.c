@@ -3,6 +3,8 @@
 
 #include "study/student.h"
 
+#include <limits.h>
+
 /* Two-sided 95 % and 99 % (Abramowitz and Stegun 1964, table 26.10). */
 START_TEST(quantiles_are_those_of_the_table)
 {
@@ -19,6 +21,16 @@ START_TEST(quantiles_are_those_of_the_table)
 }
 END_TEST
 
+/* Also of what a damaged file may make of them. */
+START_TEST(quantiles_of_any_degrees_end)
+{
+    ck_assert(isnan(student_quantile(0.95, 0)) && isnan(student_quantile(0.95, INT_MIN)));
+    assert_relative(student_quantile(0.95, INT_MAX), 1.959963985, 2e-6);
+    ck_assert(isnan(student_half(0.95, 2, HUGE_VAL)) && isnan(student_half(0.95, 2, (double)NAN)));
+    assert_relative(student_half(0.95, 2, 4), 8.606, 2e-4);
+}
+END_TEST
+
 START_TEST(the_quantile_inverts_the_distribution)
 {
     for (int freedom = 1; freedom < 40; freedom++)
@@ -29,4 +41,5 @@ START_TEST(the_quantile_inverts_the_distribution)
 }
 END_TEST
 
-TEST_MAIN("student", quantiles_are_those_of_the_table, the_quantile_inverts_the_distribution)
+TEST_MAIN("student", quantiles_are_those_of_the_table, quantiles_of_any_degrees_end,
+          the_quantile_inverts_the_distribution)
