@@ -5,6 +5,7 @@
 #include "io/utf8.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -135,6 +136,24 @@ static bool push_value(context *ctx, const int32_t *at, int32_t count, int32_t c
     return good;
 }
 
+/* A number in a cell, and its end; false where it has none: 0x10 is one to the C library alone. */
+static bool read_number(const char *c, double *value, char **end)
+{
+    *value = real_read(c, end);
+    const char *first = c + (*c == ' ' || *c == '\t' ? strspn(c, BLANKS) : 0);
+    first += *first == '-' || *first == '+';
+    return *end > c && !(first[0] == '0' && (first[1] == 'x' || first[1] == 'X'));
+}
+
+/* Columns from 0. */
+static fram_status refuse_number(const char *path, int line, const char *name, int32_t column, const char *cell,
+                                 fram_error *error)
+{
+    int length = (int)strcspn(cell, ",");
+    return error_set(error, FRAM_ERROR_INPUT, path, line, name, "column %d: expected a number, found \"%.*s\"",
+                     (int)column + 1, length < CELL_TOLD ? length : CELL_TOLD, cell);
+}
+
 typedef struct column_reader {
     context *ctx;
     const char *const *names;
@@ -150,9 +169,7 @@ static fram_status refuse_cell(const column_reader *r, const char *path, int lin
     int32_t k = 0;
     while (r->at[k] != asked)
         k++;
-    int length = (int)strcspn(cell, ",");
-    return error_set(error, FRAM_ERROR_INPUT, path, line, r->names[k], "column %d: expected a number, found \"%.*s\"",
-                     (int)asked + 1, length < CELL_TOLD ? length : CELL_TOLD, cell);
+    return refuse_number(path, line, r->names[k], asked, cell, error);
 }
 
 static fram_status read_row(const column_reader *r, const char *path, int line, const char *row, fram_error *error)
@@ -170,8 +187,8 @@ static fram_status read_row(const column_reader *r, const char *path, int line, 
             continue;
         }
         char *end;
-        double value = real_read(c, &end);
-        bool number = end > c;
+        double value;
+        bool number = read_number(c, &value, &end);
         end += strspn(end, BLANKS);
         if (!number || (*end != ',' && *end != '\0'))
             return refuse_cell(r, path, line, asked, c, error);
@@ -401,7 +418,10 @@ static fram_status read_values(const table_reader *r, const char *path, int line
     for (int32_t k = 0; k < r->out->columns.count; k++) {
         bool last = k + 1 == r->out->columns.count;
         char *end;
-        double value = real_read(c, &end);
+        double value;
+        bool number = read_number(c, &value, &end);
+        if (end > c && (!number || !isfinite(value)))
+            return refuse_number(path, line, r->out->columns.data[k].name, k, c, error);
         if (end == c || *end != (last ? '\0' : ','))
             return error_set(error, FRAM_ERROR_INPUT, path, line, r->out->columns.data[k].name,
                              "expected a number and then %s", last ? "the end of the row" : "a comma");

@@ -12,8 +12,8 @@ enum { CSV_LINE_MOST = 1 << 20 };
 
 /* The columns of the given names appended to columns[0..count).  A name may have a unit ("tension[N]"): the file may
    leave it out, but not name another one.  Other columns are passed over, whatever is in them.  FRAM_ERROR_INPUT for a
-   missing column, two of one name, another unit, a value that is no number, and a row of more cells than the header,
-   with its line. */
+   missing column, two of one name, another unit, a value that is no decimal number (nan and inf are for who asks), and
+   a row of more cells than the header, with its line. */
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 
@@ -37,8 +37,9 @@ typedef struct csv_table {
 } csv_table;
 
 /* A row without its end, cut short while a run writes the file, ends the reading.  FRAM_ERROR_INPUT as csv_read, and
-   for a name that is too long; FRAM_INTERRUPTED where the context is asked to stop, which csv_read does not hear: a run
-   that was stopped reads its own series for its results.  On failure the table is empty. */
+   for a number that is not finite, which no run writes into its tables, and a name that is too long;
+   FRAM_INTERRUPTED where the context is asked to stop, which csv_read does not hear: a run that was stopped reads its
+   own series for its results.  On failure the table is empty. */
 fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error);
 void csv_table_free(context *ctx, csv_table *t);
 /* NULL when there is none of this name. */

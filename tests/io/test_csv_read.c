@@ -112,6 +112,7 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
     ASSERT_REFUSED("time[s],force[N]\n1,2\n1", 3, "has 1 values");
     ASSERT_REFUSED("time[s],force[N]\n1,2\n,\n", 3, "expected a number");
     ASSERT_REFUSED("time[s],force[N]\n1 1,2\n", 2, "expected a number");
+    ASSERT_REFUSED("time[s],force[N]\n1,-0x10\n", 2, "column 2: expected a number, found \"-0x10\"");
     ASSERT_REFUSED("time[s],force[N]\n1,2\0,3\n", 2, "NUL");
     /* 1000 and 0.25 of people who write 1,000 and 0,25: never one column for another. */
     ASSERT_REFUSED("time[s],force[N]\n1,000,2\n", 2, "the row has 3 values, the header 2 columns");

@@ -174,9 +174,19 @@ START_TEST(tables_of_whole_rows)
 {
     static const struct {
         const char *text;
-        int rows; /* -1: refused */
-    } cases[] = {{"a,b\n1,2\n3,4\n", 2}, {"a,b\n1,2\n3,4", 1},   {"a,b\n1,2\n3", 1}, {"a,b\n1,2,3\n", -1},
-                 {"a,b\n1\n", -1},       {"a,b\n1,2\n3,\n", -1}, {"a\n1\n2\n3\n", 3}};
+        int rows;          /* -1: refused */
+        const char *words; /* NULL: whatever they are */
+    } cases[] = {{"a,b\n1,2\n3,4\n", 2, NULL},
+                 {"a,b\n1,2\n3,4", 1, NULL},
+                 {"a,b\n1,2\n3", 1, NULL},
+                 {"a,b\n1,2,3\n", -1, NULL},
+                 {"a,b\n1\n", -1, NULL},
+                 {"a,b\n1,2\n3,\n", -1, NULL},
+                 {"a\n1\n2\n3\n", 3, NULL},
+                 {"a,b\n1,nan\n", -1, "column 2: expected a number, found \"nan\""},
+                 {"a,b\n-inf,1\n", -1, "column 1: expected a number, found \"-inf\""},
+                 {"a,b\n1,1e999\n", -1, "column 2: expected a number, found \"1e999\""},
+                 {"a,b\n1,0x10\n", -1, "column 2: expected a number, found \"0x10\""}};
     context_init(&ctx);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         scratch place = scratch_make();
@@ -185,6 +195,8 @@ START_TEST(tables_of_whole_rows)
         scratch_write(path, cases[i].text, strlen(cases[i].text));
         fram_status status = csv_table_read(&ctx, path, &table, &error);
         ck_assert_msg(status == (cases[i].rows < 0 ? FRAM_ERROR_INPUT : FRAM_OK), "table %zu: %d", i, (int)status);
+        if (cases[i].words)
+            assert_fails(status, error, FRAM_ERROR_INPUT, cases[i].words);
         if (status == FRAM_OK) {
             ck_assert_int_eq(table.rows, cases[i].rows);
             csv_table_free(&ctx, &table);
