@@ -8,6 +8,7 @@
 #include "io/file.h"
 #include "io/netcdf_file.h"
 #include "results/replay.h"
+#include "results/run_data.h"
 #include "results/run_record.h"
 
 #include <stdio.h>
@@ -45,7 +46,9 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
         status = csv_table_read(ctx, path, &t, error);
     if (status != FRAM_OK)
         return status;
-    if (!put_table(ctx, f, &t, dimension, prefix))
+    if (!*prefix) /* the one over time */
+        status = run_series_check(&t, path, error);
+    if (status == FRAM_OK && !put_table(ctx, f, &t, dimension, prefix))
         status = error_memory(error);
     csv_table_free(ctx, &t);
     return status;

@@ -342,16 +342,16 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
         status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->series, error);
-    if (status == FRAM_OK && !csv_table_find(&d->series, "time"))
-        status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL,
-                           "expected the series of a run, found a table without the column time[s]: something else was "
-                           "written over it");
+    if (status == FRAM_OK)
+        status = run_series_check(&d->series, path, error);
     if (status == FRAM_OK)
         status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->fractures, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
+        run_warn_gaps(ctx, d);
         note_progress(d);
+    }
     if (status == FRAM_OK && with_field)
         status = read_fields(ctx, d, error);
     if (status != FRAM_OK)

@@ -1,12 +1,16 @@
-/* What the rows of a run's series are of, and what is refused where it has none, or not the channel.  One module with
-   run_data. */
+/* What the rows of a run's series are of, and what is refused where they are damaged, where it has none, or not the
+   channel.  One module with run_data. */
 #include "results/run_data.h"
 
 #include "base/channel_statistics.h"
 #include "base/words.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+/* Of a row from 0: no line of such a table is empty. */
+#define ROW_LINE(row) ((int)(row) + 2)
 
 int32_t run_first_row(const run_data *d)
 {
@@ -40,7 +44,84 @@ double run_ends_after_row(const run_data *d)
     return d->note.time > last + 0.5 * d->s.run.time_step ? last : HUGE_VAL;
 }
 
-bool run_leaves_out_steps(const run_data *d) { return floor(d->s.output.csv_interval / d->s.run.time_step + 0.5) > 1; }
+/* Steps from row to row. */
+static double steps_of_row(const run_data *d)
+{
+    return fmax(floor(d->s.output.csv_interval / d->s.run.time_step + 0.5), 1);
+}
+
+bool run_leaves_out_steps(const run_data *d) { return steps_of_row(d) > 1; }
+
+/* ---- rows that were moved, doubled or lost ---- */
+
+fram_status run_series_check(const csv_table *series, const char *path, fram_error *error)
+{
+    const csv_table_column *time = csv_table_find(series, "time");
+    if (!time)
+        return error_set(error, FRAM_ERROR_INPUT, path, 1, NULL,
+                         "expected the series of a run, found a table without the column time[s]: something else was "
+                         "written over it");
+    for (int32_t i = 1; i < series->rows; i++) {
+        double before = time->value.data[i - 1], at = time->value.data[i];
+        if (!(at > before))
+            return error_set(error, FRAM_ERROR_INPUT, path, ROW_LINE(i), "time",
+                             "expected rising times, found %.12g after %.12g: rows were moved or doubled; run the "
+                             "scenario again",
+                             at, before);
+    }
+    return FRAM_OK;
+}
+
+/* The first of the gaps, and how many there are. */
+typedef struct row_gaps {
+    double from, to; /* [s] */
+    int32_t row;     /* behind it */
+    int32_t count;
+} row_gaps;
+
+static void add_gap(row_gaps *g, double from, double to, int32_t row)
+{
+    if (g->count++ > 0)
+        return;
+    g->from = from;
+    g->to = to;
+    g->row = row;
+}
+
+/* Rows come after each whole interval, so that two are never farther apart, and one that is due by the end of a run
+   that tells its end is there. */
+static row_gaps find_gaps(const run_data *d, const double *time)
+{
+    row_gaps g = {0};
+    int32_t rows = d->series.rows;
+    double steps = steps_of_row(d), interval = steps * d->s.run.time_step, most = 1.5 * interval;
+    for (int32_t i = 1; i < rows; i++)
+        if (time[i] - time[i - 1] > most)
+            add_gap(&g, time[i - 1], time[i], i);
+    double due = floor(d->note.steps / steps) * interval;
+    if (!run_is_open(d) && strcmp(d->note.status, "failed") != 0 && due - time[rows - 1] > 0.5 * interval)
+        add_gap(&g, time[rows - 1], due, rows - 1);
+    return g;
+}
+
+void run_warn_gaps(context *ctx, const run_data *d)
+{
+    const double *time = run_channel(d, "time");
+    char more[48] = "";
+    /* Those of another scenario may be farther apart. */
+    if (!time || d->series.rows == 0 || d->is_changed || !d->note.scenario_hash[0])
+        return;
+    row_gaps g = find_gaps(d, time);
+    if (g.count > 1)
+        snprintf(more, sizeof more, ", nor in %d more gap%s", (int)g.count - 1, g.count > 2 ? "s" : "");
+    if (g.count > 0)
+        log_write(ctx, LOG_WARNING,
+                  "%s/series.csv:%d: time: there are no rows from %.9g to %.9g s%s, and one every %.6g s was written: "
+                  "what is told leaves that time out; run the scenario again",
+                  d->folder, ROW_LINE(g.row), g.from, g.to, more, steps_of_row(d) * d->s.run.time_step);
+}
+
+/* ---- none, and no channel ---- */
 
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
 {

@@ -315,6 +315,28 @@ class Statistics(unittest.TestCase):
         for words in (("fatigue", run), ("report", run, "-o", self.at / "page.html"), ("compare", run, run)):
             self.refused(words, "series.csv:1:", "without the column time[s]")
 
+    def test_damaged_series_are_told_with_their_line(self):
+        scene, run, thin = self.write(SCENE, "scene.yaml"), self.at / "run", self.at / "thin"
+        self.fram("run", scene, "-o", run, "--quiet")
+        self.fram("run", scene, "-o", thin, "--quiet", "--set", "output.csv_interval=0.3")
+        rows = (run / "series.csv").read_text().splitlines(keepends=True)
+        for changed, said in ((rows[:20] + rows[19:], "series.csv:21: time: expected rising times, found 0.95 after"),
+                              (rows[:20] + rows[21:19:-1] + rows[22:],
+                               "series.csv:22: time: expected rising times, found 1 after 1.05")):
+            self.write("".join(changed), "run/series.csv")
+            for words in (("plot", run), ("fatigue", run)):
+                self.refused(words, said)
+        # Rows that lack are warned of, those that a long interval leaves out are none.
+        for changed, folder, said in ((rows[:20] + rows[25:], run, "series.csv:21: time: there are no rows from 0.95 "
+                                                                   "to 1.25 s, and one every 0.05 s was written"),
+                                      (rows[:9] + rows[10:20] + rows[21:], run, "0.4 to 0.5 s, nor in 1 more gap, and"),
+                                      (rows[:20], run, "series.csv:20: time: there are no rows from 0.95 to 2 s, and"),
+                                      (rows, run, None), (rows, thin, None)):
+            self.write("".join(changed), "run/series.csv")
+            done = subprocess.run([FRAM, "plot", folder], capture_output=True, text=True, check=True)
+            self.assertEqual("there are no rows" in done.stderr, said is not None, done.stderr)
+            self.assertIn(said or "", done.stderr)
+
     def test_lines_that_are_let_go_are_told(self):
         # They have their tension in the row of that time, of which a run that was killed tells no event.
         scene = self.write(MOORED, "moored.yaml")
