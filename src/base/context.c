@@ -137,6 +137,17 @@ fram_status error_set(fram_error *e, fram_status status, const char *file, int l
     return status;
 }
 
+void error_text(const fram_error *e, char out[ERROR_TEXT_SIZE])
+{
+    char line[16] = "", column[16] = "";
+    if (e->line > 0)
+        snprintf(line, sizeof line, ":%d", e->line);
+    if (e->line > 0 && e->column > 0)
+        snprintf(column, sizeof column, ":%d", e->column);
+    snprintf(out, ERROR_TEXT_SIZE, "%s%s%s%s%s%s%s", e->file, line, column, e->file[0] ? ": " : "", e->key,
+             e->key[0] ? ": " : "", e->message);
+}
+
 fram_status error_value(fram_error *e, const char *key, const char *expected, double found)
 {
     return error_set(e, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", expected, found);

@@ -80,6 +80,9 @@ void work_tell(context *ctx, const char *what, double done, double total);
 /* Fill e (which may be NULL) and return status.  file, key may be NULL. */
 fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,
                       const char *format, ...) __attribute__((format(printf, 6, 7)));
+/* Place, key and message in one line, "a.yaml:3:7: ice.thickness: expected ...", as a command tells them. */
+enum { ERROR_TEXT_SIZE = sizeof(fram_error) + 32 };
+void error_text(const fram_error *e, char out[ERROR_TEXT_SIZE]);
 /* A number that a definition cannot hold: FRAM_ERROR_INPUT, "expected a positive number of metres, found -3". */
 fram_status error_value(fram_error *e, const char *key, const char *expected, double found);
 /* The one message for a failed allocation.  Inline, so that a reader and an analyser see that it is never FRAM_OK. */

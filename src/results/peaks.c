@@ -114,8 +114,10 @@ fram_status peak_list_try(context *ctx, const char *folder, int32_t vessel, cons
     fram_error reason = {0};
     fram_status status = peak_list_read(ctx, folder, vessel, list, &reason);
     if (status == FRAM_ERROR_INPUT) {
+        char text[ERROR_TEXT_SIZE];
+        error_text(&reason, text);
         if (!*unread)
-            log_write(ctx, LOG_WARNING, "%s tells no peaks: %s: %s", what, reason.file, reason.message);
+            log_write(ctx, LOG_WARNING, "%s tells no peaks: %s", what, text);
         *unread = true;
         return FRAM_OK;
     }

@@ -179,8 +179,9 @@ fram_status playback_explain(context *ctx, const char *folder, const char *press
         why_close(&y);
     }
     if (!pressure && (status == FRAM_ERROR_INPUT || status == FRAM_ERROR_IO)) {
-        log_write(ctx, LOG_WARNING, "the page tells no loads by mechanism and no peaks: %s: %s", reason.file,
-                  reason.message);
+        char text[ERROR_TEXT_SIZE];
+        error_text(&reason, text);
+        log_write(ctx, LOG_WARNING, "the page tells no loads by mechanism and no peaks: %s", text);
         return FRAM_OK;
     }
     if (status != FRAM_OK && error)

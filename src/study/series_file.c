@@ -2,6 +2,7 @@
 #include "study/series_runs.h"
 
 #include "base/sort.h"
+#include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/run_channels.h"
 
@@ -227,16 +228,21 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
                              fram_error *error)
 {
     const char *path = source->files[i];
+    char table[PATH_ROOM] = ""; /* whose lines are told */
     series_rows rows = {0};
     double_array *value = &out->values[i];
     double from = -HUGE_VAL; /* times of a file may begin below zero */
     int32_t parted = out->parted;
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
-    if (is_folder(path) && !source->maxima)
-        status = read_run(ctx, path, source, runs, &rows.time, value, out, unit, &from, error);
-    else
+    if (is_folder(path) && !source->maxima) {
+        status = path_join(path, "series.csv", table, error);
+        if (status == FRAM_OK)
+            status = read_run(ctx, path, source, runs, &rows.time, value, out, unit, &from, error);
+        path = table;
+    } else {
         status = series_read_csv(ctx, path, source, &rows, value, unit, error);
+    }
     if (status == FRAM_OK && i > 0 && strcmp(unit, out->unit) != 0)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, source->channel,
                            "expected the unit of the other files, [%s], found [%s]", out->unit, unit);

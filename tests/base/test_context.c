@@ -129,6 +129,27 @@ START_TEST(errors_hold_place_and_message)
 }
 END_TEST
 
+START_TEST(errors_are_told_in_a_line)
+{
+    static const struct {
+        const char *file, *key;
+        int line, column;
+        const char *text;
+    } cases[] = {{"a.yaml", "ice.thickness", 3, 7, "a.yaml:3:7: ice.thickness: too thin"},
+                 {"a.yaml", NULL, 3, 0, "a.yaml:3: too thin"},
+                 {"a.yaml", "ice", 0, 7, "a.yaml: ice: too thin"},
+                 {NULL, "ice", 0, 0, "ice: too thin"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fram_error e;
+        char text[ERROR_TEXT_SIZE];
+        error_set(&e, FRAM_ERROR_INPUT, cases[i].file, cases[i].line, cases[i].key, "too thin");
+        e.column = cases[i].column;
+        error_text(&e, text);
+        ck_assert_str_eq(text, cases[i].text);
+    }
+}
+END_TEST
+
 START_TEST(errors_cut_what_is_too_long)
 {
     char text[2000];
@@ -170,5 +191,5 @@ END_TEST
 
 TEST_MAIN("context", defaults_are_library_memory_silence_and_one_thread, arrays_are_zero_and_their_size_cannot_overflow,
           failed_allocations_are_null, log_passes_what_is_grave_enough, long_log_texts_are_cut_visibly,
-          errors_hold_place_and_message, errors_cut_what_is_too_long, an_error_can_be_wrapped_in_place,
-          instruction_sets_have_names)
+          errors_hold_place_and_message, errors_are_told_in_a_line, errors_cut_what_is_too_long,
+          an_error_can_be_wrapped_in_place, instruction_sets_have_names)

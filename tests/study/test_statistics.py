@@ -326,6 +326,9 @@ class Statistics(unittest.TestCase):
             self.write("".join(changed), "run/series.csv")
             for words in (("plot", run), ("fatigue", run)):
                 self.refused(words, said)
+        page = self.write("<!--BESIDE--><!--RECORD-->", "page.html")
+        done = subprocess.run([FRAM, "view", run, "--page", page], capture_output=True, text=True, check=True)
+        self.assertIn(f"no peaks: {run}/series.csv:22: time: expected rising times, found 1 after 1.05", done.stderr)
         # Rows that lack are warned of, those that a long interval leaves out are none.
         for changed, folder, said in ((rows[:20] + rows[25:], run, "series.csv:21: time: there are no rows from 0.95 "
                                                                    "to 1.25 s, and one every 0.05 s was written"),
@@ -336,6 +339,8 @@ class Statistics(unittest.TestCase):
             done = subprocess.run([FRAM, "plot", folder], capture_output=True, text=True, check=True)
             self.assertEqual("there are no rows" in done.stderr, said is not None, done.stderr)
             self.assertIn(said or "", done.stderr)
+            if said and "21:" in said:
+                self.refused(("extremes", run), f"{run}/series.csv:21: time: expected times at equal distances")
 
     def test_lines_that_are_let_go_are_told(self):
         # They have their tension in the row of that time, of which a run that was killed tells no event.
