@@ -51,6 +51,8 @@ static void judge_folder(verdict *v)
     if (v->r->d.lacks_record)
         verdict_find(v, VERDICT_NOTE, "fram run with its scenario.yaml makes it again, with one.",
                      RUN_WITHOUT_RECORD ": nothing is told of its ice field.");
+    if (run_is_cut_off(&v->r->d))
+        verdict_find(v, VERDICT_BAD, "Run the scenario again.", "The run's " RUN_IS_CUT_OFF ".", v->r->d.note.steps);
 }
 
 /* ---- the end of the run ---- */
@@ -130,7 +132,7 @@ static void judge_transient(verdict *v)
 {
     const run_data *d = &v->r->d;
     int rows = (int)(d->series.rows - run_first_row(d));
-    if (rows < 2)
+    if (rows < 2 && !run_is_cut_off(d))
         verdict_find(v, VERDICT_CAUTION,
                      d->series.rows > 1 ? "Make run.transient shorter or the run longer."
                                         : "Make output.csv_interval or run.transient shorter, or the run longer.",

@@ -108,6 +108,9 @@ double run_recorded_from(const run_data *d);
 double run_ends_after_row(const run_data *d);
 /* Whether rows of the series are more than a step apart. */
 bool run_leaves_out_steps(const run_data *d);
+/* Whether it has no row of a run that made steps which have one, and what is told then, with its steps. */
+bool run_is_cut_off(const run_data *d);
+#define RUN_IS_CUT_OFF "series.csv has no rows, though the run made %.0f steps: it was cut off"
 /* That the series has no rows. */
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error);
 /* That the run has no channel of a name, and which may be meant; `also`: a name that is none of its columns and can be

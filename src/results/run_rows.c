@@ -123,10 +123,23 @@ void run_warn_gaps(context *ctx, const run_data *d)
 
 /* ---- none, and no channel ---- */
 
+bool run_is_cut_off(const run_data *d)
+{
+    const run_note *n = &d->note;
+    if (d->series.rows > 0 || d->is_changed || n->recorded_from < 0)
+        return false;
+    double steps = steps_of_row(d), began = n->recorded_from / d->s.run.time_step;
+    double made = n->steps - (strcmp(n->status, "failed") == 0); /* the step that went wrong has no row */
+    return floor(made / steps) > floor(began / steps + 1e-6);
+}
+
 fram_status run_data_refuse_empty(const run_data *d, fram_error *error)
 {
     bool goes_on = strcmp(d->note.status, "finished") != 0 &&
                    d->s.run.duration + 0.5 * d->s.run.time_step >= d->s.output.csv_interval;
+    if (run_is_cut_off(d))
+        return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL, RUN_IS_CUT_OFF "; run the scenario again",
+                         d->note.steps);
     if (strcmp(d->note.status, "failed") == 0)
         return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, NULL,
                          "the run's series has no rows: it failed before the first step that has one");

@@ -329,6 +329,10 @@ class Statistics(unittest.TestCase):
         page = self.write("<!--BESIDE--><!--RECORD-->", "page.html")
         done = subprocess.run([FRAM, "view", run, "--page", page], capture_output=True, text=True, check=True)
         self.assertIn(f"no peaks: {run}/series.csv:22: time: expected rising times, found 1 after 1.05", done.stderr)
+        self.write(rows[0], "run/series.csv")
+        self.refused(("fatigue", run), "series.csv has no rows, though the run made 40 steps: it was cut off; run the")
+        self.fram("report", run, "-o", self.at / "report.html")
+        self.assertIn("The run's series.csv has no rows, though", (self.at / "report.html").read_text())
         # Rows that lack are warned of, those that a long interval leaves out are none.
         for changed, folder, said in ((rows[:20] + rows[25:], run, "series.csv:21: time: there are no rows from 0.95 "
                                                                    "to 1.25 s, and one every 0.05 s was written"),
