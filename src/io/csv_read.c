@@ -404,6 +404,10 @@ static fram_status read_header(const table_reader *r, const char *path, const ch
                              (int)r->out->columns.count + 1);
         memcpy(column.name, c, name);
         memcpy(column.unit, unit_at, unit);
+        const csv_table_column *first = csv_table_find(r->out, column.name);
+        if (first)
+            return csv_refuse_twice(path, column.name, (int32_t)(first - r->out->columns.data), r->out->columns.count,
+                                    error);
         if (!array_push(r->ctx, &r->out->columns, column))
             return error_memory(error);
         c += whole;
