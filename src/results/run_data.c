@@ -177,6 +177,35 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
     return read_named(w, key, members, sizeof members / sizeof *members, error);
 }
 
+/* Beyond all steps and seconds that the longest run.duration has at the shortest run.time_step. */
+#define NOTE_MOST 1e15
+#define NO_RUN_WROTE ": no run of Fram wrote that; run the scenario again"
+
+static fram_status check_number(const char *path, const char *key, double value, fram_error *error)
+{
+    if (value >= 0 && value <= NOTE_MOST)
+        return FRAM_OK;
+    if (isnan(value))
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, key, "is missing" NO_RUN_WROTE);
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, key, "expected a number from 0 to %g, found %.6g" NO_RUN_WROTE,
+                     NOTE_MOST, value);
+}
+
+/* What every run tells. */
+static fram_status check_note(const run_note *n, const char *path, fram_error *error)
+{
+    static const char *const states[] = {"running", "finished", "stopped", "interrupted", "failed"};
+    size_t i = 0, count = sizeof states / sizeof *states;
+    while (i < count && strcmp(n->status, states[i]) != 0)
+        i++;
+    if (i == count)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, "status",
+                         "expected running, finished, stopped, interrupted or failed, found \"%s\"" NO_RUN_WROTE,
+                         n->status);
+    fram_status status = check_number(path, "steps", n->steps, error);
+    return status == FRAM_OK ? check_number(path, "time_s", n->time, error) : status;
+}
+
 static fram_status read_note(context *ctx, const char *folder, run_note *n, fram_error *error)
 {
     char path[PATH_ROOM], key[64], *text = NULL;
@@ -195,8 +224,10 @@ static fram_status read_note(context *ctx, const char *folder, run_note *n, fram
             break;
         status = read_member(ctx, &w, key, n, error);
     }
+    if (status == FRAM_OK)
+        status = json_walk_end(&w, error);
     memory_free(ctx, text);
-    return status;
+    return status == FRAM_OK ? check_note(n, path, error) : status;
 }
 
 static void note_free(context *ctx, run_note *n)
@@ -326,6 +357,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
     char path[PATH_ROOM];
     memset(d, 0, sizeof *d);
     d->note.recorded_from = -1;
+    d->note.steps = d->note.time = (double)NAN;
     fram_status status = path_given_or(folder, NULL, NULL, d->folder, error);
     if (status == FRAM_OK)
         status = read_note(ctx, folder, &d->note, error);

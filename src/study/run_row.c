@@ -340,6 +340,8 @@ static bool read_row_lines(context *ctx, char *text, run_rows *rows, bool *no_me
         if (strcmp(state, "end") == 0)
             return rows->count > 0;
         row.failed = strcmp(state, "failed") == 0;
+        if (!row.failed && strcmp(state, "finished") != 0)
+            return false;
         if (!take_line(&text, row.vessel, sizeof row.vessel) || !take_line(&text, row.reason, sizeof row.reason) ||
             !take_line(&text, row.state_hash, sizeof row.state_hash) || !read_figures(&text, &row))
             return false;

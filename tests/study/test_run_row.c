@@ -72,6 +72,18 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
         assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
         ck_assert_msg(!found, "the first %zu of %zu bytes are taken for a row", cut, size);
     }
+    /* And in no other state than these. */
+    run_rows back;
+    bool found = true;
+    char *state = memchr(text, '\n', size); /* behind the mark */
+    ck_assert_ptr_nonnull(state);
+    state[1] = 'w';
+    file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_uint_eq(fwrite(text, 1, size, file), size);
+    fclose(file);
+    assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
+    ck_assert(!found);
     remove(path);
 }
 END_TEST
@@ -177,7 +189,7 @@ static void write_file(const char *folder, const char *name, const char *text)
 /* One split, two that bent, and a part of a sheet that came loose, which is no floe that broke. */
 START_TEST(parts_that_came_loose_are_no_floes_that_broke)
 {
-    static const char *const files[][2] = {{"run.json", "{\"status\": \"finished\", \"time_s\": 4}\n"},
+    static const char *const files[][2] = {{"run.json", "{\"status\": \"finished\", \"steps\": 400, \"time_s\": 4}\n"},
                                            {"scenario.yaml", "vessel: {present: false}\n"},
                                            {"series.csv", "time[s]\n4\n"},
                                            {"fractures.csv", "time[s],kind[1]\n1,2\n2,1\n3,3\n4,2\n"}};

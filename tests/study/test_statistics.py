@@ -315,7 +315,7 @@ class Statistics(unittest.TestCase):
         for words in (("fatigue", run), ("report", run, "-o", self.at / "page.html"), ("compare", run, run)):
             self.refused(words, "series.csv:1:", "without the column time[s]")
 
-    def test_damaged_series_are_told_with_their_line(self):
+    def test_damaged_runs_are_told_with_their_line(self):
         scene, run, thin = self.write(SCENE, "scene.yaml"), self.at / "run", self.at / "thin"
         self.fram("run", scene, "-o", run, "--quiet")
         self.fram("run", scene, "-o", thin, "--quiet", "--set", "output.csv_interval=0.3")
@@ -345,6 +345,18 @@ class Statistics(unittest.TestCase):
             self.assertIn(said or "", done.stderr)
             if said and "21:" in said:
                 self.refused(("extremes", run), f"{run}/series.csv:21: time: expected times at equal distances")
+        # Notes that no run wrote.
+        text = (run / "run.json").read_text()
+        note = json.loads(text)
+        for changed, *said in (({**note, "status": "finnished"}, "run.json:0: status: expected running, finished,"),
+                               ({**note, "time_s": -5}, "run.json:0: time_s: expected a number from 0", "found -5"),
+                               ({**note, "steps": 1e300}, "run.json:0: steps: expected a number", "found 1e+300"),
+                               ({"status": "finished", "steps": 4}, "run.json:0: time_s: is missing"),
+                               ({}, "run.json:0: status: ", 'found ""')):
+            self.write(json.dumps(changed), "run/run.json")
+            self.refused(("plot", run), *said)
+        self.write(text + "text\n", "run/run.json")
+        self.refused(("plot", run), f"run.json:{text.count(chr(10)) + 1}: ", "expected the end of the file, found 't'")
 
     def test_lines_that_are_let_go_are_told(self):
         # They have their tension in the row of that time, of which a run that was killed tells no event.
