@@ -295,6 +295,8 @@ fram_status recording_prepare(recording *r, fram_error *error)
 fram_status recording_prepare_again(recording *r, fram_error *error)
 {
     fram_status status = run_folder_lock(r->folder, &r->lock, error);
+    if (status == FRAM_OK)
+        status = run_folder_refuse_pipes(r->folder, error);
     return status == FRAM_OK ? identify(r, error) : status;
 }
 

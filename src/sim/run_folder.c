@@ -224,6 +224,23 @@ fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fra
     return run_inputs_refuse(inputs, folder, is_written, error);
 }
 
+fram_status run_folder_refuse_pipes(const char *folder, fram_error *error)
+{
+    char path[PATH_ROOM];
+    struct stat about;
+    int failure;
+    fram_status status = FRAM_OK;
+    DIR *dir = opendir(folder);
+    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name && status == FRAM_OK;
+         name = folder_next(dir, &failure))
+        if (is_written(name) && path_join(folder, name, path, NULL) == FRAM_OK && stat(path, &about) == 0 &&
+            S_ISFIFO(about.st_mode))
+            status = file_check(path, error);
+    if (dir)
+        closedir(dir);
+    return status;
+}
+
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
 static bool is_leftover(const char *name)
 {

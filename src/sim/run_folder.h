@@ -23,6 +23,9 @@ fram_status run_folder_lock(const char *folder, int *lock, fram_error *error);
 void run_folder_unlock(int lock);
 /* FRAM_ERROR_USAGE for a folder in which a run would write over one of its inputs (run_inputs_list). */
 fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fram_error *error);
+/* FRAM_ERROR_INPUT for a folder in which a pipe has the name of a file that a run writes, whose reader a run that goes
+   on would wait for. */
+fram_status run_folder_refuse_pipes(const char *folder, fram_error *error);
 /* Make the folder and those above it and lock it, after the same check.  Where it holds an earlier run, checkpoints and
    all that was made from that are removed, so that they are never mixed with the new one's; not what is one of the new
    run's inputs (run_inputs_list; NULL: none). */

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const struct {
     const char *name, *unit;
@@ -356,9 +357,12 @@ fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *
 {
     char *text = NULL;
     size_t size = 0;
+    struct stat about;
     bool no_memory = false;
     *found = false;
     *rows = (run_rows){0};
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
+        return file_check(path, error); /* before a run whose row could not be written there */
     if (!file_is_readable(path))
         return FRAM_OK;
     fram_status status = file_read(ctx, path, ROW_FILE_LIMIT, &text, &size, error);

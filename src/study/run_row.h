@@ -76,7 +76,8 @@ fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run
 const run_row *run_rows_find(const run_rows *rows, const char *vessel);
 
 /* To and from a small file, so that a run is judged once; what it holds, and its most bytes.  found is false when there
-   is none, or one that was not written whole by this version; nothing is to be freed then. */
+   is none, or one that was not written whole by this version; nothing is to be freed then.  FRAM_ERROR_INPUT where
+   there is something else than a file. */
 enum { ROW_FILE_LIMIT = 1 << 16 };
 void run_rows_text(context *ctx, const run_rows *rows, text_buffer *out);
 fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error);

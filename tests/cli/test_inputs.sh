@@ -42,8 +42,14 @@ for file in series.csv run.json scenario.yaml record.fram; do
     rm broken/$file
     mkfifo broken/$file
     refuse "found a pipe" report broken
+    refuse "$file: expected a regular file, found a pipe" resume broken
     rm -r broken
 done
+# Nor is the reader of one that lies where a run which goes on will write.
+cp -r run broken
+mkfifo broken/checkpoint-000000000900.fram
+refuse "checkpoint-000000000900.fram: expected a regular file, found a pipe" resume broken
+rm -r broken
 
 # A run goes on with files that lie somewhere else, if they are the same.
 expect 0 "$FRAM" run scene.yaml -o moved -q --until 0.2

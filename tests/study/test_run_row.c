@@ -85,6 +85,11 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
     ck_assert(!found);
     remove(path);
+    /* What is no file is none either, and nobody's reader is waited for. */
+    ck_assert_int_eq(mkfifo(path, 0600), 0);
+    assert_fails(run_rows_read(&ctx, path, &back, &found, &error), error, FRAM_ERROR_INPUT, "found a pipe");
+    ck_assert(!found);
+    remove(path);
 }
 END_TEST
 
