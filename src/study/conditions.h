@@ -12,6 +12,7 @@ typedef struct study_source {
     const yaml_tree *tree;
     study *out;
     fram_error *error;
+    bool recorded; /* as a study that ran was read: what was taken then is taken */
 } study_source;
 
 /* A refusal at a node's value: file, line, key. */

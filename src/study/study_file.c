@@ -65,7 +65,7 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
 static fram_status read_within(const study_source *r, const yaml_node *k, double *out)
 {
     fram_status status = study_number(r, k, 1e-6, 1e9, out);
-    if (status == FRAM_OK && *out > 1)
+    if (status == FRAM_OK && *out > 1 && !r->recorded)
         return study_refuse(r, k, "expected a part of the mean, 1 at most, found %g: %g per cent are %g", *out, *out,
                             *out / 100);
     return status;
@@ -451,7 +451,8 @@ static fram_status check_conditions(context *ctx, study *s, fram_error *error)
     return status;
 }
 
-fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error)
+static fram_status parse(context *ctx, const char *name, const char *data, size_t size, bool recorded, study *s,
+                         fram_error *error)
 {
     yaml_tree tree = {0};
     *s = (study){.conditions = 1,
@@ -460,7 +461,7 @@ fram_status study_parse(context *ctx, const char *name, const char *data, size_t
     fram_status status = set_text(ctx, &s->file, name) ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK)
         status = yaml_tree_parse(ctx, name, data, size, STUDY_DEPTH_LIMIT, &tree, error);
-    const study_source source = {ctx, &tree, s, error};
+    const study_source source = {ctx, &tree, s, error, recorded};
     if (status == FRAM_OK)
         status = read_root(&source);
     yaml_tree_free(ctx, &tree);
@@ -469,13 +470,18 @@ fram_status study_parse(context *ctx, const char *name, const char *data, size_t
     return status;
 }
 
+fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error)
+{
+    return parse(ctx, name, data, size, true, s, error);
+}
+
 fram_status study_read(context *ctx, const char *path, study *s, fram_error *error)
 {
     char *data = NULL;
     size_t size = 0;
     fram_status status = file_read(ctx, path, STUDY_FILE_LIMIT, &data, &size, error);
     if (status == FRAM_OK)
-        status = study_parse(ctx, path, data, size, s, error);
+        status = parse(ctx, path, data, size, false, s, error);
     memory_free(ctx, data);
     if (status != FRAM_OK)
         return status;

@@ -28,8 +28,9 @@ enum { STUDY_FILE_LIMIT = 1 << 28, STUDY_DEPTH_LIMIT = 8 };
 /* On success free with study_free; on failure nothing is left to free. */
 fram_status study_read(context *ctx, const char *path, study *s, fram_error *error);
 
-/* The same from memory, and without the check of the conditions; `name` stands for the file in errors and for relative
-   paths. */
+/* The record of a study that ran, from memory, and without the check of the conditions: intervals wider than their
+   means (seeds.mean_within over 1), which older versions took, are taken.  `name` stands for the file in errors and for
+   relative paths. */
 fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error);
 /* The scenario of one run; on success free with scenario_free. */
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,

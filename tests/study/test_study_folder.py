@@ -58,6 +58,13 @@ class Folders(StudyTest):
                               capture_output=True, text=True)
         self.assertNotIn("was of a study of", done.stderr)
         self.assertIn("3 carried out now", done.stderr)
+        # The record of a study from when an interval wider than its mean was taken is read all the same.
+        text = record.read_text()
+        wide = re.sub("seeds: .*", "seeds: {least: 2, most: 3, mean_within: 5}", text).replace("other.yaml", "old.yaml")
+        record.write_text(wide)
+        self.assertEqual(self.fram("list", self.at / "out")["conditions"], 2)
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], check=True, capture_output=True, text=True)
+        self.assertIn("old.yaml: its runs stay", done.stderr)
         # One of something else is left alone, --force or not.
         (self.at / "mine").mkdir()
         (self.at / "mine" / "letter").write_text("")
