@@ -1,4 +1,6 @@
 /* fram: the table of commands and the help that teaches them. */
+/* ptsname is not in every standard's stdlib.h. */
+#define _GNU_SOURCE
 #include "cli/cli.h"
 
 #include <fcntl.h>
@@ -245,6 +247,13 @@ static bool open_standard_streams(void)
     return true;
 }
 
+/* Opened once more a pipe is the same pipe, and a terminal the same terminal; the master of one would be that of a new
+   terminal, which nobody reads. */
+static bool opens_as_itself(int descriptor, const struct stat *about)
+{
+    return S_ISFIFO(about->st_mode) || (isatty(descriptor) && !ptsname(descriptor));
+}
+
 /* Who shares the stream may have set it not to wait, and what a full one does not take is lost to stdio.  Opened once
    more it waits, for this command alone; one that cannot be, as a socket, waits for all that share it. */
 static void wait_at_standard_output(void)
@@ -253,7 +262,7 @@ static void wait_at_standard_output(void)
     int flags = fcntl(STDOUT_FILENO, F_GETFL);
     if (flags < 0 || !(flags & O_NONBLOCK) || (flags & O_ACCMODE) == O_RDONLY || fstat(STDOUT_FILENO, &about) != 0)
         return;
-    if (S_ISFIFO(about.st_mode) || S_ISCHR(about.st_mode)) {
+    if (opens_as_itself(STDOUT_FILENO, &about)) {
         /* Nor does it wait here, for a reader that has gone. */
         int own = open("/proc/self/fd/1", O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
         if (own >= 0) {

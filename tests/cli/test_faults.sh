@@ -52,6 +52,18 @@ assert not os.get_blocking(to)
 os.close(to)
 assert open(to_read, "rb").read()[before:] == open("out", "rb").read() and fram.wait() == 0
 PY
+# So does a terminal's end, and its master, which opened once more would be that of a new terminal.
+python3 -S - <<'PY' || fail "an answer to a terminal that does not wait"
+import os, pty, subprocess, tty
+for waits in (0, 1):
+    for master in (0, 1):
+        ends = pty.openpty()
+        tty.setraw(ends[1])
+        os.set_blocking(ends[1 - master], bool(waits))
+        subprocess.run([os.environ["FRAM"], "--version"], stdout=ends[1 - master], check=True)
+        os.set_blocking(ends[master], False)
+        assert os.read(ends[master], 5) == b"fram ", (waits, master)
+PY
 
 # A folder that is taken away in the middle is a failed run, and so is one whose end cannot be written.
 sed 's/duration: 4/duration: 4000/' scene.yaml >long.yaml
