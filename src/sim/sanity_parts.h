@@ -22,10 +22,26 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN]);
 /* A hull by its particulars; that of a file has its size in the file. */
 static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
 
+/* Whether its thrusters push, whatever meets it: positioning looks at no settings. */
+static inline bool sanity_has_settings(const scenario_vessel *v)
+{
+    bool set = false;
+    for (int32_t i = 0; i < v->thrusters.count && !v->positioning.active; i++)
+        set = set || v->thrusters.data[i].setting != 0;
+    return set;
+}
+
+/* Whether its thrusters answer to what meets it. */
+static inline bool sanity_is_positioned(const scenario_vessel *v)
+{
+    return v->positioning.active && v->thrusters.count > 0;
+}
+
 /* Whether it goes anywhere by itself or as it is led. */
 static inline bool sanity_vessel_moves(const scenario_vessel *v)
 {
-    bool driven = v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
+    bool steered = sanity_is_positioned(v) && v->positioning.waypoints.count > 0;
+    bool driven = sanity_has_settings(v) || steered || !is_automatic(v->propulsion.bollard_pull);
     return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
 }
 

@@ -286,7 +286,8 @@ static void tell_motion(const teller *t)
 static void tell_dry(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
-    bool pulled = v->mooring.lines.count > 0 || v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
+    bool pulled = v->mooring.lines.count > 0 || sanity_has_settings(v) || sanity_is_positioned(v) ||
+                  !is_automatic(v->propulsion.bollard_pull);
     if (v->mode == VESSEL_FREE && pulled && !t->s->environment.water)
         sanity_say(t->tell, t->to,
                    "%s: without water (environment.water: false) nothing holds it upright and afloat: its lines, "

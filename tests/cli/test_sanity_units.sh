@@ -84,6 +84,12 @@ done
 sed 's/^ice:.*/ice: {source: level}/' towed.yaml >wall.yaml
 expect 0 "$FRAM" check wall.yaml --set vessel.speed=0
 grep 'makes a wall' err && fail "a vessel that rests is told of a wall"
+# Thrusters that are not set push nothing, but to way points.
+sed 's/^ice:.*/ice: {source: level}/; s/, setting: 1//' thrust.yaml >wall.yaml
+all_told wall.yaml -- "vessel.speed: neither vessel nor ice, water or wind moves"
+sed 's/^vessel: {/&positioning: {active: true, waypoints: [{time: 0, x: 30}]}, /' wall.yaml >goes.yaml
+told goes.yaml "ice.breakable: false makes a wall of level ice"
+grep 'neither vessel nor ice' err && fail "a vessel that goes to way points is told to rest"
 all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=140 ice.level.mass=5e6 --
 all_told level.yaml ice.level.line_load=2e5 ice.level.x_min=170 ice.level.x_max=190 ice.level.y_min=0 \
     ice.level.y_max=20 ice.level.mass=3e5 --
