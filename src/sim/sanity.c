@@ -153,7 +153,7 @@ static double judged_on(const teller *t, const void *member)
 {
     const scenario_ice *i = &t->s->ice;
     double h = member == &i->crushing_strength ? sanity_own_thickness(i, t->made) : 0;
-    if (i->crushing_exponent == 0 || isinf(h))
+    if (i->crushing_exponent == 0)
         return 0;
     for (int32_t k = 0; k < i->populations.count; k++)
         if (member == &i->populations.data[k].crushing_strength)
@@ -175,6 +175,8 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     if (is_angle(pattern))
         tell_radians(t, path, value);
     double area = judged_on(t, member), judged = value;
+    if (!sanity_is_taken(&t->s->ice, member))
+        return FRAM_OK;
     if (area > 0)
         judged = sanity_pressure_on(&t->s->ice, value, area, on);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {

@@ -291,6 +291,17 @@ static void tell_pair(const teller *t, const ice_kind *k, const char *key, const
                    key, k->crushing_strength, on, whose, k->flexural_strength);
 }
 
+bool sanity_is_taken(const scenario_ice *i, const void *member)
+{
+    bool crushes = member == &i->crushing_strength, bends = member == &i->flexural_strength;
+    bool taken = !(crushes || bends) || i->source == ICE_FILE || i->populations.count == 0;
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const scenario_population *p = &i->populations.data[k];
+        taken = taken || is_automatic(crushes ? p->crushing_strength : p->flexural_strength);
+    }
+    return taken;
+}
+
 double sanity_own_thickness(const scenario_ice *i, const world *made)
 {
     if (i->populations.count == 0)

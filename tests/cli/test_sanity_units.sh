@@ -140,7 +140,7 @@ all_told packed.yaml "ice.populations[0].diameter=150" -- \
 # Of populations with strengths of their own those are judged, and ice.* where some floe takes it.
 kinds='{size: constant, thickness: 0.2, flexural_strength: 3e5, crushing_strength: 5e5}'
 sed "s/^ice:.*/ice: {source: packed, thickness: 3, breakable: true, populations: [$kinds]}/" towed.yaml >kinds.yaml
-all_told kinds.yaml ice.flexural_strength=2e6 ice.crushing_strength=5e5 vessel.speed=0.01 \
+all_told kinds.yaml ice.flexural_strength=2e8 ice.crushing_strength=5 vessel.speed=0.01 \
     ice.strength.flexural_variation=0.1 ice.strength.correlation_length=0.5 --
 own="ice.populations[0].crushing_strength: 2e+05 Pa"
 all_told kinds.yaml "ice.populations[0].crushing_strength=2e5" ice.strength.flexural_variation=0.1 \
@@ -152,6 +152,8 @@ all_told kinds.yaml "ice.populations[0].crushing_strength=auto" ice.crushing_str
 sed 's/populations: \[/&{size: constant}, /' kinds.yaml >both.yaml
 all_told both.yaml ice.crushing_strength=4e5 -- \
     "ice.crushing_strength: 4e+05 Pa is less than the flexural strength, 5e+05 Pa"
+all_told both.yaml ice.crushing_strength=5 ice.flexural_strength=1 -- "crushing_strength: 5 Pa|not kPa" \
+    "flexural_strength: 1 Pa|not kPa"
 
 # No water is left: the key that took it is named.
 sed 's/^ice: {/&open_water: [{length: 900, width: 900}], /' towed.yaml >bare.yaml
