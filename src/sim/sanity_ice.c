@@ -313,13 +313,16 @@ double sanity_own_thickness(const scenario_ice *i, const world *made)
     return h;
 }
 
-/* Populations that have a strength of their own, and the pair of ice.* where some floe takes both. */
+/* Populations that have a strength of their own, and the pair of ice.* where some floe takes both.  What cannot break
+   is not bent, and its flexural strength says nothing. */
 static void tell_strength(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
     bool taken = i->populations.count == 0 || i->source == ICE_FILE;
-    for (int32_t k = 0; k < i->populations.count; k++) {
+    for (int32_t k = 0; i->breakable && k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
+        if (!p->breakable)
+            continue;
         bool crushes = !is_automatic(p->crushing_strength), bends = !is_automatic(p->flexural_strength);
         const ice_kind kind = ice_kind_of_population(i, p);
         char key[64] = "ice.crushing_strength", whose[48] = "";
@@ -332,7 +335,7 @@ static void tell_strength(const teller *t)
         taken = taken || !(crushes || bends);
     }
     const ice_kind own = {sanity_own_thickness(i, t->made), i->flexural_strength, i->crushing_strength};
-    if (taken)
+    if (i->breakable && taken)
         tell_pair(t, &own, "ice.crushing_strength", "");
     double thinnest = ice_range_made(i, t->made).thinnest.thickness;
     bool varies = i->strength.flexural_variation > 0 || i->strength.crushing_variation > 0;

@@ -53,10 +53,11 @@ all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction
     "crushing_strength: 4e+05 Pa on 1 m2|is less than the flexural strength, 5e+05 Pa" "correlation_length: 0.01 m" \
     "flexural_variation: 1.5|not per cent" "ridging_resistance: 400 MN/m|R is 2 to 10"
 # A pressure that goes with the area is that on the thickness squared: 0.49 m2 here, 9 cm2 of a tank.
-all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e5 -- \
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e5 ice.breakable=true -- \
     "crushing_strength: 2e+05 Pa on 1 m2, 2.857e+05 Pa on the thickness squared, 0.49 m2, is less than|swapped"
-all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=4e5 --
-all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e4 -- \
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=4e5 ice.breakable=true --
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e5 --
+all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e4 ice.breakable=true -- \
     "crushing_strength: 20000 Pa on 1 m2, 2.857e+04 Pa on the thickness squared, 0.49 m2, is outside of 5e+04|kPa" \
     "crushing_strength: 2e+04 Pa on 1 m2|is less than the flexural strength, 5e+05 Pa"
 cat >tank.yaml <<'YAML'
@@ -66,7 +67,7 @@ ice: {thickness: 0.03, crushing_strength: 2.0e+4, crushing_exponent: -0.5, mean_
 domain: {x_min: -4, x_max: 5, y_min: -2, y_max: 2}
 YAML
 all_told tank.yaml --
-all_told tank.yaml ice.crushing_strength=500 -- "is less than the flexural strength"
+all_told tank.yaml ice.crushing_strength=500 ice.breakable=true -- "is less than the flexural strength"
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
     "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
     "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
@@ -154,6 +155,10 @@ all_told both.yaml ice.crushing_strength=4e5 -- \
     "ice.crushing_strength: 4e+05 Pa is less than the flexural strength, 5e+05 Pa"
 all_told both.yaml ice.crushing_strength=5 ice.flexural_strength=1 -- "crushing_strength: 5 Pa|not kPa" \
     "flexural_strength: 1 Pa|not kPa"
+# What cannot break is not bent.
+all_told kinds.yaml "ice.populations[0].crushing_strength=2e5" "ice.populations[0].breakable=false" --
+all_told kinds.yaml "ice.populations[0].crushing_strength=2e5" ice.breakable=false -- \
+    "ice.populations[0].flexural_strength: without effect"
 
 # No water is left: the key that took it is named.
 sed 's/^ice: {/&open_water: [{length: 900, width: 900}], /' towed.yaml >bare.yaml
