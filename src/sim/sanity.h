@@ -31,7 +31,9 @@ void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller
 void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to);
 /* Of the times of the run and of what it writes.  sanity_tell asks. */
 void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
-/* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
+/* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks.  All these
+   sentences hold these words, and no others do. */
+#define SANITY_IDLE ": without effect, since "
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 
 /* Where the ship's origin begins and with which heading (x, y, heading: m, m, deg): as in `made` where that was found

@@ -40,7 +40,7 @@ static void tell_group(idle_group *g)
     if (g->rule && g->more > 0)
         snprintf(others, sizeof others, " and %d more", (int)g->more);
     if (g->rule)
-        sanity_say(g->t->tell, g->t->to, "%s%s: without effect, since %s", g->first, others, g->rule->why);
+        sanity_say(g->t->tell, g->t->to, "%s%s" SANITY_IDLE "%s", g->first, others, g->rule->why);
     g->rule = NULL;
 }
 

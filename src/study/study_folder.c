@@ -170,6 +170,8 @@ static fram_status write_condition(study_folder *f, int32_t condition, hull_stor
     bool fresh = status == FRAM_OK && !holds(f->ctx, path, &text);
     if (fresh)
         status = study_build_check(warnings, condition, &one, store, error);
+    else if (status == FRAM_OK)
+        study_warnings_pass(warnings, condition, &one);
     if (status == FRAM_OK)
         status = make_folder(f, "runs", f->id[condition], error);
     if (status == FRAM_OK && fresh)

@@ -2,6 +2,7 @@
 
 #include "sim/build.h"
 #include "sim/notes.h"
+#include "sim/sanity.h"
 #include "study/study_file.h"
 
 #include <ctype.h>
@@ -39,10 +40,27 @@ static bool is_like(const char *a, const char *b)
     return *a == *b;
 }
 
+/* A key that decides nothing here may do so under another condition, which is what those are compared for. */
+static void count_idle(study_warnings *w, const char *text)
+{
+    for (int32_t i = 0; i < w->idle.count; i++) {
+        if (strcmp(w->idle.data[i], text) != 0)
+            continue;
+        w->idle_in.data[i] += w->idle_in.data[i] == w->condition;
+        return;
+    }
+    if (w->condition == 0 && (!array_push(w->ctx, &w->idle_in, 1) || !text_list_add(w->ctx, &w->idle, text)))
+        w->failed = true;
+}
+
 static void tell_once(void *user, log_level level, const char *text)
 {
     study_warnings *w = user;
     study_condition_text name;
+    if (strstr(text, SANITY_IDLE)) {
+        count_idle(w, text);
+        return;
+    }
     int like = 0;
     int32_t last = w->condition;
     for (int32_t i = 0; i < w->told.count; i++) {
@@ -85,12 +103,38 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
     return status;
 }
 
+static void count_one(const void *to, const char *text)
+{
+    study_warnings *const *w = to;
+    count_idle(*w, text);
+}
+
+void study_warnings_pass(study_warnings *w, int32_t condition, const scenario *one)
+{
+    w->condition = condition;
+    if (w->idle.count > 0)
+        sanity_tell_idle(one, count_one, &w);
+}
+
+static void tell_idle(const study_warnings *w)
+{
+    study_condition_text name;
+    study_spell_condition(w->s, 0, &name);
+    for (int32_t i = 0; i < w->idle.count; i++)
+        if (w->idle_in.data[i] == w->s->conditions)
+            log_write(w->ctx, LOG_WARNING, "%s%s", name.text, w->idle.data[i]);
+}
+
 fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error)
 {
+    if (!w->failed)
+        tell_idle(w);
     if (w->more > 0)
         log_write(w->ctx, LOG_WARNING, "%d more condition%s warnings like these, with other numbers", (int)w->more,
                   w->more == 1 ? " has" : "s have");
     text_list_free(w->ctx, &w->told);
     array_free(w->ctx, &w->by);
+    text_list_free(w->ctx, &w->idle);
+    array_free(w->ctx, &w->idle_in);
     return status == FRAM_OK && w->failed ? error_memory(error) : status;
 }

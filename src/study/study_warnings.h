@@ -1,4 +1,5 @@
-/* Warnings of the scenarios of a study: each is told once, with the first condition that has it. */
+/* Warnings of the scenarios of a study: each is told once, with the first condition that has it.  That a key is without
+   effect is told in the end, where it is under every condition. */
 #ifndef STUDY_STUDY_WARNINGS_H
 #define STUDY_STUDY_WARNINGS_H
 
@@ -13,6 +14,8 @@ typedef struct study_warnings {
     int32_t condition;   /* that is looked at */
     text_list told;      /* sentences, without their conditions */
     int32_array by;      /* the condition of each */
+    text_list idle;      /* sentences of keys without effect of the first condition */
+    int32_array idle_in; /* conditions that have each, one after the other from the first on */
     int32_t more, other; /* conditions with others like those, and the number of the last of them */
     bool failed;         /* no memory */
 } study_warnings;
@@ -23,8 +26,10 @@ context study_warnings_of(study_warnings *w, int32_t condition);
    hull that closes nowhere, a mass that sinks.  store: for those of the next condition.  Makes no ice. */
 fram_status study_build_check(study_warnings *w, int32_t condition, const scenario *one, hull_store *store,
                               fram_error *error);
-/* Tells how many conditions have others like those that were told, and frees what w holds.  status: of the looking,
-   which it returns, or that there was no memory for what was told. */
+/* A condition that was looked at before: what it has in common with those that are looked at now. */
+void study_warnings_pass(study_warnings *w, int32_t condition, const scenario *one);
+/* Tells what all conditions have, and how many have others like those that were told, and frees what w holds.  status:
+   of the looking, which it returns, or that there was no memory for what was told. */
 fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error);
 
 #endif

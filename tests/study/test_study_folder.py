@@ -72,19 +72,20 @@ class Folders(StudyTest):
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
 
+    def warned(self, *words):
+        """The warnings of a study, all of which come before its runs."""
+        done = subprocess.run([FRAM, "study", *words], check=True, capture_output=True, text=True)
+        lines = done.stderr.splitlines()
+        first = next((i for i, line in enumerate(lines) if line.endswith(" runs")), len(lines))
+        self.assertEqual([line for line in lines[first:] if line.startswith("warning: ")], [])
+        return [line for line in lines[:first] if line.startswith("warning: ")]
+
     def test_each_warning_of_a_scenario_is_told_once_with_its_condition(self):
         """Of sentences that differ in their numbers alone those of three conditions, and how many have others."""
-        def warned(*words):
-            done = subprocess.run([FRAM, "study", *words], check=True, capture_output=True, text=True)
-            lines = done.stderr.splitlines()
-            first = next((i for i, line in enumerate(lines) if line.endswith(" runs")), len(lines))
-            self.assertEqual([line for line in lines[first:] if line.startswith("warning: ")], [])
-            return [line for line in lines[:first] if line.startswith("warning: ")]
-
         study = self.write("set: {run.duration: 0.1, run.transient: 0, vessel.mode: free, ice.source: none,"
                            " environment.wind_speed: 80}\nkeep: summary\n"
                            "vary: {grid: {vessel.centre_of_gravity_z: [0, 5, 5.5, 5.75, 6, 6.5]}}\n")
-        told = warned(study, "-o", self.at / "out")
+        told = self.warned(study, "-o", self.at / "out")
         self.assertEqual(len(set(told)), len(told))
         of = "warning: condition {} (vessel.centre_of_gravity_z={}): "
         self.assertEqual([line.split(" is outside")[0] for line in told if "wind_speed" in line],
@@ -92,10 +93,17 @@ class Folders(StudyTest):
         self.assertEqual([line.split(": its")[0] for line in told if "capsizes" in line],
                          [of.format(*c) + "the vessel capsizes" for c in ((2, 5), (3, 5.5), (4, 5.75))])
         self.assertEqual(told[-1], "warning: 2 more conditions have warnings like these, with other numbers")
-        self.assertEqual(warned("check", study), told)
+        self.assertEqual(self.warned("check", study), told)
         # Not of conditions that are there, nor where nothing is to be told.
-        self.assertEqual(warned(study, "-o", self.at / "out"), [])
-        self.assertEqual(warned("check", study, "--quiet"), [])
+        self.assertEqual(self.warned(study, "-o", self.at / "out"), [])
+        self.assertEqual(self.warned("check", study, "--quiet"), [])
+        # A key is without effect where it is under every condition: not the concentration, for one of three has ice.
+        study.write_text("scenario: base.yaml\nset: {ice.sleep_time: 7}\n"
+                         "vary: {grid: {ice.source: [none, voronoi, none]}}\n")
+        idle = ["warning: condition 1 (ice.source=none): ice.sleep_time: without effect, since ice.sleep_speed is 0:"
+                " nothing sleeps"]
+        self.assertEqual(self.warned(study, "-o", self.at / "idle", "--on", "slurm", "--dry-run"), idle)
+        self.assertEqual(self.warned("check", study), idle)
 
     def contents(self, folder):
         return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
