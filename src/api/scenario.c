@@ -169,7 +169,7 @@ const char *fram_scenario_hash(const fram_scenario *s) { return s ? s->hash : ""
 fram_status fram_scenario_check(const fram_scenario *s, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"scenario", s});
-    return status == FRAM_OK ? build_check(&s->context->inner, &s->inner, NULL, error) : status;
+    return status == FRAM_OK ? build_check(&s->context->inner, &s->inner, NULL, NULL, error) : status;
 }
 
 double fram_scenario_duration(const fram_scenario *s) { return s ? s->inner.run.duration : (double)NAN; }

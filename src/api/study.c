@@ -4,6 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "sim/bench_looks.h"
+#include "sim/notes.h"
 #include "sim/recording.h"
 #include "sim/scene_size.h"
 #include "study/extent.h"
@@ -100,7 +101,8 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, stu
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    status = bench_looks(ctx, &one, looks_after, LOOKS, found, &build, error);
+    const build_look made = scenario_tells_when_made(&one) ? scenario_log_warnings : NULL;
+    status = bench_looks(ctx, &one, made, looks_after, LOOKS, found, &build, error);
     if (status == FRAM_OK) {
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
         double steps = (double)step_at(one.run.duration, one.run.time_step);

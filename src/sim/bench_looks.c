@@ -73,8 +73,8 @@ static fram_status look_at_world(looked_run *run, const double *after, int count
     return status;
 }
 
-fram_status bench_looks(context *ctx, const scenario *s, const double *after, int count, bench_look *out, double *build,
-                        fram_error *error)
+fram_status bench_looks(context *ctx, const scenario *s, build_look made, const double *after, int count,
+                        bench_look *out, double *build, fram_error *error)
 {
     model m;
     world w;
@@ -85,6 +85,8 @@ fram_status bench_looks(context *ctx, const scenario *s, const double *after, in
         return status;
     status = build_world(ctx, s, &m, &w, &report, error);
     *build = clock_processor() - began;
+    if (status == FRAM_OK && made)
+        made(ctx, s, &m, &w);
     if (status == FRAM_OK) {
         looked_run run = {ctx, &m, &w, 0, step_at(s->run.duration, s->run.time_step), 0, 0};
         status = look_at_world(&run, after, count, out, error);

@@ -2,8 +2,7 @@
 #ifndef SIM_BENCH_LOOKS_H
 #define SIM_BENCH_LOOKS_H
 
-#include "base/context.h"
-#include "model/scenario.h"
+#include "sim/build.h"
 
 typedef struct bench_look {
     double time;     /* of a step, median processor time [s] */
@@ -15,8 +14,8 @@ typedef struct bench_look {
 /* out[i]: the look at the steps that come when those before have taken after[i] seconds of processor time, ascending;
    the first after some steps that settle.  The run is made once, so that all takes little more than the last of
    `after`, however dear its steps become.  A run that ends before has its last look again.  build: processor time of
-   making the world [s]. */
-fram_status bench_looks(context *ctx, const scenario *s, const double *after, int count, bench_look *out, double *build,
-                        fram_error *error);
+   making the world [s].  made: looks at that; NULL: nobody. */
+fram_status bench_looks(context *ctx, const scenario *s, build_look made, const double *after, int count,
+                        bench_look *out, double *build, fram_error *error);
 
 #endif

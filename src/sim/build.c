@@ -112,7 +112,7 @@ static fram_status check_listed(context *ctx, const scenario *s, const model *m,
     return s->ice.source == ICE_FLOES ? name_ice(s, build_field(ctx, s, m, w, &report, error), error) : FRAM_OK;
 }
 
-fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error)
+fram_status build_check(context *ctx, const scenario *s, hull_store *store, build_look look, fram_error *error)
 {
     model m;
     world w;
@@ -122,6 +122,8 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram
     status = build_before_ice(ctx, s, &m, &w, error);
     if (status == FRAM_OK) {
         status = check_listed(ctx, s, &m, &w, error);
+        if (status == FRAM_OK && look)
+            look(ctx, s, &m, &w);
         world_free(ctx, &w);
     }
     model_free(ctx, &m);

@@ -12,9 +12,13 @@
 fram_status build_world(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error);
 
+/* Looks at what was made of a scenario: at its world before the first step, or at a part of that. */
+typedef void (*build_look)(context *ctx, const scenario *s, const model *m, const world *made);
+
 /* The vessels and their stations alone, and floes that are listed, as build_world makes them, and then nothing of it:
-   for what cannot be, and for the warnings in the log.  store: of hulls, may be NULL (build_hull.h). */
-fram_status build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error);
+   for what cannot be, and for the warnings in the log.  store: of hulls, may be NULL (build_hull.h).  look: at that
+   world, which holds no other ice; NULL: none. */
+fram_status build_check(context *ctx, const scenario *s, hull_store *store, build_look look, fram_error *error);
 
 /* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile,
    without the cuts of vessels and zones without ice, whose file is read all the same.  domain: what it was made in.

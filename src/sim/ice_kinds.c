@@ -34,6 +34,10 @@ static bool is_populated(const scenario_ice *i)
 /* Of no ice. */
 static const ice_range no_range = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
 
+static const ice_kind no_kind = {(double)NAN, (double)NAN, (double)NAN};
+
+bool ice_is_known(const ice_range *r) { return !isnan(r->thinnest.thickness); }
+
 /* Where nothing may break the thinnest stands for what would. */
 static ice_range with_soonest(ice_range r)
 {
@@ -97,7 +101,7 @@ ice_range ice_range_made(const scenario_ice *i, const world *made)
             take_kind(i, &r,
                       (ice_kind){f->thickness[k], f->material[k].flexural_strength, f->material[k].crushing_strength},
                       f->breakable[k]);
-    return r.thickest.thickness > 0 ? with_soonest(r) : ice_range_of(i);
+    return r.thickest.thickness > 0 ? with_soonest(r) : (ice_range){no_kind, no_kind, no_kind};
 }
 
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)

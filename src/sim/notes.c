@@ -72,7 +72,7 @@ static void note_kind(const note_taker *n, const scenario *s, const ice_kind *k)
 static void note_ice(const note_taker *n, const scenario *s)
 {
     const scenario_ice *i = &s->ice;
-    if (i->source == ICE_NONE)
+    if (i->source == ICE_NONE || !ice_is_known(&n->ice))
         return;
     double area = (s->domain.x_max - s->domain.x_min) * (s->domain.y_max - s->domain.y_min);
     note_kind(n, s, &n->ice.thinnest);
@@ -137,7 +137,7 @@ static double crushed_under(const ice_material *m, double thickness, double load
 static void note_fracture(const note_taker *n, const scenario *s)
 {
     const scenario_ice *i = &s->ice;
-    if (i->source == ICE_NONE)
+    if (i->source == ICE_NONE || !ice_is_known(&n->ice))
         return;
     if (!i->breakable) {
         note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
@@ -265,4 +265,13 @@ void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenari
 void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made)
 {
     scenario_notes_made(ctx, s, m, made, NULL);
+}
+
+bool scenario_tells_when_made(const scenario *s)
+{
+    const scenario_environment *n = &s->environment;
+    bool tells = s->ice.source == ICE_FILE || n->current_file[0] != '\0' || n->current_profile_file[0] != '\0';
+    for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++)
+        tells = vessel_begins_at_equilibrium(scenario_vessel_entry(s, i).keys);
+    return tells;
 }

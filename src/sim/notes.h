@@ -14,5 +14,8 @@ void scenario_notes(context *ctx, const scenario *s, text_buffer *out);
 void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out);
 /* The warnings alone, to the log. */
 void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made);
+/* Whether some of what is warned of is known when the world is made: how thick the floes of a file are, which current a
+   file has, and where a vessel on its mooring begins. */
+bool scenario_tells_when_made(const scenario *s);
 
 #endif

@@ -158,17 +158,6 @@ static fram_status make_world(run *r, field_report *report, fram_error *error)
     return status;
 }
 
-/* Whether some of what is warned of is known when the world is made: how thick the floes of a file are, which current a
-   file has, and where a vessel on its mooring begins. */
-static bool tells_when_made(const scenario *s)
-{
-    const scenario_environment *n = &s->environment;
-    bool tells = s->ice.source == ICE_FILE || n->current_file[0] != '\0' || n->current_profile_file[0] != '\0';
-    for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++)
-        tells = vessel_begins_at_equilibrium(scenario_vessel_entry(s, i).keys);
-    return tells;
-}
-
 fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
                       fram_error *error)
 {
@@ -179,7 +168,7 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
         status = recording_prepare(&r.record, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK) {
-        bool when_made = tells_when_made(s);
+        bool when_made = scenario_tells_when_made(s);
         if (!when_made)
             scenario_log_warnings(ctx, s, NULL, NULL);
         status = make_world(&r, &report, error);

@@ -148,7 +148,7 @@ void sanity_pattern(const char *path, char out[SANITY_PATTERN])
 }
 
 /* The area on which a crushing strength is judged, where its pressure goes with the area: the thickness of its ice,
-   squared [m2].  0: on any. */
+   squared [m2].  0: on any; NaN: not known. */
 static double judged_on(const teller *t, const void *member)
 {
     const scenario_ice *i = &t->s->ice;
@@ -175,7 +175,7 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     if (is_angle(pattern))
         tell_radians(t, path, value);
     double area = judged_on(t, member), judged = value;
-    if (!sanity_is_taken(&t->s->ice, member))
+    if (isnan(area) || !sanity_is_taken(&t->s->ice, member))
         return FRAM_OK;
     if (area > 0)
         judged = sanity_pressure_on(&t->s->ice, value, area, on);

@@ -46,13 +46,11 @@ double sanity_least_band(const scenario *s)
 /* Of the thickness: edges as long belong to the shape of a floe. */
 #define LONG_EDGE 1.0
 
-static ice_kind thinnest_of(const teller *t) { return ice_range_made(&t->s->ice, t->made).thinnest; }
-
-/* Without breaking no wedge is too small. */
+/* Without breaking no wedge is too small, nor where the ice is not known. */
 static double wedge_of(const teller *t)
 {
-    const ice_kind kind = thinnest_of(t);
-    return t->s->ice.breakable ? build_wedge_area(t->s, &kind) : HUGE_VAL;
+    const ice_range ice = ice_range_made(&t->s->ice, t->made);
+    return t->s->ice.breakable && ice_is_known(&ice) ? build_wedge_area(t->s, &ice.thinnest) : HUGE_VAL;
 }
 
 static void tell_left_out(const teller *t, const char *key, double area)
@@ -104,7 +102,7 @@ static void tell_wedges_kept(const teller *t)
 static void tell_thresholds(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
-    double thickness = thinnest_of(t).thickness, speck = SPECK * thickness * thickness;
+    double thickness = ice_range_made(i, t->made).thinnest.thickness, speck = SPECK * thickness * thickness;
     tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
     tell_law_cut(t);
@@ -304,8 +302,9 @@ bool sanity_is_taken(const scenario_ice *i, const void *member)
 
 double sanity_own_thickness(const scenario_ice *i, const world *made)
 {
-    if (i->populations.count == 0)
-        return ice_range_made(i, made).thinnest.thickness;
+    const ice_range ice = ice_range_made(i, made);
+    if (i->populations.count == 0 || !ice_is_known(&ice))
+        return ice.thinnest.thickness;
     double h = i->source == ICE_FILE ? i->thickness : HUGE_VAL;
     for (int32_t k = 0; k < i->populations.count; k++)
         if (is_automatic(i->populations.data[k].crushing_strength))

@@ -77,7 +77,7 @@ double sanity_least_band(const scenario *s);
 /* Whether some ice takes the strength that is a member of the ice's keys: not where all populations have their own.
    True of any other member. */
 bool sanity_is_taken(const scenario_ice *i, const void *member);
-/* The thinnest ice that takes ice.crushing_strength [m], where some does. */
+/* The thinnest ice that takes ice.crushing_strength [m], where some does; NaN: not known. */
 double sanity_own_thickness(const scenario_ice *i, const world *made);
 /* The crushing pressure on an area of ice of a strength [Pa], and the words that say so after the strength. */
 enum { SANITY_ON_AREA = 80 };

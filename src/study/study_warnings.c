@@ -96,8 +96,10 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
                               fram_error *error)
 {
     context telling = study_warnings_of(w, condition);
-    scenario_log_warnings(&telling, one, NULL, NULL);
-    fram_status status = build_check(&telling, one, store, error);
+    bool when_made = scenario_tells_when_made(one);
+    if (!when_made)
+        scenario_log_warnings(&telling, one, NULL, NULL);
+    fram_status status = build_check(&telling, one, store, when_made ? scenario_log_warnings : NULL, error);
     if (status == FRAM_ERROR_INPUT)
         study_place_error(w->s, condition, error);
     return status;

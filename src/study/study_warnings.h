@@ -22,8 +22,9 @@ typedef struct study_warnings {
 
 /* A context that tells warnings as those of a condition; stays good as long as w. */
 context study_warnings_of(study_warnings *w, int32_t condition);
-/* Warns of a condition's scenario by its keys, and looks whether its vessels can be built, for what only shows then: a
-   hull that closes nowhere, a mass that sinks.  store: for those of the next condition.  Makes no ice. */
+/* Warns of a condition's scenario by its keys, or, as before a run, by what was made of them, and looks whether its
+   vessels can be built, for what only shows then: a hull that closes nowhere, a mass that sinks.  store: for those of
+   the next condition.  Makes no ice: what goes by the floes of a file is not told. */
 fram_status study_build_check(study_warnings *w, int32_t condition, const scenario *one, hull_store *store,
                               fram_error *error);
 /* A condition that was looked at before: what it has in common with those that are looked at now. */

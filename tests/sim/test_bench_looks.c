@@ -13,7 +13,7 @@ static void look_at(const char *duration, const double after[3], bench_look out[
     const char *const items[] = {duration, "run.transient=0"};
     const scenario_overrides overrides = {items, 2};
     assert_ok(scenario_read(&ctx, "scenes/demo.yaml", &overrides, &s, &error), error);
-    assert_ok(bench_looks(&ctx, &s, after, 3, out, build, &error), error);
+    assert_ok(bench_looks(&ctx, &s, NULL, after, 3, out, build, &error), error);
     scenario_free(&ctx, &s);
 }
 

@@ -105,6 +105,36 @@ class Folders(StudyTest):
         self.assertEqual(self.warned(study, "-o", self.at / "idle", "--on", "slurm", "--dry-run"), idle)
         self.assertEqual(self.warned("check", study), idle)
 
+    def test_what_goes_by_what_is_made_is_told_by_that(self):
+        """How thick the floes of a file are is known where `check` makes them; the current of a file, and how a ship
+        lies on her mooring, is known of all conditions."""
+        file, dry = self.at / "floes.geojson", ("--on", "slurm", "--dry-run")
+        (self.at / "file.yaml").write_text(
+            "run: {duration: 3, time_step: 0.01, transient: 1}\nice: {source: file, file: floes.geojson}\n"
+            "vessel: {mode: towed, speed: 1, x: -20, hull: {form: box, length: 20, beam: 6, draught: 0.9,"
+            " freeboard: 2}}\ndomain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}\n")
+        study = self.at / "study.yaml"
+        study.write_text("scenario: file.yaml\nkeep: summary\n")
+        thick = "warning: ice.file: 3 m is more than the draught of the vessel, 0.9 m"
+        for thickness, told in ((0.3, []), (3, [thick])):
+            ring = [[10, -10], [30, -10], [30, 10], [10, 10], [10, -10]]
+            file.write_text(json.dumps({"type": "FeatureCollection", "features": [{
+                "type": "Feature", "properties": {"thickness": thickness},
+                "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
+            self.assertEqual(self.warned(study, "-o", self.at / f"file{thickness}", *dry), [])
+            self.assertEqual(self.warned("check", study), told)
+        (self.at / "aside.csv").write_text("time,x,y\n0,0,-0.5\n600,0,-0.5\n")
+        (self.at / "moored.yaml").write_text(
+            "run: {duration: 3, time_step: 0.05, transient: 1}\nice: {source: none}\n"
+            "environment: {current_file: aside.csv}\nvessel:\n  mode: free\n"
+            "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n"
+            "  mooring: {depth: 80, lines: [{kind: spring, count: 4, spacing_deg: 90, direction_deg: 45,"
+            " distance: 300, stiffness: 2.0e4, pretension: 5.0e5}]}\n")
+        study.write_text("scenario: moored.yaml\nkeep: summary\n")
+        for told in (self.warned(study, "-o", self.at / "moored", *dry), self.warned("check", study)):
+            self.assertEqual([line.split(" and environment")[0] for line in told],
+                             ["warning: vessel: a current of 0.5 m/s comes across the hull,"])
+
     def contents(self, folder):
         return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
