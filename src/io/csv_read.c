@@ -137,7 +137,7 @@ static bool push_value(context *ctx, const int32_t *at, int32_t count, int32_t c
 }
 
 /* A number in a cell, and its end; false where it has none: 0x10 is one to the C library alone. */
-static bool read_number(const char *c, double *value, char **end)
+static bool csv_number(const char *c, double *value, char **end)
 {
     *value = real_read(c, end);
     const char *first = c + (*c == ' ' || *c == '\t' ? strspn(c, BLANKS) : 0);
@@ -188,7 +188,7 @@ static fram_status read_row(const column_reader *r, const char *path, int line, 
         }
         char *end;
         double value;
-        bool number = read_number(c, &value, &end);
+        bool number = csv_number(c, &value, &end);
         end += strspn(end, BLANKS);
         if (!number || (*end != ',' && *end != '\0'))
             return refuse_cell(r, path, line, asked, c, error);
@@ -423,7 +423,7 @@ static fram_status read_values(const table_reader *r, const char *path, int line
         bool last = k + 1 == r->out->columns.count;
         char *end;
         double value;
-        bool number = read_number(c, &value, &end);
+        bool number = csv_number(c, &value, &end);
         if (end > c && (!number || !isfinite(value)))
             return refuse_number(path, line, r->out->columns.data[k].name, k, c, error);
         if (end == c || *end != (last ? '\0' : ','))
