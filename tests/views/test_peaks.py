@@ -268,6 +268,10 @@ def check_two(browser, folder, pressure):
     assert not browser.run("document.getElementById('vessels').hidden")
     told = browser.run("document.getElementById('load').textContent")
     assert told.startswith("averaged ice force on first: X "), told
+    # Without its loads, as a page of a run that goes on.
+    told = browser.run("(() => { const t = fram.timeline; t.loads = null; t.drawCurve(900, 90, 1);"
+                       "return t.canvas.ariaDescription; })()")
+    assert told.startswith("ice load on first, averaged, at the frames; largest of them "), told
     browser.call("Emulation.setDeviceMetricsOverride", width=320, height=720, deviceScaleFactor=1, mobile=False)
     browser.until("document.documentElement.clientWidth === 320", "the window does not get narrow")
     cut = browser.run("(() => { const load = document.getElementById('load');"

@@ -62,7 +62,8 @@ class Player {
         this.legend = new Legend();
         this.film = new Film($('view'), this.legend, () => this.seen());
         this.peakShown = false;
-        this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t), (p) => this.peaks.open(p));
+        this.timeline = new Timeline($('timeline'), record, this.ofVessel || ' on the vessel', (t) => this.seek(t),
+            (p) => this.peaks.open(p));
         this.tellLoads();
         this.history = new History($('history'), record, this.store);
         this.drawn = { bodies: record.bodies.length, fractures: record.fractures.length };

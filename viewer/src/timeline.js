@@ -9,10 +9,11 @@ const NUMBER = 16; // from a peak's point to above its number [px]
 const GRASP = 6; // a click so near to a peak's time is meant for it [px]
 
 export class Timeline {
-    /** seek(time); open(peak) when a peak is clicked. */
-    constructor(canvas, record, seek, open) {
+    /** of: whose load the frames tell, " on NAME"; seek(time); open(peak) when a peak is clicked. */
+    constructor(canvas, record, of, seek, open) {
         this.canvas = canvas;
         this.record = record;
+        this.of = of;
         this.frames = record.frames;
         this.loads = null;
         this.open = open;
@@ -140,7 +141,7 @@ export class Timeline {
     drawPlain(g, w, h) {
         const most = this.load.some((load) => load > 0) ? `largest of them ${forceText(this.most)}` : 'none';
         const what = this.record.bodies.some((b) => b.material === 'hull')
-            ? `ice load on the vessel, averaged, at the frames; ${most}` : 'no vessel';
+            ? `ice load${this.of}, averaged, at the frames; ${most}` : 'no vessel';
         const head = this.drawCaption(g, w, `${what}${this.eventText()}`) + 7;
         g.fillStyle = '#c9d6e2';
         g.beginPath();
