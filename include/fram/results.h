@@ -57,7 +57,8 @@ FRAM_API fram_status fram_report(fram_context *context, const char *run, const c
 enum { FRAM_PLOT_CHANNELS = 64 }; /* the most channels of a plot */
 
 /* Channels of series.csv over time, those of one unit in one panel, from time `from` to `to` [s] (NaN: all), as SVG
-   when output ends in .svg, else as PNG.  FRAM_ERROR_INPUT names a channel that the run does not have. */
+   when output ends in .svg, else as PNG.  channel_count: 1 to FRAM_PLOT_CHANNELS, looked at before channels are.
+   FRAM_ERROR_INPUT names a channel that the run does not have. */
 FRAM_API fram_status fram_plot(fram_context *context, const char *run, const char *const *channels, int channel_count,
                                double from, double to, const char *output, fram_error *error);
 /* "name [unit]" of every channel, a line each; the caller frees it with fram_text_free. */

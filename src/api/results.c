@@ -96,6 +96,9 @@ fram_status fram_plot(fram_context *c, const char *run, const char *const *chann
                       double to, const char *output, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"channels", channels}, {"output", output});
+    if (status == FRAM_OK && (channel_count < 1 || channel_count > FRAM_PLOT_CHANNELS))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel_count", "expected 1 to %d, found %d",
+                           FRAM_PLOT_CHANNELS, channel_count);
     for (int i = 0; i < channel_count && status == FRAM_OK; i++)
         status = REFUSE_NULL(error, {"channels", channels[i]});
     if (status == FRAM_OK)

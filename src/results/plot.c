@@ -168,9 +168,6 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
                           double to, const char *output, fram_error *error)
 {
     run_data d;
-    if (count < 1 || count > PLOT_CHANNELS_MOST)
-        return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL, "expected 1 to %d channels",
-                         (int)PLOT_CHANNELS_MOST);
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;

@@ -335,8 +335,9 @@ START_TEST(plots_and_channels)
     REFUSED(fram_plot(c, run, NULL, 1, nan_value, nan_value, output, &e));
     REFUSED(fram_plot(c, run, channels, 1, nan_value, nan_value, NULL, &e));
     REFUSED(fram_plot(c, run, channels, 2, nan_value, nan_value, output, &e));
-    REFUSED(fram_plot(c, run, channels, 0, nan_value, nan_value, output, &e));
-    REFUSED(fram_plot(c, run, channels, INT_MIN, nan_value, nan_value, output, &e));
+    REFUSED_KEY(fram_plot(c, run, channels, 0, nan_value, nan_value, output, &e), "channel_count");
+    REFUSED_KEY(fram_plot(c, run, channels, INT_MIN, nan_value, nan_value, output, &e), "channel_count");
+    REFUSED_KEY(fram_plot(c, run, channels, FRAM_PLOT_CHANNELS + 1, nan_value, nan_value, output, &e), "channel_count");
     REFUSED(fram_plot(c, run, channels + 2, 1, nan_value, nan_value, output, &e));
     REFUSED(fram_plot(c, run, channels, 1, infinite, nan_value, output, &e));
     REFUSED(fram_plot(c, run, channels, 1, 1e300, -1e300, output, &e));
