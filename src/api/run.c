@@ -147,6 +147,8 @@ fram_status(fram_resume)(fram_context *c, const fram_run_definition *definition,
 /* Simulated seconds and steps of a benchmark, far beyond every use. */
 #define BENCH_TIME_MOST 1e6
 #define BENCH_STEPS_MOST 1e8
+/* Time step of a scene, far below every use [s]. */
+#define BENCH_STEP_LEAST 1e-9
 
 static fram_bench_result bench_answer(const bench_result *r)
 {
@@ -217,10 +219,18 @@ static void fram_bench_scene_fill(fram_bench_scene_definition *definition)
 DEFINITION_DEFAULT(fram_bench_scene, fram_bench_scene_definition)
 
 /* Times so that the number of steps is an ordinary one. */
-static bool times_are_good(const fram_bench_scene_definition *d)
+static fram_status scene_times_check(const fram_bench_scene_definition *d, fram_error *error)
 {
-    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm < d->time &&
-           d->time / d->time_step <= BENCH_STEPS_MOST;
+    fram_status status = bench_times_check(d->warm, d->time, error);
+    if (status == FRAM_OK)
+        status = number_check("time_step", d->time_step, BENCH_STEP_LEAST, BENCH_TIME_MOST, error);
+    if (status == FRAM_OK && !(d->warm < d->time))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "warm", "expected less than the time, %g s, found %g",
+                           d->time, d->warm);
+    if (status == FRAM_OK && !(d->time / d->time_step <= BENCH_STEPS_MOST))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "time", "expected at most %g steps, found %g",
+                           BENCH_STEPS_MOST, d->time / d->time_step);
+    return status;
 }
 
 static fram_status scene_options(const fram_bench_scene_definition *given, bench_scene_options *out, fram_error *error)
@@ -231,12 +241,9 @@ static fram_status scene_options(const fram_bench_scene_definition *given, bench
         [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_bench_scene", error);
     if (status == FRAM_OK)
-        status = bench_times_check(d->warm, d->time, error);
+        status = scene_times_check(d, error);
     if (status != FRAM_OK)
         return status;
-    if (!times_are_good(d))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "time",
-                         "expected 0 <= warm < time, a positive time step, and at most 1e8 steps");
     if (d->iterations < 1 || d->iterations > 1000000)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "iterations", "expected 1 to 1000000");
     *out = (bench_scene_options){.time_step = d->time_step,

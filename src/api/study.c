@@ -27,14 +27,14 @@ struct fram_study {
 
 fram_status fram_study_load(fram_context *c, const char *path, fram_study **out, fram_error *error)
 {
-    if (!c || !path || !out)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "path",
-                         "a context, a path and a place for the study are needed");
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"study", out});
+    if (status != FRAM_OK)
+        return status;
     fram_study *s = memory_array(&c->inner, 1, sizeof *s);
     if (!s)
         return error_memory(error);
     s->context = c;
-    fram_status status = study_read(&c->inner, path, &s->inner, error);
+    status = study_read(&c->inner, path, &s->inner, error);
     if (status == FRAM_OK)
         *out = s;
     else
@@ -175,9 +175,9 @@ static fram_status look_at_conditions(context *ctx, const fram_study *s, study_w
 
 fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fram_error *error, size_t size)
 {
-    if (!s || !out)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study and a place for its extent are needed");
-    fram_status status = RESULT_CHECK(out, size, fram_study_extent, error);
+    fram_status status = REFUSE_NULL(error, {"study", s}, {"extent", out});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(out, size, fram_study_extent, error);
     if (status != FRAM_OK)
         return status;
     const study *inner = &s->inner;
@@ -330,9 +330,9 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
                             fram_error *error, size_t size)
 {
     fram_study_definition taken, *d = &taken;
-    if (!s)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study is needed");
-    fram_status status = RESULT_CHECK(result, size, fram_study_result, error);
+    fram_status status = REFUSE_NULL(error, {"study", s});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_study_result, error);
     if (status == FRAM_OK)
         status = take_study(definition, d, error);
     if (status != FRAM_OK)
@@ -395,8 +395,13 @@ static void forward_standing(void *user, const condition_standing *c)
 fram_status fram_study_list(fram_context *c, const char *folder, fram_study_standing_function function, void *user,
                             fram_error *error)
 {
-    if (!c || !folder || !*folder || !function)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a context, a folder and a function are needed");
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"folder", folder});
+    if (status == FRAM_OK && !*folder)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder of a study must be named");
+    if (status == FRAM_OK && !function)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "function", "expected a function, found NULL");
+    if (status != FRAM_OK)
+        return status;
     standing_bridge bridge = {function, user};
     return study_list(&c->inner, folder, forward_standing, &bridge, error);
 }

@@ -261,10 +261,11 @@ START_TEST(runs_and_benchmarks)
     REFUSED(fram_bench_scene(c, scene, &s, &bench, &e)); /* no scene */
     for (int i = 0; i < WILD; i++) {
         double *const members[] = {&s.time_step, &s.warm, &s.time};
+        static const char *const names[] = {"time_step", "warm", "time"};
         for (int k = 0; k < 3; k++) {
             fram_bench_scene_default(&s);
             *members[k] = wild[i];
-            REFUSED(fram_bench_scene(c, scene, &s, &bench, &e));
+            REFUSED_KEY(fram_bench_scene(c, scene, &s, &bench, &e), names[k]);
         }
     }
     fram_bench_scene_default(&s);

@@ -43,14 +43,19 @@ START_TEST(misuse_is_refused)
     char folder[256], path[300];
     write_study(folder, path);
     ck_assert_int_eq(fram_study_load(NULL, path, &s, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "context");
     ck_assert_int_eq(fram_study_load(c, NULL, &s, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "path");
     ck_assert_int_eq(fram_study_load(c, path, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "study");
     ck_assert_int_eq(fram_study_load(c, "/nowhere.yaml", &s, &error), FRAM_ERROR_INPUT);
     ck_assert_ptr_null(s);
     ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
     fram_study_extent extent;
     ck_assert_int_eq(fram_study_measure(NULL, &extent, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "study");
     ck_assert_int_eq(fram_study_measure(s, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "extent");
     fram_study_definition d;
     (fram_study_default)(NULL, sizeof(size_t));
     fram_study_default(&d);
@@ -156,6 +161,7 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     ck_assert_int_eq(sum.runs, 0);
     ck_assert_int_eq(sum.wanted, 6);
     ck_assert_int_eq(fram_study_list(c, out, NULL, &sum, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "function");
     fram_study_destroy(s);
     fram_context_destroy(c);
 }

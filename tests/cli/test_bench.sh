@@ -76,6 +76,7 @@ for words in "--warm -1" "--warm 2e+06" "--time 2e+06"; do
     refuses "${words% *}: expected a number from 0 to 1e+06, found ${words#* }" --scene "$scene" $words
 done
 refuses "--time: needs a number above zero" --scene "$scene" --time 0
+refuses "--dt: expected a number from 1e-09 to 1e+06, found 1e-12" --scene "$scene" --dt 1e-12
 
 # What the help tells as defaults, given by hand, changes nothing.
 expect 0 "$FRAM" bench --help
