@@ -159,6 +159,7 @@ FRAM_API fram_status fram_hull_float(const fram_hull *hull, const fram_hull_cond
 
 /* Drawings and files are not written over the file that the hull is of: FRAM_ERROR_USAGE, key "path". */
 
+enum { FRAM_HULL_PIECES = 4096 }; /* the most pieces that may be asked for, as in a scenario */
 typedef struct fram_hull_pieces {
     int count;
     double tolerance; /* distance that was allowed [m] */
@@ -166,7 +167,7 @@ typedef struct fram_hull_pieces {
     double volume;    /* of all pieces [m3] */
 } fram_hull_pieces;
 /* Cut into convex pieces, as collisions use them.  tolerance: largest distance between pieces and surface [m], NaN: a
-   hundredth of the breadth; most: number of pieces, at least 1.  The hull keeps them for drawings. */
+   hundredth of the breadth; most: number of pieces, 1 to FRAM_HULL_PIECES.  The hull keeps them for drawings. */
 FRAM_API fram_status fram_hull_cut(fram_hull *hull, double tolerance, int most, fram_hull_pieces *pieces,
                                    fram_error *error, size_t size);
 #define fram_hull_cut(...) fram_hull_cut(__VA_ARGS__, sizeof(fram_hull_pieces))

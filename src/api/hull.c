@@ -381,18 +381,18 @@ fram_status(fram_hull_cut)(fram_hull *h, double tolerance, int most, fram_hull_p
         status = RESULT_CHECK(out, size, fram_hull_pieces, error);
     if (status != FRAM_OK)
         return status;
-    context *ctx = &h->context->inner;
-    if (most < 1)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "pieces", "expected at least one piece, found %d", most);
+    if (most < 1 || most > FRAM_HULL_PIECES)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "most", "expected 1 to %d pieces, found %d",
+                         FRAM_HULL_PIECES, most);
     if (!isnan(tolerance) && !(tolerance > 0 && tolerance < HUGE_VAL))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "tolerance", "expected a positive distance, found %g",
                          tolerance);
     polyhedron_array pieces = {0};
     double concavity = 0;
-    status = hull_cut(ctx, &h->surface, &tolerance, most, &pieces, &concavity, error);
+    status = hull_cut(&h->context->inner, &h->surface, &tolerance, most, &pieces, &concavity, error);
     if (status != FRAM_OK)
         return status;
-    polyhedron_array_free(ctx, &h->pieces);
+    polyhedron_array_free(&h->context->inner, &h->pieces);
     h->pieces = pieces;
     h->concavity = concavity;
     fram_hull_pieces full = {pieces.count, tolerance, concavity, 0};

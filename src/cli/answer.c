@@ -33,7 +33,7 @@ static const struct {
     {"smallest_area", "--smallest"}, {"slurm_partition", "--partition"},
     {"slurm_time", "--time"},        {"slurm_options", "--sbatch"},
     {"slurm_poll", "--poll"},        {"slurm_runs_per_task", "--runs-per-task"},
-    {"time_step", "--dt"},
+    {"time_step", "--dt"},           {"most", "--pieces"},
 };
 
 /* Whether an option, "--stem-angle-deg", has the name of a member, "stem_angle". */

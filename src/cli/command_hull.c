@@ -51,7 +51,7 @@ static int read_hull_words(const command_row *self, hull_words *w, common_option
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE", "write the closed surface: .stl, .obj or .gdf"},
         {"--tolerance", NULL, OPTION_REAL, &w->tolerance, "D",
          "largest deviation of the convex pieces from the hull [m] (breadth/100)"},
-        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "largest number of convex pieces (64)"},
+        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "largest number of convex pieces, 1 to 4096 (64)"},
         {"--seal", NULL, OPTION_REAL, &w->file.seal_width, "WIDTH",
          "file: seal cracks up to this width [m]; 0: none (length/2000)"},
         {"--repair", NULL, OPTION_FLAG, &w->file.repair, NULL,

@@ -103,7 +103,9 @@ START_TEST(pieces_and_files)
     assert_absolute(pieces.tolerance, 0.1, 1e-15);
     assert_absolute(pieces.concavity, 0, 1e-3);
     assert_relative(pieces.volume, 2000, 1e-12);
-    assert_fails(fram_hull_cut(hull, (double)NAN, 0, &pieces, &error), error, FRAM_ERROR_USAGE, "at least one piece");
+    for (int most = 0; most <= FRAM_HULL_PIECES + 1; most += FRAM_HULL_PIECES + 1)
+        assert_fails(fram_hull_cut(hull, (double)NAN, most, &pieces, &error), error, FRAM_ERROR_USAGE,
+                     "expected 1 to 4096 pieces");
     assert_fails(fram_hull_cut(hull, -1, 8, &pieces, &error), error, FRAM_ERROR_USAGE, "positive distance");
 
     char folder[] = "/tmp/fram_test_XXXXXX", path[64];

@@ -301,6 +301,9 @@ expect 0 "$FRAM" hull box.stl --mass 1.1e5
 expect 2 "$FRAM" hull ship.obj --mass 1e12
 says "encloses" err
 expect 2 "$FRAM" hull ship.obj --pieces 0
+says "--pieces: expected 1 to 4096 pieces, found 0" err
+expect 2 "$FRAM" hull ship.obj --pieces 300000000
+says "--pieces: expected 1 to 4096 pieces, found 300000000" err
 expect 2 "$FRAM" hull ship.obj -o ship.ply
 says ".stl, .obj or .gdf" err
 expect 2 "$FRAM" hull missing.stl
