@@ -2,6 +2,7 @@
 
 #include "vessel/allocation.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,6 +15,9 @@ typedef struct column_rule {
 
 /* A floe may be left behind by any number of tiles, but not by so many that the next one cannot be counted. */
 #define TILES_AWAY 1000000000
+/* Counts go on from what is loaded: far beyond every run, and the next ones are numbers too. */
+#define COUNT_MOST ((int64_t)1 << 53)
+#define FLOES_MOST (1 << 30)
 
 static const column_rule column_rules[] = {
     {"body", "motion", MOTION_NONE, MOTION_ASLEEP, NULL},
@@ -60,8 +64,17 @@ static const column_rule column_rules[] = {
     {"flooding", "drowned", 0, 1, NULL},
     {"hull_retreat", "floe", 0, 0, "floe"},
     {"hull_retreat", "surface", 0, 0, "body"},
-    {"clock", "step", 0, INT64_MAX, NULL},
-    {"clock", "next_floe", 0, INT32_MAX, NULL},
+    {"clock", "step", 0, COUNT_MOST, NULL},
+    {"clock", "splits", 0, COUNT_MOST, NULL},
+    {"clock", "bendings", 0, COUNT_MOST, NULL},
+    {"clock", "next_floe", 0, FLOES_MOST, NULL},
+    {"feeding", "entered_floes", 0, COUNT_MOST, NULL},
+    {"feeding", "held_back_floes", 0, COUNT_MOST, NULL},
+    {"drift", "column", -COUNT_MOST, COUNT_MOST, NULL},
+    {"drift", "row", -COUNT_MOST, COUNT_MOST, NULL},
+    {"propulsion", "rounds", 0, COUNT_MOST, NULL},
+    {"propulsion", "besets", 0, COUNT_MOST, NULL},
+    {"propulsion", "rams", 0, COUNT_MOST, NULL},
 };
 
 /* Rows of a table: from least to most, or to as many as another has. */
@@ -218,12 +231,15 @@ static fram_status check_vessels(const world *w, fram_error *error)
    sees by its box. */
 static bool has_box(const world *w, int32_t body) { return body < w->boxes.count && w->boxes.generation[body] != 0; }
 
+/* Of two bodies, the lower slot first. */
 static fram_status check_pairs(const world *w, fram_error *error)
 {
     for (int32_t i = 0; i < w->pairs.count; i++) {
         int32_t a = w->pairs.a[i], b = w->pairs.b[i];
         if (!has_box(w, a) || !has_box(w, b))
             return refuse("pair", i, has_box(w, a) ? "b" : "a", has_box(w, a) ? b : a, error);
+        if (a >= b)
+            return refuse("pair", i, "b", b, error);
     }
     return FRAM_OK;
 }
@@ -332,4 +348,95 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = refuse("drift", 0, NULL, w->drift.count, error);
     const tile_grid *tiles = &m->fracture.tiles;
     return status == FRAM_OK ? check_floes(w, tiles->columns * tiles->rows, error) : status;
+}
+
+/* ---- places, velocities, sizes ---- */
+
+/* Columns of numbers that are finite in every row. */
+static const struct finite_rule {
+    const char *table, *column;
+} finite_rules[] = {
+    {"clock", "time"},           {"body", "position"},       {"body", "velocity"},    {"body", "angular_velocity"},
+    {"shape_vertex", "point"},   {"vessel", "tow_velocity"}, {"feeding", "velocity"}, {"feeding", "displacement"},
+    {"drift", "velocity"},       {"drift", "moved"},         {"drift", "rest"},       {"drift", "way"},
+    {"feeding", "lo"},           {"feeding", "hi"},          {"feeding", "tile"},     {"pattern", "place"},
+    {"pattern_vertex", "point"}, {"drift_vertex", "point"},
+};
+
+/* Steps normalise quaternions to rounding. */
+#define LENGTH_ROUNDING 1e-6
+
+static fram_status refuse_real(const char *table, int32_t row, const char *column, double found, fram_error *error)
+{
+    char key[80];
+    snprintf(key, sizeof key, "%s[%d].%s", table, (int)row, column);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "the state cannot be: found %g", found);
+}
+
+static fram_status check_finite(const world_table *tables, const struct finite_rule *rule, fram_error *error)
+{
+    const world_table *t = find_table(tables, rule->table);
+    const field_info *field = t ? find_field(t->info, rule->column) : NULL;
+    if (!field)
+        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, rule->column, "there is no such column");
+    const double *values = table_field(t->table, field);
+    for (int32_t row = 0; row < rows_of(t); row++) {
+        for (int k = 0; k < field->components; k++) {
+            double value = values[(int64_t)row * field->components + k];
+            if (!isfinite(value))
+                return refuse_real(rule->table, row, rule->column, value, error);
+        }
+    }
+    return FRAM_OK;
+}
+
+static fram_status check_turns(const body_table *b, fram_error *error)
+{
+    for (int32_t i = 0; i < b->count; i++) {
+        quat q = b->orientation[i];
+        double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+        if (body_is_alive(b, i) && !(fabs(length - 1) <= LENGTH_ROUNDING))
+            return refuse_real("body", i, "orientation", length, error);
+    }
+    return FRAM_OK;
+}
+
+/* Both sizes of a row are positive. */
+static fram_status check_sizes(const char *table, int32_t row, double area, const char *column, double height,
+                               fram_error *error)
+{
+    if (!(area > 0 && isfinite(area)))
+        return refuse_real(table, row, "area", area, error);
+    return height > 0 && isfinite(height) ? FRAM_OK : refuse_real(table, row, column, height, error);
+}
+
+static fram_status check_ice_sizes(const world *w, fram_error *error)
+{
+    const floe_table *f = &w->floes;
+    const shape_table *s = &w->shapes.shapes;
+    const pattern_table *p = &w->pattern;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < f->count && status == FRAM_OK; i++) {
+        if (f->body[i] >= 0)
+            status = check_sizes("floe", i, f->area[i], "thickness", f->thickness[i], error);
+    }
+    for (int32_t i = 0; i < s->count && status == FRAM_OK; i++) {
+        if (s->kind[i] == SHAPE_PRISM)
+            status = check_sizes("shape", i, s->area[i], "half_height", s->half_height[i], error);
+    }
+    for (int32_t i = 0; i < p->count && status == FRAM_OK; i++)
+        status = check_sizes("pattern", i, p->area[i], "thickness", p->thickness[i], error);
+    return status;
+}
+
+fram_status world_check_numbers(const world *w, fram_error *error)
+{
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(w, tables);
+    fram_status status = FRAM_OK;
+    for (size_t i = 0; i < sizeof finite_rules / sizeof *finite_rules && status == FRAM_OK; i++)
+        status = check_finite(tables, &finite_rules[i], error);
+    if (status == FRAM_OK)
+        status = check_turns(&w->bodies, error);
+    return status == FRAM_OK ? check_ice_sizes(w, error) : status;
 }

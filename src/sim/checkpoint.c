@@ -274,11 +274,13 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     if (status != FRAM_OK)
         return status;
     status = check_origin(ctx, path, bytes, note, data, other, error);
-    if (status == FRAM_OK && world_check(m, w, &unsound) != FRAM_OK)
+    bool failed = numbers[NUMBER_FAILED].value != 0;
+    if (status == FRAM_OK &&
+        (world_check(m, w, &unsound) != FRAM_OK || (!failed && world_check_numbers(w, &unsound) != FRAM_OK)))
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     if (status == FRAM_OK && world_hash(w) != numbers[NUMBER_HASH].value)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
-    if (status == FRAM_OK && !data && numbers[NUMBER_FAILED].value != 0)
+    if (status == FRAM_OK && !data && failed)
         status =
             error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                       "expected a checkpoint of a run, found the state of a step that failed: load it into a world "
@@ -288,7 +290,7 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     note->series_length = numbers[NUMBER_SERIES].value;
     note->record_length = numbers[NUMBER_RECORD].value;
     note->fractures_length = numbers[NUMBER_FRACTURES].value;
-    note->failed = numbers[NUMBER_FAILED].value != 0;
+    note->failed = failed;
     table_file_free_bytes(ctx, &content);
     return status;
 }

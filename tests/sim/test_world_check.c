@@ -32,10 +32,17 @@ static const char company[] =
     "  - {name: b, mode: prescribed, x: 20, hull: {form: box, length: 10, beam: 4, draught: 2, freeboard: 2}}\n"
     "ice: {source: none}\ndomain: {x_min: -40, x_max: 40, y_min: -20, y_max: 20}\n";
 
+/* As what is read is looked at, unless a step had failed. */
+static fram_status check(const scene *k, fram_error *error)
+{
+    fram_status status = world_check(&k->m, &k->w, error);
+    return status == FRAM_OK ? world_check_numbers(&k->w, error) : status;
+}
+
 static void assert_sound(const scene *k)
 {
     fram_error error = {0};
-    assert_ok(world_check(&k->m, &k->w, &error), error);
+    assert_ok(check(k, &error), error);
 }
 
 START_TEST(states_of_runs_are_sound)
@@ -60,12 +67,19 @@ static void assert_found(scene *k, void *number, size_t size, int64_t value, con
     ck_assert_uint_le(size, sizeof kept);
     memcpy(kept, number, size);
     memcpy(number, &value, size); /* little-endian, as all that Fram runs on */
-    ck_assert_int_eq(world_check(&k->m, &k->w, &error), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(check(k, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, key);
     memcpy(number, kept, size);
     assert_sound(k);
 }
 #define FOUND(k, member, value, key) assert_found((k), &(k)->w.member, sizeof(k)->w.member, (value), (key))
+
+static int64_t bits(double value)
+{
+    int64_t out;
+    memcpy(&out, &value, sizeof out);
+    return out;
+}
 
 START_TEST(what_names_nothing_is_found)
 {
@@ -102,6 +116,7 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, vessels.mode[0], 9, "vessel[0].mode");
     FOUND(&k, pairs.a[0], -1, "pair[0].a");
     FOUND(&k, pairs.b[0], w->bodies.count, "pair[0].b");
+    FOUND(&k, pairs.b[0], w->pairs.a[0], "pair[0].b");
     FOUND(&k, lines.vessel[1], 1, "line[1].vessel");
     FOUND(&k, lines.kind[0], 200, "line[0].kind");
     FOUND(&k, lines.kind[0], LINE_TABLE, "line[0].stiffness"); /* as of tables that went along the line */
@@ -112,6 +127,9 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, stations.control_every[0], 0, "station[0].control_every");
     FOUND(&k, stations.observer[0], 7, "station[0].observer");
     FOUND(&k, clock.step[0], -1, "clock[0].step");
+    FOUND(&k, clock.step[0], INT64_MAX, "clock[0].step");
+    FOUND(&k, clock.splits[0], INT64_MAX, "clock[0].splits");
+    FOUND(&k, clock.next_floe[0], INT32_MAX, "clock[0].next_floe");
     snprintf(key, sizeof key, "shape[%d].kind", (int)shape);
     FOUND(&k, shapes.shapes.kind[shape], 3, key);
     snprintf(key, sizeof key, "shape[%d].outline_first", (int)shape);
@@ -136,6 +154,34 @@ START_TEST(what_names_nothing_is_found)
     }
     k.m.vessels.count = 1;
     assert_sound(&k);
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(what_no_body_can_be_is_found)
+{
+    const double nan_value = (double)NAN, infinite = (double)INFINITY;
+    scene k;
+    scene_open(&k, moored);
+    scene_steps(&k, 3);
+    int32_t floe = scene_floe(&k, 0), shape = k.w.bodies.shape[floe];
+    char key[64];
+    FOUND(&k, clock.time[0], bits(infinite), "clock[0].time");
+    snprintf(key, sizeof key, "body[%d].position", (int)floe);
+    FOUND(&k, bodies.position[floe].z, bits(nan_value), key);
+    snprintf(key, sizeof key, "body[%d].velocity", (int)floe);
+    FOUND(&k, bodies.velocity[floe].x, bits(-infinite), key);
+    snprintf(key, sizeof key, "body[%d].angular_velocity", (int)floe);
+    FOUND(&k, bodies.angular_velocity[floe].y, bits(nan_value), key);
+    snprintf(key, sizeof key, "body[%d].orientation", (int)floe);
+    FOUND(&k, bodies.orientation[floe].w, bits(nan_value), key);
+    FOUND(&k, bodies.orientation[floe].w, bits(k.w.bodies.orientation[floe].w + 1e-5), key);
+    FOUND(&k, floes.thickness[0], bits(0), "floe[0].thickness");
+    FOUND(&k, floes.area[0], bits(-1), "floe[0].area");
+    snprintf(key, sizeof key, "shape[%d].half_height", (int)shape);
+    FOUND(&k, shapes.shapes.half_height[shape], bits(infinite), key);
+    snprintf(key, sizeof key, "shape[%d].area", (int)shape);
+    FOUND(&k, shapes.shapes.area[shape], bits(nan_value), key);
     scene_close(&k);
 }
 END_TEST
@@ -177,10 +223,14 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
     scene_steps(&k, 2);
     fram_error error = {0};
     checkpoint_note note = {.scenario_hash = "of this test", .inputs = ""};
-    for (int bad = 0; bad < 2; bad++) {
+    int32_t there = k.w.pairs.b[0];
+    /* The last is of a step that failed, which may have failed by its numbers. */
+    static const char *const keys[] = {"", "body[0].position", "pair[0].b", ""};
+    for (int bad = 0; bad < 4; bad++) {
         late_commit commit = {0};
-        if (bad)
-            k.w.pairs.b[0] = 1 << 20;
+        note.failed = bad == 3;
+        k.w.bodies.position[0].x = bad % 2 ? (double)NAN : 0;
+        k.w.pairs.b[0] = bad == 2 ? 1 << 20 : there;
         assert_ok(checkpoint_begin(&k.ctx, folder, &k.w, &note, NULL, 0, &commit, &error), error);
         assert_ok(checkpoint_end(&k.ctx, folder, &commit, &error), error);
         world w;
@@ -188,7 +238,9 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
         fram_status status = checkpoint_read_newest(&k.ctx, folder, &k.m, &w, &note, &error);
         ck_assert_int_eq(status, bad ? FRAM_ERROR_INPUT : FRAM_OK);
         if (bad)
-            ck_assert_str_eq(error.key, "pair[0].b");
+            ck_assert_str_eq(error.key, keys[bad]);
+        if (bad == 3)
+            ck_assert_ptr_nonnull(strstr(error.message, "a step that failed"));
         world_free(&k.ctx, &w);
     }
     checkpoint_remove_all(&k.ctx, folder);
@@ -198,5 +250,5 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
 }
 END_TEST
 
-TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found, what_names_another_thing_is_found,
-          a_checkpoint_of_such_a_state_is_refused)
+TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found, what_no_body_can_be_is_found,
+          what_names_another_thing_is_found, a_checkpoint_of_such_a_state_is_refused)
