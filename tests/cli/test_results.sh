@@ -412,10 +412,9 @@ if [ $pictures = yes ]; then
 import csv, sys
 head, *rows = csv.reader(open("run/series.csv"))
 other = -179.9 if sys.argv[1] == "jumps" else 180.1
-yaw, pitch = head.index("yaw[deg]"), head.index("pitch[deg]")
-head[pitch] = "estimated_heading[deg]"
+yaw, estimated = head.index("yaw[deg]"), head.index("estimated_heading[deg]")
 for k, row in enumerate(rows):
-    row[yaw], row[pitch] = (179.9, other) if k % 2 == 0 else (other, 179.9)
+    row[yaw], row[estimated] = (179.9, other) if k % 2 == 0 else (other, 179.9)
 csv.writer(open(sys.argv[1] + "/series.csv", "w"), lineterminator="\n").writerows([head, *rows])
 PY
         expect 0 "$FRAM" plot $case yaw estimated_heading roll -o $case.svg
