@@ -221,7 +221,8 @@ static vec3 moment_to_one_side(const void *user, double heading)
 }
 
 /* Thrusters that can give no moment hold no heading, though none is missed: a propeller on the centreline, with the bow
-   in a drift that turns the ship across, and tunnels that push all they can, across one that turns it along. */
+   in a drift that turns the ship across, and tunnels too weak for it, across one that turns it along; stronger ones
+   turn it back though they push all they can, and leave more of the push to the lines. */
 START_TEST(no_heading_without_a_moment)
 {
     held h;
@@ -244,10 +245,40 @@ START_TEST(no_heading_without_a_moment)
     h.c.heading = 0.5 * PI;
     at = holding_find(&h.c, moment_of_a_vane, NULL);
     assert_absolute(degrees(at.turn), 0, 1e-3);
-    h.b.thrusters.ahead[1] = h.b.thrusters.ahead[2] = h.b.thrusters.astern[1] = h.b.thrusters.astern[2] = 2e4;
-    at = holding_find(&h.c, moment_of_a_vane, NULL);
-    assert_absolute(degrees(at.turn), 90, 1e-3);
+    static const double pushes[] = {2e4, 2e3};
+    for (size_t k = 0; k < sizeof pushes / sizeof *pushes; k++) {
+        for (int i = 1; i < 3; i++)
+            h.b.thrusters.ahead[i] = h.b.thrusters.astern[i] = pushes[k];
+        at = holding_find(&h.c, moment_of_a_vane, NULL);
+        assert_absolute(degrees(at.turn), k == 0 ? 0 : 90, 1e-3);
+        assert_relative(at.thruster_use, 1, 1e-3);
+        assert_relative(at.offset, (1e5 - 2 * pushes[k]) / (2 * 5e4 + 2 * 4e5 / 600), k == 0 ? 1e-3 : 0.05);
+    }
     hold_end(&h);
+}
+END_TEST
+
+/* A tunnel at the bow turns a ship only with a push aside, which the lines bear: it holds the heading under Munk's
+   moment, as far as its thrust is the moment over its lever. */
+START_TEST(a_moment_comes_first)
+{
+    static const double headings[] = {0, 5};
+    for (size_t k = 0; k < sizeof headings / sizeof *headings; k++) {
+        held h;
+        hold_begin(&h);
+        add_springs(&h, 4, 5e4, 1e7);
+        add_thruster(&h, supply_main(0));
+        add_thruster(&h, supply_tunnel(30));
+        h.c.heading = radians(headings[k]);
+        holding at = holding_find(&h.c, moment_of_munk, NULL);
+        assert_absolute(at.turn, 0, 1e-3);
+        double aside = 1e5 * real_sin(h.c.heading) + 4e6 * real_sin(2 * h.c.heading) / 30;
+        assert_absolute(at.offset, aside / (2 * 5e4 + 2 * 4e5 / 600), 2e-3);
+        h.b.thrusters.ahead[1] = h.b.thrusters.astern[1] = 1e3;
+        at = holding_find(&h.c, moment_of_munk, NULL);
+        ck_assert_double_gt(at.turn, 1);
+        hold_end(&h);
+    }
 }
 END_TEST
 
@@ -364,5 +395,5 @@ START_TEST(a_moment_alone)
 END_TEST
 
 TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone,
-          no_balance_that_any_touch_ends, no_heading_without_a_moment, a_heading_that_thrusters_hold,
-          turned_by_what_is_missed, turned_by_the_thruster_and_its_lines)
+          no_balance_that_any_touch_ends, no_heading_without_a_moment, a_moment_comes_first,
+          a_heading_that_thrusters_hold, turned_by_what_is_missed, turned_by_the_thruster_and_its_lines)
