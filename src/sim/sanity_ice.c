@@ -334,7 +334,9 @@ static void tell_strength(const teller *t)
         taken = taken || !(crushes || bends);
     }
     const ice_kind own = {sanity_own_thickness(i, t->made), i->flexural_strength, i->crushing_strength};
-    if (i->breakable && taken)
+    /* What crushing bears on an area goes by the thickness of ice that is known. */
+    bool judged = i->crushing_exponent == 0 || !isnan(own.thickness);
+    if (i->breakable && taken && judged)
         tell_pair(t, &own, "ice.crushing_strength", "");
     double thinnest = ice_range_made(i, t->made).thinnest.thickness;
     bool varies = i->strength.flexural_variation > 0 || i->strength.crushing_variation > 0;

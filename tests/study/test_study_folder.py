@@ -113,15 +113,16 @@ class Folders(StudyTest):
             "run: {duration: 3, time_step: 0.01, transient: 1}\nice: {source: file, file: floes.geojson}\n"
             "vessel: {mode: towed, speed: 1, x: -20, hull: {form: box, length: 20, beam: 6, draught: 0.9,"
             " freeboard: 2}}\ndomain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}\n")
-        study = self.at / "study.yaml"
-        study.write_text("scenario: file.yaml\nkeep: summary\n")
+        study, plain = self.at / "study.yaml", "scenario: file.yaml\nkeep: summary\n"
         thick = "warning: ice.file: 3 m is more than the draught of the vessel, 0.9 m"
         for thickness, told in ((0.3, []), (3, [thick])):
             ring = [[10, -10], [30, -10], [30, 10], [10, 10], [10, -10]]
             file.write_text(json.dumps({"type": "FeatureCollection", "features": [{
                 "type": "Feature", "properties": {"thickness": thickness},
                 "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
+            study.write_text(plain + "set: {ice.breakable: true, ice.crushing_exponent: -0.5}\n")
             self.assertEqual(self.warned(study, "-o", self.at / f"file{thickness}", *dry), [])
+            study.write_text(plain)
             self.assertEqual(self.warned("check", study), told)
         (self.at / "aside.csv").write_text("time,x,y\n0,0,-0.5\n600,0,-0.5\n")
         (self.at / "moored.yaml").write_text(
