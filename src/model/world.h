@@ -146,6 +146,8 @@ typedef struct world {
         solver *solve;
         overlay *plane;
     } scratch;
+
+    bool without_ice; /* made to look at its vessels alone (sim/build.h, build_check): what ice it had is not known */
 } world;
 
 /* One entry of the list of state tables. */

@@ -121,6 +121,7 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, buil
         return status;
     status = build_before_ice(ctx, s, &m, &w, error);
     if (status == FRAM_OK) {
+        w.without_ice = s->ice.source != ICE_FLOES;
         status = check_listed(ctx, s, &m, &w, error);
         if (status == FRAM_OK && look)
             look(ctx, s, &m, &w);

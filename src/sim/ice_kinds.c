@@ -95,13 +95,21 @@ ice_range ice_range_made(const scenario_ice *i, const world *made)
     ice_range r = no_range;
     if (!made || i->source != ICE_FILE)
         return ice_range_of(i);
+    if (made->without_ice)
+        return (ice_range){no_kind, no_kind, no_kind};
     const floe_table *f = &made->floes;
     for (int32_t k = 0; k < f->count; k++)
         if (f->body[k] >= 0)
             take_kind(i, &r,
                       (ice_kind){f->thickness[k], f->material[k].flexural_strength, f->material[k].crushing_strength},
                       f->breakable[k]);
-    return r.thickest.thickness > 0 ? with_soonest(r) : (ice_range){no_kind, no_kind, no_kind};
+    /* Of an endless field some may be in the domain later, or none yet. */
+    const pattern_table *p = &made->pattern;
+    for (int32_t k = 0; k < p->count; k++)
+        take_kind(i, &r,
+                  (ice_kind){p->thickness[k], p->material[k].flexural_strength, p->material[k].crushing_strength},
+                  p->breakable[k]);
+    return r.thickest.thickness > 0 ? with_soonest(r) : ice_range_of(i);
 }
 
 ice_material ice_kind_material(const scenario_ice *i, const ice_kind *k)

@@ -18,9 +18,10 @@ typedef struct ice_range {
 /* Whether any ice of the scenario, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);
 bool ice_all_breaks(const scenario_ice *i);
-/* Of all ice that the scenario makes; of floes of a file by those that were made.  made: the world of the scenario
-   before its first step; NULL: there is none, and all goes by keys.  Of a world that holds none of its file's floes, as
-   one whose vessels alone were made, nothing is known: all is NaN, which is neither more nor less than any number. */
+/* Of all ice that the scenario makes; of floes of a file by those that were made, in an endless field by all of its
+   tile.  made: the world of the scenario, before its first step or later; NULL, or it holds no floes: all goes by keys.
+   Of floes of a file in a world whose vessels alone were made nothing is known: all is NaN, which is neither more nor
+   less than any number. */
 ice_range ice_range_made(const scenario_ice *i, const world *made);
 bool ice_is_known(const ice_range *r);
 /* What the floes of a population are in the mean: what it leaves out is that of all ice. */

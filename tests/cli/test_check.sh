@@ -283,6 +283,15 @@ says "ice.file: 5 m is more than the draught" err
 grep -e '1 m thick' -e 'go before' err && fail "told of ice that there is not"
 expect 0 "$FRAM" run filed.yaml -o filed
 says "move 0.4 of its thickness past each other in a step" err
+# An endless field may begin with none of its floes in the domain.
+sed 's/^domain:.*/domain: {x_min: -42, x_max: 42, y_min: -18, y_max: 18, tile_x: 300, tile_y: 300, boundary: feeding}/
+    s/floes.geojson/&, file_y: 100/' filed.yaml >fed.yaml
+expect 0 "$FRAM" check fed.yaml --build
+says "built: 0 floes" err
+says "ice: 0.05 m thick, 0.04488 m of it" err
+says "ice.file: 5 m is more than the draught" err
+expect 0 "$FRAM" run fed.yaml -o fed
+says "move 0.4 of its thickness past each other in a step" err
 
 # A tank and its twin sixteen times as large: with an exponent the step is as short for the one as for the other.
 cat >tank.yaml <<'YAML'
