@@ -26,24 +26,6 @@ static bool is_set(const scenario_key *key, const void *member, double scale)
     }
 }
 
-/* The keys of one rule that stand one after the other, told in one sentence. */
-typedef struct idle_group {
-    teller *t;
-    const idle_rule *rule;
-    char first[SANITY_SENTENCE]; /* path */
-    int32_t more;
-} idle_group;
-
-static void tell_group(idle_group *g)
-{
-    char others[32] = "";
-    if (g->rule && g->more > 0)
-        snprintf(others, sizeof others, " and %d more", (int)g->more);
-    if (g->rule)
-        sanity_say(g->t->tell, g->t->to, "%s%s" SANITY_IDLE "%s", g->first, others, g->rule->why);
-    g->rule = NULL;
-}
-
 /* The vessel of a path: of the list, or the one. */
 static const scenario_vessel *vessel_at(const scenario *s, const char *path)
 {
@@ -77,12 +59,19 @@ static bool find_item(const char *key, idle_question *q)
     return point || q->line || q->thruster || q->population || q->floe;
 }
 
+/* Who takes the keys of a scenario. */
+typedef struct idle_walk {
+    const scenario *s;
+    idle_taker take;
+    void *to;
+} idle_walk;
+
 static fram_status look_at_key(void *user, const scenario_key *key, const void *member, const char *path,
                                fram_error *error)
 {
     (void)error;
-    idle_group *g = user;
-    const scenario *s = g->t->s;
+    const idle_walk *walk = user;
+    const scenario *s = walk->s;
     idle_question q = {.s = s, .v = vessel_at(s, path)};
     bool of_vessel = strncmp(path, "vessel", 6) == 0;
     const char *own = of_vessel ? strchr(path, '.') : NULL; /* the key within its vessel */
@@ -91,24 +80,72 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
         return FRAM_OK;
     char pattern[SANITY_PATTERN];
     sanity_pattern(path, pattern);
-    const idle_rule *rule = idle_rule_of(pattern, &q);
-    if (!rule)
-        return FRAM_OK;
-    if (g->rule == rule && idle_rule_is_of_many(rule) && vessel_at(s, g->first) == q.v) {
-        g->more++;
-        return FRAM_OK;
-    }
-    tell_group(g);
-    g->rule = rule;
-    g->more = 0;
-    snprintf(g->first, sizeof g->first, "%s", path);
+    walk->take(walk->to, path, idle_rule_of(pattern, &q));
     return FRAM_OK;
+}
+
+void idle_look(const scenario *s, idle_taker take, void *to)
+{
+    idle_walk walk = {s, take, to};
+    (void)scenario_walk(s, look_at_key, &walk, NULL);
+}
+
+/* ---- what is told ---- */
+
+/* Of the same vessel, or of none. */
+static bool begins_alike(const char *a, const char *b)
+{
+    size_t n = strcspn(a, ".");
+    return n == strcspn(b, ".") && strncmp(a, b, n) == 0;
+}
+
+bool idle_group_takes(idle_group *g, const char *path, const idle_rule *rule)
+{
+    bool takes = g->rule == rule && rule && idle_rule_is_of_many(rule) && begins_alike(path, g->first);
+    g->more += takes;
+    return takes;
+}
+
+void idle_group_begin(idle_group *g, const char *path, const idle_rule *rule)
+{
+    *g = (idle_group){.rule = rule};
+    snprintf(g->first, sizeof g->first, "%s", path);
+}
+
+void idle_group_more(const idle_group *g, char out[IDLE_MORE])
+{
+    out[0] = '\0';
+    if (g->more > 0)
+        snprintf(out, IDLE_MORE, " and %d more", (int)g->more);
+}
+
+/* The keys that are to be told, and who is. */
+typedef struct idle_told {
+    idle_group group;
+    sanity_teller tell;
+    const void *to;
+} idle_told;
+
+static void tell_group(idle_told *t)
+{
+    char others[IDLE_MORE];
+    idle_group_more(&t->group, others);
+    if (t->group.rule)
+        sanity_say(t->tell, t->to, "%s%s" SANITY_IDLE "%s", t->group.first, others, t->group.rule->why);
+}
+
+static void take_idle(void *to, const char *path, const idle_rule *rule)
+{
+    idle_told *t = to;
+    if (!rule || idle_group_takes(&t->group, path, rule))
+        return;
+    tell_group(t);
+    idle_group_begin(&t->group, path, rule);
 }
 
 void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to)
 {
-    teller t = {s, tell, to, NULL, NULL, NULL};
-    idle_group group = {.t = &t};
-    (void)scenario_walk(s, look_at_key, &group, NULL);
-    tell_group(&group);
+    idle_told told = {{0}, tell, to};
+    idle_look(s, take_idle, &told);
+    tell_group(&told);
 }

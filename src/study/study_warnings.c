@@ -40,27 +40,49 @@ static bool is_like(const char *a, const char *b)
     return *a == *b;
 }
 
-/* A key that decides nothing here may do so under another condition, which is what those are compared for. */
-static void count_idle(study_warnings *w, const char *text)
+/* The first condition has no key twice. */
+static int32_t find_key(study_warnings *w, const char *path)
 {
-    for (int32_t i = 0; i < w->idle.count; i++) {
-        if (strcmp(w->idle.data[i], text) != 0)
+    for (int32_t k = 0; w->looked > 0 && k < w->keys.count; k++) {
+        int32_t i = (w->next + k) % w->keys.count;
+        if (strcmp(w->keys.data[i], path) != 0)
             continue;
-        w->idle_in.data[i] += w->idle_in.data[i] == w->condition;
-        return;
+        w->next = i + 1;
+        return i;
     }
-    if (w->condition == 0 && (!array_push(w->ctx, &w->idle_in, 1) || !text_list_add(w->ctx, &w->idle, text)))
-        w->failed = true;
+    return -1;
+}
+
+static void take_key(void *to, const char *path, const idle_rule *rule)
+{
+    study_warnings *w = to;
+    int32_t i = w->failed ? -1 : find_key(w, path);
+    if (i < 0) {
+        i = w->set.count;
+        if (w->failed || !array_push(w->ctx, &w->set, (study_set_key){0}) || !text_list_add(w->ctx, &w->keys, path)) {
+            w->failed = true;
+            return;
+        }
+    }
+    study_set_key *k = &w->set.data[i];
+    k->acts = k->acts || !rule;
+    if (rule && !k->rule)
+        *k = (study_set_key){rule, w->condition, k->acts};
+}
+
+/* A key that decides nothing here may do so under another condition, which is what those are compared for. */
+static void look_at_keys(study_warnings *w, const scenario *one)
+{
+    idle_look(one, take_key, w);
+    w->looked++;
 }
 
 static void tell_once(void *user, log_level level, const char *text)
 {
     study_warnings *w = user;
     study_condition_text name;
-    if (strstr(text, SANITY_IDLE)) {
-        count_idle(w, text);
+    if (strstr(text, SANITY_IDLE))
         return;
-    }
     int like = 0;
     int32_t last = w->condition;
     for (int32_t i = 0; i < w->told.count; i++) {
@@ -96,6 +118,8 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
                               fram_error *error)
 {
     context telling = study_warnings_of(w, condition);
+    w->fresh = w->fresh || condition == 0;
+    look_at_keys(w, one);
     bool when_made = scenario_tells_when_made(one);
     if (!when_made)
         scenario_log_warnings(&telling, one, NULL, NULL);
@@ -105,38 +129,50 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
     return status;
 }
 
-static void count_one(const void *to, const char *text)
-{
-    study_warnings *const *w = to;
-    count_idle(*w, text);
-}
-
 void study_warnings_pass(study_warnings *w, int32_t condition, const scenario *one)
 {
     w->condition = condition;
-    if (w->idle.count > 0)
-        sanity_tell_idle(one, count_one, &w);
+    look_at_keys(w, one);
+}
+
+static void tell_idle_group(const study_warnings *w, const idle_group *g, int32_t condition)
+{
+    study_condition_text name;
+    char others[IDLE_MORE];
+    if (!g->rule)
+        return;
+    study_spell_condition(w->s, condition, &name);
+    idle_group_more(g, others);
+    log_write(w->ctx, LOG_WARNING, "%s%s%s" SANITY_IDLE "%s", name.text, g->first, others, g->rule->why);
 }
 
 static void tell_idle(const study_warnings *w)
 {
-    study_condition_text name;
-    study_spell_condition(w->s, 0, &name);
-    for (int32_t i = 0; i < w->idle.count; i++)
-        if (w->idle_in.data[i] == w->s->conditions)
-            log_write(w->ctx, LOG_WARNING, "%s%s", name.text, w->idle.data[i]);
+    idle_group group = {.rule = NULL};
+    int32_t condition = 0;
+    for (int32_t i = 0; i < w->set.count; i++) {
+        const study_set_key *k = &w->set.data[i];
+        if (!k->rule || k->acts)
+            continue;
+        if (condition == k->condition && idle_group_takes(&group, w->keys.data[i], k->rule))
+            continue;
+        tell_idle_group(w, &group, condition);
+        idle_group_begin(&group, w->keys.data[i], k->rule);
+        condition = k->condition;
+    }
+    tell_idle_group(w, &group, condition);
 }
 
 fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error)
 {
-    if (!w->failed)
+    if (!w->failed && w->fresh && w->looked == w->s->conditions)
         tell_idle(w);
     if (w->more > 0)
         log_write(w->ctx, LOG_WARNING, "%d more condition%s warnings like these, with other numbers", (int)w->more,
                   w->more == 1 ? " has" : "s have");
     text_list_free(w->ctx, &w->told);
     array_free(w->ctx, &w->by);
-    text_list_free(w->ctx, &w->idle);
-    array_free(w->ctx, &w->idle_in);
+    text_list_free(w->ctx, &w->keys);
+    array_free(w->ctx, &w->set);
     return status == FRAM_OK && w->failed ? error_memory(error) : status;
 }

@@ -105,6 +105,29 @@ class Folders(StudyTest):
         self.assertEqual(self.warned(study, "-o", self.at / "idle", "--on", "slurm", "--dry-run"), idle)
         self.assertEqual(self.warned("check", study), idle)
 
+    def test_a_key_without_effect_is_told_where_it_is_set(self):
+        """For two reasons, with one that only the second condition sets, and of a vessel that only this one has."""
+        ship = "mode: towed, hull: {form: box, length: 20, beam: 6, draught: 2, freeboard: 2}"
+        (self.at / "two.yaml").write_text(
+            "run: {duration: 3, time_step: 0.01, transient: 1}\nice: {source: voronoi}\n"
+            f"vessels:\n  - {{name: ship, x: -20, speed: 1, {ship}}}\n"
+            f"  - {{name: breaker, x: 20, path: [{{time: 0, x: 20}}, {{time: 3, x: 23}}], {ship}}}\n"
+            "domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}\n")
+        study = self.at / "study.yaml"
+        study.write_text(
+            "scenario: two.yaml\nkeep: summary\nvessel: ship\n"
+            "set: {ice.level.x_min: 5, ice.level.x_max: 9, environment.current_direction_deg: 30,"
+            " environment.wind_direction_deg: 9}\nvary: {list: [\n"
+            "  {vessels.breaker.present: false, environment.water: true, ice.level.y_min: auto,"
+            " environment.wind_speed: 5},\n"
+            "  {vessels.breaker.present: true, environment.water: false, ice.level.y_min: 3,"
+            " environment.wind_speed: 0}]}\n")
+        told = self.warned(study, "-o", self.at / "two", "--on", "slurm", "--dry-run")
+        self.assertEqual([re.fullmatch(r"warning: condition (\d) \(.*?\): (.*): without effect, .*", line).groups()
+                          for line in told],
+                         [("1", "ice.level.x_min and 1 more"), ("1", "environment.current_direction_deg"),
+                          ("2", "vessels[1].x"), ("2", "ice.level.y_min")])
+
     def test_what_goes_by_what_is_made_is_told_by_that(self):
         """How thick the floes of a file are is known where `check` makes them; the current of a file, and how a ship
         lies on her mooring, is known of all conditions."""
