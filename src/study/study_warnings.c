@@ -118,7 +118,7 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
                               fram_error *error)
 {
     context telling = study_warnings_of(w, condition);
-    w->fresh = w->fresh || condition == 0;
+    w->fresh = true;
     look_at_keys(w, one);
     bool when_made = scenario_tells_when_made(one);
     if (!when_made)

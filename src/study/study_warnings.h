@@ -26,7 +26,7 @@ typedef struct study_warnings {
     ARRAY(study_set_key) set; /* what is known of each */
     int32_t next;             /* the key that likely comes next: conditions have theirs in one order */
     int32_t looked;           /* conditions whose keys were looked at */
-    bool fresh;               /* the first was not looked at before */
+    bool fresh;               /* one of them was not looked at before */
     int32_t more, other;      /* conditions with others like those, and the number of the last of them */
     bool failed;              /* no memory */
 } study_warnings;
@@ -40,9 +40,9 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
                               fram_error *error);
 /* A condition that was looked at before: its keys count with those of conditions that are looked at now. */
 void study_warnings_pass(study_warnings *w, int32_t condition, const scenario *one);
-/* Tells which keys are without effect, where the first condition was not looked at before, and how many conditions have
-   others like those that were told, and frees what w holds.  status: of the looking, which it returns, or that there
-   was no memory for what was told. */
+/* Tells which keys are without effect, where a condition was not looked at before, and how many conditions have others
+   like those that were told, and frees what w holds.  status: of the looking, which it returns, or that there was no
+   memory for what was told. */
 fram_status study_warnings_end(study_warnings *w, fram_status status, fram_error *error);
 
 #endif

@@ -80,6 +80,12 @@ class Folders(StudyTest):
         self.assertEqual([line for line in lines[first:] if line.startswith("warning: ")], [])
         return [line for line in lines[:first] if line.startswith("warning: ")]
 
+    def refused_and_warned(self, *words):
+        """The warnings of a study that is refused."""
+        done = subprocess.run([FRAM, "study", *words], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        return [line for line in done.stderr.splitlines() if line.startswith("warning: ")]
+
     def test_each_warning_of_a_scenario_is_told_once_with_its_condition(self):
         """Of sentences that differ in their numbers alone those of three conditions, and how many have others."""
         study = self.write("set: {run.duration: 0.1, run.transient: 0, vessel.mode: free, ice.source: none,"
@@ -104,6 +110,15 @@ class Folders(StudyTest):
                 " nothing sleeps"]
         self.assertEqual(self.warned(study, "-o", self.at / "idle", "--on", "slurm", "--dry-run"), idle)
         self.assertEqual(self.warned("check", study), idle)
+        # That is told where all were looked at, after a first look that came to a vessel which sinks.
+        study.write_text("scenario: base.yaml\nset: {ice.sleep_time: 7}\n"
+                         "vary: {grid: {vessel.mass: [1.28e6, 1.29e8, 1.30e6]}}\n")
+        words = (study, "-o", self.at / "half", "--on", "slurm", "--dry-run")
+        self.assertEqual(self.refused_and_warned(*words), [])
+        study.write_text(study.read_text().replace("e8", "e6"))
+        idle = [idle[0].replace("ice.source=none", "vessel.mass=1.28e6")]
+        self.assertEqual(self.warned(*words), idle)
+        self.assertEqual(self.warned(*words), [])
 
     def test_a_key_without_effect_is_told_where_it_is_set(self):
         """For two reasons, with one that only the second condition sets, and of a vessel that only this one has."""
