@@ -81,12 +81,15 @@ fram_status bench_looks(context *ctx, const scenario *s, build_look made, const 
     field_report report;
     double began = clock_processor();
     fram_status status = build_model(ctx, s, &m, error);
-    if (status != FRAM_OK)
+    if (status != FRAM_OK) {
+        if (made)
+            made(ctx, s, NULL, NULL);
         return status;
+    }
     status = build_world(ctx, s, &m, &w, &report, error);
     *build = clock_processor() - began;
-    if (status == FRAM_OK && made)
-        made(ctx, s, &m, &w);
+    if (made)
+        made(ctx, s, status == FRAM_OK ? &m : NULL, status == FRAM_OK ? &w : NULL);
     if (status == FRAM_OK) {
         looked_run run = {ctx, &m, &w, 0, step_at(s->run.duration, s->run.time_step), 0, 0};
         status = look_at_world(&run, after, count, out, error);

@@ -14,7 +14,7 @@ typedef struct bench_look {
 /* out[i]: the look at the steps that come when those before have taken after[i] seconds of processor time, ascending;
    the first after some steps that settle.  The run is made once, so that all takes little more than the last of
    `after`, however dear its steps become.  A run that ends before has its last look again.  build: processor time of
-   making the world [s].  made: looks at that; NULL: nobody. */
+   making the world [s].  made: looks at that, and where it cannot be made at neither model nor world; NULL: nobody. */
 fram_status bench_looks(context *ctx, const scenario *s, build_look made, const double *after, int count,
                         bench_look *out, double *build, fram_error *error);
 

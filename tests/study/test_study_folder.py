@@ -162,6 +162,10 @@ class Folders(StudyTest):
             self.assertEqual(self.warned(study, "-o", self.at / f"file{thickness}", *dry), [])
             study.write_text(plain)
             self.assertEqual(self.warned("check", study), told)
+        # What cannot be made is warned of by its keys.
+        file.write_text("{}")
+        study.write_text(plain + "set: {ice.thickness: 3}\n")
+        self.assertEqual(self.refused_and_warned("check", study), [thick.replace("file", "thickness")])
         (self.at / "aside.csv").write_text("time,x,y\n0,0,-0.5\n600,0,-0.5\n")
         (self.at / "moored.yaml").write_text(
             "run: {duration: 3, time_step: 0.05, transient: 1}\nice: {source: none}\n"
@@ -173,6 +177,9 @@ class Folders(StudyTest):
         for told in (self.warned(study, "-o", self.at / "moored", *dry), self.warned("check", study)):
             self.assertEqual([line.split(" and environment")[0] for line in told],
                              ["warning: vessel: a current of 0.5 m/s comes across the hull,"])
+        study.write_text("scenario: moored.yaml\nset: {vessel.mass: 9.0e7, environment.wind_speed: 80}\n")
+        told = self.refused_and_warned(study, "-o", self.at / "sinks", *dry)
+        self.assertEqual([line.split(" is outside")[0] for line in told], ["warning: environment.wind_speed: 80 m/s"])
 
     def contents(self, folder):
         return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
