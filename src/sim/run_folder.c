@@ -224,7 +224,7 @@ fram_status run_folder_refuse_inputs(const char *folder, const char *inputs, fra
     return run_inputs_refuse(inputs, folder, is_written, error);
 }
 
-fram_status run_folder_refuse_pipes(const char *folder, fram_error *error)
+static fram_status refuse_pipes(const char *folder, bool (*is_such)(const char *name), fram_error *error)
 {
     char path[PATH_ROOM];
     struct stat about;
@@ -233,11 +233,20 @@ fram_status run_folder_refuse_pipes(const char *folder, fram_error *error)
     DIR *dir = opendir(folder);
     for (const char *name = dir ? folder_next(dir, &failure) : NULL; name && status == FRAM_OK;
          name = folder_next(dir, &failure))
-        if (is_written(name) && path_join(folder, name, path, NULL) == FRAM_OK && stat(path, &about) == 0 &&
+        if (is_such(name) && path_join(folder, name, path, NULL) == FRAM_OK && stat(path, &about) == 0 &&
             S_ISFIFO(about.st_mode))
             status = file_check(path, error);
     if (dir)
         closedir(dir);
+    return status;
+}
+
+fram_status run_folder_refuse_pipes(const char *folder, fram_error *error)
+{
+    char pictures[PATH_ROOM];
+    fram_status status = refuse_pipes(folder, is_written, error);
+    if (status == FRAM_OK && path_join(folder, "pictures", pictures, NULL) == FRAM_OK)
+        status = refuse_pipes(pictures, is_numbered_plan, error);
     return status;
 }
 

@@ -49,6 +49,10 @@ done
 cp -r run broken
 mkfifo broken/checkpoint-000000000900.fram
 refuse "checkpoint-000000000900.fram: expected a regular file, found a pipe" resume broken
+rm broken/checkpoint-000000000900.fram
+mkdir broken/pictures
+mkfifo broken/pictures/plan-000000000.800.png
+refuse "pictures/plan-000000000.800.png: expected a regular file, found a pipe" resume broken
 rm -r broken
 
 # A run goes on with files that lie somewhere else, if they are the same.
