@@ -381,8 +381,8 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->fractures, error);
     if (status == FRAM_OK) {
-        run_warn_gaps(ctx, d);
         note_progress(d);
+        run_warn_gaps(ctx, d);
     }
     if (status == FRAM_OK && with_field)
         status = read_fields(ctx, d, error);

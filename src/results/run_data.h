@@ -98,7 +98,7 @@ int32_t run_fractures(const run_data *d, int kind);
 /* That the series has the column time[s], with rising times; FRAM_ERROR_INPUT with its path and line, as run_data_read.
  */
 fram_status run_series_check(const csv_table *series, const char *path, fram_error *error);
-/* Warns where rows are missing between others or at the end; as run_data_read did. */
+/* Warns where rows are missing between others or at the end, or all are; as run_data_read did. */
 void run_warn_gaps(context *ctx, const run_data *d);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);

@@ -108,6 +108,8 @@ void run_warn_gaps(context *ctx, const run_data *d)
 {
     const double *time = run_channel(d, "time");
     char more[48] = "";
+    if (run_is_cut_off(d))
+        log_write(ctx, LOG_WARNING, "%s: " RUN_IS_CUT_OFF "; run the scenario again", d->folder, d->note.steps);
     /* Those of another scenario may be farther apart. */
     if (!time || d->series.rows == 0 || d->is_changed || !d->note.scenario_hash[0])
         return;

@@ -331,6 +331,10 @@ class Statistics(unittest.TestCase):
         self.assertIn(f"no peaks: {run}/series.csv:22: time: expected rising times, found 1 after 1.05", done.stderr)
         self.write(rows[0], "run/series.csv")
         self.refused(("fatigue", run), "series.csv has no rows, though the run made 40 steps: it was cut off; run the")
+        for words in (("plot", run), ("compare", run, thin)):
+            done = subprocess.run([FRAM, *words], capture_output=True, text=True, check=True)
+            self.assertIn("warning: run: series.csv has no rows, though the run made 40 steps: it was cut off; run the",
+                          done.stderr.replace(str(self.at) + "/", ""))
         self.fram("report", run, "-o", self.at / "report.html")
         self.assertIn("The run's series.csv has no rows, though", (self.at / "report.html").read_text())
         # Rows that lack are warned of, those that a long interval leaves out are none.
