@@ -54,6 +54,23 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
     return status;
 }
 
+/* Read as a run they are warned of where rows are missing; alone where what is beside them cannot be read. */
+static fram_status put_tables(context *ctx, netcdf_file *f, const char *folder, fram_error *error)
+{
+    run_data d;
+    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    if (status == FRAM_OK) {
+        bool good =
+            put_table(ctx, f, &d.series, "time", "") && put_table(ctx, f, &d.fractures, "fracture", "fracture_");
+        run_data_free(ctx, &d);
+        return good ? FRAM_OK : error_memory(error);
+    }
+    if (status == FRAM_ERROR_MEMORY || status == FRAM_INTERRUPTED)
+        return status;
+    status = put_csv(ctx, f, folder, "series.csv", "time", "", error);
+    return status == FRAM_OK ? put_csv(ctx, f, folder, "fractures.csv", "fracture", "fracture_", error) : status;
+}
+
 /* ---- floes over frames ---- */
 
 /* Floats, but where one far from 0 would have no millimetres. */
@@ -236,9 +253,7 @@ fram_status export_netcdf(context *ctx, const char *folder, const char *output, 
     netcdf_attribute(&f, "title", "Time series of a run of Fram");
     netcdf_attribute(&f, "source", "fram " FRAM_VERSION);
     netcdf_attribute(&f, "frame_of_reference", "X, Y horizontal, Z up, still water at z = 0; forces act on the vessel");
-    status = put_csv(ctx, &f, folder, "series.csv", "time", "", error);
-    if (status == FRAM_OK)
-        status = put_csv(ctx, &f, folder, "fractures.csv", "fracture", "fracture_", error);
+    status = put_tables(ctx, &f, folder, error);
     if (status == FRAM_OK)
         status = put_floes(ctx, &f, folder, report, error);
     if (status == FRAM_OK)

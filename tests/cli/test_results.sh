@@ -321,9 +321,13 @@ if "$FRAM" --version | grep -q netcdf; then
     grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without frames has no columns of its fractures"
     grep -q floe_thickness bare/run.nc && fail "run.nc of a run without frames has floes"
     rm bare/run.nc bare/record.fram
+    sed -i 3d bare/series.csv
     expect 0 "$FRAM" export bare --netcdf --json
+    says "bare/series.csv:3: time: there are no rows from" err
     says "bare: the run has no record, as a study keeps with \`series\`: no floes are written" err
     same "$(value 'j["frames"]')" 0 "frames of a run without a record"
+    rm bare/run.nc bare/run.json
+    expect 0 "$FRAM" export bare --netcdf --json
     grep -q fracture_pieces bare/run.nc || fail "run.nc of a run without a record has no columns of its fractures"
     # SIGTERM, as Ctrl-C, as soon as the file has begun leaves nothing half-written; where it is whole by then, that.
     "$FRAM" export run --netcdf -o stopped.nc 2>err >out &
