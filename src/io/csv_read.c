@@ -386,6 +386,35 @@ typedef struct table_reader {
     csv_table *out;
 } table_reader;
 
+static int compare_columns(const void *a, const void *b)
+{
+    const csv_table_column *first = *(const csv_table_column *const *)a, *second = *(const csv_table_column *const *)b;
+    int order = strcmp(first->name, second->name);
+    return order != 0 ? order : (first > second) - (first < second);
+}
+
+/* Of columns that have the name of one before them the first is told. */
+static fram_status refuse_double_columns(const table_reader *r, const char *path, fram_error *error)
+{
+    const csv_table_column *all = r->out->columns.data, *first = NULL, *second = NULL;
+    int32_t count = r->out->columns.count;
+    const csv_table_column **sorted = memory_array(r->ctx, (size_t)count, sizeof *sorted);
+    if (!sorted)
+        return error_memory(error);
+    for (int32_t k = 0; k < count; k++)
+        sorted[k] = all + k;
+    qsort(sorted, (size_t)count, sizeof *sorted, compare_columns);
+    for (int32_t k = 1; k < count; k++) {
+        if (strcmp(sorted[k - 1]->name, sorted[k]->name) == 0 && (!second || sorted[k] < second)) {
+            first = sorted[k - 1];
+            second = sorted[k];
+        }
+    }
+    memory_free(r->ctx, sorted);
+    return second ? csv_refuse_twice(path, second->name, (int32_t)(first - all), (int32_t)(second - all), error)
+                  : FRAM_OK;
+}
+
 /* "name[unit]" */
 static fram_status read_header(const table_reader *r, const char *path, const char *text, fram_error *error)
 {
@@ -404,15 +433,11 @@ static fram_status read_header(const table_reader *r, const char *path, const ch
                              (int)r->out->columns.count + 1);
         memcpy(column.name, c, name);
         memcpy(column.unit, unit_at, unit);
-        const csv_table_column *first = csv_table_find(r->out, column.name);
-        if (first)
-            return csv_refuse_twice(path, column.name, (int32_t)(first - r->out->columns.data), r->out->columns.count,
-                                    error);
         if (!array_push(r->ctx, &r->out->columns, column))
             return error_memory(error);
         c += whole;
         if (!*c)
-            return FRAM_OK;
+            return refuse_double_columns(r, path, error);
     }
 }
 

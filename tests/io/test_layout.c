@@ -184,6 +184,7 @@ START_TEST(tables_of_whole_rows)
                  {"a,b\n1,2\n3,\n", -1, NULL},
                  {"a\n1\n2\n3\n", 3, NULL},
                  {"a[m],b,a [s]\n1,2,3\n", -1, "one column of this name, found columns 1 and 3"},
+                 {"b,a,c,a,b,a\n1,2,3,4,5,6\n", -1, "one column of this name, found columns 2 and 4"},
                  {"a,b\n1,nan\n", -1, "column 2: expected a number, found \"nan\""},
                  {"a,b\n-inf,1\n", -1, "column 1: expected a number, found \"-inf\""},
                  {"a,b\n1,1e999\n", -1, "column 2: expected a number, found \"1e999\""},
