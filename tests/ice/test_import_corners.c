@@ -197,6 +197,26 @@ START_TEST(meetings_are_counted_once)
 }
 END_TEST
 
+/* By what repairs took: neither a large ring with few meetings nor a small one with many is left to minutes. */
+START_TEST(long_repairs_are_told_by_meetings_and_corners)
+{
+    static const struct {
+        int count, corners, elsewhere;
+        bool often;
+    } row[] = {
+        {90180, 0, 120, false}, /* a round floe with 60 loops: 1.4 s */
+        {90390, 0, 260, false}, /* with 130: 3 s */
+        {2000, 0, 1000, false}, /* two zigzags: 6 s */
+        {4000, 1000, 2, false}, /* a staircase of cells: 4 s */
+        {100000, 0, 400, false}, {100000, 0, 500, true}, {3200, 0, 1600, true}, {3200, 1600, 1, true},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        const import_meetings met = {row[i].corners, row[i].elsewhere};
+        ck_assert_msg(import_meets_too_often((polygon){NULL, row[i].count}, &met) == row[i].often, "row %zu", i);
+    }
+}
+END_TEST
+
 /* GEOS has its own memory; Fram's runs out at every request in turn. */
 START_TEST(memory_runs_out)
 {
@@ -221,4 +241,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("import_corners", rings_about_cells_are_cut, rings_that_cross_at_corners_are_not_cut,
-          ice_in_filled_holes_is_no_floe, meetings_are_counted_once, memory_runs_out)
+          ice_in_filled_holes_is_no_floe, meetings_are_counted_once, long_repairs_are_told_by_meetings_and_corners,
+          memory_runs_out)
