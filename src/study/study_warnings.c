@@ -41,7 +41,7 @@ static bool is_like(const char *a, const char *b)
 }
 
 /* The first condition has no key twice. */
-static int32_t find_key(study_warnings *w, const char *path)
+static int32_t idle_key(study_warnings *w, const char *path)
 {
     for (int32_t k = 0; w->looked > 0 && k < w->keys.count; k++) {
         int32_t i = (w->next + k) % w->keys.count;
@@ -56,7 +56,7 @@ static int32_t find_key(study_warnings *w, const char *path)
 static void take_key(void *to, const char *path, const idle_rule *rule)
 {
     study_warnings *w = to;
-    int32_t i = w->failed ? -1 : find_key(w, path);
+    int32_t i = w->failed ? -1 : idle_key(w, path);
     if (i < 0) {
         i = w->set.count;
         if (w->failed || !array_push(w->ctx, &w->set, (study_set_key){0}) || !text_list_add(w->ctx, &w->keys, path)) {
