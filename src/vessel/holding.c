@@ -13,7 +13,7 @@
 /* What moment they must have to spare there, in parts of the load on half the length: 0.003, above ALLOCATION_NEAR, to
    0.1. */
 #define MOMENT_TO_SPARE 0.01
-/* Where the moment comes first, one that is missed weighs as on this part of half the length: 0.1 to 0.001. */
+/* Where the moment comes first, one that is missed weighs as on this part of half the length: 0.03 to 0.001. */
 #define MOMENT_FIRST 0.01
 /* How well the moment that is asked of them is found, in the same parts, and in parts of the lines' tensions. */
 #define ASKED_PRECISION 1e-4
@@ -202,16 +202,15 @@ static double may_be_missed(const rest_load *r)
     return ALLOCATION_NEAR * lever * vec3_length(vec3_make(r->demand.x, r->demand.y, r->demand.z / lever));
 }
 
-/* Where not all can be given, the moment comes first if it can be: lines take any force, but hardly turn a ship. */
+/* Where not all can be given, the moment comes first: lines take any force, but hardly turn a ship. */
 static void push(rest_load *r)
 {
     const holding_case *c = r->c;
-    bool reached = balances(c, r->demand, &r->missed);
+    balances(c, r->demand, &r->missed);
     if (!c->heading_alone && fabs(r->missed.z) > may_be_missed(r)) {
+        bool reached;
         vec3 missed = thruster_allocate(c->thrusters, c->vessel, MOMENT_FIRST * 0.5 * c->length, r->demand, &reached);
-        if (fabs(missed.z) > may_be_missed(r))
-            balances(c, r->demand, &r->missed);
-        else
+        if (fabs(missed.z) < fabs(r->missed.z))
             r->missed = missed;
     }
     /* What force comes with a moment alone is for the lines. */

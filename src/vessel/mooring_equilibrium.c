@@ -265,11 +265,14 @@ static vec3 narrow_rest(const balance *b, vec3 low, vec3 high)
     return at;
 }
 
+/* From a pose on, which is `start` to it. */
 static balance balance_of(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
-                          double z, vec3 attitude)
+                          const vec3 *position, const quat *orientation, vec3 *start)
 {
+    vec3 attitude = quat_roll_pitch_yaw(*orientation);
     balance b = {.lines = lines, .vessel = vessel, .length = length, .load = load, .user = user};
-    b.z = z, b.roll = attitude.x, b.pitch = attitude.y;
+    b.z = position->z, b.roll = attitude.x, b.pitch = attitude.y;
+    *start = vec3_make(position->x, position->y, length * attitude.z);
     for (int32_t i = 0; i < lines->count; i++)
         b.pulls += lines->vessel[i] == vessel ? lines->tension[i] : 0;
     /* Slack lines come to pull as the load asks. */
@@ -291,10 +294,9 @@ static bool take_pose(const balance *b, vec3 at, vec3 *position, quat *orientati
 bool mooring_nearest_balance(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                              vec3 *position, quat *orientation)
 {
-    vec3 attitude = quat_roll_pitch_yaw(*orientation);
-    balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
+    vec3 start;
     double residual;
-    vec3 start = vec3_make(position->x, position->y, length * attitude.z);
+    balance b = balance_of(lines, vessel, length, load, user, position, orientation, &start);
     return take_pose(&b, balance_near(&b, start), position, orientation, &residual);
 }
 
@@ -309,19 +311,17 @@ static vec3 rest_from(const balance *b, vec3 start, vec3 near)
 bool mooring_rest(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                   vec3 *position, quat *orientation)
 {
-    vec3 attitude = quat_roll_pitch_yaw(*orientation);
-    balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
+    vec3 start;
     double residual;
-    vec3 start = vec3_make(position->x, position->y, length * attitude.z);
+    balance b = balance_of(lines, vessel, length, load, user, position, orientation, &start);
     return take_pose(&b, rest_from(&b, start, balance_near(&b, start)), position, orientation, &residual);
 }
 
 bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
                          vec3 *position, quat *orientation, mooring_balance *out)
 {
-    vec3 attitude = quat_roll_pitch_yaw(*orientation);
-    balance b = balance_of(lines, vessel, length, load, user, position->z, attitude);
-    vec3 start = vec3_make(position->x, position->y, length * attitude.z);
+    vec3 start;
+    balance b = balance_of(lines, vessel, length, load, user, position, orientation, &start);
     vec3 at = balance_near(&b, start), rest = rest_from(&b, start, at);
     bool meant = misses_no_more(&b, at, BALANCED) && fabs(at.z - start.z) <= radians(MEANT_DEG) * length;
     if (!meant)
