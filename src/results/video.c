@@ -33,7 +33,7 @@ typedef struct video {
     double most;             /* load [N] */
     double step;             /* between pictures [s] */
     int64_t count;           /* of pictures */
-    box2 extent;             /* of the places of the first frame's bodies but walls [m] */
+    box2 extent;             /* of the places of the first frame's bodies but walls; without ice of the domain [m] */
     box2 whole;              /* of all its bodies [m] */
     double top;              /* of those, over still water [m] */
     replay r;
@@ -44,16 +44,19 @@ typedef struct video {
 
 static void find_extent(video *v)
 {
-    const scenario_domain *d = &v->s.domain;
+    bool ice = false;
     vec2 lo = {HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < v->r.frame.poses.count; i++) {
         const replay_pose *p = &v->r.frame.poses.data[i];
-        if (v->r.bodies.data[p->body].material == MATERIAL_WALL)
+        int material = v->r.bodies.data[p->body].material;
+        if (material == MATERIAL_WALL)
             continue;
+        ice = ice || material == MATERIAL_ICE;
         lo = vec2_make(fmin(lo.x, p->position.x), fmin(lo.y, p->position.y));
         hi = vec2_make(fmax(hi.x, p->position.x), fmax(hi.y, p->position.y));
     }
-    v->extent = lo.x < hi.x ? (box2){lo, hi} : domain_box(d);
+    /* Vessels without ice sail wherever the domain has water. */
+    v->extent = ice && lo.x < hi.x ? (box2){lo, hi} : domain_box(&v->s.domain);
 }
 
 static void find_whole(video *v)
@@ -124,6 +127,18 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
 
 /* ---- one picture ---- */
 
+static void curve_caption(const video *v, char *text, size_t room)
+{
+    if (scenario_vessel_count(&v->s) == 0) {
+        snprintf(text, room, "no vessel");
+        return;
+    }
+    vessel_entry first = scenario_vessel_entry(&v->s, 0);
+    load_unit unit = kilonewtons_or_less(v->most);
+    snprintf(text, room, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g %s",
+             vessel_title_of(&first).text, v->most * unit.factor, unit.name);
+}
+
 static void draw_curve(const video *v, cairo_t *page, double now)
 {
     double left = 14, right = v->options->width - 14, top = v->options->height - CURVE_HEIGHT + CURVE_TOP;
@@ -143,10 +158,7 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     cairo_rectangle(page, x - 1, top - 4, 2, bottom - top + 4);
     cairo_fill(page);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
-    vessel_entry first = scenario_vessel_entry(&v->s, 0);
-    load_unit unit = kilonewtons_or_less(v->most);
-    snprintf(text, sizeof text, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g %s",
-             vessel_title_of(&first).text, v->most * unit.factor, unit.name);
+    curve_caption(v, text, sizeof text);
     image_text_fitted(page, left, top - 5, 12, false, right - left, text);
 }
 

@@ -10,6 +10,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -494,6 +495,24 @@ def check_open_hull(folder):
         assert parts.count(3) > 5 and parts.count(2) > 2 * parts.count(3), parts  # two hulls, and the ship in some rows
 
 
+def check_bare_videos(folder):
+    """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain."""
+    def picture(name, camera, scene):
+        (folder / "cat.yaml").write_text(scene)
+        fram("run", folder / "cat.yaml", "-o", folder / name, "-q")
+        fram("video", folder / name, "--pictures", "--camera", camera, "--fps", 1, "--width", 640, "--height", 480,
+             "-q")
+        _, _, channels, rows = chromium.pixels((folder / name / "video" / "frame-000000.png").read_bytes())
+        return [[row[at:at + 3] for at in range(0, len(row), channels)] for row in rows]
+    nobody = "vessel: {present: false}\n" + re.sub("vessels:|  - .*", "", CATAMARAN)
+    inked = [x for row in picture("nobody", "plan", nobody)[362:373] for x, p in enumerate(row) if max(p) < 100]
+    assert 40 < len(inked) and max(inked) < 100, f"more than 'no vessel' over the curve, to pixel {max(inked)}"
+    water = re.sub("ice: .*", "ice: {source: none}", CATAMARAN)
+    seen = [sum(p[0] > 1.6 * p[1] for row in picture(f"from{x}", "orbit", water.replace("-1400050", x))[:360]
+                for p in row) for x in ("-1400050", "-1400450")]
+    assert seen[0] > 2 * seen[1] > 0, f"ships of {seen} pixels in domains of 150 and 550 m"
+
+
 def main():
     use_system_python()
     missing = [name for name in READERS if not have(name)]
@@ -509,6 +528,8 @@ def main():
         done = [check_geojson(run, rows)]
         check_open_hull(pathlib.Path(folder))
         check_fine_hull(pathlib.Path(folder))
+        if "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout:
+            check_bare_videos(pathlib.Path(folder))
         if shutil.which("node"):
             check_between(pathlib.Path(folder), run)
         if have("vtkmodules"):
