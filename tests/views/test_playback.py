@@ -312,6 +312,21 @@ def check_few(browser, folder):
         corners = [browser.run(LOOK.replace("pixel(114, 0)", f"pixel({x}, {y})"))["waterPixel"]
                    for x, y in ((-76, -36), (-76, 36), (34, -36), (34, 36))]
         assert all(is_blue(p) for p in corners), (name, corners)
+    check_open_water(browser, folder)
+
+
+def check_open_water(browser, folder):
+    """A ship without ice or walls stays on the water and in the cameras that show all, to the end of its domain."""
+    run, _ = make_run(folder, "sails", TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", "{source: none}")
+                       .replace("x_max: -1399920", "x_max: -1399300, boundary: open").replace("speed: 4", "speed: 99"))
+    browser.open(run / "playback.html")
+    browser.choose("colour", "plain")
+    for camera in ("top", "orbit"):
+        browser.choose("camera", camera)
+        go(browser, "fram.end")
+        seen = browser.run(LOOK.replace("114, 0", "hull[0], hull[1] + 45"))
+        assert seen["hull"][0] > 150, seen["hull"]
+        assert is_deck(seen["hullPixel"]) and is_blue(seen["waterPixel"]), (camera, seen)
 
 
 def check_no_vessel(browser, folder):

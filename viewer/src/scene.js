@@ -16,7 +16,9 @@ export class Scene {
     constructor(canvas, record, poses, first) {
         this.record = record;
         this.poses = poses;
-        this.metre = sizesOf(readScenario(record.scenario)).length; // of full size
+        const told = readScenario(record.scenario);
+        this.metre = sizesOf(told).length; // of full size
+        this.domain = told.domain ?? {};
         this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.scene = new THREE.Scene();
@@ -32,8 +34,8 @@ export class Scene {
         this.station = new Station(this.scene, record, this.water);
         this.lit = new LitFloes(this.scene);
         this.peakArrows = new Arrows(this.scene);
-        const hulls = record.bodies.filter((b) => b.material === 'hull'), told = record.pressure;
-        if (told && hulls[told.vessel]) this.pressure = new HullPressure(this.scene, told, hulls[told.vessel]);
+        const hulls = record.bodies.filter((b) => b.material === 'hull'), { pressure } = record;
+        if (hulls[pressure?.vessel]) this.pressure = new HullPressure(this.scene, pressure, hulls[pressure.vessel]);
     }
 
     addWaterAndLight() {
@@ -236,16 +238,21 @@ export class Scene {
         this.camera.updateProjectionMatrix();
     }
 
-    /** Box around all bodies of the first frame. */
+    /** Box around all bodies of the first frame; without ice around the domain too, wherever in it vessels will sail: a
+     *  record that grows does not know. */
     bounds(first) {
         const box = new THREE.Box3(), point = new THREE.Vector3();
         for (let i = 0; i < first.poses.length; i += 7)
             box.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
-        // Without ice the walls are what is there, or the water around the vessels.
-        const { bodies } = this.record, bare = !bodies.some((b) => b.material === 'ice');
+        const { bodies, origin: [x, y] } = this.record, bare = !bodies.some((b) => b.material === 'ice');
+        const { x_min: west, x_max: east, y_min: south, y_max: north } = this.domain;
         for (const b of bodies)
             if (b.pose && (bare || b.material !== 'wall'))
                 box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
+        if (bare && east > west && north > south) {
+            box.expandByPoint(point.set(west - x, south - y, 0));
+            box.expandByPoint(point.set(east - x, north - y, 0));
+        }
         if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
         const hulls = bare ? bodies.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
         return box.expandByScalar(hulls.reduce((far, x) => Math.max(far, Math.abs(x)), 20 * this.metre));
