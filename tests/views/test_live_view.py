@@ -4,7 +4,8 @@ the run stands still.
 
 The page must show frames while the run goes, go on with it, know floes that broke off meanwhile, and play the whole
 run afterwards, with nothing to complain of.  The record is then given frame by frame, and cut where it should not
-matter, to a page that is looked at each time.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
+matter, to a page that is looked at each time.  What
+goes wrong is told, also where nothing can be drawn.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
 """
 import base64
 import json
@@ -138,6 +139,48 @@ def check_cuts(browser, folder, page):
     assert count == len(frames), f"{count} of {len(frames)} frames of a record that came in {len(cuts) + 1} pieces"
 
 
+def check_no_drawing(browser, folder, page):
+    """Without WebGL or JavaScript the page says so and offers no buttons, also after a run that was followed."""
+    told = "['#note', '#waiting', 'footer'].map((q) => document.querySelector(q)).map((e) => e.offsetHeight > 0 && " \
+        "e.textContent)"
+    script = browser.call("Page.addScriptToEvaluateOnNewDocument", source="HTMLCanvasElement.prototype.getContext = "
+                          "((known) => function (kind, ...more) { return kind.startsWith('webgl') ? null : "
+                          "known.call(this, kind, ...more); })(HTMLCanvasElement.prototype.getContext)")["identifier"]
+    run = folder / "run"
+    subprocess.run([FRAM, "view", run, "--page", page, "--quiet"], check=True)
+    record = base64.b64encode((run / "record.fram").read_bytes()).decode()
+    live = f"framAppend(Uint8Array.from(atob('{record}'), (c) => c.charCodeAt(0)).buffer), framEnd()"
+    for file, then in (run / "playback.html", ""), (folder / "follows.html", live):
+        browser.call("Page.navigate", url=file.as_uri())
+        browser.until(f"location.pathname.endsWith('{file.name}') && (window.fram || window.framEnd)",
+                      "the page does not load")
+        browser.run(then)
+        note, *others = browser.run(told)
+        assert note and note.startswith("This browser has no WebGL 2") and others == [False, False], (note, others)
+    browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+    browser.complaints = [c for c in browser.complaints if "THREE.WebGLRenderer" not in c]
+    browser.call("Emulation.setScriptExecutionDisabled", value=True)
+    browser.call("Page.navigate", url=(run / "playback.html").as_uri())
+    browser.until("document.querySelector('noscript .note')?.offsetHeight > 0", "nothing is told without JavaScript")
+    assert browser.run(told) == [False] * 3, browser.run(told)
+    browser.call("Emulation.setScriptExecutionDisabled", value=False)
+
+
+def check_answers(browser, folder, page):
+    """The first thing that goes wrong with what a page asks for is told, and stays told when the run has ended."""
+    asks = folder / "asks.html"
+    asks.write_text(page.read_text().replace("<!--BESIDE-->", "record").replace("<!--RECORD-->", ""))
+    for answer, text in (("Promise.reject()", "The run has ended, or does not answer."),
+                         ("new Response('no record, for all it has')",
+                          "The record cannot be played: this is not a record of Fram")):
+        script = browser.call("Page.addScriptToEvaluateOnNewDocument", source=f"window.fetch = async () => {answer}")
+        browser.call("Page.navigate", url=asks.as_uri())
+        browser.until("location.pathname.endsWith('asks.html') && window.framEnded", "the page asks on")
+        told = browser.run("document.getElementById('note').textContent")
+        assert told == text, told
+        browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+
+
 def check(browser, folder, page):
     import fram
     addresses = []
@@ -171,6 +214,8 @@ def check(browser, folder, page):
                          "(b) => b.number === f.floe && b.birth === 0)).floe")
     check_frames(browser, folder, page, broken)
     check_cuts(browser, folder, page)
+    check_no_drawing(browser, folder, page)
+    check_answers(browser, folder, page)
     assert not browser.complaints, browser.complaints
     print(f"{state['frames']} frames, {state['broke']} floes broke, {state['clock']}")
 

@@ -11,7 +11,7 @@ import { PeakPanel } from './peaks.js';
 import { Poses } from './poses.js';
 import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
 import { readScenario, sizesOf, vesselsOf } from './scenario.js';
-import { own, Scene } from './scene.js';
+import { own, rendererOn, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 60];
@@ -55,7 +55,9 @@ class Player {
             if (!this.sayGone([0])) setTimeout(() => this.begin(), 20);
             return;
         }
-        this.scene = new Scene($('view'), record, this.poses, first);
+        const renderer = rendererOn($('view'));
+        if (!renderer) { this.giveUp(); return; }
+        this.scene = new Scene(renderer, record, this.poses, first);
         this.hull = record.bodies.find((b) => b.material === 'hull');
         this.camera = new Camera($('view'), this.scene, this.poses, this.hull);
         this.colours = new Colours(record, this.poses, this.sizes);
@@ -75,6 +77,14 @@ class Player {
         this.resize();
         this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
+    }
+
+    /** Without what draws there is nothing that a button could do. */
+    giveUp() {
+        this.blind = true;
+        $('waiting').hidden = true;
+        document.querySelector('footer').hidden = true;
+        tell('This browser has no WebGL 2: turn on hardware acceleration, or use fram video.');
     }
 
     /** Curve and peaks of the vessel that is chosen; a page without them shows the load at the frames. */
@@ -401,6 +411,7 @@ class Player {
 
 /** A page is opened to see the run; with #still at its end it waits for the button. */
 function playWhenReady(player) {
+    if (player.blind) return;
     if (!player.ready) setTimeout(() => playWhenReady(player), 20);
     else if (!player.playing && player.record.frames.length > 1) player.toggle();
 }
@@ -415,7 +426,7 @@ function watch(address) {
         window.fram = new Player(grown, true);
         return window.fram;
     };
-    follow(address, begin, (text) => { waiting.hidden = true; tell(text); });
+    follow(address, begin, (text) => { waiting.hidden = true; if (!window.fram?.blind) tell(text); });
 }
 
 try {

@@ -12,14 +12,23 @@ const WATER = 0x2f6690, SKY = 0xdfe8ef, HULL = 0xb5402a, WALL = 0x7a726c, ICE = 
 const ARROWS = 2048; // at most
 const TEXELS = 3; // a body in the texture: (position, shown), quaternion, colour
 
+/** What draws on a canvas; null in a browser that cannot. */
+export function rendererOn(canvas) {
+    try {
+        return new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    } catch {
+        return null;
+    }
+}
+
 export class Scene {
-    constructor(canvas, record, poses, first) {
+    constructor(renderer, record, poses, first) {
         this.record = record;
         this.poses = poses;
         const told = readScenario(record.scenario);
         this.metre = sizesOf(told).length; // of full size
         this.domain = told.domain ?? {};
-        this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+        this.renderer = renderer;
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.scene = new THREE.Scene();
         this.scene.background = new THREE.Color(SKY);
