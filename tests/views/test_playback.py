@@ -483,6 +483,16 @@ def check_pick(browser):
                        "fram.picked.birth"), "the history has not all frames"
     browser.click(browser.box("view")[2] / 2, 4)
     assert browser.run("document.getElementById('history').hidden"), "a click on the water does not let go"
+    more = browser.run("""(() => { const gl = fram.scene.renderer.getContext(), { createBuffer, deleteBuffer } = gl;
+        let buffers = 0;
+        gl.createBuffer = () => (buffers++, createBuffer.call(gl));
+        gl.deleteBuffer = (b) => (buffers--, deleteBuffer.call(gl, b));
+        const floes = fram.record.bodies.filter((b) => fram.poses.shown[b.index] && b.number >= 0);
+        floes.slice(0, 8).forEach((b) => { fram.pick(b); fram.draw(); });
+        fram.pick(null);
+        Object.assign(gl, { createBuffer, deleteBuffer });
+        return buffers; })()""")
+    assert more < 3, f"eight picks leave {more} buffers behind"
 
 
 def check_whole_history(browser):

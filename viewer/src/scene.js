@@ -212,6 +212,8 @@ export class Scene {
         this.ring.visible = body !== null;
         if (!body) return;
         const points = body.outline.flatMap(([x, y]) => [x, y, body.thickness / 2 + 0.05 * this.metre]);
+        this.ring.geometry.dispose();
+        this.ring.geometry = new THREE.BufferGeometry();
         this.ring.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
     }
 
