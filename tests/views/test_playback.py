@@ -477,6 +477,7 @@ def check_pick(browser):
         const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
         let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n / (c.width * c.height); })()""")
     assert inked > 0.02, f"the history of a floe is blank: {inked}"
+    check_ratio(browser)
     if browser.run("!document.getElementById('whole').hidden"):
         check_whole_history(browser)
     assert browser.run("fram.history.rows.size === Math.min(fram.picked.death, fram.record.frames.length) - "
@@ -493,6 +494,27 @@ def check_pick(browser):
         Object.assign(gl, { createBuffer, deleteBuffer });
         return buffers; })()""")
     assert more < 3, f"eight picks leave {more} buffers behind"
+
+
+def check_ratio(browser):
+    """On a screen with finer pixels the view is drawn with as many, and the time stays at its place of a history."""
+    mark = """(() => { fram.draw();
+        const c = document.querySelector('#history canvas'), view = document.getElementById('view');
+        const g = new OffscreenCanvas(c.width, 1).getContext('2d', { willReadFrequently: true });
+        g.drawImage(c, 0, 1 - c.height);
+        const d = g.getImageData(0, 0, c.width, 1).data;
+        let first = -1;
+        for (let i = 0; i < d.length && first < 0; i += 4) if (d[i] > 150 && d[i + 1] < 90 && d[i + 3] > 200) first = i;
+        return [first / 4 / c.width, view.width / view.clientWidth, devicePixelRatio]; })()"""
+    at, *before = browser.run(mark)
+    size = {name: browser.run(f"inner{name.title()}") for name in ("width", "height")}
+    browser.call("Emulation.setDeviceMetricsOverride", **size, deviceScaleFactor=2, mobile=False)
+    browser.until("fram.scene.renderer.getPixelRatio() === 2", "the view does not hear of a screen with finer pixels")
+    then, *after = browser.run(mark)
+    assert before == [1, 1] and after == [2, 2], f"pixels of the view and of the screen: {before}, {after}"
+    assert at > 0.05 and abs(then - at) < 0.02, f"the time in the history goes from {at} to {then} of its width"
+    browser.call("Emulation.clearDeviceMetricsOverride")
+    browser.until("devicePixelRatio === 1 && fram.scene.renderer.getPixelRatio() === 1", "the screen does not change")
 
 
 def check_whole_history(browser):

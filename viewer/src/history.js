@@ -130,9 +130,10 @@ export class History {
         const canvas = this.panel.querySelector('canvas');
         if (!this.body || !canvas || this.sorted.length < 2) return;
         const ratio = window.devicePixelRatio, w = canvas.clientWidth, h = canvas.clientHeight;
-        if (!this.back) {
+        const [wide, high] = [w, h].map((size) => Math.max(1, Math.round(size * ratio)));
+        if (!this.back || canvas.width !== wide || canvas.height !== high) {
             this.back = document.createElement('canvas');
-            this.back.width = canvas.width = w * ratio; this.back.height = canvas.height = h * ratio;
+            this.back.width = canvas.width = wide; this.back.height = canvas.height = high;
             const g = this.back.getContext('2d');
             g.scale(ratio, ratio);
             g.font = '10.5px system-ui, "DejaVu Sans", sans-serif';

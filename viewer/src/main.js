@@ -192,6 +192,7 @@ class Player {
         $('film').onclick = () => this.takeFilm();
         this.camera.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
+        this.watchRatio();
         // Its texts may take another line; the view ends where it begins.
         new ResizeObserver(() => this.resize()).observe(document.querySelector('footer'));
         window.addEventListener('keydown', (e) => this.key(e));
@@ -324,6 +325,14 @@ class Player {
         this.scene.resize(width, height);
         this.placePeak();
         this.dirty = true;
+    }
+
+    /** A page that is zoomed, or comes to another screen, may keep its size. */
+    watchRatio() {
+        matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`).addEventListener('change', () => {
+            this.resize();
+            this.watchRatio();
+        }, { once: true });
     }
 
     /** What a peak tells stands under the legend, in a low window beside it, and never under the buttons. */

@@ -29,7 +29,6 @@ export class Scene {
         this.metre = sizesOf(told).length; // of full size
         this.domain = told.domain ?? {};
         this.renderer = renderer;
-        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.scene = new THREE.Scene();
         this.scene.background = new THREE.Color(SKY);
         this.camera = new THREE.PerspectiveCamera(40, 1, this.metre, 20000 * this.metre);
@@ -243,7 +242,9 @@ export class Scene {
 
     render() { this.renderer.render(this.scene, this.camera); }
 
+    /** To pixels of the screen that the window is on now, at the size it is seen at. */
     resize(width, height) {
+        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(width, height);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
