@@ -41,6 +41,7 @@ TWO = """
 title: Two
 run: {duration: 4, time_step: 0.02}
 vessels:
+  - {name: gone, present: false}
   - {name: first, mode: towed, x: -20, y: -15, speed: 4, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
   - {name: second, mode: towed, x: -60, y: 20, speed: 3, hull: {length: 36, beam: 10, draught: 3, freeboard: 2}}
 ice: {mean_floe_area: 64, concentration: 0.7}
@@ -265,6 +266,11 @@ def check_two(browser, folder, pressure):
         assert browser.run("fram.timeline.vessel.name") == name
         click_peak(browser, 1)
         assert browser.run("fram.peaks.peak.detail.floes.length > 0 && fram.peakShown"), name
+        off = browser.run(f"""(() => {{ const hull = fram.record.bodies.filter((b) => b.material === 'hull')[{v}];
+            const {{ target }} = fram.camera.controls, [x, y] = fram.poses.pose.subarray(7 * hull.index);
+            const length = Math.max(...hull.vertices.filter((_, i) => i % 3 === 0));
+            return [Math.hypot(x - target.x, y - target.y), Math.abs(length - {(24, 18)[v]})]; }})()""")
+        assert max(off) < 3, f"the camera that goes along looks {off[0]} m beside {name}"
     assert not browser.run("document.getElementById('vessels').hidden")
     told = browser.run("document.getElementById('load').textContent")
     assert told.startswith("averaged ice force on first: X "), told

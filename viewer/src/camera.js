@@ -94,4 +94,4 @@ export class Camera {
     }
 }
 
-function goesAlong(mode) { return mode === 'follow' || mode === 'below'; }
+export function goesAlong(mode) { return mode === 'follow' || mode === 'below'; }

@@ -1,5 +1,5 @@
 // The page: reads the record that stands in it, and plays it.
-import { Camera } from './camera.js';
+import { Camera, goesAlong } from './camera.js';
 import { Colours, RAMP, ramp } from './colours.js';
 import { Film } from './film.js';
 import { History } from './history.js';
@@ -102,9 +102,17 @@ class Player {
     }
 
     chooseVessel() {
-        const vessel = this.loads.vessels[$('vessel').value];
+        const number = Number($('vessel').value), vessel = this.loads.vessels[number];
         this.peaks.setVessel(vessel);
         this.timeline.show(this.loads, vessel);
+        this.goWith(this.record.bodies.filter((b) => b.material === 'hull')[number]);
+    }
+
+    /** Loads and hulls are both of the vessels that take part, in their order. */
+    goWith(hull) {
+        if (!hull || hull === this.hull) return;
+        this.hull = this.camera.hull = hull;
+        if (goesAlong($('camera').value)) this.placeCamera();
     }
 
     changePeak() {
