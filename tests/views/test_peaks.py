@@ -283,8 +283,32 @@ def check_two(browser, folder, pressure):
     cut = browser.run("(() => { const load = document.getElementById('load');"
                       "return [load, ...load.children].some((e) => e.scrollWidth > e.clientWidth); })()")
     assert not cut, f"on a phone the end is left out of {told!r}"
+    check_smallest(browser)
     browser.call("Emulation.clearDeviceMetricsOverride")
     check_legend(browser)
+
+
+def check_smallest(browser):
+    """Whatever the size of a window the buttons begin in it, the view has room over them, the legend keeps to that, and
+    captions leave a low timeline to its curve."""
+    browser.run("""(() => { const { vessel } = fram.timeline;
+        fram.timeline.show(fram.loads, { ...vessel, name: 'a long name of a ship '.repeat(3) }); })()""")
+    for height in (568, 200, 256):
+        browser.call("Emulation.setDeviceMetricsOverride", width=320, height=height, deviceScaleFactor=1, mobile=False)
+        if height == 256:
+            browser.call("Page.reload")
+            browser.until("window.fram?.ready", "the page does not get ready")
+        browser.until(f"document.documentElement.clientHeight === {height} && document.getElementById('view')"
+                      ".clientHeight === fram.room().height", "the view does not take the room there is")
+        browser.run("fram.draw()")
+        play, view, foot, legend, folded = browser.run("""[...['#play', '#view', 'footer', '#legend']
+            .map((q) => document.querySelector(q).getBoundingClientRect()).map((b) => [b.top, b.bottom]),
+            document.body.className === 'folded']""")
+        assert view[1] >= 40 and abs(view[1] - foot[0]) <= 1 < play[0] - foot[0], (height, view, foot, play)
+        assert legend[1] <= foot[0] and folded == (height == 200), (height, legend, foot, folded)
+        head = max(bottom for _, _, _, _, bottom in browser.run("fram.timeline.written"))
+        high = browser.run("fram.timeline.canvas.clientHeight")
+        assert high - head > 40, f"of {high} pixels captions take {head}"
 
 
 def check_legend(browser):

@@ -636,7 +636,7 @@ def check_saved_head(browser):
 
 def check_still(browser):
     check_saved_head(browser)
-    browser.click_on("still")
+    browser.click_on("picture")
     png = browser.file(".png").read_bytes()
     width, height, *_ = chromium.pixels(png)
     assert [width, height] == browser.run("[document.getElementById('view').width,"

@@ -16,6 +16,8 @@ import { Timeline } from './timeline.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 60];
 const MARKED = 10; // seconds that a fracture stays marked
+const LEAST_VIEW = 40; // height [px]
+const LEAST_LEGEND = 0.5; // of its full size: smaller it cannot be read
 const GAP = 12, LEAST_PANEL = 150; // from the legend to the panel of a peak under it, and what that asks for [px]
 
 class Player {
@@ -196,7 +198,7 @@ class Player {
         $('colour').onchange = () => { this.setLegend(); this.dirty = true; };
         $('forces').onchange = () => { this.setLegend(); this.dirty = true; };
         $('hull').onchange = () => this.showPressure();
-        $('still').onclick = () => this.still();
+        $('picture').onclick = () => this.still();
         $('film').onclick = () => this.takeFilm();
         this.camera.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
@@ -325,7 +327,8 @@ class Player {
     /** Size of the scene: of the page's root, since a phone's window grows with what sticks out of the screen. */
     room() {
         const { clientWidth, clientHeight } = document.documentElement;
-        return { width: clientWidth, height: clientHeight - document.querySelector('footer').offsetHeight };
+        const foot = document.querySelector('footer').offsetHeight;
+        return { width: clientWidth, height: Math.max(LEAST_VIEW, clientHeight - foot) };
     }
 
     resize() {
@@ -343,10 +346,19 @@ class Player {
         }, { once: true });
     }
 
+    /** The legend is as small as the room asks for; returns where it ends. */
+    placeLegend() {
+        const legend = $('legend'), { a: size } = new DOMMatrix(getComputedStyle(legend).transform);
+        const high = size * this.legend.height;
+        const fit = Math.min(1, Math.max(0, this.room().height - legend.offsetTop - 8) / high);
+        legend.style.scale = fit;
+        document.body.classList.toggle('folded', size * fit < LEAST_LEGEND);
+        return legend.offsetTop + fit * high;
+    }
+
     /** What a peak tells stands under the legend, in a low window beside it, and never under the buttons. */
     placePeak() {
-        const legend = $('legend'), { style } = $('peak'), { height } = this.room();
-        const foot = legend.offsetTop + new DOMMatrix(getComputedStyle(legend).transform).a * this.legend.height;
+        const { style } = $('peak'), { height } = this.room(), foot = this.placeLegend();
         const under = height - foot - GAP >= LEAST_PANEL, top = under ? foot + GAP : 8;
         style.top = `${top}px`;
         style.left = under ? '' : '8px';

@@ -2,7 +2,7 @@
 // marks where floes broke, and a cursor that can be dragged.
 
 import { forceText, secondsText } from './legend.js';
-import { wrapped } from './text.js';
+import { shortened, wrapped } from './text.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
 const NUMBER = 16; // from a peak's point to above its number [px]
@@ -103,12 +103,15 @@ export class Timeline {
         canvas.ariaValueText = `${now} s`;
     }
 
-    /** Text from the top left corner in as many lines as it takes, the end of the time in the corner right of the
-     *  first; returns the height of the last line's foot. */
-    drawCaption(g, w, text) {
+    /** Text from the top left corner in as many lines as it takes, at most those that leave so much of the height, the
+     *  end of the time in the corner right of the first; returns the height of the last line's foot. */
+    drawCaption(g, w, text, left) {
         const end = `${secondsText(this.begin + this.span)} s`, wide = g.measureText(end).width;
         this.canvas.ariaDescription = text;
-        const lines = wrapped(g, text, (line) => w - 8 - (line === 0 ? wide + 10 : 0));
+        const room = (line) => w - 8 - (line === 0 ? wide + 10 : 0), most = Math.max(1, Math.floor(left / LINE));
+        const lines = wrapped(g, text, room);
+        const over = lines.splice(most - 1);
+        if (over.length) lines.push(shortened(g, over.join(' '), room(most - 1)));
         g.fillStyle = INK;
         lines.forEach((line, i) => this.write(g, line, 4, 11 + LINE * i));
         this.write(g, end, w - wide - 4, 11);
@@ -129,7 +132,7 @@ export class Timeline {
         g.scale(ratio, ratio);
         g.font = `11px ${FONT}`;
         this.written = [];
-        const head = this.loads ? this.drawHeads(g, w) : 18;
+        const head = this.loads ? this.drawHeads(g, w, h) : 18;
         if (this.loads) this.drawBands(g, h, head);
         else this.drawPlain(g, w, h);
         g.fillStyle = '#d9730d';
@@ -142,7 +145,7 @@ export class Timeline {
         const most = this.load.some((load) => load > 0) ? `largest of them ${forceText(this.most)}` : 'none';
         const what = this.record.bodies.some((b) => b.material === 'hull')
             ? `ice load${this.of}, averaged, at the frames; ${most}` : 'no vessel';
-        const head = this.drawCaption(g, w, `${what}${this.eventText()}`) + 7;
+        const head = this.drawCaption(g, w, `${what}${this.eventText()}`, h - 38) + 7;
         g.fillStyle = '#c9d6e2';
         g.beginPath();
         g.moveTo(0, h);
@@ -158,12 +161,12 @@ export class Timeline {
     }
 
     /** Title and the mechanisms' colours, in as many lines as the width asks for; returns their height. */
-    drawHeads(g, w) {
+    drawHeads(g, w, h) {
         const { vessel, loads } = this, of = vessel.name ? ` on ${vessel.name}` : ' on the vessel';
         const what = this.largest > 0 ? `largest ${forceText(this.largest / 1000)}` : 'none in this run';
         const foot = this.drawCaption(g, w, `ice load${of}, averaged over ${
             Number(vessel.window.toPrecision(3))} s: ${what}${
-            vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`);
+            vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`, h - 90);
         let x = 4, y = foot + LINE;
         for (const m of this.kinds) {
             const wide = 14 + g.measureText(loads.names[m]).width + 12;
