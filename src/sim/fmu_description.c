@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "fram/version.h"
+#include "sim/recording.h"
 
 #include <math.h>
 #include <string.h>
@@ -189,6 +190,13 @@ static void add_head(context *ctx, const scenario *s, const fmu_names *names, te
     }
 }
 
+/* Where the last step ends, as a run's does: no importer can step on to a duration that is no whole number of steps. */
+static double end_of(const scenario *s)
+{
+    double end = (double)step_at(s->run.duration, s->run.time_step) * s->run.time_step;
+    return fabs(end - s->run.duration) < 1e-9 * end ? s->run.duration : end; /* as it was given, but for rounding */
+}
+
 void fmu_describe(context *ctx, const scenario *s, const fmu_names *names, const fmu_variable_array *variables,
                   text_buffer *out)
 {
@@ -197,7 +205,7 @@ void fmu_describe(context *ctx, const scenario *s, const fmu_names *names, const
     text_add(ctx, out,
              "  <LogCategories>\n    <Category name=\"logStatusWarning\"/>\n    <Category name=\"logStatusError\"/>\n"
              "    <Category name=\"logAll\"/>\n  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
-    add_real(ctx, out, "stopTime", s->run.duration);
+    add_real(ctx, out, "stopTime", end_of(s));
     add_real(ctx, out, "stepSize", s->run.time_step);
     text_add(ctx, out, "/>\n  <ModelVariables>\n");
     for (int32_t i = 0; i < variables->count; i++)
