@@ -410,10 +410,13 @@ static void add_number(context *ctx, text_buffer *b, double value)
     text_add_bytes(ctx, b, text, (size_t)length);
 }
 
+/* Counter-clockwise, as RFC 7946 has it, whichever way up the floe lies; as the reader would turn it. */
 static void add_ring(context *ctx, text_buffer *b, polygon p)
 {
+    bool turned = p.count > 0 && polygon_orientation(p) < 0;
     for (int32_t k = 0; k <= p.count && p.count > 0; k++) {
-        vec2 v = p.vertex[k % p.count];
+        int32_t i = k % p.count;
+        vec2 v = p.vertex[turned ? p.count - 1 - i : i];
         text_add(ctx, b, k > 0 ? ",[" : "[");
         add_number(ctx, b, v.x);
         text_add(ctx, b, ",");

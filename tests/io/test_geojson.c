@@ -537,13 +537,19 @@ START_TEST(what_is_written_reads_back_to_the_bit)
     rig *r = rig_make();
     scratch place = scratch_make();
     const vec2 a[3] = {{0.1, 1.0 / 3}, {1e-300, 2e17}, {-5e-324, 0.30000000000000004}}, b[4] = {{0, 0}, {1, 0}, {1, 1}};
-    const double thickness[2] = {0.7, (double)NAN};
+    /* Clockwise, as of a floe that lies upside down: written the other way round. */
+    const vec2 c[3] = {{5, 1}, {6, 0}, {5, 0}};
+    const double thickness[3] = {0.7, (double)NAN, 1};
     polygon_list list = {0};
     ck_assert(polygon_list_push(&r->ctx, &list, (polygon){a, 3}) && polygon_list_push(&r->ctx, &list, (polygon){b, 4}));
+    const int32_t before = list.vertex.count;
+    ck_assert(polygon_list_push(&r->ctx, &list, (polygon){c, 3}));
     assert_ok(geojson_write(&r->ctx, scratch_path(&place, "out.geojson"), &list, thickness, &r->error), r->error);
     assert_ok(outline_file_read(&r->ctx, place.path, &r->rings, &r->error), r->error);
-    ck_assert_int_eq(r->rings.place.count, 2);
-    assert_array_bits(&r->rings.rings.vertex.data->x, &list.vertex.data->x, 2 * list.vertex.count);
+    ck_assert_int_eq(r->rings.place.count, 3);
+    assert_array_bits(&r->rings.rings.vertex.data->x, &list.vertex.data->x, 2 * before);
+    for (int i = 0; i < 3; i++)
+        assert_vec2_close(polygon_list_get(&r->rings.rings, 2).vertex[i], c[2 - i], 0);
     assert_bits(r->rings.place.data[0].thickness, 0.7);
     ck_assert(isnan(r->rings.place.data[1].thickness));
     scratch_remove(&place, "out.geojson");
