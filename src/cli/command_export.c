@@ -69,7 +69,8 @@ int command_export(const command_row *self, int argc, char **argv)
         print_export(&common, &result,
                      vtk      ? "open it in ParaView"
                      : netcdf ? "xarray.open_dataset reads it"
-                              : "readable by any GIS, geopandas and fram itself");
+                              : "readable by any GIS, geopandas and fram itself; coordinates are metres in the "
+                                "scenario's plane, so give a GIS a plane system (ogr2ogr -a_srs), not degrees");
     code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
     fram_context_destroy(context);
     /* HDF5 keeps a file that it could not close for want of room, tries again at exit and reads what it has freed. */

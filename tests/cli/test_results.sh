@@ -297,7 +297,8 @@ for words in "-o theirs --force" ""; do
 done
 for folder in theirs run/vtk; do same "$(find $folder/data -type f | wc -l)" 9 "files of three frames in $folder"; done
 [ -e theirs/mine ] || fail "an export took a file that is not its own"
-expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson -q
+expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson
+says "metres in the scenario's plane, so give a GIS a plane system (ogr2ogr -a_srs), not degrees" err
 python3 - <<'PY' || fail "half.geojson is not the field at 1.25 s"
 import json
 field = json.load(open("half.geojson"))
