@@ -8,7 +8,7 @@
 
 static void log_of_library(void *user, fram_log_level level, const char *text)
 {
-    unit_tell(user, level == FRAM_LOG_WARNING ? UNIT_WARNING : UNIT_OK, text);
+    unit_tell_of_world(user, level == FRAM_LOG_WARNING ? UNIT_WARNING : UNIT_OK, text);
 }
 
 /* One line of variables.txt. */

@@ -42,13 +42,31 @@ unit_status unit_fail(unit *u, const char *text)
     return UNIT_ERROR;
 }
 
+/* Times of the world count from the importer's start: behind them, where that is not 0, the importer's own time. */
+static void add_time(const unit *u, char *text, size_t room)
+{
+    bool goes_on = u->phase == UNIT_INITIALIZING || u->phase == UNIT_STEPPING;
+    size_t length = strlen(text);
+    if (goes_on && u->start != 0)
+        snprintf(text + length, room - length, " (importer's time %.2f s)", unit_time(u));
+}
+
+void unit_tell_of_world(const unit *u, unit_status status, const char *text)
+{
+    char whole[TEXT_ROOM];
+    snprintf(whole, sizeof whole, "%s", text);
+    add_time(u, whole, sizeof whole);
+    unit_tell(u, status, whole);
+}
+
 unit_status unit_fail_by(unit *u, const fram_error *e)
 {
-    char text[sizeof *e + 40], line[16] = "";
+    char text[sizeof *e + 100], line[16] = "";
     if (e->line > 0)
         snprintf(line, sizeof line, ":%d", e->line);
     snprintf(text, sizeof text, "%s%s%s%s%s%s", e->file, line, e->file[0] ? ": " : "", e->key, e->key[0] ? ": " : "",
              e->message);
+    add_time(u, text, sizeof text);
     return unit_fail(u, text);
 }
 
@@ -399,11 +417,11 @@ unit_status unit_make_world(unit *u)
 {
     fram_error e;
     fram_world *made;
+    u->phase = UNIT_INSTANTIATED; /* before anything is told of the new world, which has no time yet */
     if (fram_world_create(u->scenario, &made, &e) != FRAM_OK)
         return unit_fail_by(u, &e);
     fram_world_destroy(u->world);
     u->world = made;
-    u->phase = UNIT_INSTANTIATED;
     u->is_set_up = false;
     u->start = u->reached = u->finished = 0;
     u->stop = (double)INFINITY;

@@ -85,6 +85,8 @@ struct unit {
 
 /* To the importer's logger, if it listens to the status's category. */
 FMI_HIDDEN void unit_tell(const unit *u, unit_status status, const char *text);
+/* The same of what the library says, with the importer's time where the world's is another. */
+FMI_HIDDEN void unit_tell_of_world(const unit *u, unit_status status, const char *text);
 /* An error, told: the instance is terminated by it.  Returns UNIT_ERROR. */
 FMI_HIDDEN unit_status unit_fail(unit *u, const char *text);
 FMI_HIDDEN unit_status unit_fail_by(unit *u, const fram_error *e);

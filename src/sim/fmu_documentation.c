@@ -82,6 +82,10 @@ fram_status fmu_page(context *ctx, const scenario *s, const fmu_names *names, co
         "vessel's own controller gives them then. States can be kept, set and written as bytes, and the same "
         "steps from a state give the same numbers to the bit.",
         s->run.time_step);
+    html_paragraph(&p,
+                   "The scenario begins at the importer's start time, and its times (failures, way points, files of "
+                   "wind and drift) count from there. What the unit logs of the world has the world's time; where "
+                   "the start time is not 0 the importer's time stands behind it.");
     if (names->version == 3)
         html_paragraph(&p,
                        "The importer may look on after every time step (intermediateUpdate), and end a communication "

@@ -114,7 +114,7 @@ class Units:
         self.assertEqual(unit.function("GetVersion")(), f"{self.version}.0".encode())
         told = unit.folder / "documentation"
         page = (told / "index.html").read_text()
-        for word in *unit.variables, "Ship &amp; ", f"FMI {self.version}.0":
+        for word in *unit.variables, "Ship &amp; ", f"FMI {self.version}.0", "begins at the importer's start time":
             self.assertIn(word, page)
         self.assertIn("geos", (told / "externalDependencies.txt").read_text())
         self.assertEqual((told / "licenses/license.txt").read_bytes(), pathlib.Path("LICENSE").read_bytes())
@@ -144,6 +144,9 @@ class Units:
         self.assertEqual(instance.get("lines_parted"), [1])
         self.assertNotEqual(instance.get("ice_force_averaged_x"), [0])
         self.assertFalse([text for status, _, text in instance.told if status >= ERROR])
+        released = [text for _, _, text in instance.told if "let go" in text]
+        self.assertEqual(len(released), 1)
+        self.assertRegex(released[0], r"^t = 3\.00 s: .* \(importer's time 103\.00 s\)$")
         instance.free()
         world.free()
 
