@@ -30,6 +30,17 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
     return snprintf(out, NUMBER_TEXT_SIZE, "%.17g", value);
 }
 
+int real_to_pointed_text(double value, char out[NUMBER_TEXT_SIZE])
+{
+    int length = real_to_text(value, out);
+    char *exponent = strchr(out, 'e');
+    if (!exponent || strchr(out, '.'))
+        return length;
+    memmove(exponent + 2, exponent, strlen(exponent) + 1); /* a digit and an exponent are far from filling it */
+    memcpy(exponent, ".0", 2);
+    return length + 2;
+}
+
 /* ---- fast ways ---- */
 
 /* Powers of ten that are doubles; room for digits of which twelve are copied from any of them on. */

@@ -13,6 +13,10 @@ enum { NUMBER_LENGTH_MOST = 400 };
    digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
 
+/* The same with a point in any number that has an exponent, "1.0e-06": without one it is text to readers of YAML 1.1.
+ */
+int real_to_pointed_text(double value, char out[NUMBER_TEXT_SIZE]);
+
 /* The text of %.*g with that many significant digits, without a locale; up to twelve digits of numbers from 1e-280 to
    1e280 take a tenth of printf's time.  Returns its length. */
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);

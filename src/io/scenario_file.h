@@ -53,8 +53,8 @@ fram_status scenario_print(context *ctx, const scenario *s, const scenario_print
    long for a scenario, or cannot be written into one. */
 fram_status scenario_absolute_path(const scenario *s, const char *key, const char *path, char out[SCENARIO_TEXT_SIZE],
                                    fram_error *error);
-/* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever
-   the files lie.  Their contents are to be hashed on their own. */
+/* SHA-256 of the effective scenario without comments, with files by their name alone and "1e-06" for "1.0e-06",
+   hexadecimal: the same wherever the files lie.  Their contents are to be hashed on their own. */
 fram_status scenario_hash(context *ctx, const scenario *s, char out[SHA256_TEXT_SIZE], fram_error *error);
 
 /* The input reference, every key with type, unit, default, range and meaning, as Markdown. */

@@ -16,6 +16,7 @@ typedef struct printer {
     text_buffer *out;
     const scenario *scenario;
     bool comments;
+    bool hashed; /* numbers as they were always written, so that hashes stay */
     path_style paths;
     const scenario_print_options *options; /* NULL: none */
     fram_status status;
@@ -84,7 +85,7 @@ static void print_value(printer *p, const scenario_key *key, const void *member)
     size_t size;
     switch (key->kind) {
     case KEY_REAL:
-        real_to_text(*(const double *)member, number);
+        (p->hashed ? real_to_text : real_to_pointed_text)(*(const double *)member, number);
         text_add(p->ctx, p->out, key->automatic && is_automatic(*(const double *)member) ? "auto" : number);
         break;
     case KEY_INTEGER:
@@ -196,7 +197,7 @@ fram_status scenario_print(context *ctx, const scenario *s, const scenario_print
 fram_status scenario_hash(context *ctx, const scenario *s, char out[SHA256_TEXT_SIZE], fram_error *error)
 {
     text_buffer text = {0};
-    printer p = {.ctx = ctx, .out = &text, .scenario = s, .paths = PATH_NAME, .error = error};
+    printer p = {.ctx = ctx, .out = &text, .scenario = s, .hashed = true, .paths = PATH_NAME, .error = error};
     fram_status status = print(&p);
     if (status == FRAM_OK)
         sha256_text(text.data, (size_t)text.count, out);

@@ -92,7 +92,7 @@ static fram_status add_file(context *ctx, text_buffer *b, const char *what, cons
 static void add_number(context *ctx, text_buffer *b, const char *key, double value)
 {
     char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
+    real_to_pointed_text(value, text);
     text_format(ctx, b, "%s%s", key, text);
 }
 
