@@ -488,13 +488,5 @@ fram_status fram_hull_save(const fram_hull *h, const char *path, fram_error *err
         status = path_refuse_read(h->path, path, "path", error);
     if (status != FRAM_OK)
         return status;
-    status = mesh_file_write(&h->context->inner, path, &h->surface, error);
-    int32_t lids = status == FRAM_OK && mesh_file_ends_with(path, ".gdf") ? hull_count_lids(&h->surface) : 0;
-    if (lids > 0)
-        log_write(
-            &h->context->inner, LOG_WARNING,
-            "%.200s: %d triangles lie in z = 0, where panels are lids of the water plane, which are left out when "
-            "the file is read: move the hull, or write .stl or .obj",
-            path, (int)lids);
-    return status;
+    return hull_file_write(&h->context->inner, path, &h->surface, error);
 }

@@ -45,5 +45,7 @@ fram_status hull_file_read(context *ctx, const char *path, const hull_file_optio
 /* The same for a file that is parsed already (it is emptied). */
 fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, const hull_file_options *options,
                              mesh *surface, hull_file_report *report, fram_error *error);
+/* Write a hull as mesh_file_write does, in its own z; of a GDF, warn of what programs of panel methods do not take. */
+fram_status hull_file_write(context *ctx, const char *path, const mesh *surface, fram_error *error);
 
 #endif

@@ -11,9 +11,6 @@
 #define DEFAULT_FREEBOARD (1.0 / 3)
 /* A surface that encloses less than this part of the cube of its longest side encloses nothing. */
 #define LEAST_VOLUME 1e-12
-/* Heights this near, relative to the longest side, are one: files hold six or
- * seven digits. */
-#define LEVEL_TOLERANCE 1e-6
 
 /* A surface while it is worked on. */
 typedef struct hull_reading {
@@ -188,7 +185,7 @@ static bool may_have_lids(const mesh *m, double tolerance) { return mesh_bounds(
 
 int32_t hull_count_lids(const mesh *m)
 {
-    double tolerance = LEVEL_TOLERANCE * hull_longest_side(m);
+    double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(m);
     int32_t count = 0, faces = may_have_lids(m, tolerance) ? m->face.count : 0;
     for (int32_t f = 0; f < faces; f++)
         count += is_level(m, f, tolerance);
@@ -401,7 +398,7 @@ static fram_status finish_hull(hull_reading *r)
 {
     scale_surface(r);
     r->longest = hull_longest_side(&r->file->surface);
-    r->tolerance = LEVEL_TOLERANCE * r->longest;
+    r->tolerance = HULL_LEVEL_TOLERANCE * r->longest;
     fram_status status = drop_triangles(r);
     if (status == FRAM_OK)
         status = seal(r);

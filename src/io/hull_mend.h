@@ -6,6 +6,9 @@
 
 #include "io/hull_file.h"
 
+/* Heights this near, relative to the longest side, are one: files hold six or seven digits. */
+#define HULL_LEVEL_TOLERANCE 1e-6
+
 /* A file, and what is asked of it. */
 typedef struct hull_request {
     context *ctx;

@@ -97,6 +97,11 @@ done
 sed 's/^\(v .*\) 2e3$/\1 0/; s/e3//g' long.obj >deck.obj
 expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.gdf
 says "warning: deck.gdf: 2 triangles lie in z = 0" err
+same "$(grep -c "above z = 0" err)" 0 "warnings of a hull under water"
+# What is above z = 0 is written too, whatever the draught.
+expect 0 "$FRAM" hull box.stl --draught 2 -o box.gdf
+says "warning: box.gdf: 10 panels reach above z = 0; programs of panel methods take those under water alone" err
+same "$(grep -c "triangles lie in" err)" 0 "lids of a box"
 expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.stl
 ! grep -q warning err || fail "deck.stl is warned of: $(cat err)"
 # Plating of a metre without a deck: the water in it is told of.
