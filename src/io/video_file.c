@@ -14,6 +14,11 @@
 
 extern char **environ;
 
+/* Colours of HD television, and the file says so: without that some players take those of SD, and all hues are off. */
+#define VIDEO_COLOURS                                                                                        \
+    "-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709", "-color_primaries", "bt709", \
+        "-color_trc", "bt709", "-color_range", "tv"
+
 static void forget_video(video_file *v)
 {
     if (v->socket >= 0)
@@ -90,10 +95,10 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     snprintf(size, sizeof size, "%dx%d", width, height);
     snprintf(rate, sizeof rate, "%d", frames_per_second);
     /* What spawn takes is not const, and it changes nothing.  Without -xerror a full disk is no failure to ffmpeg. */
-    char *const arguments[] = {"ffmpeg",   "-xerror",   "-y",         "-loglevel", "error",    "-f",      "rawvideo",
-                               "-pix_fmt", "bgr0",      "-s",         size,        "-r",       rate,      "-i",
-                               "pipe:0",   "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p", "-crf",
-                               "21",       "-movflags", "+faststart", "-f",        "mp4",      output,    NULL};
+    char *const arguments[] = {
+        "ffmpeg",  "-xerror", "-y", "-loglevel", "error",      "-f",  "rawvideo",    "-pix_fmt", "bgr0",    "-s",
+        size,      "-r",      rate, "-i",        "pipe:0",     "-an", VIDEO_COLOURS, "-c:v",     "libx264", "-pix_fmt",
+        "yuv420p", "-crf",    "21", "-movflags", "+faststart", "-f",  "mp4",         output,     NULL};
     status = start(v, arguments, error);
     memory_free(ctx, output);
     if (status != FRAM_OK) {

@@ -16,6 +16,21 @@ static void put_frames(video_file *v)
         assert_ok(video_frame(v, pixels, sizeof pixels, &e), e);
 }
 
+/* Players need not guess which colours they are; where ffprobe is missing nobody says. */
+static void check_colours(const char *path)
+{
+    char command[500], told[200] = "";
+    snprintf(command, sizeof command,
+             "ffprobe -v error -show_entries stream=color_range,color_space,color_transfer,color_primaries "
+             "-of csv=p=0 %s 2>/dev/null",
+             path);
+    FILE *probe = popen(command, "r");
+    ck_assert_ptr_nonnull(probe);
+    const char *line = fgets(told, sizeof told, probe);
+    if (pclose(probe) == 0)
+        ck_assert_msg(line && strcmp(told, "tv,bt709,bt709,bt709\n") == 0, "colours: %s", told);
+}
+
 /* The first ends while the second still goes on: their programs do not hold each other's frames.  And the second is
    given up while its program waits for the next. */
 START_TEST(two_at_once)
@@ -36,6 +51,7 @@ START_TEST(two_at_once)
     put_frames(&second);
     assert_ok(video_end(&first, &e), e);
     ck_assert_int_eq(access(scratch_path(&s, "first.mp4"), R_OK), 0);
+    check_colours(s.path);
     ck_assert_int_eq(access(scratch_path(&s, "second.mp4"), F_OK), -1);
     video_abandon(&second);
     scratch_remove(&s, "first.mp4");
