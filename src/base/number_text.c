@@ -300,10 +300,14 @@ number_fault time_from_text(const char *text, double *seconds)
     return NUMBER_NOT_A_NUMBER;
 }
 
-number_fault integer_from_text(const char *text, int64_t *value)
+/* zeros: may stand behind a point. */
+static number_fault read_integer(const char *text, bool zeros, int64_t *value)
 {
     size_t sign = (text[0] == '+' || text[0] == '-') ? 1 : 0, digits = digits_of(text + sign);
-    if (digits == 0 || text[sign + digits] != '\0')
+    const char *rest = text + sign + digits;
+    if (zeros && *rest == '.')
+        rest += 1 + strspn(rest + 1, "0");
+    if (digits == 0 || *rest)
         return NUMBER_NOT_A_NUMBER;
     errno = 0;
     long long read = strtoll(text, NULL, 10);
@@ -312,3 +316,7 @@ number_fault integer_from_text(const char *text, int64_t *value)
     *value = (int64_t)read;
     return NUMBER_GOOD;
 }
+
+number_fault integer_from_text(const char *text, int64_t *value) { return read_integer(text, false, value); }
+
+number_fault whole_from_text(const char *text, int64_t *value) { return read_integer(text, true, value); }

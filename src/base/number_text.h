@@ -46,5 +46,7 @@ number_fault time_from_text(const char *text, double *seconds);
 double real_read(const char *text, char **end);
 /* A decimal integer that fills the whole text: [+-]digits. */
 number_fault integer_from_text(const char *text, int64_t *value);
+/* The same, or with a point and zeros alone behind it, as programs write the integers of a column of numbers: 3.0. */
+number_fault whole_from_text(const char *text, int64_t *value);
 
 #endif

@@ -84,7 +84,7 @@ static fram_status set_real(const scenario_reader *r, const scenario_key *key, d
 
 static fram_status set_integer(const scenario_reader *r, int64_t *member, const char *text, const value_place *place)
 {
-    number_fault fault = integer_from_text(text, member);
+    number_fault fault = whole_from_text(text, member);
     if (fault == NUMBER_GOOD)
         return FRAM_OK;
     return refuse(r, place, "expected %s integer, found %s", fault == NUMBER_TOO_LARGE ? "a smaller" : "an",

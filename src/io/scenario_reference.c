@@ -157,7 +157,8 @@ fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error
         "`_deg` hold degrees. Directions are towards, counter-clockwise from X. A key that is left out takes its\n"
         "default. Paths are relative to the folder of the scenario. Where a default holds `scale`, that is\n"
         "`run.scale`. `--set run.seed=7` or `--set ice.floes[0].x=3` on the command line overrides a value,\n"
-        "`--set vessels.NAME.x=3` one of the vessel of that name.\n\n"
+        "`--set vessels.NAME.x=3` one of the vessel of that name. An integer may have a point and zeros behind it:\n"
+        "3.0 is 3.\n\n"
         "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed\n"
         "here.\n\n"
         "## Top level\n\n");

@@ -248,6 +248,13 @@ START_TEST(integers_are_read_strictly)
     static const char *const bad[] = {"", " 1", "1 ", "1.0", "1e3", "0x1", "-", "one", "1,000"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         ck_assert_msg(integer_from_text(bad[i], &value) == NUMBER_NOT_A_NUMBER, "%s", bad[i]);
+    static const char *const good[] = {"-12", "-12.", "-12.0", "-0012.000000000000000000000000"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        ck_assert_msg(whole_from_text(good[i], &value) == NUMBER_GOOD && value == -12, "%s", good[i]);
+    static const char *const broken[] = {"", ".0", "-.0", "3.5", "3.05", "3.0e0", "1e2", "3.0 ", "3.0.0", "3,0"};
+    for (size_t i = 0; i < sizeof broken / sizeof *broken; i++)
+        ck_assert_msg(whole_from_text(broken[i], &value) == NUMBER_NOT_A_NUMBER, "%s", broken[i]);
+    ck_assert_int_eq(whole_from_text("9223372036854775808.0", &value), NUMBER_TOO_LARGE);
 }
 END_TEST
 

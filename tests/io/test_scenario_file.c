@@ -125,15 +125,23 @@ END_TEST
 START_TEST(other_ways_to_write_the_same)
 {
     static const char *const texts[] = {"run:\r\n  duration: 5\r\n  seed: 7\r\n",
-                                        "{\"run\": {\"duration\": 5, \"seed\": 7}}", "run: {duration: 5.0, seed: +7}",
+                                        "{\"run\": {\"duration\": 5, \"seed\": 7}}",
+                                        "run: {duration: 5.0, seed: +7}",
                                         "---\n\"run\":\n    seed:  007 # comment\n    duration: 50e-1\n",
-                                        "%YAML 1.2\n---\nrun:\n  seed: 7\n  duration: 5\n"};
+                                        "%YAML 1.2\n---\nrun:\n  seed: 7\n  duration: 5\n",
+                                        "{\"run\": {\"duration\": 5, \"seed\": 7.0}}",
+                                        "run: {duration: 5, seed: 7.}"};
+    char hash[SHA256_TEXT_SIZE], other[SHA256_TEXT_SIZE];
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         scenario s;
         fram_status status = parse_text(texts[i], NULL, &s);
         ck_assert_msg(status == FRAM_OK, "text %zu: %d:%d: %s", i, error.line, error.column, error.message);
         assert_bits(s.run.duration, 5.0);
         ck_assert_int_eq(s.run.seed, 7);
+        if (i == 0)
+            assert_ok(scenario_hash(&ctx, &s, hash, &error), error);
+        assert_ok(scenario_hash(&ctx, &s, other, &error), error);
+        ck_assert_str_eq(hash, other);
         scenario_free(&ctx, &s);
     }
 }
@@ -431,6 +439,8 @@ START_TEST(bad_overrides_are_refused)
         {"run.seed[0]=3", "run.seed[0]", "expected nothing after seed"},
         {"run.seed=", "run.seed", "expected an integer, found nothing"},
         {"run.seed= 3", "run.seed", "expected an integer"},
+        {"run.seed=3.5", "run.seed", "expected an integer, found \"3.5\""},
+        {"run.seed=1e2", "run.seed", "expected an integer"},
         {"run.duration=-5", "run.duration", "expected a number from 0"},
         {"run.scale=0", "run.scale", "expected a number from 0.01"},
         {"run.scale=-1", "run.scale", "expected a number from 0.01"},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -14,13 +14,18 @@ Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
 
 
 def _override_texts(overrides: Overrides) -> list[bytes]:
-    """{"run.seed": 7} or ["run.seed=7"] as the library takes them."""
+    """{"run.seed": 7} or ["run.seed=7"] as the library takes them; what has items, as a row of pandas, is a mapping."""
     if overrides is None:
         return []
     if isinstance(overrides, (str, bytes)):
         return [text_bytes_of(overrides)]
-    if not isinstance(overrides, Mapping):
-        return [text_bytes_of(text) for text in overrides]
+    if not hasattr(overrides, "items"):
+        texts = list(overrides) if isinstance(overrides, Iterable) else [overrides]
+        for text in texts:
+            if not isinstance(text, (str, bytes, os.PathLike)):
+                raise UsageError("usage", "expected a mapping of keys to values, or texts like run.seed=7, found "
+                                 f"{type(text).__name__} {text}", key="overrides")
+        return [text_bytes_of(text) for text in texts]
 
     def word(value: Any) -> str:
         if isinstance(value, (bool, np.bool_)):
@@ -49,8 +54,8 @@ class Scenario:
              context: Optional[Context] = None) -> "Scenario":
         """Read a scenario file.
 
-        overrides: values given over those of the file, ``{"run.seed": 7}`` or ``["run.seed=7"]``.  InputError says
-        which file, line and key are wrong.
+        overrides: values given over those of the file, ``{"run.seed": 7}``, a row of a pandas table or
+        ``["run.seed=7"]``.  InputError says which file, line and key are wrong.
         """
         return cls._make("load", bytes_of(path), None, _override_texts(overrides), context or default_context())
 
