@@ -1,5 +1,7 @@
 #include "io/key_words.h"
 
+#include "base/words.h"
+
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -202,4 +204,38 @@ bool key_nested(const scenario_section *section, const char *name, char out[KEY_
     for (; depth > 0 && used + 1 < KEY_NESTED_SIZE; depth--)
         used += (size_t)snprintf(out + used, KEY_NESTED_SIZE - used, "}");
     return true;
+}
+
+/* "" where items of the list have no name. */
+static const char *item_name(const scenario_key *key, const void *member, int32_t item)
+{
+    int32_t k = section_find(key->section, "name");
+    const scenario_key *text = k >= 0 ? &key->section->keys[k] : NULL;
+    return text && text->kind == KEY_TEXT ? key_member(text, list_element(key, member, item)) : "";
+}
+
+int32_t item_find(const scenario_key *key, const void *member, const char *name)
+{
+    for (int32_t i = 0; *name && i < list_count(member); i++)
+        if (strcmp(item_name(key, member, i), name) == 0)
+            return i;
+    return -1;
+}
+
+const char *item_meant(const scenario_key *key, const void *member, const char *word, char names[ITEM_NAMES_SIZE])
+{
+    name_search near = name_search_begin(word);
+    int32_t told = 0;
+    names[0] = '\0';
+    for (int32_t i = 0; i < list_count(member); i++) {
+        const char *name = item_name(key, member, i);
+        if (!*name)
+            continue;
+        name_try(&near, name);
+        size_t used = strlen(names);
+        if (told++ <= ITEM_NAMES_MOST)
+            snprintf(names + used, ITEM_NAMES_SIZE - used, "%s%.24s", told == 1 ? ", or the name, " : ", ",
+                     told > ITEM_NAMES_MOST ? "..." : name);
+    }
+    return *word ? near.found : NULL;
 }

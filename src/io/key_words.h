@@ -1,4 +1,4 @@
-/* What was meant by names that no key of a scenario has: words of the field, keys of other sections, slips. */
+/* What was meant by names that no key or item of a scenario has: words of the field, keys of other sections, slips. */
 #ifndef IO_KEY_WORDS_H
 #define IO_KEY_WORDS_H
 
@@ -20,5 +20,12 @@ const char *key_meant(const scenario_section *section, const char *path, const c
    "run.duration" in the whole scenario.  false: it is none of the section. */
 enum { KEY_NESTED_SIZE = 160 };
 bool key_nested(const scenario_section *section, const char *name, char out[KEY_NESTED_SIZE]);
+
+/* The item of a list that is called so; -1 when none is. */
+int32_t item_find(const scenario_key *key, const void *member, const char *name);
+/* The name in a list that was meant by a word that none of its items is called; NULL: none is like it.  names: the
+   first few that there are, ", or the name, tug, tanker", "" where items have none. */
+enum { ITEM_NAMES_MOST = 4, ITEM_NAMES_SIZE = 160 };
+const char *item_meant(const scenario_key *key, const void *member, const char *word, char names[ITEM_NAMES_SIZE]);
 
 #endif

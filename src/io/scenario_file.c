@@ -262,16 +262,25 @@ static fram_status read_section(const scenario_reader *r, const scenario_section
 
 /* ---- overrides ---- */
 
-/* Items of a list may be called by their name, where they have one; -1 when none is called so. */
-static int32_t find_named(const scenario_key *key, const void *member, const char *name)
+/* A word that is neither a number nor a name. */
+static fram_status refuse_item(const scenario_reader *r, const scenario_key *key, const void *member, const char *word,
+                               const value_place *place)
 {
-    int32_t k = section_find(key->section, "name");
-    for (int32_t i = 0; k >= 0 && *name && i < list_count(member); i++) {
-        const scenario_key *text = &key->section->keys[k];
-        if (text->kind == KEY_TEXT && strcmp(key_member(text, list_element(key, member, i)), name) == 0)
-            return i;
-    }
-    return -1;
+    char names[ITEM_NAMES_SIZE];
+    const char *meant = item_meant(key, member, word, names);
+    return refuse(r, place, "expected the number of an item, %s[0], %s[1], ...%s%s%s%s%s%s", key->name, key->name,
+                  names, *word ? "; found " : "", *word ? shown(word).text : "", meant ? "; did you mean " : "",
+                  meant ? meant : "", meant ? "?" : "");
+}
+
+/* Of vessels the short form may be meant, whose key is called otherwise.  rest: of the key, behind the item. */
+static fram_status refuse_empty(const scenario_reader *r, const scenario_key *key, const void *member, const char *rest,
+                                const value_place *place)
+{
+    if (member == &r->scenario->vessels && !scenario_given(r->scenario, key->name))
+        return refuse(r, place, "the file lists no vessels; the key of its one vessel is vessel%s",
+                      *rest == '.' ? rest : ".NAME");
+    return refuse(r, place, "expected an item of %s, and the file lists none", key->name);
 }
 
 /* The item of a list that the file has: "[3]" or ".3", where items have names "[NAME]" or ".NAME"; moves *at behind
@@ -280,21 +289,22 @@ static fram_status step_into_list(const scenario_reader *r, const scenario_key *
                                   const value_place *place, int32_t *item)
 {
     const char *text = *at;
-    bool named = section_find(key->section, "name") >= 0, bracket = *text == '[', point = *text == '.';
+    bool bracket = *text == '[', point = *text == '.';
     size_t length = bracket ? strcspn(text, "]") : point ? 1 + strcspn(text + 1, ".[") : 0;
     char word[KEY_SIZE] = "";
     if (length > 1)
         memcpy(word, text + 1, length - 1);
-    int64_t index = find_named(key, member, word);
-    *at = text + length + bracket;
+    int64_t index = item_find(key, member, word);
+    int32_t count = list_count(member);
+    *at = text + length + (bracket && text[length]);
     *item = (int32_t)index;
     if (index >= 0)
         return FRAM_OK;
+    if (count == 0)
+        return refuse_empty(r, key, member, *at, place);
     bool number = strlen(word) < 12 && *word != '+' && integer_from_text(word, &index) == NUMBER_GOOD;
     if (!number || (bracket && text[length] != ']'))
-        return refuse(r, place, "expected the number%s of an item, %s[0], %s[1], ...%s%s", named ? " or the name" : "",
-                      key->name, key->name, *word ? "; found " : "", *word ? shown(word).text : "");
-    int32_t count = list_count(member);
+        return refuse_item(r, key, member, word, place);
     if (index < 0 || index >= count)
         return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", key->name,
                       (int)count, (int)count, word);

@@ -154,6 +154,36 @@ START_TEST(refusals_name_line_and_key)
 }
 END_TEST
 
+static const char one[] = "vessel: {name: solo}\n";
+static const char six[] = "vessels:\n  - {name: a1, hull: {form: box}}\n  - {name: b1, x: 100, hull: {form: box}}\n"
+                          "  - {name: c1, x: 200, hull: {form: box}}\n  - {name: d1, x: 300, hull: {form: box}}\n"
+                          "  - {name: e1, x: 400, hull: {form: box}}\n  - {name: f1, x: 500, hull: {form: box}}\n";
+
+/* Where an item is none of a list, what is there instead. */
+static const struct {
+    const char *text, *override, *message;
+} other_items[] = {
+    {two, "vessels.tug.x=3",
+     "expected the number of an item, vessels[0], vessels[1], ..., or the name, icebreaker-1, tanker; found \"tug\""},
+    {two, "vessels.tnaker.x=3", "found \"tnaker\"; did you mean tanker?"},
+    {six, "vessels[f2].x=3", "or the name, a1, b1, c1, d1, ...; found \"f2\"; did you mean f1?"},
+    {two, "vessels.tanker.thrusters[0].x=3", "expected an item of thrusters, and the file lists none"},
+    {one, "vessels.solo.hull.length=3", "the file lists no vessels; the key of its one vessel is vessel.hull.length"},
+    {one, "vessels[0].speed=3", "the file lists no vessels; the key of its one vessel is vessel.speed"},
+    {"{}", "vessels.0.speed=3", "the file lists no vessels; the key of its one vessel is vessel.speed"},
+    {"{}", "vessels=3", "the key of its one vessel is vessel.NAME"},
+    {"vessels: []\n", "vessels[0].speed=3", "expected an item of vessels, and the file lists none"},
+    {"{}", "ice.floes[0].x=3", "expected an item of floes, and the file lists none"},
+};
+
+START_TEST(what_there_is_instead_is_told)
+{
+    scenario s;
+    ck_assert_int_eq(parse(other_items[_i].text, other_items[_i].override, &s), FRAM_ERROR_INPUT);
+    ck_assert_msg(strstr(error.message, other_items[_i].message), "%s: %s", other_items[_i].override, error.message);
+}
+END_TEST
+
 static void list_of(int32_t count, char *text, size_t size)
 {
     int at = snprintf(text, size, "vessels:\n");
@@ -186,6 +216,7 @@ int main(void)
     tcase_add_test(c, printed_and_read_again);
     tcase_add_test(c, as_many_as_the_limit);
     tcase_add_loop_test(c, refusals_name_line_and_key, 0, (int)(sizeof refused / sizeof *refused));
+    tcase_add_loop_test(c, what_there_is_instead_is_told, 0, (int)(sizeof other_items / sizeof *other_items));
     Suite *suite = suite_create("vessel_list");
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
