@@ -122,7 +122,9 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, buil
     status = build_before_ice(ctx, s, &m, &w, error);
     if (status == FRAM_OK) {
         w.without_ice = s->ice.source != ICE_FLOES;
-        status = check_listed(ctx, s, &m, &w, error);
+        status = feeding_place_check(ctx, s, &m, &w, error);
+        if (status == FRAM_OK)
+            status = check_listed(ctx, s, &m, &w, error);
         if (status == FRAM_OK && look)
             look(ctx, s, &m, &w);
         world_free(ctx, &w);

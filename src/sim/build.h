@@ -16,8 +16,8 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
 typedef void (*build_look)(context *ctx, const scenario *s, const model *m, const world *made);
 
 /* The vessels and their stations alone, and floes that are listed, as build_world makes them, and then nothing of it:
-   for what cannot be, and for the warnings in the log.  store: of hulls, may be NULL (build_hull.h).  look: at that
-   world, which holds no other ice; NULL: none. */
+   for what cannot be, a hull in a band that is given too, and for the warnings in the log.  store: of hulls, may be
+   NULL (build_hull.h).  look: at that world, which holds no other ice; NULL: none. */
 fram_status build_check(context *ctx, const scenario *s, hull_store *store, build_look look, fram_error *error);
 
 /* The ice alone, as outlines, to look at: the same as of build_world; under domain.boundary: feeding the whole tile,

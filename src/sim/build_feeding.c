@@ -1,5 +1,6 @@
 #include "sim/build_feeding.h"
 
+#include "model/scenario_vessel.h"
 #include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_level.h"
@@ -36,20 +37,26 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
 }
 
 /* A vessel must lie inside the band at the start; the water that is kept clear around it may reach into that. */
-static fram_status check_place(context *ctx, const world *w, box2 window, double band, fram_error *error)
+static fram_status check_place(context *ctx, const scenario *s, const world *w, box2 window, double band,
+                               fram_error *error)
 {
+    static const char *const sides[] = {"x_min", "x_max", "y_min", "y_max"};
     polygon_list hulls = {0};
     fram_status status = build_footprints(ctx, w, &hulls, error);
     for (int32_t i = 0; i < polygon_list_count(&hulls) && status == FRAM_OK; i++) {
         box2 box = polygon_bounds(polygon_list_get(&hulls, i));
-        double room = fmin(fmin(box.lo.x - window.lo.x, window.hi.x - box.hi.x),
-                           fmin(box.lo.y - window.lo.y, window.hi.y - box.hi.y));
-        if (room < band)
-            status =
-                error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
-                          "expected the vessel inside the band of %.4g m whose floes go with the field, found %.4g m "
-                          "between it and the edge of the domain; make the domain larger or the band narrower",
-                          band, room);
+        const double room[] = {box.lo.x - window.lo.x, window.hi.x - box.hi.x, box.lo.y - window.lo.y,
+                               window.hi.y - box.hi.y};
+        int32_t side = 0;
+        for (int32_t k = 1; k < 4; k++)
+            side = room[k] < room[side] ? k : side;
+        if (room[side] >= band)
+            continue;
+        const vessel_entry entry = scenario_vessel_entry(s, i);
+        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
+                           "expected %s inside the band of %.4g m whose floes go with the field, found %.4g m between "
+                           "it and domain.%s; make the domain larger on that side or the band narrower",
+                           vessel_title_of(&entry).text, band, room[side], sides[side]);
     }
     polygon_list_free(ctx, &hulls);
     return status;
@@ -70,7 +77,7 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
     if (status == FRAM_OK)
         status = feeding_begin(ctx, w->scratch.plane, &d, &fed, error);
     if (status == FRAM_OK)
-        status = check_place(ctx, w, m->domain, w->feeding.band[0], error);
+        status = check_place(ctx, s, w, m->domain, w->feeding.band[0], error);
     polygon_list_free(ctx, &keep_out);
     return name_key(s, status, error);
 }
@@ -115,8 +122,15 @@ fram_status feeding_outlines_check(context *ctx, const scenario *s, const model 
     }
     fram_status status = feeding_check(&d, radius, &band, error);
     if (status == FRAM_OK)
-        status = check_place(ctx, w, m->domain, band, error);
+        status = check_place(ctx, s, w, m->domain, band, error);
     return name_key(s, status, error);
+}
+
+fram_status feeding_place_check(context *ctx, const scenario *s, const model *m, const world *w, fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_FEEDING || m->sheet.drifts || is_automatic(s->domain.band))
+        return FRAM_OK;
+    return name_key(s, check_place(ctx, s, w, m->domain, s->domain.band, error), error);
 }
 
 fram_status build_field(context *ctx, const scenario *s, const model *m, world *w, field_report *report,

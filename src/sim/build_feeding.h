@@ -18,6 +18,8 @@ fram_status feeding_floe_area(context *ctx, const scenario *s, double *area, fra
    together, a vessel in the band.  w: the world with its vessels. */
 fram_status feeding_outlines_check(context *ctx, const scenario *s, const model *m, const world *w, double floe_area,
                                    const polygon_list *outlines, fram_error *error);
+/* What is refused before there is ice: a vessel in a band that the scenario gives. */
+fram_status feeding_place_check(context *ctx, const scenario *s, const model *m, const world *w, fram_error *error);
 /* The scenario whose domain is the tile of one that is fed. */
 scenario feeding_scenario(const scenario *s, double floe_area);
 

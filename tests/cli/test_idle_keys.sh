@@ -343,7 +343,7 @@ silent field.yaml --set ice.breakable=true --set ice.strength.flexural_variation
 silent field.yaml --set ice.rafting_edge_angle_deg=45 --set ice.flexural_strength=4e5
 silent field.yaml --set environment.current_speed=0.2 --set environment.current_direction_deg=20
 silent field.yaml --set domain.boundary=walls --set ice.cap_ice_wall=true --set vessel.fender_stiffness=1e7
-silent field.yaml --set domain.boundary=feeding --set domain.band=20
+silent field.yaml --set domain.boundary=feeding --set domain.band=20 --set vessel.x=-40
 sed 's/, positioning: {frequency: 0.2}//; s/, approach.*/}/; /^ *positioning/d' fleet.yaml >pair.yaml
 silent pair.yaml --set vessels.two.approach.limit=50 --set vessels.two.approach.look_ahead=20 \
     --set ice.friction.hull_hull_static=0.3

@@ -83,16 +83,19 @@ grep 'domain: its edge' err && fail "a ship that turns about amidships is told o
 sed 's/mode: free/mode: towed/; /mooring:/,/thrusters/d' ship.yaml >led.yaml
 expect 0 "$FRAM" check led.yaml --set domain.y_min=-20 --set domain.band=10
 grep 'domain: its edge' err && fail "a ship that never turns is told to reach as far as it is long"
-told led.yaml "its edge with the band is 10 m from vessel, which reaches 38 m towards it|by 28 m or more" \
-    --set domain.y_min=-20 --set domain.band=10 --set vessel.heading_deg=90
-told led.yaml "its edge with the band is 30 m from vessel, which reaches 39.07 m towards it|by 9.08 m or more" \
-    --set domain.x_min=-40 --set domain.band=10 --set vessel.heading_deg=10
-expect 0 "$FRAM" check led.yaml --set domain.x_min=-49.08 --set domain.band=10 --set vessel.heading_deg=10
+# In a band that is given it is refused.
+expect 2 "$FRAM" check led.yaml --set domain.x_max=50 --set domain.band=20
+says "--set: domain.band: expected the vessel inside the band of 20 m whose floes go with the field, found 5.938 m" err
+told led.yaml "its edge with the band is 9.987 m from vessel, which reaches 38 m towards it|by 28.1 m or more" \
+    --set domain.y_min=-20 --set vessel.heading_deg=90
+told led.yaml "its edge with the band is 29.99 m from vessel, which reaches 39.07 m towards it|by 9.09 m or more" \
+    --set domain.x_min=-40 --set vessel.heading_deg=10
+expect 0 "$FRAM" check led.yaml --set domain.x_min=-49.09 --set vessel.heading_deg=10
 grep 'domain: its edge' err && fail "the metres that are told do not suffice"
 round=(--set vessel.hull.form=cone --set vessel.hull.length=19 --set vessel.hull.flare_angle_deg=30)
-told ship.yaml "its edge with the band is 9 m from vessel, which reaches 9.5 m as it turns|by 0.5 m or more" \
-    --set domain.x_min=-19 --set domain.band=10 "${round[@]}"
-expect 0 "$FRAM" check ship.yaml --set domain.x_min=-19.5 --set domain.band=10 "${round[@]}"
+told ship.yaml "its edge with the band is 8.987 m from vessel, which reaches 9.5 m as it turns|by 0.514 m or more" \
+    --set domain.x_min=-19 "${round[@]}"
+expect 0 "$FRAM" check ship.yaml --set domain.x_min=-19.514 "${round[@]}"
 grep 'domain: its edge' err && fail "a round hull is told to reach beyond its radius"
 told ship.yaml "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
     --set environment.wind_direction_deg=0

@@ -555,7 +555,50 @@ START_TEST(refusals_name_their_key)
 }
 END_TEST
 
+/* Which of the vessels, and on which side; without ice where the band is given. */
+START_TEST(a_vessel_in_the_band_is_named)
+{
+    static const char two[] =
+        "vessels:\n  - {name: a, mode: prescribed, y: 15, hull: {form: box, length: 24, beam: 10}}\n"
+        "  - {name: b, mode: prescribed, y: -15, hull: {form: box, length: 24, beam: 10}}\n"
+        "ice: {concentration: 0.8, mean_floe_area: 40}\n"
+        "domain: {x_min: -50, x_max: 50, y_min: -40, y_max: 40, boundary: feeding}\n";
+    static const struct {
+        const char *override[2], *vessel, *words;
+    } cases[] = {{{"vessels.b.y=-30", "domain.band=8"},
+                  "vessel b inside the band of 8 m",
+                  "found 5 m between it and domain.y_min"},
+                 {{"vessels.a.y=30", "domain.band=8"},
+                  "vessel a inside the band of 8 m",
+                  "found 5 m between it and domain.y_max"},
+                 {{"vessels.b.x=-35", "domain.band=8"},
+                  "vessel b inside the band of 8 m",
+                  "found 3 m between it and domain.x_min"},
+                 {{"vessels.b.x=35", "domain.band=auto"},
+                  "vessel b inside the band of",
+                  "found 3 m between it and domain.x_max"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const scenario_overrides list = {cases[i].override, 2};
+        fram_error error = {0};
+        context ctx;
+        scenario s;
+        world w;
+        model m;
+        context_init(&ctx);
+        assert_ok(scenario_parse(&ctx, "scene.yaml", two, strlen(two), &list, &s, &error), error);
+        fram_status status = build_check(&ctx, &s, NULL, NULL, &error);
+        ck_assert_int_eq(status, is_automatic(s.domain.band) ? FRAM_OK : FRAM_ERROR_INPUT);
+        status = status == FRAM_OK ? scene_build(&ctx, &s, &m, &w, &error) : status;
+        assert_fails(status, error, FRAM_ERROR_INPUT, cases[i].vessel);
+        ck_assert_msg(strstr(error.message, cases[i].words), "%s", error.message);
+        ck_assert_str_eq(error.key, "domain.band");
+        scenario_free(&ctx, &s);
+    }
+}
+END_TEST
+
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, the_tile_is_longer_by_floes_of_the_populations,
           hours_of_drift_keep_the_field, floes_that_linger_leave_no_holes, copies_of_floes_are_state,
           drift_turns_and_reverses, driven_ice_presses, a_hull_that_meets_the_band_is_told, cut_at_the_vessel,
-          open_water_is_clear, concave_floes_beside_a_vessel_stay, refusals_name_their_key)
+          open_water_is_clear, concave_floes_beside_a_vessel_stay, refusals_name_their_key,
+          a_vessel_in_the_band_is_named)
