@@ -137,6 +137,7 @@ int refuse_run_folder(const common_options *common, const char *path, const fram
 /* --- session.c --- */
 
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
+   Ctrl-C ends the process until session_stop_flag is called, which the context has; who writes a file calls it before.
  */
 int session_open(const common_options *common, fram_context **context);
 /* The same for commands that make worlds or fields, or files of a run: Ctrl-C ends the making (see session_stop_flag),
@@ -149,7 +150,7 @@ typedef struct work_view {
     bool terminal;
 } work_view;
 int session_open_making(const common_options *common, work_view *view, fram_context **context);
-/* For commands that read long runs or compute parts of them again: how far it is is shown, and Ctrl-C ends the process.
+/* For commands that read long runs or compute parts of them again: how far it is is shown, and Ctrl-C is as above.
  */
 int session_open_reading(const common_options *common, work_view *view, fram_context **context);
 /* The one or the other: with a file to write, or NULL. */

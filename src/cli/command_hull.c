@@ -355,6 +355,8 @@ static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, 
     status = fram_hull_float(*hull, &w->condition, floating, error);
     if (status == FRAM_OK)
         status = fram_hull_cut(*hull, w->tolerance, w->pieces, pieces, error);
+    if (status == FRAM_OK && (w->draw || w->output))
+        (void)session_stop_flag(); /* what comes before hears no wish to stop, and so ends by the signal */
     if (status == FRAM_OK && w->draw)
         status = fram_hull_draw(*hull, &w->condition, title_of(w), w->draw, error);
     if (status == FRAM_OK && w->output)

@@ -217,7 +217,7 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
     fram_context *context = NULL;
     fram_error error = {0};
     work_view work;
-    int code = session_open_reading(common, &work, &context);
+    int code = session_open_for(d->draw, common, &work, &context);
     if (code >= 0)
         return code;
     fram_extremes *e = calloc(1, sizeof *e);

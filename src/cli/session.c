@@ -16,11 +16,16 @@ static void log_to_stderr(void *user, fram_log_level level, const char *text)
     fprintf(stderr, "%s%s\n", prefix[level], text);
 }
 
+/* The only mutable globals of Fram: a signal handler can reach nothing else. */
+static _Atomic int64_t first_signal; /* when it came [ms]; 0: none did */
+static volatile int stop_flag;       /* which no signal sets before session_stop_flag */
+
 static fram_context_definition session_definition(const common_options *common)
 {
     fram_context_definition definition;
     fram_context_default(&definition);
     definition.log = log_to_stderr;
+    definition.stop = &stop_flag;
     definition.verbosity = common->quiet ? FRAM_LOG_ERROR : common->verbose ? FRAM_LOG_DEBUG : FRAM_LOG_INFO;
     definition.threads = common->threads;
     definition.isa = common->isa;
@@ -92,7 +97,7 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
 {
     fram_context_definition definition = session_definition(common);
     *view = (work_view){.terminal = isatty(STDERR_FILENO) == 1};
-    definition.stop = session_stop_flag();
+    (void)session_stop_flag();
     definition.work = common->quiet ? NULL : work_show;
     definition.work_user = view;
     return create(common, &definition, context);
@@ -106,10 +111,6 @@ int session_open_for(const char *file, const common_options *common, work_view *
 /* One wish to stop often comes as two signals: a closed terminal's from the shell and the kernel, that of timeout to
    the program and to its group.  What comes sooner after the first is the same wish [ms]. */
 #define SAME_WISH 500
-
-/* The only mutable globals of Fram: a signal handler can reach nothing else. */
-static _Atomic int64_t first_signal; /* when it came [ms]; 0: none did */
-static volatile int stop_flag;
 
 static void on_signal(int number)
 {

@@ -138,7 +138,7 @@ static fram_status sample_level(context *ctx, const extreme_sample *s, const ext
     else
         *out = profile_interval(&q);
     add_penultimate(s, law, exponent, out);
-    return FRAM_OK;
+    return work_continue(ctx, "finding intervals", 1, 1, error);
 }
 
 static fram_status sample_levels(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out,

@@ -96,6 +96,8 @@ static double level_of(const profile_question *q)
 /* Cost at a level, the free parameters going on from x. */
 static double cost_at(const profile_question *q, double level, double *x)
 {
+    if (stop_is_asked(q->ctx ? q->ctx->stop : NULL))
+        return 0; /* all the looks that are left come to their end at once */
     const profile_look at = {q, level};
     const double step[2] = {0.05, 0.05}, shapes[] = {q->law->shape, x[1], 0, 0.2};
     double best = profile_cost(&at, x);

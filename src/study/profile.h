@@ -16,7 +16,7 @@ typedef struct profile_question {
     double exponent;   /* -log p */
     double confidence; /* 0.95 */
     double bound;      /* of the root of the deviance; NaN or 0: Student's t, see profile_interval */
-    context *ctx;      /* is told how far it is; may be NULL */
+    context *ctx;      /* is told how far it is; with its stop asked for no answer is one; may be NULL */
 } profile_question;
 
 typedef struct level_interval {

@@ -155,6 +155,33 @@ fi
 rm open/report.html.0123456789abcdef.new open/mine.new
 [ -z "$(find . -name '*.new')" ] || fail "temporary files are left: $(find . -name '*.new')"
 
+# A wish to stop is heard by whoever writes a file: no half of one stays.
+mkfifo pipe.stl pipe.svg
+printf 'top[m]\n%s\n' "$(awk 'BEGIN {for (i = 1; i < 200; i++) print (i * i * i) % 401}' | tr ' ' '\n')" >tops.csv
+hull=(hull --box --length 40 --beam 10 --draught 4)
+hears_in_time() {
+    local mask
+    for _ in $(seq 400); do
+        mask=$(awk '/^SigCgt/ {print $2}' "/proc/$1/status" 2>/dev/null)
+        if [ -n "$mask" ] && ((16#$mask >> 14 & 1)); then return 0; fi
+        sleep 0.01
+    done
+    return 1
+}
+stops() {
+    "$FRAM" "$@" -q >out 2>err &
+    hears_in_time $! || fail "SIGTERM is not heard by $*: $(cat err)"
+    code=0
+    kill -TERM $! && wait $! || code=$?
+    same "$code" 130 "exit code of $* after SIGTERM"
+    [ -z "$(find . -name '*.new')" ] || fail "$* leaves $(find . -name '*.new')"
+}
+stops "${hull[@]}" -o pipe.stl
+if built_with cairo; then
+    stops "${hull[@]}" --draw pipe.svg
+    stops extremes tops.csv --channel top --maxima --block 1min --method gumbel --draw pipe.svg
+fi
+
 # Names that look like options or addresses reach ffmpeg as files.
 mkdir bin
 cat >bin/ffmpeg <<'END'

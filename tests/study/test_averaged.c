@@ -128,14 +128,14 @@ START_TEST(the_interval_does_not_depend_on_how_the_level_is_fitted)
     const series_set set = {&part, 1, 1};
     random_stream r = random_begin(5, 4, 0);
     context ctx;
+    fram_error error = {0};
+    extreme_request ask;
     context_init(&ctx);
+    extreme_request_default(&ask);
+    ask.levels = 0;
     for (int32_t i = 0; i < part.count; i++)
         value[i] = real_exp(random_normal(&r));
     for (int fit = 0; fit < 2; fit++) {
-        fram_error error = {0};
-        extreme_request ask;
-        extreme_request_default(&ask);
-        ask.levels = 0;
         ask.fit = fit == 0 ? FIT_LIKELIHOOD : FIT_MOMENTS;
         assert_ok(extremes_of_series(&ctx, &set, EXTREME_GUMBEL, &ask, &by[fit], &error), error);
         ck_assert_msg(by[fit].answered, "%s", by[fit].note);
@@ -143,6 +143,15 @@ START_TEST(the_interval_does_not_depend_on_how_the_level_is_fitted)
     ck_assert_double_gt(fabs(by[1].most_probable.level / by[0].most_probable.level - 1), 0.01);
     assert_relative(by[1].most_probable.low, by[0].most_probable.low, 1e-5);
     assert_relative(by[1].most_probable.high, by[0].most_probable.high, 1e-5);
+    /* A wish to stop ends the search. */
+    const int stop = 1;
+    sample s;
+    make(&s, 0);
+    ctx.stop = &stop;
+    s.q.ctx = &ctx;
+    ck_assert_double_eq(profile_least(&s.q), 0);
+    assert_fails(extremes_of_series(&ctx, &set, EXTREME_GUMBEL, &ask, &by[0], &error), error, FRAM_INTERRUPTED,
+                 "intervals");
 }
 END_TEST
 
