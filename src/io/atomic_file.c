@@ -66,9 +66,9 @@ static fram_status sync_folder(context *ctx, const char *path, fram_error *error
 static fram_status commit(atomic_file *a, bool sync, fram_error *error)
 {
     context *ctx = a->writer.ctx;
-    char *temporary = a->writer.path;
+    char *temporary = a->writer.temporary;
     fram_status status = file_flush(&a->writer, sync, error);
-    a->writer.path = NULL; /* outlives the writer */
+    a->writer.temporary = NULL; /* outlives the writer */
     fram_status closed = file_close(&a->writer, status == FRAM_OK ? error : NULL);
     if (status == FRAM_OK)
         status = closed;
@@ -94,7 +94,7 @@ void atomic_file_abandon(atomic_file *a)
         return;
     context *ctx = a->writer.ctx;
     if (!a->direct)
-        unlink(a->writer.path);
+        unlink(a->writer.temporary);
     file_abandon(&a->writer);
     memory_free(ctx, a->path);
     a->path = NULL;
@@ -115,7 +115,7 @@ fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *p
     if (status != FRAM_OK) {
         /* said already */
     } else if (descriptor < 0 || fsync(descriptor) != 0)
-        status = file_error(error, temporary, "write to the disk", errno);
+        status = file_error(error, path, "write to the disk", errno);
     if (descriptor >= 0)
         close(descriptor);
     if (status == FRAM_OK && rename(temporary, path) != 0)

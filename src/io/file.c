@@ -144,9 +144,9 @@ static fram_status make_room(context *ctx, const char *path, file_writer *w, fra
     memset(w, 0, sizeof *w);
     w->ctx = ctx;
     w->descriptor = -1;
-    w->path = path ? memory_string(ctx, path) : NULL;
+    w->path = memory_string(ctx, path);
     w->buffer = memory_resize(ctx, NULL, BUFFER_SIZE);
-    return (w->path || !path) && w->buffer ? FRAM_OK : error_memory(error);
+    return w->path && w->buffer ? FRAM_OK : error_memory(error);
 }
 
 static fram_status begin(context *ctx, const char *path, bool anew, file_writer *w, fram_error *error)
@@ -166,12 +166,22 @@ static fram_status begin(context *ctx, const char *path, bool anew, file_writer 
 
 fram_status file_create_temporary(context *ctx, const char *path, file_writer *w, fram_error *error)
 {
-    fram_status status = make_room(ctx, NULL, w, error);
+    fram_status status = make_room(ctx, path, w, error);
     if (status == FRAM_OK)
-        status = temporary_file(ctx, path, &w->path, &w->descriptor, error);
+        status = temporary_file(ctx, path, &w->temporary, &w->descriptor, error);
     if (status != FRAM_OK)
         file_abandon(w);
     return status;
+}
+
+fram_status file_tell_as(file_writer *w, const char *path, fram_error *error)
+{
+    char *name = memory_string(w->ctx, path);
+    if (!name)
+        return error_memory(error);
+    memory_free(w->ctx, w->path);
+    w->path = name;
+    return FRAM_OK;
 }
 
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error)
@@ -338,6 +348,7 @@ void file_abandon(file_writer *w)
     if (w->descriptor >= 0)
         close(w->descriptor);
     memory_free(w->ctx, w->path);
+    memory_free(w->ctx, w->temporary);
     memory_free(w->ctx, w->buffer);
     memset(w, 0, sizeof *w);
     w->descriptor = -1;

@@ -36,9 +36,10 @@ uint32_t file_crc(uint32_t crc, const void *data, size_t size);
 /* A buffered writer of one open file.  After a failed write every later call fails too. */
 typedef struct file_writer {
     context *ctx;
-    char *path;
-    int descriptor; /* of an open writer: also readable */
-    char *buffer;   /* NULL: closed */
+    char *path;      /* as it was asked for, which errors name */
+    char *temporary; /* what is written instead, NULL: nothing */
+    int descriptor;  /* of an open writer: also readable */
+    char *buffer;    /* NULL: closed */
     size_t filled;
     uint64_t length; /* of the file, once the buffer is written */
     int failed;      /* errno of the first write that failed, 0 */
@@ -48,8 +49,10 @@ typedef struct file_writer {
 /* An empty file, whatever was there, but what has no beginning of its own (io/fill.h).  When this or file_open fails,
    nothing is left to close. */
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error);
-/* The same in a temporary file (io/temporary.h) beside `path`; its name is w->path. */
+/* The same in a temporary file (io/temporary.h) beside `path`; its name is w->temporary. */
 fram_status file_create_temporary(context *ctx, const char *path, file_writer *w, fram_error *error);
+/* From here on errors name it so: a file in a folder that is moved to its place when it is whole. */
+fram_status file_tell_as(file_writer *w, const char *path, fram_error *error);
 /* An existing file, to be continued at its end; FRAM_ERROR_INPUT when it is not there. */
 fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error);
 /* Whether the writer's file is still what its path names. */

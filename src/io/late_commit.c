@@ -27,7 +27,7 @@ static void commit_in_background(void *user)
     }
     if (!sync_one(c, c->file.writer.descriptor, c->file.path))
         return;
-    if (rename(c->file.writer.path, c->file.path) != 0) {
+    if (!c->file.direct && rename(c->file.writer.temporary, c->file.path) != 0) {
         c->failed = errno;
         c->failed_path = c->file.path;
         c->attempt = "replace";

@@ -179,9 +179,9 @@ fram_status record_close(record_writer *w, fram_error *error) { return file_clos
 fram_status record_place(record_writer *w, const char *path, fram_status written, fram_error *error)
 {
     context *ctx = w->file.ctx;
-    char *temporary = w->file.path;
+    char *temporary = w->file.temporary;
     fram_status status = written == FRAM_OK ? file_flush(&w->file, false, error) : written;
-    w->file.path = NULL; /* outlives the writer */
+    w->file.temporary = NULL; /* outlives the writer */
     fram_status closed = file_close(&w->file, status == FRAM_OK ? error : NULL);
     if (status == FRAM_OK)
         status = closed;

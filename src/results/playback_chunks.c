@@ -92,6 +92,10 @@ static fram_status open_chunk(chunk_writer *w, fram_error *error)
         return status;
     w->open = true;
     w->filled = 0;
+    chunk_name(w->folder, w->count, name);
+    status = file_tell_as(&w->file.writer, name, error);
+    if (status != FRAM_OK)
+        return status;
     w->text = base64_begin(&w->file.writer);
     int length = snprintf(head, sizeof head, "framChunk(%d,\"", (int)w->count++);
     return file_write(&w->file.writer, head, (size_t)length, error);

@@ -182,6 +182,17 @@ if built_with cairo; then
     stops extremes tops.csv --channel top --maxima --block 1min --method gumbel --draw pipe.svg
 fi
 
+# What finds no room is told by the name that was given, not by that of the file which would have taken its place.
+limited() { bash -c 'ulimit -f 4 && exec "$@"' - "$@"; }
+expect 1 limited "$FRAM" report open -o small.html -q
+says "fram: small.html: cannot write: File too large" err
+expect 1 limited "$FRAM" report open -o ./small.html --json
+same "$(value 'j["error"]["file"]')" ./small.html "the file that found no room"
+echo "<html><!--BESIDE--><!--RECORD-->" >viewer.html
+expect 1 limited "$FRAM" view open --page viewer.html -o page.html --page-limit 0.01 -q
+says "fram: page-frames/0000.js: cannot write: File too large" err
+[ -z "$(find . -name '*.new')" ] || fail "temporary files are left: $(find . -name '*.new')"
+
 # Names that look like options or addresses reach ffmpeg as files.
 mkdir bin
 cat >bin/ffmpeg <<'END'

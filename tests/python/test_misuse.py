@@ -352,6 +352,10 @@ class Worlds(unittest.TestCase):
                 recording = world.record(pathlib.Path(folder) / str(held))
                 world.step(3)
                 resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
+                state = str(pathlib.Path(folder) / "state.fram")
+                with self.assertRaisesRegex(fram.FileError, "cannot write") as caught:
+                    world.save(state)
+                self.assertEqual(caught.exception.file, state)
                 with self.assertRaisesRegex(fram.FileError, "cannot write"):
                     world.close()
                 resource.setrlimit(resource.RLIMIT_FSIZE, before)

@@ -319,7 +319,7 @@ class Folders(StudyTest):
         self.assertEqual((told["made"], told["failed"]), (1, 0))
         # Of study.nc, or without NetCDF of the page, HDF5 kept what it could not write, and the program died of it.
         error = self.limited(study, 60)
-        self.assertRegex(error["file"], r"/study\.(nc|html)\.")
+        self.assertRegex(error["file"], r"/study\.(nc|html)$")
         self.assertEqual(error["message"], "cannot write: File too large")
 
     def test_runs_end_well_where_the_starter_ignored_sigchld(self):
