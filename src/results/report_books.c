@@ -1,4 +1,5 @@
 /* The report's sections on books, solver quality and origin. */
+#include "base/load_unit.h"
 #include "results/report_parts.h"
 
 #include <math.h>
@@ -163,6 +164,18 @@ static void origin(report *r)
     html_table_end(&r->page);
 }
 
+/* The unit of energies goes by the largest one of the run, so that those of a model are seen. */
+static load_unit energy_unit(const report *r, const report_line *lines, int32_t count)
+{
+    double most = 0;
+    for (int32_t k = 0; k < count; k++) {
+        const double *value = run_channel(&r->d, lines[k].channel);
+        for (int32_t i = 0; value && i < r->d.series.rows; i++)
+            most = fmax(most, fabs(value[i]));
+    }
+    return kilojoules_or_less(most);
+}
+
 fram_status report_books(report *r, fram_error *error)
 {
     const report_line energy[] = {{"crushing_work", "dissipated by crushing"}, {"kinetic_energy", "kinetic"}};
@@ -171,11 +184,14 @@ fram_status report_books(report *r, fram_error *error)
     char when[48];
     const char *const heads[] = {"energy", last_row_words(r, when)};
     html_table_begin(&r->page, heads, 2);
-    book_channels(r, "energy_", "_energy", 1e-3, "kJ");
-    book_channels(r, "work_", "_work", 1e-3, "kJ");
+    const load_unit unit = energy_unit(r, energy, sizeof energy / sizeof *energy);
+    book_channels(r, "energy_", "_energy", unit.factor, unit.name);
+    book_channels(r, "work_", "_work", unit.factor, unit.name);
     html_table_end(&r->page);
     html_grid_begin(&r->page);
-    fram_status status = report_series(r, "Energy", "energy [kJ]", 1e-3, energy, 2, true, error);
+    char label[24];
+    snprintf(label, sizeof label, "energy [%s]", unit.name);
+    fram_status status = report_series(r, "Energy", label, unit.factor, energy, 2, true, error);
     html_grid_end(&r->page);
     if (status == FRAM_OK)
         status = solver_quality(r, error);

@@ -165,7 +165,10 @@ def check(name, run, pictures):
         assert all(word in rows["strength variation"][0] for word in ("0.2", "7 m")), rows["strength variation"]
     for row in ("kinetic energy", "crushing work"):
         assert row in rows, (name, row)
-    kinetic = float(last["kinetic_energy[J]"]) * 1e-3
+    unit = {"J": 1, "kJ": 1e-3}[rows["kinetic energy"][0].split()[-1]]
+    most = max(abs(float(row[f"{book}[J]"])) for row in series for book in ("kinetic_energy", "crushing_work"))
+    assert unit == (1 if 0 < most < 1e4 else 1e-3), (name, rows["kinetic energy"], most)
+    kinetic = float(last["kinetic_energy[J]"]) * unit
     assert abs(number(rows["kinetic energy"][0]) - kinetic) <= 1e-3 * abs(kinetic) + 1e-6, (rows, kinetic)
     # Where the sheet reaches out of the domain, and floes over its edge, the domain's part counts.
     cover, later = (number(v) for v in rows["ice area in the domain over domain area"][:2])
@@ -392,7 +395,8 @@ def keep_rows(series, since):
 def shrink_loads(series):
     """As of little ice."""
     head, *rows = (row.split(",") for row in series.read_text().splitlines())
-    loads = [i for i, name in enumerate(head) if name.startswith("ice_force_averaged_")]
+    loads = [i for i, name in enumerate(head)
+             if name.startswith(("ice_force_averaged_", "kinetic_energy", "crushing_work"))]
     rows = [[repr(1e-6 * float(v)) if i in loads else v for i, v in enumerate(row)] for row in rows]
     series.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
 
@@ -474,6 +478,9 @@ def check_late(folder):
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     assert "events; run.json lists the first 41.</p>" in (run / "report.html").read_text()
     assert "did not hold its station" in page and "as far as the run went" not in page
+    tables = Tables()
+    tables.feed(page)
+    assert all(tables.rows[row][0].endswith(" J") for row in ("kinetic energy", "crushing work")), tables.rows
     # Lines are told in their own unit, however little ice there is.
     assert ">load on the vessel [N]<" in page and ">lines and thrusters [kN]<" in page, re.findall("<th.*?</th>", page)
 
