@@ -5,6 +5,7 @@
 #include "fram/results.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <limits.h>
 #include <string.h>
 #include <strings.h>
@@ -91,6 +92,13 @@ static bool is_filled_folder(const output_file *o)
     return filled;
 }
 
+/* What would be told only when all is computed, and perhaps other files are written. */
+static bool is_too_long(const char *path)
+{
+    struct stat about;
+    return lstat(path, &about) != 0 && errno == ENAMETOOLONG;
+}
+
 static bool is_input(const command_files *files, const char *path)
 {
     for (int i = 0; i < FILES_ROOM; i++) {
@@ -106,6 +114,8 @@ int refuse_outputs(const common_options *common, const command_files *files)
         const output_file *o = &files->outputs[i];
         if (!o->path)
             continue;
+        if (is_too_long(o->path))
+            return answer_usage(common, o->option, "expected a shorter name: the file system does not take this one");
         if (is_input(files, o->path))
             return answer_usage(common, o->option, is_read);
         for (int k = 0; k < i; k++) {

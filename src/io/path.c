@@ -2,6 +2,7 @@
 
 #include "io/run_files.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -47,6 +48,18 @@ fram_status path_refuse_read(const char *read, const char *path, const char *key
     if (!is_one_file(read, path) && !path_is_own(read, path))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_USAGE, path, 0, key, "expected a file of its own, found one that is read");
+}
+
+fram_status path_refuse_long(const char *given, const char *path, fram_error *error)
+{
+    struct stat about;
+    if (lstat(path, &about) == 0 || errno != ENAMETOOLONG)
+        return FRAM_OK;
+    const char *slash = strrchr(path, '/');
+    return error_set(error, FRAM_ERROR_INPUT, given, 0, "output",
+                     "expected a shorter name: a file named after it would have one of %zu bytes, which the file "
+                     "system does not take",
+                     strlen(slash ? slash + 1 : path));
 }
 
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],

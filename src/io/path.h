@@ -16,6 +16,9 @@ fram_status path_refuse_own(const char *run, const char *path, fram_error *error
 /* FRAM_ERROR_USAGE, with the key, where the path names the file `read`, or one that the run in that folder is made of:
    what something is made from is not written over. */
 fram_status path_refuse_read(const char *read, const char *path, const char *key, fram_error *error);
+/* FRAM_ERROR_INPUT, of the file `given`, where `path`, which is named after it, has a longer name than the file system
+   takes: asked before the first of several files is written. */
+fram_status path_refuse_long(const char *given, const char *path, fram_error *error);
 /* "FOLDER/NAME", or `given` alone where it is not NULL: the output that a caller may have named, which is no file that
    the run in the folder is made of.  folder NULL: there is none. */
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],

@@ -254,7 +254,9 @@ static fram_status find_paths(context *ctx, const manage_options *options, const
         status = error_set(error, FRAM_ERROR_USAGE, s->page, 0, "output",
                            "expected the name of a page, as manage.html: its tables are named after it, with .csv");
     for (size_t i = 0; i < sizeof paths / sizeof *paths && status == FRAM_OK; i++) {
-        status = path_refuse_own(folder, paths[i], error);
+        status = path_refuse_long(s->page, paths[i], error);
+        if (status == FRAM_OK)
+            status = path_refuse_own(folder, paths[i], error);
         if (status == FRAM_OK && options->beside)
             status = path_refuse_own(options->beside, paths[i], error);
     }

@@ -211,6 +211,10 @@ if "$FRAM" --version | grep -q cairo; then
         says "cannot write" err
         [ -z "$(find . -name '*.new')" ] || fail "half-written files are left: $(find . -name '*.new')"
     done
+    # A name that the file system does not take is told before anything is written.
+    long=$(printf '%252s' '' | tr ' ' n)
+    expect 2 "$FRAM" hull ship.obj --draw half.png -o "$long.stl"
+    says "--output: expected a shorter name" err
     [ ! -e half.png ] || fail "a half-written picture stands at its place"
     cmp -s ship.png before.png || fail "a picture that could not be written took the one of before"
 fi

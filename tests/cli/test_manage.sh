@@ -298,6 +298,13 @@ for key in ("unmanaged_comes_in_least", "unmanaged_comes_in_median"):
 assert f"<td>{tank['unmanaged_comes_in_least']:.3g} s</td>" in open("tank/manage.html").read(), tank
 PY
 
+# Names of tables that are longer than the file system takes are told, and no file of the three is written.
+long=$(printf '%248s' '' | tr ' ' m)
+expect 2 "$FRAM" manage alone -o "$long.html" --json
+same "$(value 'j["error"]["file"]')" "$long.html" "the page whose table has too long a name"
+says "a file named after it would have one of 258 bytes" err
+same "$(compgen -G 'mmm*')" "" "files of a page with too long a name"
+
 # What cannot be told is refused.
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere
