@@ -1,9 +1,11 @@
 #include "io/html_page.h"
 
 #include "io/base64.h"
+#include "io/utf8.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char style[] =
     "<style>\n"
@@ -55,17 +57,20 @@ static void add(html_page *p, const char *text) { text_add(p->ctx, &p->text, tex
 
 void html_escaped(html_page *p, const char *text)
 {
-    for (const char *c = text; *c; c++) {
-        if (*c == '&')
+    for (const char *c = text, *end = c + strlen(c), *next = c; c < end; c = next) {
+        int32_t code = utf8_shown(&next, end);
+        if (code == '&')
             add(p, "&amp;");
-        else if (*c == '<')
+        else if (code == '<')
             add(p, "&lt;");
-        else if (*c == '>')
+        else if (code == '>')
             add(p, "&gt;");
-        else if (*c == '"')
+        else if (code == '"')
             add(p, "&quot;");
+        else if (code == UTF8_REPLACEMENT)
+            add(p, "\xef\xbf\xbd");
         else
-            text_add_bytes(p->ctx, &p->text, c, 1);
+            text_add_bytes(p->ctx, &p->text, c, (size_t)(next - c));
     }
 }
 

@@ -1,5 +1,6 @@
 /* Text that grows, with the failure kept for the end. */
 #include "io/text_buffer.h"
+#include "io/utf8.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -37,13 +38,18 @@ void text_format(context *ctx, text_buffer *b, const char *format, ...)
 void text_quoted(context *ctx, text_buffer *b, const char *text)
 {
     text_add(ctx, b, "\"");
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            text_format(ctx, b, "\\%c", *text);
-        else if ((unsigned char)*text < 0x20)
-            text_format(ctx, b, "\\u%04x", (unsigned)*text);
-        else
-            text_format(ctx, b, "%c", *text);
+    for (const char *end = text + strlen(text), *next = text; text < end; text = next) {
+        int32_t code = utf8_next(&next, end);
+        if (code < 0) {
+            text_format(ctx, b, "\\u%04x", UTF8_REPLACEMENT);
+            next = text + 1;
+        } else if (code == '"' || code == '\\') {
+            text_format(ctx, b, "\\%c", (int)code);
+        } else if (code < 0x20) {
+            text_format(ctx, b, "\\u%04x", (unsigned)code);
+        } else {
+            text_add_bytes(ctx, b, text, (size_t)(next - text));
+        }
     }
     text_add(ctx, b, "\"");
 }

@@ -34,9 +34,19 @@ size_t utf8_mark(const char *text, size_t size)
     return size >= length && memcmp(text, mark, length) == 0 ? length : 0;
 }
 
+static bool is_control(int32_t code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
+
+int32_t utf8_shown(const char **at, const char *end)
+{
+    int32_t code = utf8_next(at, end);
+    if (code < 0)
+        *at += 1;
+    return code < 0 || (is_control(code) && code != '\t' && code != '\n') ? UTF8_REPLACEMENT : code;
+}
+
 bool utf8_is_printable(int32_t code)
 {
-    if (code < 0x20 || (code >= 0x7f && code < 0xa0))
+    if (is_control(code))
         return false;
     return code != 0x2028 && code != 0x2029 && code != 0xfeff && (code & 0xfffe) != 0xfffe;
 }

@@ -11,6 +11,11 @@
 int32_t utf8_next(const char **at, const char *end);
 /* Bytes of the byte order mark that some programs begin a text with: 3, or 0 where there is none. */
 size_t utf8_mark(const char *text, size_t size);
+/* What stands for what cannot be shown. */
+#define UTF8_REPLACEMENT 0xfffd
+/* The same for text that people see, as names of files, which are any bytes: what is not UTF-8, a byte of it, and
+   control characters other than tabs and line ends are UTF8_REPLACEMENT. */
+int32_t utf8_shown(const char **at, const char *end);
 /* Neither a control character nor a line break, byte order mark or non-character. */
 bool utf8_is_printable(int32_t code);
 

@@ -1,4 +1,5 @@
 /* io/yaml_tree and io/utf8: structure, places, strictness. */
+#include "io/text_buffer.h"
 #include "io/utf8.h"
 #include "io/yaml_tree.h"
 #include "testing.h"
@@ -223,6 +224,18 @@ START_TEST(utf8_is_decoded_strictly)
     static const int32_t hidden[] = {0, 9, 10, 0x1f, 0x7f, 0x85, 0x9f, 0x2028, 0x2029, 0xfeff, 0xfffe, 0xffff};
     for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
         ck_assert(!utf8_is_printable(hidden[i]));
+    /* Shown and quoted: what is none is one sign a byte. */
+    static const char name[] = "a\xff\xc3\xa9\xe2\x82\x1b\t\xc2\x85";
+    static const int32_t shown[] = {'a', 0xfffd, 0xe9, 0xfffd, 0xfffd, 0xfffd, '\t', 0xfffd};
+    const char *at = name;
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        ck_assert_int_eq(utf8_shown(&at, name + sizeof name - 1), shown[i]);
+    ck_assert_ptr_eq(at, name + sizeof name - 1);
+    text_buffer b = {0};
+    context_init(&ctx);
+    text_quoted(&ctx, &b, "a\xff\xc3\xa9\x1b\"");
+    ck_assert_str_eq(b.data, "\"a\\ufffd\xc3\xa9\\u001b\\\"\"");
+    text_free(&ctx, &b);
 }
 END_TEST
 
