@@ -359,6 +359,14 @@ static void add_text_member(context *ctx, text_buffer *b, const char *key, const
     text_add(ctx, b, ",\n");
 }
 
+/* A member by the fewest digits that read back as the same number, as people are told it. */
+static void add_real_member(context *ctx, text_buffer *b, const char *before, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(ctx, b, "%s: %s", before, text);
+}
+
 static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
 {
     text_add(ctx, b, "  \"inputs\": [");
@@ -387,14 +395,15 @@ static void add_events(context *ctx, text_buffer *b, const scenario *s, const ev
         const char *other = of_two ? scenario_vessel_name(s, events->number[i]) : NULL;
         event_text(events, i, other, scenario_vessel_entry(s, events->vessel[i]).keys->approach.look_ahead, text,
                    sizeof text);
-        text_format(ctx, b, "%s\n    {\"time_s\": %.17g, \"kind\": \"%s\", ", i > 0 ? "," : "", events->time[i],
-                    event_name((station_event)events->kind[i]));
+        add_real_member(ctx, b, i > 0 ? ",\n    {\"time_s\"" : "\n    {\"time_s\"", events->time[i]);
+        text_format(ctx, b, ", \"kind\": \"%s\", ", event_name((station_event)events->kind[i]));
         if (name)
             text_format(ctx, b, "\"vessel\": \"%s\", ", name);
         if (other)
             text_format(ctx, b, "\"other\": \"%s\", ", other);
-        text_format(ctx, b, "\"value\": %.17g, \"ahead_s\": %.17g, \"text\": \"%s\"}", events->value[i],
-                    events->ahead[i], text);
+        add_real_member(ctx, b, "\"value\"", events->value[i]);
+        add_real_member(ctx, b, ", \"ahead_s\"", events->ahead[i]);
+        text_format(ctx, b, ", \"text\": \"%s\"}", text);
     }
     text_format(ctx, b, "],\n  \"events_left_out\": %d,\n", (int)(events->count - shown));
 }
@@ -412,11 +421,11 @@ static void add_tracks(context *ctx, text_buffer *b, const scenario *s, const pr
         text_format(ctx, b, "%s\n    {", comma);
         if (name)
             text_format(ctx, b, "\"vessel\": \"%s\", ", name);
-        text_format(
-            ctx, b,
-            "\"limit_m\": %.17g, \"largest_m\": %.17g, \"rms_m\": %.17g, \"time_s\": %.17g, \"rounds\": %" PRId64 "}",
-            p->settings[i].track_limit, p->off_most[i],
-            p->off_time[i] > 0 ? sqrt(p->off_square[i] / p->off_time[i]) : 0, p->off_time[i], p->rounds[i]);
+        add_real_member(ctx, b, "\"limit_m\"", p->settings[i].track_limit);
+        add_real_member(ctx, b, ", \"largest_m\"", p->off_most[i]);
+        add_real_member(ctx, b, ", \"rms_m\"", p->off_time[i] > 0 ? sqrt(p->off_square[i] / p->off_time[i]) : 0);
+        add_real_member(ctx, b, ", \"time_s\"", p->off_time[i]);
+        text_format(ctx, b, ", \"rounds\": %" PRId64 "}", p->rounds[i]);
         comma = ",";
     }
     text_add(ctx, b, "],\n");
@@ -453,11 +462,16 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     add_text_member(ctx, &b, "status", summary->status);
     if (summary->message) {
         add_text_member(ctx, &b, "message", summary->message);
-        text_format(ctx, &b, "  \"good_until_s\": %.17g,\n", summary->good_until);
+        add_real_member(ctx, &b, "  \"good_until_s\"", summary->good_until);
+        text_add(ctx, &b, ",\n");
     }
-    if (summary->recorded_from >= 0)
-        text_format(ctx, &b, "  \"recorded_from_s\": %.17g,\n", summary->recorded_from);
-    text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
+    if (summary->recorded_from >= 0) {
+        add_real_member(ctx, &b, "  \"recorded_from_s\"", summary->recorded_from);
+        text_add(ctx, &b, ",\n");
+    }
+    text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n", w->clock.step[0]);
+    add_real_member(ctx, &b, "  \"time_s\"", w->clock.time[0]);
+    text_add(ctx, &b, ",\n");
     add_events(ctx, &b, s, &w->events);
     add_tracks(ctx, &b, s, &w->propulsion);
     text_add(ctx, &b, "  \"told\": [");

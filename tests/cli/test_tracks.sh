@@ -69,7 +69,7 @@ expect 0 "$FRAM" run scene.yaml -o two -q --threads 2
 expect 0 "$FRAM" run scene.yaml -o parts -q --until 7
 expect 0 "$FRAM" resume parts -q
 python3 - <<'PY' || fail "what run.json tells of the track is wrong"
-import csv, json, math, sys
+import csv, json, math, re, sys
 
 notes = [json.load(open(f"{name}/run.json")) for name in ("one", "two", "parts")]
 assert notes[0]["state_hash"] == notes[1]["state_hash"] == notes[2]["state_hash"], "states differ"
@@ -89,6 +89,9 @@ assert track["vessel"] == "breaker" and track["limit_m"] == 0.05 and abs(track["
 first = next(e for e in notes[0]["events"] if e["kind"] == "off_track")
 assert first["vessel"] == "breaker" and 0.05 < first["value"] < 2 and first["time_s"] > 2, first
 assert "off its track by" in first["text"], first
+# With no more digits than it takes, as texts and the log have them.
+told = re.findall(r'_(?:s|m)": ([-+.e0-9]+)', open("one/run.json").read().split('"told"')[0])
+assert len(told) > 4 and all(len(x) <= len(repr(float(x))) for x in told), told
 PY
 expect 0 "$FRAM" report one -o report.html
 holds "Vessel breaker did not keep its track: .* m off at most" report.html
