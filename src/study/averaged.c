@@ -34,12 +34,11 @@ static double tail_at(const averaged_look *look, double x)
 /* Between two points, at one of which the tail is larger than `part` and at the other smaller. */
 static double end_between(const averaged_look *look, double larger, double smaller, double part)
 {
-    while (fabs(smaller - larger) > END_NEAR * look->q->law->scale) {
-        double mid = 0.5 * (larger + smaller);
-        if (tail_at(look, mid) > part)
-            larger = mid;
-        else
-            smaller = mid;
+    double mid = 0.5 * (larger + smaller);
+    /* Of values far from zero neighbouring numbers may lie farther apart than that. */
+    while (fabs(smaller - larger) > END_NEAR * look->q->law->scale && mid != larger && mid != smaller) {
+        *(tail_at(look, mid) > part ? &larger : &smaller) = mid;
+        mid = 0.5 * (larger + smaller);
     }
     return smaller;
 }

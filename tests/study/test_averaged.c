@@ -17,13 +17,13 @@ typedef struct sample {
     profile_question q;
 } sample;
 
-/* Maxima of a bounded law, or of Gumbel's. */
-static void make(sample *s, double shape)
+/* Maxima of a bounded law, or of Gumbel's, from an origin, in a unit. */
+static void make_from(sample *s, double shape, double origin, double unit)
 {
     random_stream r = random_begin(5, 3, 0);
     for (int i = 0; i < COUNT; i++) {
         double y = -real_log(-real_log(1 - random_unit(&r)));
-        s->value[i] = 10 + 2 * (shape == 0 ? y : (real_exp(shape * y) - 1) / shape);
+        s->value[i] = origin + unit * (10 + 2 * (shape == 0 ? y : (real_exp(shape * y) - 1) / shape));
     }
     values_sort(&(double_array){.data = s->value, .count = COUNT});
     ck_assert(extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, s->value, COUNT, 0, &s->gumbel));
@@ -36,6 +36,7 @@ static void make(sample *s, double shape)
                               .exponent = exponent,
                               .confidence = 0.95};
 }
+static void make(sample *s, double shape) { make_from(s, shape, 0, 1); }
 
 START_TEST(with_all_the_weight_it_is_the_interval_of_that_law)
 {
@@ -119,6 +120,22 @@ START_TEST(ends_rise_with_the_level)
 }
 END_TEST
 
+/* Where neighbouring numbers lie farther apart than an end is looked for: it is found to some of them. */
+START_TEST(ends_far_from_zero_are_found)
+{
+    sample near, far;
+    make(&near, -0.15);
+    make_from(&far, -0.15, 1e9, 0.01);
+    level_interval by[2];
+    for (int i = 0; i < 2; i++) {
+        const sample *s = i ? &far : &near;
+        by[i] = averaged_interval(&s->pivot, gumbel_pivot_interval(&s->pivot, exponent / exposure, 0.95), &s->q, 0.6);
+    }
+    assert_absolute((by[1].low - 1e9) / 0.01, by[0].low, 1e-3);
+    assert_absolute((by[1].high - 1e9) / 0.01, by[0].high, 1e-3);
+}
+END_TEST
+
 /* Weights are those of fits by likelihood, and the exact interval is that of either fit. */
 START_TEST(the_interval_does_not_depend_on_how_the_level_is_fitted)
 {
@@ -157,4 +174,5 @@ END_TEST
 
 TEST_MAIN("averaged", with_all_the_weight_it_is_the_interval_of_that_law,
           tails_of_both_laws_add_up_to_what_the_confidence_leaves, the_weight_goes_with_what_the_sample_says,
-          ends_rise_with_the_level, the_interval_does_not_depend_on_how_the_level_is_fitted)
+          ends_rise_with_the_level, ends_far_from_zero_are_found,
+          the_interval_does_not_depend_on_how_the_level_is_fitted)
