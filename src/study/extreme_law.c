@@ -9,8 +9,6 @@
 
 /* A shape this near to 0 is the limit (Gumbel, exponential). */
 #define SHAPE_ZERO 1e-9
-/* Shapes that a fit may take: below, the likelihood has no maximum (< -1). */
-#define SHAPE_LEAST (-0.999)
 /* Of the negative log likelihood. */
 #define COST_TOLERANCE 1e-11
 

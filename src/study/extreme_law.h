@@ -22,6 +22,8 @@ typedef enum law_fit { FIT_LIKELIHOOD, FIT_MOMENTS } law_fit;
 /* Least number of values of a fit: with fewer there is no answer. */
 enum { LAW_VALUES_LEAST = 10 };
 
+/* Least shape that is looked for, by a fit and by a profile: below -1 the likelihood has no maximum. */
+#define SHAPE_LEAST (-0.999)
 /* Greatest shapes that are looked for: by a fit, beyond which the mean is none (> 1), and by a profile. */
 #define FIT_SHAPE_MOST 1.5
 #define PROFILE_SHAPE_MOST 5.0

@@ -13,16 +13,19 @@ typedef struct profile_look {
     double level;
 } profile_look;
 
-/* Free parameters: the scale as log(scale/fitted), then the shape; of levels far out of LAW_GEV the location in fitted
-   scales from the fitted one, then the shape. */
+/* Free parameters: the scale as log(scale/fitted), then the shape; of levels far out, in place of the scale, of LAW_GEV
+   the location in fitted scales from the fitted one, of LAW_PARETO the rate of peaks as log(rate/found). */
 static int free_count(law_kind kind) { return kind == LAW_GUMBEL || kind == LAW_WEIBULL ? 1 : 2; }
 
-/* Expected exceedances a block, under which a level is far out: about a scale and more over the location.  There a
-   little of the scale moves the location by much, and the way to the least cost along it is too narrow to follow. */
+/* Expected exceedances a block, or a peak, under which a level is far out: about a scale and more over the location.
+   There a little of the scale moves the location, or the rate, by much, and the way to the least cost along it is too
+   narrow to follow. */
 #define EXPONENT_FAR 0.35
 static bool is_far(const profile_question *q)
 {
-    return q->law->kind == LAW_GEV && q->exponent / q->exposure < EXPONENT_FAR;
+    double exponent = q->exponent / q->exposure;
+    return (q->law->kind == LAW_GEV && exponent < EXPONENT_FAR) ||
+           (q->law->kind == LAW_PARETO && exponent < EXPONENT_FAR * q->count);
 }
 
 static bool is_peaks(law_kind kind) { return kind == LAW_PARETO || kind == LAW_WEIBULL; }
@@ -68,6 +71,19 @@ static double far_cost(const profile_look *at, double location, double shape)
     return extreme_law_cost(&law, q->sorted, q->count);
 }
 
+/* By the rate of peaks, in those found, and the shape. */
+static double far_pareto_cost(const profile_look *at, double part, double shape)
+{
+    const profile_question *q = at->q;
+    const extreme_law unit = {LAW_PARETO, 0, 1, shape};
+    double rate = part * q->count, rare = real_log(q->exposure * rate / q->exponent);
+    if (!(rare > 0))
+        return (double)INFINITY;
+    const extreme_law law = {LAW_PARETO, q->law->location,
+                             (at->level - q->law->location) / extreme_law_level(&unit, rare), shape};
+    return extreme_law_cost(&law, q->sorted, q->count) + rate - q->count * real_log(rate);
+}
+
 static double profile_cost(const void *of, const double *x)
 {
     const profile_look *at = of;
@@ -77,10 +93,11 @@ static double profile_cost(const void *of, const double *x)
     if (law->kind == LAW_WEIBULL)
         return profile_weibull_cost(at, law->shape * real_exp(x[0]));
     double shape = free_count(law->kind) > 1 ? x[1] : 0;
-    if (!(fabs(shape) < PROFILE_SHAPE_MOST))
+    if (!(shape > SHAPE_LEAST && shape < PROFILE_SHAPE_MOST))
         return (double)INFINITY;
     if (is_far(at->q))
-        return far_cost(at, law->location + law->scale * x[0], shape);
+        return law->kind == LAW_PARETO ? far_pareto_cost(at, real_exp(x[0]), shape)
+                                       : far_cost(at, law->location + law->scale * x[0], shape);
     double scale = law->scale * real_exp(x[0]);
     return law->kind == LAW_PARETO ? profile_pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
 }

@@ -98,6 +98,19 @@ START_TEST(upper_ends_rise_with_their_levels)
     /* By a grid over location and shape. */
     assert_relative(profile_interval(&q).high, 105900, 5e-3);
     check_upper_ends(&q, "maxima");
+    /* Maxima that end soon: their fit stops at the least shape, beyond which profiles would lead to no law. */
+    static const double ending[] = {-0.8454, -0.7048, -0.5582, 0.8624, 0.8908, 1.1995,
+                                    1.4330,  1.9451,  2.1480,  2.7552, 2.9644, 3.0527};
+    ck_assert(extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, ending, 12, 0, &law));
+    assert_absolute(law.shape, SHAPE_LEAST, 1e-3);
+    check_upper_ends(&(profile_question){&law, ending, 12, 18, 1, 0.95, 0, NULL}, "ending");
+    /* Peaks that end soon, many of them: rare levels lie at the end of the law. */
+    enum { MANY = 365 };
+    double peaks[MANY];
+    for (int i = 0; i < MANY; i++)
+        peaks[i] = 10 + 2 * (i + 0.5) / MANY;
+    ck_assert(extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, peaks, MANY, 10, &law));
+    check_upper_ends(&(profile_question){&law, peaks, MANY, 3, 1, 0.95, 0, NULL}, "ending peaks");
     for (int heavy = 0; heavy < 2; heavy++) {
         double value[FEW];
         for (int i = 0; i < FEW; i++) {
