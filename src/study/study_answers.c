@@ -110,7 +110,10 @@ static fram_status answer_extremes(const study_folder *f, const condition_rows *
             return status;
         text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, run_figure_name(figure), run_figure_unit(figure),
                     extreme_method_name(r.method), (int)of[c].value.count);
-        cell_end(f->ctx, b, of[c].block);
+        /* A difference of two times, whose last digits are rounding. */
+        char block[NUMBER_TEXT_SIZE];
+        real_to_digits(of[c].block, 12, block);
+        text_format(f->ctx, b, ",%s", block);
         cell_end(f->ctx, b, x->duration);
         answer_interval(f, b, &r.most_probable);
         for (int i = 0; i < x->levels; i++)

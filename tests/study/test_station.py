@@ -88,8 +88,11 @@ class StationTest(StudyTest):
         self.assertEqual([int(r["kept"]) for r in told], [4 - sum(parted[:4]), 4])
         self.assertEqual([int(r["lines_parted"]) for r in told], [sum(parted[:4]), 0])
         # One that parts at once is not let go later.
-        study = self.write("seeds: 2\nkeep: series\nset: {vessel.mooring.lines.0.breaking_load: 1e3}\n")
+        study = self.write("seeds: 2\nkeep: series\nextremes: {duration: 1h}\n"
+                           "set: {vessel.mooring.lines.0.breaking_load: 1e3, run.transient: 0.56}\n")
         self.fram(study, "-o", self.at / "early")
+        # The difference of two times is told without its rounding.
+        self.assertEqual({r["block[s]"] for r in self.rows("early", "extremes.csv")}, {"4.44"})
         self.assertEqual([(r[LINES], r["lines_broken[1]"]) for r in self.rows("early")], [("1", "1")] * 2)
         (told,) = self.rows("early", "station.csv")
         self.assertEqual((told["kept"], told["lines_parted"]), ("0", "2"))
