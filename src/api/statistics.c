@@ -292,7 +292,7 @@ static fram_status count_cycles(fram_context *c, const series_data *data, rain_c
     return good ? FRAM_OK : error_memory(error);
 }
 
-/* A row a cycle. */
+/* A row a cycle, with the digits of a series: means may lie far from zero. */
 static fram_status write_cycles(context *ctx, const char *path, const rain_cycles *all, const char *unit,
                                 fram_error *error)
 {
@@ -300,7 +300,7 @@ static fram_status write_cycles(context *ctx, const char *path, const rain_cycle
     text_format(ctx, &b, "range[%s],mean[%s],count[1]\n", unit, unit);
     for (int32_t i = 0; i < all->list.count; i++) {
         const rain_cycle *of = &all->list.data[i];
-        text_format(ctx, &b, "%.9g,%.9g,%.1f\n", of->range, of->mean, of->count);
+        text_format(ctx, &b, "%.12g,%.12g,%.1f\n", of->range, of->mean, of->count);
     }
     fram_status status = b.failed ? error_memory(error) : work_continue(ctx, "counting cycles", 1, 1, error);
     if (status == FRAM_OK)

@@ -91,14 +91,26 @@ static int refuse_over_source(const common_options *common, const fram_series_so
 
 /* ---- facts ---- */
 
+/* Digits that tell so small a spread of values as large as these, as those of axes tell their ticks: beside a northing
+   the first five are the same for all.  Five at least. */
+static int digits_of(double value, double spread)
+{
+    enum { LEAST = 5, MOST = 15 };
+    int digits = 3; /* of the spread */
+    for (double size = spread; spread > 0 && digits < MOST && 10 * size <= fabs(value); size *= 10)
+        digits++;
+    return digits > LEAST ? digits : LEAST;
+}
+
 static void print_facts(const fram_series_source *source, const fram_series_facts *f, bool maxima)
 {
     printf("%s of %d %s: %lld %s", source->channel ? source->channel : "load", source->file_count,
            source->file_count == 1 ? "file" : "files", (long long)f->values, maxima ? "maxima" : "values");
     if (!maxima)
         printf(", %.6g s at a step of %.4g s, correlation time %.4g s", f->time, f->step, f->time_scale);
-    printf("\nmean %.5g, standard deviation %.5g, minimum %.5g, maximum %.5g %s\n", f->mean, f->deviation, f->least,
-           f->greatest, f->unit);
+    int digits = digits_of(fmax(fabs(f->least), fabs(f->greatest)), f->deviation);
+    printf("\nmean %.*g, standard deviation %.5g, minimum %.*g, maximum %.*g %s\n", digits, f->mean, f->deviation,
+           digits, f->least, digits, f->greatest, f->unit);
 }
 
 static void json_facts(json *j, const fram_series_facts *f)
@@ -123,22 +135,24 @@ static void json_facts(json *j, const fram_series_facts *f)
 
 static void print_level(const char *name, const fram_level *l, const char *unit)
 {
+    int digits = digits_of(l->level, (isfinite(l->high) ? l->high : l->level) - l->low);
     if (isnan(l->level))
         printf("  %-16s %11s\n", name, "not told");
     else
-        printf("  %-16s %11.5g  (%.5g to %.5g) %s\n", name, l->level, l->low, l->high, unit);
+        printf("  %-16s %11.*g  (%.*g to %.*g) %s\n", name, digits, l->level, digits, l->low, digits, l->high, unit);
 }
 
-static void print_law(const fram_extreme *e)
+static void print_law(const fram_extreme *e, double deviation)
 {
     if (e->tail_c > 0)
-        printf(", order %d, exceedance rate per value %.3g exp(-%.3g (x %c %.4g)^%.3g)", e->order, e->tail_q, e->tail_a,
-               e->tail_b < 0 ? '+' : '-', fabs(e->tail_b), e->tail_c);
+        printf(", order %d, exceedance rate per value %.3g exp(-%.3g (x %c %.*g)^%.3g)", e->order, e->tail_q, e->tail_a,
+               e->tail_b < 0 ? '+' : '-', digits_of(e->tail_b, deviation), fabs(e->tail_b), e->tail_c);
     else
-        printf(", location %.5g, scale %.5g, shape %.3g", e->location, e->scale, e->shape);
+        printf(", location %.*g, scale %.5g, shape %.3g", digits_of(e->location, e->scale), e->location, e->scale,
+               e->shape);
 }
 
-static void print_method(const fram_extreme *e, const fram_extremes_definition *d, const char *unit)
+static void print_method(const fram_extreme *e, const fram_extremes_definition *d, const fram_series_facts *of)
 {
     printf("\n%s: ", e->method);
     if (e->answered) {
@@ -147,14 +161,14 @@ static void print_method(const fram_extreme *e, const fram_extremes_definition *
         if (e->block > 0)
             printf(" of %.4g s", e->block);
         else
-            printf(" over %.5g", e->threshold);
-        print_law(e);
+            printf(" over %.*g", digits_of(e->threshold, of->deviation), e->threshold);
+        print_law(e, of->deviation);
         printf("\n  intervals: %s\n", e->interval);
-        print_level("most probable", &e->most_probable, unit);
+        print_level("most probable", &e->most_probable, of->unit);
         for (int i = 0; i < d->levels; i++) {
             char name[32];
             snprintf(name, sizeof name, "%.6g quantile", d->probability[i]);
-            print_level(name, &e->level[i], unit);
+            print_level(name, &e->level[i], of->unit);
         }
     }
     if (e->note[0])
@@ -240,7 +254,7 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
         print_facts(&d->source, &e->series, d->maxima);
         printf("extreme value in %.6g s, with %g %% confidence intervals\n", d->duration, 100 * d->confidence);
         for (int i = 0; i < e->methods; i++)
-            print_method(&e->method[i], d, e->series.unit);
+            print_method(&e->method[i], d, &e->series);
         code = EXIT_GOOD;
     }
     free(e);

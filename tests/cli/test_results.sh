@@ -192,6 +192,25 @@ done
 cmp wanted found || fail "what stood in a file is lost to /dev/stdout"
 "$FRAM" report run -o /dev/stdout -q >streamed || fail "a page for /dev/stdout has no kind"
 holds "<html" streamed
+# Values far from zero, as a northing, have the digits that tell them apart, in the text and in a file of cycles.
+python3 -c 'import random; random.seed(4)
+print("time[s],y[m]\n" + "\n".join(f"{i},{6534201 + 0.002 * random.gauss(0, 1):.12g}" for i in range(2000)))' >north.csv
+expect 0 "$FRAM" extremes north.csv --channel y
+cp out north.txt
+expect 0 "$FRAM" fatigue north.csv --channel y -o north_cycles.csv
+python3 - <<'PY' || fail "digits of values far from zero: $(cat north.txt out)"
+import re
+told, counted = open("north.txt").read(), open("out").read()
+levels = re.findall(r"^  \S.* ([\d.]+)  \(([\d.]+) to ([\d.]+)\) m$", told, re.M)
+assert len(levels) == 24 and all(float(low) < float(level) < float(high) for level, low, high in levels), levels
+for text in told, counted:
+    mean, least, most = (float(re.search(name + r" ([\d.]+)", text)[1]) for name in ("mean", "minimum", "maximum"))
+    assert least < mean < most, text
+places = re.findall(r"(?:location|\(x -|peaks over) ([\d.]+)", told)
+assert len(places) == 8 and all(6534200.99 < float(x) < 6534201.02 for x in places), places
+means = [line.split(",")[1] for line in open("north_cycles.csv").read().split()[1:]]
+assert len(set(means)) > 50, len(set(means))
+PY
 # A way through /proc to a file is one to a file.
 echo mine >notes.txt
 expect 2 "$FRAM" report run -o /proc/self/cwd/notes.txt -q
