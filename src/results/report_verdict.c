@@ -2,6 +2,7 @@
 #include "results/report_verdict_parts.h"
 
 #include "base/channel_statistics.h"
+#include "base/student.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/run_record.h"
@@ -144,6 +145,22 @@ static void judge_transient(verdict *v)
 #define ENOUGH 0.2
 #define VALUES_ENOUGH 10.0
 
+/* The part of itself within which a mean is known, by the deviation as a part of it: Student's t of as many values as
+   are told; one alone does not tell. */
+static double mean_within(double spread, double values)
+{
+    int freedom = (int)(values + 0.5) - 1;
+    return freedom < 1 ? HUGE_VAL : student_quantile(0.95, freedom) * spread / sqrt(values);
+}
+
+/* Values that would be enough, on the safe side: the t is that of as few as the normal law asks for. */
+static double values_needed(double spread)
+{
+    double normal = NORMAL_95 * spread / ENOUGH, few = fmin(fmax(normal * normal, VALUES_ENOUGH), INT32_MAX / 2);
+    double within = mean_within(spread, few);
+    return fmax(few * within * within / (ENOUGH * ENOUGH), VALUES_ENOUGH);
+}
+
 /* No load in any row after the transient: rows that leave out steps may have missed one, the peaks have not. */
 static fram_status judge_no_load(verdict *v, const char *name, fram_error *error)
 {
@@ -205,10 +222,9 @@ static fram_status judge_load(verdict *v, fram_error *error)
         load_distribution_free(r->ctx, &d);
         return error_memory(error);
     }
-    double part = s.mean > 0 ? NORMAL_95 * s.deviation / s.mean / sqrt(d.independent) : HUGE_VAL;
+    double spread = s.mean > 0 ? s.deviation / s.mean : HUGE_VAL, part = mean_within(spread, d.independent);
     bool enough = part <= ENOUGH && d.independent >= VALUES_ENOUGH;
-    double longer = fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent);
-    report_number(longer, needed);
+    report_number(span * values_needed(spread) / d.independent, needed);
     char aim[48], worth[LOAD_WORTH_SIZE];
     load_distribution_tell(&d, false, worth);
     snprintf(aim, sizeof aim, part > ENOUGH ? "a mean within %.0f %%" : "%.0f independent values",

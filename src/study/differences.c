@@ -1,6 +1,6 @@
 #include "study/differences.h"
 
-#include "study/student.h"
+#include "base/student.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 #include "study/extremes_spread.h"
 
+#include "base/student.h"
 #include "base/transcendental.h"
 #include "study/special.h"
-#include "study/student.h"
 
 #include <math.h>
 

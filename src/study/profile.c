@@ -1,8 +1,8 @@
 #include "study/profile.h"
 
+#include "base/student.h"
 #include "base/transcendental.h"
 #include "study/minimise.h"
-#include "study/student.h"
 
 #include <math.h>
 #include <string.h>

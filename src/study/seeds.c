@@ -1,7 +1,7 @@
 #include "study/seeds.h"
 
+#include "base/student.h"
 #include "study/extremes.h"
-#include "study/student.h"
 
 #include <math.h>
 

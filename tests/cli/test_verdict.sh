@@ -70,6 +70,26 @@ verdict wide
 says "2 independent values in 12 s): too short for a mean" verdict.txt
 says "The averaging window of 6 s is longer than the transient of 4 s: the mean contains what was before it" verdict.txt
 says "Make output.averaging_window shorter, or run.transient longer" verdict.txt
+# Of n values the mean is known by Student's t of n - 1 degrees; two have 12.7062.  Here of a load that is never small.
+cat >raise.py <<'PY'
+import csv, math, re, sys
+rows = list(csv.reader(open("wide/series.csv")))
+name = [c.split("[")[0] for c in rows[0]]
+t, x, y = (name.index(n) for n in ("time", "ice_force_averaged_x", "ice_force_averaged_y"))
+if sys.argv[1:] == ["raise"]:
+    for row in rows[1:]:
+        row[x] = float(row[x]) - 2e5
+    csv.writer(open("wide/series.csv", "w"), lineterminator="\n").writerows(rows)
+    sys.exit()
+load = [math.hypot(float(r[x]), float(r[y])) for r in rows[1:] if float(r[t]) > 4]
+mean = sum(load) / len(load)
+within = 100 * 12.7062 / 2**0.5 * (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5 / mean
+told = float(re.search(r"known within (\d+) % \(95 % confidence, 2 indep", open("verdict.txt").read())[1])
+assert 50 < within < 500 and abs(told - within) < 1, (told, within)
+PY
+python3 raise.py raise
+verdict wide
+python3 raise.py || fail "the mean of two values is not known by Student's t"
 
 # A limit of 0 is one that a vessel keeps which does not move that way.
 cp -r held still

@@ -1,7 +1,7 @@
 /* Student's t against published quantiles and the normal limit. */
 #include "testing.h"
 
-#include "study/student.h"
+#include "base/student.h"
 
 #include <limits.h>
 

@@ -1,4 +1,4 @@
-#include "study/student.h"
+#include "base/student.h"
 
 #include "base/transcendental.h"
 

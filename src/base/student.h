@@ -1,6 +1,6 @@
-/* Student's t distribution, for confidence intervals of means over seeds. */
-#ifndef STUDY_STUDENT_H
-#define STUDY_STUDENT_H
+/* Student's t distribution, for confidence intervals of means. */
+#ifndef BASE_STUDENT_H
+#define BASE_STUDENT_H
 
 /* P(|T| <= t) for t >= 0 and `freedom` >= 1 degrees of freedom, by the finite sums for whole numbers of them
    (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
