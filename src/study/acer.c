@@ -60,13 +60,21 @@ static int32_t levels_below(const acer_rates *r, double x)
     return lo;
 }
 
+/* Batches of a part, of nearly equal length and of `batch` values at least; a shorter part, which is independent of the
+   others, is one of its own. */
+static int32_t batches_of(const series_part *part, int32_t batch)
+{
+    return part->count < batch ? part->count > 0 : part->count / batch;
+}
+
 /* The value is over levels [from, to) and the greatest before it is not. */
 static void count_part(acer_rates *r, const series_part *part, int32_t k, int32_t batch, window *w, int32_t *next)
 {
     w->first = w->count = 0;
-    int32_t whole = part->count / batch * batch;
-    for (int32_t i = 0; i < whole; i++) {
-        int32_t *count = r->count.data + (int64_t)(*next + i / batch) * ACER_LEVELS;
+    int32_t batches = batches_of(part, batch);
+    for (int32_t i = 0; i < part->count; i++) {
+        int32_t b = *next + (int32_t)((int64_t)i * batches / part->count);
+        int32_t *count = r->count.data + (int64_t)b * ACER_LEVELS;
         int32_t to = levels_below(r, part->value[i]), from = 0;
         window_drop(w, i - (k - 1));
         if (w->count > 0)
@@ -74,11 +82,11 @@ static void count_part(acer_rates *r, const series_part *part, int32_t k, int32_
         /* A level at the very greatest of those before is not below it. */
         for (int32_t l = from; l < to && i >= k - 1; l++)
             count[l]++;
-        r->values.data[*next + i / batch] += i >= k - 1;
+        r->values.data[b] += i >= k - 1;
         if (k > 1)
             window_add(w, part->value, i);
     }
-    *next += whole / batch;
+    *next += batches;
 }
 
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out)
@@ -89,7 +97,7 @@ bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32
     for (int32_t p = 0; p < s->count; p++) {
         for (int32_t i = 0; i < s->parts[p].count; i++)
             greatest = fmax(greatest, s->parts[p].value[i]);
-        batches += s->parts[p].count / batch;
+        batches += batches_of(&s->parts[p], batch);
     }
     if (!(greatest > tail))
         out->levels = 0;

@@ -9,7 +9,8 @@
 
 enum { ACER_LEVELS = 40, ACER_BATCHES_LEAST = 20, ACER_REPLICATES = 499 };
 
-/* Rates at levels, counted by batches of the series, which stand for independent realizations. */
+/* Rates at levels, counted by batches of the series, which stand for independent realizations.  They need not be of one
+   length: a rate is over the values of the batches that it is counted in. */
 typedef struct acer_rates {
     double level[ACER_LEVELS];
     int32_t levels; /* 0: there are too few exceedances */
@@ -24,8 +25,8 @@ typedef struct acer_tail {
     double q, a, b, c;
 } acer_tail;
 
-/* Counts at levels from `tail` to the greatest value.  k: order, from 1.  batch: values of a batch.  Free with
-   acer_free. */
+/* Counts at levels from `tail` to the greatest value.  k: order, from 1.  batch: values of a batch, at
+   least, where a part has as many.  Free with acer_free. */
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out);
 void acer_free(context *ctx, acer_rates *r);
 /* How often a level is exceeded, over all batches, and by how many values it could be. */

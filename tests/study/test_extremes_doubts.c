@@ -379,6 +379,16 @@ START_TEST(rates_of_short_parts_are_those_of_a_long_one)
     }
     /* Some 170 exceedances, of which four in five are the same. */
     ck_assert_msg(fabs(rate[1] / rate[0] - 1) < 0.08, "%g", rate[1] / rate[0]);
+    /* Batches cover all of a part, and a shorter part is one. */
+    static const int32_t batch[] = {LENGTH + 1, LENGTH - 1, 60}, batches[] = {PARTS, PARTS, 3 * PARTS};
+    for (int k = 0; k < 3; k++) {
+        acer_rates r;
+        ck_assert(acer_count(&ctx, &sets[1], ORDER, 3, batch[k], &r));
+        ck_assert_int_eq(r.batches, batches[k]);
+        ck_assert_int_eq(acer_values(&r), PARTS * (LENGTH - ORDER + 1));
+        assert_relative((double)acer_exceedances(&r, 0) / (double)acer_values(&r), rate[1], 1e-12);
+        acer_free(&ctx, &r);
+    }
 }
 END_TEST
 
