@@ -24,6 +24,10 @@ static void take_kind(const scenario_ice *i, ice_range *r, ice_kind k, bool brea
     bool first = !(r->soonest.thickness > 0);
     if (breaks && (first || crushed_before(&k, e) < crushed_before(&r->soonest, e)))
         r->soonest = k;
+    double most = r->stoutest.thickness;
+    bool stronger = k.thickness == most && k.flexural_strength > r->stoutest.flexural_strength;
+    if (breaks && (k.thickness > most || stronger))
+        r->stoutest = k;
 }
 
 static bool is_populated(const scenario_ice *i)
@@ -38,11 +42,23 @@ static const ice_kind no_kind = {(double)NAN, (double)NAN, (double)NAN};
 
 bool ice_is_known(const ice_range *r) { return !isnan(r->thinnest.thickness); }
 
+bool ice_kinds_alike(const ice_kind *a, const ice_kind *b)
+{
+    return a->thickness == b->thickness && a->flexural_strength == b->flexural_strength &&
+           a->crushing_strength == b->crushing_strength;
+}
+
+bool ice_is_alike(const ice_range *r)
+{
+    return ice_kinds_alike(&r->thinnest, &r->thickest) && ice_kinds_alike(&r->thinnest, &r->soonest) &&
+           ice_kinds_alike(&r->thinnest, &r->stoutest);
+}
+
 /* Where nothing may break the thinnest stands for what would. */
 static ice_range with_soonest(ice_range r)
 {
     if (!(r.soonest.thickness > 0))
-        r.soonest = r.thinnest;
+        r.soonest = r.stoutest = r.thinnest;
     return r;
 }
 
@@ -96,7 +112,7 @@ ice_range ice_range_made(const scenario_ice *i, const world *made)
     if (!made || i->source != ICE_FILE)
         return ice_range_of(i);
     if (made->without_ice)
-        return (ice_range){no_kind, no_kind, no_kind};
+        return (ice_range){no_kind, no_kind, no_kind, no_kind};
     const floe_table *f = &made->floes;
     for (int32_t k = 0; k < f->count; k++)
         if (f->body[k] >= 0)

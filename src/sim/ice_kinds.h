@@ -14,6 +14,7 @@ typedef struct ice_kind {
 typedef struct ice_range {
     ice_kind thinnest, thickest; /* of equally thick ones the weakest and the strongest in crushing */
     ice_kind soonest;            /* of what may break: breaks at its edge after the least of crushing */
+    ice_kind stoutest;           /* of what may break: the thickest, of equally thick ones the strongest in bending */
 } ice_range;
 /* Whether any ice of the scenario, and all of it, may break. */
 bool ice_may_break(const scenario_ice *i);
@@ -24,6 +25,9 @@ bool ice_all_breaks(const scenario_ice *i);
    less than any number. */
 ice_range ice_range_made(const scenario_ice *i, const world *made);
 bool ice_is_known(const ice_range *r);
+/* Whether it is all of one kind. */
+bool ice_is_alike(const ice_range *r);
+bool ice_kinds_alike(const ice_kind *a, const ice_kind *b);
 /* What the floes of a population are in the mean: what it leaves out is that of all ice. */
 ice_kind ice_kind_of_population(const scenario_ice *i, const scenario_population *p);
 /* With the rest of what all ice has in common. */

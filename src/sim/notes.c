@@ -133,44 +133,78 @@ static double crushed_under(const ice_material *m, double thickness, double load
     return power > 0 ? real_pow(load / sigma, 1 / power) / thickness : (double)NAN;
 }
 
-/* What breaks the ice at its edge, by the loads that fracture compares (docs/theory.md). */
-static void note_fracture(const note_taker *n, const scenario *s)
+/* Which ice it is, between two texts; nothing where all is alike. */
+typedef struct kind_text {
+    char text[96];
+} kind_text;
+
+static kind_text kind_text_of(const note_taker *n, const char *before, const ice_kind *k, const char *after)
 {
-    const scenario_ice *i = &s->ice;
-    if (i->source == ICE_NONE || !ice_is_known(&n->ice))
-        return;
-    if (!i->breakable) {
-        note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
-        return;
-    }
-    const ice_kind kind = n->ice.soonest;
-    double h = kind.thickness, areas[2] = {SMALL_CONTACT * h * h, h * h};
-    ice_material m = ice_kind_material(i, &kind);
+    kind_text out = {""};
+    if (!ice_is_alike(&n->ice))
+        snprintf(out.text, sizeof out.text, "%s%.4g m thick%s", before, k->thickness, after);
+    return out;
+}
+
+/* What breaks ice of a kind at its edge, by the loads that fracture compares (docs/theory.md). */
+static void note_edge(const note_taker *n, const scenario *s, const ice_kind *kind)
+{
+    double h = kind->thickness, areas[2] = {SMALL_CONTACT * h * h, h * h};
+    ice_material m = ice_kind_material(&s->ice, kind);
     fracture_settings f = build_fracture_settings(s);
+    char strength[64];
+    snprintf(strength, sizeof strength, " (bending %.4g kPa, crushing %.4g kPa), ", 1e-3 * kind->flexural_strength,
+             1e-3 * kind->crushing_strength);
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
         double crushing = ice_crushing_pressure(&m, areas[k]) * areas[k];
         load_unit u = kilonewtons_or_less(fmax(crushing, fmax(e.radial_capacity, e.wedge_capacity)));
         note_fact(n,
-                  "fracture: on %.3g m2 the radial crack opens at %.4g %s, %d wedges break off at %.4g %s, %.4g m from "
-                  "the load; crushing there gives %.4g %s",
-                  areas[k], e.radial_capacity * u.factor, u.name, (int)f.wedges, e.wedge_capacity * u.factor, u.name,
-                  e.breaking_radius, crushing * u.factor, u.name);
+                  "fracture: %son %.3g m2 the radial crack opens at %.4g %s, %d wedges break off at %.4g %s, %.4g m "
+                  "from the load; crushing there gives %.4g %s",
+                  kind_text_of(n, "of ice ", kind, strength).text, areas[k], e.radial_capacity * u.factor, u.name,
+                  (int)f.wedges, e.wedge_capacity * u.factor, u.name, e.breaking_radius, crushing * u.factor, u.name);
     }
-    /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
-    edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0], EDGE_STRAIGHT);
+}
+
+/* Steps in which ice breaks that is soon crushed far enough: the patch of a plate at 45 degrees, as wide as the ice is
+   thick, grows until the wedges break off. */
+static void note_breaking_steps(const note_taker *n, const scenario *s)
+{
+    const ice_kind *kind = &n->ice.soonest;
+    double h = kind->thickness;
+    ice_material m = ice_kind_material(&s->ice, kind);
+    fracture_settings f = build_fracture_settings(s);
+    edge_stress e = fracture_edge_stress(&f, &m, h, 1, SMALL_CONTACT * h * h, EDGE_STRAIGHT);
     double needed = crushed_under(&m, h, e.wedge_capacity);
     for (int32_t v = 0; v < scenario_vessel_count(s) && !isnan(needed); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
         double speed = speed_in_ice(s, entry.keys), depth = speed * s->run.time_step;
-        note_fact(n, "fracture: steps of %g s are short for %s up to %.3g m/s", s->run.time_step,
-                  vessel_title_of(&entry).text, BREAKING_STEP * needed / s->run.time_step);
+        note_fact(n, "fracture: %ssteps of %g s are short for %s up to %.3g m/s",
+                  kind_text_of(n, "in ice ", kind, " ").text, s->run.time_step, vessel_title_of(&entry).text,
+                  BREAKING_STEP * needed / s->run.time_step);
         if (depth > BREAKING_STEP * needed)
             note_warning(n,
-                         "%s and the ice move %.3g m past each other in a step at %.4g m/s, and ice as wide as it is "
-                         "thick breaks after about %.3g m of crushing; take run.time_step under %.3g s",
-                         vessel_title_of(&entry).text, depth, speed, needed, BREAKING_STEP * needed / speed);
+                         "%s and the ice move %.3g m past each other in a step at %.4g m/s, and ice%s as wide as it "
+                         "is thick breaks after about %.3g m of crushing; take run.time_step under %.3g s",
+                         vessel_title_of(&entry).text, depth, speed, kind_text_of(n, " ", kind, ",").text, needed,
+                         BREAKING_STEP * needed / speed);
     }
+}
+
+static void note_fracture(const note_taker *n, const scenario *s)
+{
+    const ice_range *r = &n->ice;
+    if (s->ice.source == ICE_NONE || !ice_is_known(r))
+        return;
+    if (!s->ice.breakable) {
+        note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
+        return;
+    }
+    note_edge(n, s, &r->soonest);
+    if (!ice_kinds_alike(&r->soonest, &r->stoutest))
+        note_edge(n, s, &r->stoutest);
+    note_breaking_steps(n, s);
 }
 
 /* A ship under its own power keeps its heading, whatever way it has at the start [deg]. */
@@ -207,9 +241,10 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     double thickness = n->ice.thinnest.thickness;
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * thickness)
         note_warning(n,
-                     "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
+                     "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s%s; crushing "
                      "patches grow in jumps. Take run.time_step under %.3g s",
-                     title.text, way / thickness, speed, THICKNESS_STEP * thickness / speed);
+                     title.text, way / thickness, speed, kind_text_of(n, ", where it is ", &n->ice.thinnest, "").text,
+                     THICKNESS_STEP * thickness / speed);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
