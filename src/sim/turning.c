@@ -21,6 +21,12 @@ static const double EASED = 2.0 / 3, CUT = 0.25;
 /* No arc is tighter than this times the way in which the ship is to turn as it is told: on one that is, it has turned
    by half a radian before its helm has answered, and a helm that is slow swings to and fro. */
 static const double FORESEEN = 2;
+/* In a corner helm to the other side keeps this part of the moment that it has on a straight course: where it has less,
+   a hull that is unstable in yaw turns on before it is stopped.  With 0.4 hulls of 45 by 13 and 93 by 25 m went past a
+   corner by a breadth, with 0.5 none of seven by more than 0.62 (docs/ice-management.md). */
+static const double CHECKED = 0.5;
+/* No corner is made wider than so many lengths for that. */
+static const double WIDEST = 10;
 /* Coefficients of a table of the current that differ by less between its sides are alike. */
 static const double ALIKE = 1e-6;
 
@@ -31,7 +37,8 @@ typedef struct turning_search {
     const propulsion_settings *s;
     media water; /* at rest */
     double speed, angle;
-    double side; /* 1: it turns to port; -1: to starboard, of which all is told as if to port */
+    double most_thrust; /* [N] */
+    double side;        /* 1: it turns to port; -1: to starboard, of which all is told as if to port */
 } turning_search;
 
 /* Drag of the water on the hull without its lift, and linear damping; ship's axes.  All else that turns a ship has
@@ -71,6 +78,7 @@ static turning_forces forces_of(const turning_search *t, double sway, double rat
     /* What keeps it going through the turn: drag, and the part of the centripetal force that is along the ship. */
     double asked = -drag.force.x - (s->ship.mass + s->ship.a22) * sway * rate - s->ship.a26 * rate * rate;
     double most = propulsion_net_thrust(s->bollard_pull, s->open_water_speed, u) - drag.force.x;
+    most = fmin(most, t->most_thrust);
     double thrust = fmin(fmax(asked, 0), most);
     steering_force f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
     thrust = fmin(fmax(asked + thrust - f.ahead, 0), most);
@@ -116,6 +124,37 @@ static double steady_rate(const turning_search *t, double *sway)
     return low;
 }
 
+/* The moment of full helm to the other side in a turn, with the thrust of a straight course: it comes at once. */
+static double moment_against(turning_search t, double rate)
+{
+    double sway;
+    t.angle = 0;
+    t.most_thrust = forces_of(&t, 0, 0).thrust;
+    t.angle = -t.s->steering_most;
+    return moment_at(&t, rate, &sway);
+}
+
+/* The largest rate of turn, up to one, that helm to the other side checks. */
+static double checked_rate(const turning_search *t, double most)
+{
+    double step = FASTEST * t->speed / t->hull->particulars.length / RATES, low = 0, high = 0;
+    double wanted = CHECKED * moment_against(*t, 0);
+    while (high < most && moment_against(*t, high) <= wanted) {
+        low = high;
+        high += step;
+    }
+    if (high >= most)
+        return most;
+    for (int k = 0; k < HALVINGS; k++) {
+        double middle = 0.5 * (low + high);
+        if (moment_against(*t, middle) <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Mean yaw acceleration from a straight course, as the helm comes over, to half the rate of the steady turn: the ship
    turns as fast as its steering gear and its sway let it. */
 static double yaw_acceleration(const turning_search *t, double rate)
@@ -137,7 +176,7 @@ static double yaw_acceleration(const turning_search *t, double rate)
 static turning_search search_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                 double speed)
 {
-    turning_search t = {ctx, m, &m->vessels.data[vessel], s, m->media, speed, s->steering_most, 1};
+    turning_search t = {ctx, m, &m->vessels.data[vessel], s, m->media, speed, s->steering_most, HUGE_VAL, 1};
     t.water.current = t.water.wind = (vec3){0, 0, 0};
     t.water.profile.count = 0;
     return t;
@@ -203,6 +242,7 @@ static turning_ability ability_to(turning_search t)
     double uncut = real_cbrt(square * square / (24 * CUT * hull->particulars.beam));
     double lag = autopilot_lag(&out, length, speed, s->steering_most, s->steering_rate);
     out.corner = fmax(fmax(eased_radius, uncut), FORESEEN * speed * lag);
+    out.corner = fmax(out.corner, fmin(speed / checked_rate(&t, eased), WIDEST * length));
     return out;
 }
 
@@ -225,6 +265,14 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     if (turning_is_found(&out))
         out.corner = fmax(port.corner, starboard.corner);
     return out;
+}
+
+double turning_checked_radius(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s)
+{
+    turning_search t = search_of(ctx, m, vessel, s, s->turning.speed);
+    double most = FASTEST * t.speed / t.hull->particulars.length, rate = checked_rate(&t, most);
+    t.side = -1;
+    return t.speed / fmin(rate, turning_sides_differ(t.hull) ? checked_rate(&t, most) : rate);
 }
 
 bool turning_is_found(const turning_ability *t) { return t->drift != 0; }

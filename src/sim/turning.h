@@ -16,6 +16,9 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
 double turning_helm_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s, double speed);
 /* Whether it was found: a hull is askew in every turn, and by which is found by halving, never to 0. */
 bool turning_is_found(const turning_ability *t);
+/* The tightest turn at the speed of `turning` that helm to the other side checks, as corners and loops ask for;
+   infinity if there is none [m]. */
+double turning_checked_radius(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s);
 /* Whether a hull has a table of the current whose sides are not alike. */
 bool turning_sides_differ(const vessel_model *hull);
 

@@ -8,6 +8,7 @@
 #include "sim/wall_check.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Moments of the run, and places of the track, at which a pattern is held against the domain. */
 enum { MOMENTS = 25, PLACES = 64 };
@@ -30,7 +31,8 @@ static double least_radius(const pattern_shape *p)
     return p->kind == PATTERN_SECTOR ? p->distance : HUGE_VAL;
 }
 
-static void tell_arcs(const pattern_view *v)
+/* checked: the tightest turn that its helm stops. */
+static void tell_arcs(const pattern_view *v, double checked)
 {
     const turning_ability *t = &v->set->turning;
     const pattern_shape *p = &v->shape;
@@ -43,6 +45,13 @@ static void tell_arcs(const pattern_view *v)
             "open water at %.3g m/s: it cannot keep this pattern; take %.4g m or more, or a lower speed",
             v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius, t->speed,
             factor * t->corner);
+    else if (radius < fmin(t->corner, checked))
+        log_write(
+            v->ctx, LOG_WARNING,
+            "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; under %.4g m the hull of %s turns on by "
+            "itself, which takes most of its helm and leaves none for ice: take %.4g m or more, or a larger "
+            "rudder_area",
+            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, factor * t->corner);
     else if (radius < t->corner)
         log_write(
             v->ctx, LOG_WARNING,
@@ -317,6 +326,22 @@ static void tell_helm_of_use(const pattern_view *v)
                   v->entry->path, most, vessel_title_of(v->entry).text, v->set->turning.speed, given);
 }
 
+/* A ship whose helm stops no turn as tight as its corners are. */
+static void tell_unchecked(const pattern_view *v, double checked)
+{
+    const turning_ability *t = &v->set->turning;
+    if (t->corner >= checked)
+        return;
+    char from[60] = ", however wide";
+    if (isfinite(checked))
+        snprintf(from, sizeof from, " with a radius under %.4g m", checked);
+    log_write(v->ctx, LOG_WARNING,
+              "%s.propulsion.%s: the helm of %s does not stop a turn at %.3g m/s%s, since its hull turns on by itself: "
+              "on corners and loops of %.4g m it may turn right round; give a larger rudder_area or a turning_radius",
+              v->entry->path, v->set->rudder.area > 0 ? "rudder_area" : "steering_angle_deg",
+              vessel_title_of(v->entry).text, t->speed, from, t->corner);
+}
+
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
                   int32_t row)
 {
@@ -329,8 +354,11 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
     tell_radius(ctx, s, entry, &m->vessels.data[row], m->forces == FORCES_FLUID, t);
     tell_helm_of_use(&v);
+    double checked = turning_is_found(t) ? turning_checked_radius(ctx, m, row, set) : 0;
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
+        if (legs.count > 1)
+            tell_unchecked(&v, checked);
         tell_near_points(&v, &legs);
         tell_short_legs(&v, &legs);
         tell_loop(&v, &legs);
@@ -342,8 +370,9 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
                   "%s: its pattern points as its bow does at the start, whatever the current, since no ice drifts "
                   "through (domain.boundary: feeding)",
                   vessel_title_of(entry).text);
+    tell_unchecked(&v, checked);
     if (turning_is_found(t))
-        tell_arcs(&v);
+        tell_arcs(&v, checked);
     tell_period(&v);
     tell_outside(&v, m, w, p->count - 1);
 }

@@ -13,8 +13,8 @@
 /* How a ship turns at its demanded speed in open water: found from its data when it is built (sim/turning.h). */
 typedef struct turning_ability {
     double radius; /* of the steady turn at full helm [m] */
-    double corner; /* of the arcs of corners and loops: wide enough to be gone into and out of, and for two thirds of
-                      the helm, so that some is left to correct [m] */
+    double corner; /* of the arcs of corners and loops: wide enough to be gone into and out of, for two thirds of
+                      the helm, so that some is left to correct, and for the helm to stop the turn [m] */
     double reach;  /* speed over the root of the yaw acceleration that this helm gives as it comes over: the way in
                       which a ship takes up a curvature is that times its square [m] */
     double drift;  /* angle between heading and course in a steady turn, over its curvature; 0: no such turn was found,

@@ -352,4 +352,16 @@ says "vessel.propulsion.steering_angle_deg: 0 steers no ship: it does not keep i
 grep -e 'on a radius' -e 'pattern.width' err && fail "a radius of a ship that does not steer is told"
 expect 0 "$FRAM" check helm.yaml --set vessel.propulsion.steering_angle_deg=0 --set vessel.propulsion.pattern.kind=none
 grep 'steers no ship' err && fail "a ship without a track is told that it does not keep it"
+# A hull too broad for its rudders turns on by itself: corners and patterns in which its helm cannot stop it are told.
+broad="--set vessel.hull.form=icebreaker --set vessel.hull.beam=19 --set vessel.hull.draught=7"
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad
+holds "pattern.width: 300 m asks for a radius of 150 m; under .* m the hull of the vessel turns on by itself" err
+grep 'does not stop a turn' err && fail "a helm that stops a turn is told to stop none"
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1
+holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 m/s with a radius under .* m" err
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 --set vessel.propulsion.turning_radius=9e3
+grep 'does not stop a turn' err && fail "a radius that was given is told to be given"
 finish "what cannot be is refused, what will be is told"

@@ -35,11 +35,13 @@ ice:
 domain: {boundary: feeding, x_min: -60, x_max: 180, y_min: -120, y_max: 120, drift_speed: 0.3, drift_direction_deg: 180}
 output: {csv_interval: 0.2, frame_interval: 1}
 YAML
-expect 0 "$FRAM" check scene.yaml
+# With the drag of a ship's side: without it the hull turns on by itself (tests/cli/test_check.sh).
+side=environment.hull_drag.water_form=1
+expect 0 "$FRAM" check scene.yaml --set $side
 holds "vessel breaker turns on a radius of .* m at full helm in open water at 4 m/s, in ice on a larger one" err
 grep '^warning.*pattern' err && fail "a warning without reason"
 grep 'points as its bow does' err && fail "a pattern that turns with the drift is said to stand"
-expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.steering_rate_deg=1.5
+expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.steering_rate_deg=1.5
 says "pattern.width: 160 m asks for a radius of 80 m" err
 says "leaves little helm, or time to put it over, to correct" err
 expect 0 "$FRAM" check scene.yaml --set domain.boundary=open --set domain.drift_speed=auto \
@@ -49,7 +51,7 @@ expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.width
 holds "vessels\[1\].propulsion.pattern.width: 8 m asks for a radius of 4 m.*it cannot keep this pattern" err
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.distance=160
 holds "pattern: at 0 s it leads to .*outside of the domain" err
-expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.kind=square \
+expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.pattern.kind=square \
     --set vessels.breaker.propulsion.pattern.width=100 --set vessels.breaker.propulsion.turning_radius=90
 says "corners of 90 m radius leave nothing straight of a side of 100 m" err
 # A period that asks for more than the ship makes, for less than counts as beset, and for what lies between.

@@ -219,6 +219,36 @@ START_TEST(legs_are_kept_and_mirrored)
 }
 END_TEST
 
+/* A hull so broad that it turns on by itself: its corners are as wide as its helm stops its turn, and it keeps them. */
+START_TEST(a_broad_hull_keeps_its_corner)
+{
+#define BROAD                                                                                 \
+    "run: {duration: 400, time_step: 0.25, scale: 30}\n"                                      \
+    "vessel:\n  mode: free\n  speed: 6.75\n"                                                  \
+    "  hull: {form: icebreaker, length: 60, beam: 19, draught: 7, freeboard: 3}\n"            \
+    "  hydrodynamics: {source: estimate}\n"                                                   \
+    "  propulsion: {bollard_pull: 1.5e6, open_water_speed: 7.5, waypoints: [{x: 480, y: 0}, " \
+    "{x: 480, y: -3000}]}\n"
+    static const char *const ship[] = {BROAD SEA, BROAD SEA_AS_GIVEN};
+    static const char *const sets[] = {"vessel.propulsion.speed=5"};
+    static const double radius[] = {256, 410};
+    for (int i = 0; i < 2; i++) {
+        scene k;
+        scene_open_with(&k, ship[i], sets, 1);
+        const propulsion_settings *s = &k.w.propulsion.settings[0];
+        assert_relative(turning_checked_radius(&k.ctx, &k.m, 0, s), radius[i], 0.01);
+        double worst = 0;
+        for (double time = 0; time < 180; time += STEP) {
+            scene_steps(&k, 1);
+            worst = testing_larger(worst, fabs(k.w.propulsion.off[0]));
+        }
+        printf("60 by 19 m, corners of %.0f m: %.1f m off\n", s->turning.corner, worst);
+        ck_assert_msg(worst < 9.5, "%g m off", worst);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* Out and back by two points 10 mm apart, which no ship can round one by one: she turns about. */
 START_TEST(points_on_each_other_are_one)
 {
@@ -747,7 +777,7 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, a_slow_helm_keeps_its_pattern, patterns_are_kept_as_the_drift_turns,
           patterns_are_kept_in_a_current, the_ready_circle_is_kept, legs_are_kept_and_mirrored,
-          points_on_each_other_are_one, bends_that_are_too_narrow_lead_no_ship_away,
+          a_broad_hull_keeps_its_corner, points_on_each_other_are_one, bends_that_are_too_narrow_lead_no_ship_away,
           a_square_of_way_points_is_kept_as_a_pattern, a_ship_goes_round_what_is_too_narrow, turns_as_it_is_told,
           slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
           a_circle_is_not_sailed_against_its_sense, rounds_begin_where_the_ship_joined,
