@@ -276,3 +276,17 @@ double turning_checked_radius(context *ctx, const model *m, int32_t vessel, cons
 }
 
 bool turning_is_found(const turning_ability *t) { return t->drift != 0; }
+
+bool turning_is_sought_no_further(const turning_ability *t, const vessel_model *hull)
+{
+    const double rounding = 1e-9;
+    return t->radius * FASTEST < (1 + rounding) * hull->particulars.length;
+}
+
+bool turning_goes_on(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s)
+{
+    turning_search t = search_of(ctx, m, vessel, s, s->turning.speed);
+    double sway;
+    t.angle = 0;
+    return moment_at(&t, FASTEST * t.speed / t.hull->particulars.length, &sway) > 0;
+}

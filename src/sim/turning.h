@@ -16,6 +16,10 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
 double turning_helm_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s, double speed);
 /* Whether it was found: a hull is askew in every turn, and by which is found by halving, never to 0. */
 bool turning_is_found(const turning_ability *t);
+/* Whether the radius is the least that is tried, a third of the length: the steady turn is no wider, if any is. */
+bool turning_is_sought_no_further(const turning_ability *t, const vessel_model *hull);
+/* Whether the hull turns on by itself there, with its helm amidships, at the speed of `turning`. */
+bool turning_goes_on(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s);
 /* The tightest turn at the speed of `turning` that helm to the other side checks, as corners and loops ask for;
    infinity if there is none [m]. */
 double turning_checked_radius(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s);

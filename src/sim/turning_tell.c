@@ -298,21 +298,29 @@ static void tell_outside(const pattern_view *v, const model *m, const world *w, 
         }
 }
 
-static void tell_radius(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull, bool wet,
-                        const turning_ability *t)
+static void tell_radius(const pattern_view *v, const model *m, int32_t vessel)
 {
-    bool differ = wet && turning_sides_differ(hull);
-    if (turning_is_found(t))
-        log_write(ctx, LOG_INFO,
-                  "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s%s; corners and loops of its "
-                  "track have %.4g m",
-                  vessel_title_of(entry).text, t->radius, t->speed,
-                  differ ? " to the side on which it turns wider, since those of its current_coefficients differ" : "",
-                  s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
+    const turning_ability *t = &v->set->turning;
+    const vessel_model *hull = &m->vessels.data[vessel];
+    bool differ = m->forces == FORCES_FLUID && turning_sides_differ(hull),
+         least = turning_is_sought_no_further(t, hull);
+    const char *wider =
+        differ ? " to the side on which it turns wider, since those of its current_coefficients differ" : "";
+    if (turning_is_found(t) && least && turning_goes_on(v->ctx, m, vessel, v->set))
+        log_write(v->ctx, LOG_INFO,
+                  "no steady turn of %s was found at full helm in open water at %.3g m/s up to a radius of %.4g m%s: "
+                  "this hull turns on by itself; corners and loops of its track have %.4g m",
+                  vessel_title_of(v->entry).text, t->speed, t->radius, wider, t->corner);
+    else if (turning_is_found(t))
+        log_write(v->ctx, LOG_INFO,
+                  "%s turns on a radius of %.4g m%s at full helm in open water at %.3g m/s%s%s; corners and loops of "
+                  "its track have %.4g m",
+                  vessel_title_of(v->entry).text, t->radius, least ? " or less" : "", t->speed, wider,
+                  v->s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
     else
-        log_write(ctx, LOG_INFO,
+        log_write(v->ctx, LOG_INFO,
                   "%s does not turn by its helm%s at %.3g m/s; corners and loops of its track are taken as %.4g m",
-                  vessel_title_of(entry).text, differ ? " to both sides" : "", t->speed, t->corner);
+                  vessel_title_of(v->entry).text, differ ? " to both sides" : "", t->speed, t->corner);
 }
 
 /* A helm that rudders can be given and that turns the ship no more. */
@@ -352,7 +360,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     const turning_ability *t = &set->turning;
     pattern_view v = {
         ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
-    tell_radius(ctx, s, entry, &m->vessels.data[row], m->forces == FORCES_FLUID, t);
+    tell_radius(&v, m, row);
     tell_helm_of_use(&v);
     double checked = turning_is_found(t) ? turning_checked_radius(ctx, m, row, set) : 0;
     if (v.shape.kind == PATTERN_NONE) {

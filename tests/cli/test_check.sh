@@ -352,12 +352,14 @@ says "vessel.propulsion.steering_angle_deg: 0 steers no ship: it does not keep i
 grep -e 'on a radius' -e 'pattern.width' err && fail "a radius of a ship that does not steer is told"
 expect 0 "$FRAM" check helm.yaml --set vessel.propulsion.steering_angle_deg=0 --set vessel.propulsion.pattern.kind=none
 grep 'steers no ship' err && fail "a ship without a track is told that it does not keep it"
-# A hull too broad for its rudders turns on by itself: corners and patterns in which its helm cannot stop it are told.
+# A hull too broad for its rudders turns on by itself: no radius of it is told that was but the least one tried, and
+# corners that its helm cannot stop are.
 broad="--set vessel.hull.form=icebreaker --set vessel.hull.beam=19 --set vessel.hull.draught=7"
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad
+holds "no steady turn of the vessel was found .* at 3 m/s up to a radius of 20 m: this hull turns on by itself" err
 holds "pattern.width: 300 m asks for a radius of 150 m; under .* m the hull of the vessel turns on by itself" err
-grep 'does not stop a turn' err && fail "a helm that stops a turn is told to stop none"
+grep -e 'the vessel turns on a radius' -e 'does not stop a turn' err && fail "a radius that is none is told"
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1
 holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 m/s with a radius under .* m" err

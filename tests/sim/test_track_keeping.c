@@ -236,6 +236,8 @@ START_TEST(a_broad_hull_keeps_its_corner)
         scene k;
         scene_open_with(&k, ship[i], sets, 1);
         const propulsion_settings *s = &k.w.propulsion.settings[0];
+        ck_assert(turning_is_sought_no_further(&s->turning, &k.m.vessels.data[0]) == (i == 1));
+        ck_assert(turning_goes_on(&k.ctx, &k.m, 0, s) == (i == 1));
         assert_relative(turning_checked_radius(&k.ctx, &k.m, 0, s), radius[i], 0.01);
         double worst = 0;
         for (double time = 0; time < 180; time += STEP) {
