@@ -229,6 +229,15 @@ fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entr
     return name_hull_key(s, entry, status, error);
 }
 
+/* From about the centre of gravity to ship coordinates; second moments are about the water plane's own middle. */
+static void move_from_centre(hull_hydrostatics *h, vec3 centre)
+{
+    const vec2 level = vec2_make(centre.x, centre.y);
+    h->centre_of_buoyancy = vec3_add(h->centre_of_buoyancy, centre);
+    h->centre_of_flotation = vec2_add(h->centre_of_flotation, level);
+    h->waterline = (box2){vec2_add(h->waterline.lo, level), vec2_add(h->waterline.hi, level)};
+}
+
 fram_status build_upright(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,
                           const solid *body, hull_hydrostatics *out, fram_error *error)
 {
@@ -240,7 +249,7 @@ fram_status build_upright(context *ctx, const scenario *s, const vessel_entry *e
         hull_level_of(ctx, &body->surface, mass / s->environment.water_density, &level, error); /* about the centre */
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &body->surface, level, out, error);
-    out->centre_of_buoyancy = vec3_add(out->centre_of_buoyancy, hull->centre);
+    move_from_centre(out, hull->centre);
     if (status != FRAM_ERROR_INPUT)
         return status;
     *out = (hull_hydrostatics){.volume = 0};

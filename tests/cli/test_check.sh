@@ -122,6 +122,9 @@ pulled "" --set vessel.mass=1.39535e6
 pulled "$down sinking by up to about 0.6 m, trimming by up to about 3.3 degrees; with vessel.mass 1.39535e+06 kg, \
 centre_of_gravity_x -2.104 m it begins at rest" --set vessel.mooring.x=12
 pulled "" --set vessel.mooring.x=12 --set vessel.mass=1.39535e6 --set vessel.centre_of_gravity_x=-2.104
+# So it does on both axes, with a centre of gravity that lies far from where the hull floats.
+pulled "" --set vessel.mooring.x=12 --set vessel.mooring.y=2 --set vessel.centre_of_gravity_z=-0.5 \
+    --set vessel.mass=1.39535e6 --set vessel.centre_of_gravity_x=-2.104 --set vessel.centre_of_gravity_y=-0.3507
 # A fifth of that heels it where GM is 0.5833 m; lines that are let go pull on nothing.
 heel=(--set vessel.mooring.y=2 --set "vessel.mooring.lines[0].pretension=4e5" --set vessel.centre_of_gravity_z=-0.5)
 pulled "vessel.mooring.lines: they pull the vessel down with 4.8e+05 N, 0.0298 of what it displaces: it begins by \
