@@ -380,6 +380,10 @@ static fram_status check_ice(const scenario *s, fram_error *error)
                      (int)ice->floes.count);
     if (ice->source == ICE_FILE && !ice->file[0])
         return fault(s, error, "ice.file", "expected the path of a file of floes, since ice.source is file");
+    if (ice->source == ICE_FILE && ice->file_coordinates == FILE_DEGREES && ice->file_scale != 1)
+        return fault(s, error, "ice.file_scale",
+                     "expected 1, since ice.file_coordinates is degrees, which are no lengths, found %g",
+                     ice->file_scale);
     if (ice->source != ICE_FILE && ice->file[0])
         return fault(s, error, "ice.file", "expected no file, since ice.source is not file, found %.200s", ice->file);
     bool filled = ice->source == ICE_VORONOI || ice->source == ICE_FILE || ice->source == ICE_PACKED;

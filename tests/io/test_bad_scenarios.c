@@ -23,6 +23,7 @@ static const bad_scenario bad[] = {
     {"concentration_of_one", 3, "ice.concentration", "expected less than 1"},
     {"control_character", 1, "", "found a control character"},
     {"decimal_comma", 2, "ice.thickness", "found \"1,5\""},
+    {"degrees_with_scale", 5, "ice.file_scale", "expected 1, since ice.file_coordinates is degrees"},
     {"domain_turned_round", 2, "domain.x_min", "expected at most domain.x_max, which is -50, found 50"},
     {"domain_without_width", 3, "domain.y_max", "expected more than domain.y_min"},
     {"duplicate_key", 4, "run.duration", "expected each key once"},
