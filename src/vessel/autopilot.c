@@ -16,7 +16,13 @@ static const double DRIFT_REACHES = 2;
 /* Within an arc the nearer its centre the faster a ship goes round; up to so much. */
 static const double LEAST_NEARNESS = 0.5;
 
-static double speed_of(const turning_ability *t, double ahead) { return fmax(ahead, SLOWEST * t->speed); }
+/* A ship that is to stand still is taken to go this fast [m/s]: lags and lookaheads are over speeds. */
+static const double LEAST_SPEED = 1e-9;
+
+static double speed_of(const turning_ability *t, double ahead)
+{
+    return fmax(fmax(ahead, SLOWEST * t->speed), LEAST_SPEED);
+}
 
 double autopilot_lag(const turning_ability *t, double length, double ahead, double steering_most, double steering_rate)
 {

@@ -3,7 +3,9 @@
 
 #include "base/transcendental.h"
 #include "sim/propulsion_forces.h"
+#include "vessel/autopilot.h"
 
+#include <fenv.h>
 #include <stdio.h>
 
 /* A ship with what it follows. */
@@ -295,6 +297,24 @@ START_TEST(starts_at_a_way_point)
 }
 END_TEST
 
+/* Told to stand still before a point that lies aside: lags and rates of turn are over no speed of 0. */
+START_TEST(stands_still_before_its_way_points)
+{
+    scene k;
+    scene_open(&k, SHIP_WITH(", speed: 0, waypoints: [{x: 228, y: -152}]"));
+    const propulsion_settings *s = &k.w.propulsion.settings[0];
+    feclearexcept(FE_ALL_EXCEPT);
+    double lag = autopilot_lag(&s->turning, 60, 0, s->steering_most, s->steering_rate);
+    const autopilot_view v = {.lag = lag, .lookahead = 120, .course_speed = 0.3};
+    double rate = autopilot_rate_to(&v, &s->turning, -0.5);
+    ck_assert(fetestexcept(FE_DIVBYZERO | FE_INVALID) == 0);
+    ck_assert(rate <= 0 && rate > -1e-9);
+    scene_steps(&k, 20);
+    ck_assert(vec3_length(k.w.bodies.velocity[k.w.vessels.body[0]]) < 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
 #define ONE_OF_TWO(name, place, points)                                                                \
     "  - {name: " name ", mode: free, y: " place ", hull: {form: icebreaker, length: 60, beam: 14},\n" \
     "     propulsion: {bollard_pull: 8.0e5, speed: 4, waypoints: [" points "]}}\n"
@@ -551,6 +571,6 @@ TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
           keeps_the_speed_that_is_wanted, water_helps_to_stop, more_helm_turns_no_ship_wider, follows_way_points,
-          starts_at_a_way_point, past_all_its_legs_it_keeps_its_heading, goes_round_its_circle,
-          speed_falls_with_thickness, backs_and_rams, ice_that_presses_against_its_way_holds_a_ship,
-          a_wall_makes_no_ship_beset, refusals_name_their_key)
+          starts_at_a_way_point, stands_still_before_its_way_points, past_all_its_legs_it_keeps_its_heading,
+          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
+          ice_that_presses_against_its_way_holds_a_ship, a_wall_makes_no_ship_beset, refusals_name_their_key)
