@@ -79,10 +79,11 @@ fram_status fram_field_draw_cover(const fram_field *f, double cell, const char *
     if (!(isfinite(longest) && longest > 0))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "field", "expected a field with floes, found none to map");
     cell = cell == 0 ? longest / COVER_CELLS : cell;
+    const range_text range = range_text_of(longest / MOST_COVER_CELLS, longest, 4);
     if (!(cell >= longest / MOST_COVER_CELLS && cell <= longest))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "cell",
-                         "expected cells of %.4g to %.4g m (a thousandth of the field to all of it), found %g m",
-                         longest / MOST_COVER_CELLS, longest, cell);
+                         "expected cells of %s to %s m (a thousandth of the field to all of it), found %g m",
+                         range.least.text, range.most.text, cell);
     int32_t nx = cells_along(wide, cell), ny = cells_along(high, cell);
     size_t cells = (size_t)nx * (size_t)ny;
     double *cover = memory_array(ctx, cells, sizeof *cover);

@@ -200,6 +200,58 @@ coordinate_text coordinate_text_of(double metres)
     return out;
 }
 
+/* ---- bounds ---- */
+
+enum { ALL_DIGITS = 17 };
+
+/* integer * 10^power, the nearest double. */
+static double decimal(int64_t integer, int power)
+{
+    char text[2 * NUMBER_TEXT_SIZE];
+    snprintf(text, sizeof text, "%llde%d", (long long)integer, power);
+    return strtod(text, NULL);
+}
+
+/* The first digits of a number > 0, one more in the last of them where it is to be no less. */
+static double cut_to_digits(double size, int digits, bool more)
+{
+    char all[2 * NUMBER_TEXT_SIZE];
+    snprintf(all, sizeof all, "%.*e", ALL_DIGITS - 1, size);
+    int64_t integer = all[0] - '0';
+    for (int i = 1; i < digits; i++)
+        integer = integer * 10 + (all[i + 1] - '0');
+    int power = (int)strtol(strchr(all, 'e') + 1, NULL, 10) - (digits - 1);
+    return decimal(integer + more, power);
+}
+
+static bound_text bound_of(double value, int digits, bool least)
+{
+    bound_text out;
+    real_to_digits(value, digits, out.text);
+    double told = strtod(out.text, NULL);
+    if (!isfinite(value) || (least ? told >= value : told <= value))
+        return out;
+    double size = cut_to_digits(fabs(value), digits, least == (value > 0));
+    real_to_digits(value > 0 ? size : -size, digits, out.text);
+    return out;
+}
+
+bound_text least_text_of(double least, int digits) { return bound_of(least, digits, true); }
+
+bound_text most_text_of(double most, int digits) { return bound_of(most, digits, false); }
+
+range_text range_text_of(double least, double most, int digits)
+{
+    range_text out = {least_text_of(least, digits), most_text_of(most, digits)};
+    while (digits < ALL_DIGITS && strtod(out.least.text, NULL) > strtod(out.most.text, NULL)) {
+        digits++;
+        out = (range_text){least_text_of(least, digits), most_text_of(most, digits)};
+    }
+    return out;
+}
+
+/* ---- reading ---- */
+
 double real_read(const char *text, char **end)
 {
     const char *at = text + (*text == '-'), *first = at;

@@ -31,6 +31,19 @@ typedef struct coordinate_text {
 } coordinate_text;
 coordinate_text coordinate_text_of(double metres);
 
+/* The end of a range that is worked out, for who is to give a number within it: with so many digits, up to 17, and
+   rounded into the range, so that what is told is itself taken. */
+typedef struct bound_text {
+    char text[NUMBER_TEXT_SIZE];
+} bound_text;
+bound_text least_text_of(double least, int digits);
+bound_text most_text_of(double most, int digits);
+/* Both ends; with more digits where so many leave nothing between them. */
+typedef struct range_text {
+    bound_text least, most;
+} range_text;
+range_text range_text_of(double least, double most, int digits);
+
 typedef enum number_fault {
     NUMBER_GOOD = 0,
     NUMBER_NOT_A_NUMBER, /* not of the form [+-]digits[.digits][e[+-]digits]; also nan, inf, hexadecimal */

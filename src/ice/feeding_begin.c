@@ -1,4 +1,5 @@
 /* The pattern of an endless field, and what the window shows of it at the start; see feeding.h. */
+#include "base/number_text.h"
 #include "ice/feeding_parts.h"
 
 #include "ice/field_cells.h"
@@ -77,22 +78,23 @@ fram_status feeding_check(const feeding_definition *d, double radius, double *ba
     vec2 size = vec2_sub(d->window.hi, d->window.lo), spare = vec2_sub(d->tile, size);
     double room = 2 * TILE_ROOM * (radius + feeding_clearance(band));
     if (!(spare.x >= room && spare.y >= room))
-        return error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, "tile",
-            "expected a tile that is %.4g m larger than the window both ways, for floes of %.4g m, so that "
-            "none is in the window twice; it is larger by %.4g m and %.4g m",
-            room, 2 * radius, spare.x, spare.y);
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "tile",
+                         "expected a tile that is %s m larger than the window both ways, for floes of %.4g m, so that "
+                         "none is in the window twice; it is larger by %.4g m and %.4g m",
+                         least_text_of(room, 4).text, 2 * radius, spare.x, spare.y);
     double half = 0.5 * fmin(size.x, size.y);
     if (!(radius < half))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "window",
-                         "expected more than %.4g m both ways, as the largest floe measures, found %.4g m: make it "
+                         "expected more than %s m both ways, as the largest floe measures, found %.4g m: make it "
                          "larger or the floes smaller",
-                         2 * radius, 2 * half);
+                         least_text_of(2 * radius, 4).text, 2 * half);
+    const range_text bounds = range_text_of(radius, half, 4);
     if (!(band >= radius && band < half))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "band",
-                         "expected a band from %.4g m, the radius of the largest floe, to %.4g m, half of the window; "
+                         "expected a band from %s m, the radius of the largest floe, to less than %s m, half of the "
+                         "window; "
                          "it is %.4g m: give such a band, make the domain larger or the floes smaller",
-                         radius, half, band);
+                         bounds.least.text, bounds.most.text, band);
     return FRAM_OK;
 }
 

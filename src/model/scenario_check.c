@@ -102,8 +102,8 @@ static fram_status check_feeding(const scenario *s, fram_error *error)
                          "expected auto, since domain.drift_file tells it, found %g m/s", d->drift_speed);
         double narrow = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
         if (s->ice.source != ICE_LEVEL && 2 * automatic_or(d->band, 0) >= narrow)
-            return fault(s, error, "domain.band", "expected less than half of the domain, %g m, found %g m",
-                         0.5 * narrow, d->band);
+            return fault(s, error, "domain.band", "expected less than half of the domain, %s m, found %g m",
+                         most_text_of(0.5 * narrow, 6).text, d->band);
         return FRAM_OK;
     }
     if (d->drift_file[0])

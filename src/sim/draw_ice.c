@@ -1,5 +1,6 @@
 #include "sim/draw_ice.h"
 
+#include "base/number_text.h"
 #include "ice/field_cells.h"
 #include "io/outline_file.h"
 #include "sim/build_ice.h"
@@ -75,6 +76,7 @@ static void tell_thickness(context *ctx, const scenario *s, const import_field *
 {
     double factor = sanity_at_scale(s, 1);
     double least = USUAL_THICKNESS_LEAST * fmin(1, factor), most = USUAL_THICKNESS_MOST * fmax(1, factor);
+    const range_text range = range_text_of(least, most, 3);
     int32_t beyond = 0, first = -1;
     for (int32_t i = 0; i < field->thickness.count; i++) {
         double h = field->thickness.data[i];
@@ -83,11 +85,10 @@ static void tell_thickness(context *ctx, const scenario *s, const import_field *
         first = beyond++ == 0 ? i : first;
     }
     if (beyond > 0)
-        log_write(
-            ctx, LOG_WARNING,
-            "%.200s: the property thickness of %d floes, the first %.6g m, is outside of %.3g to %.3g, what floes "
-            "measure: give metres",
-            s->ice.file, (int)beyond, field->thickness.data[first], least, most);
+        log_write(ctx, LOG_WARNING,
+                  "%.200s: the property thickness of %d floes, the first %.6g m, is outside of %s to %s, what floes "
+                  "measure: give metres",
+                  s->ice.file, (int)beyond, field->thickness.data[first], range.least.text, range.most.text);
 }
 
 /* What became of the file: counts of what was left out and mended, overlaps, concentration. */

@@ -186,9 +186,9 @@ static void note_breaking_steps(const note_taker *n, const scenario *s)
         if (depth > BREAKING_STEP * needed)
             note_warning(n,
                          "%s and the ice move %.3g m past each other in a step at %.4g m/s, and ice%s as wide as it "
-                         "is thick breaks after about %.3g m of crushing; take run.time_step under %.3g s",
+                         "is thick breaks after about %.3g m of crushing; take run.time_step under %s s",
                          vessel_title_of(&entry).text, depth, speed, kind_text_of(n, " ", kind, ",").text, needed,
-                         BREAKING_STEP * needed / speed);
+                         most_text_of(BREAKING_STEP * needed / speed, 3).text);
     }
 }
 
@@ -242,9 +242,9 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * thickness)
         note_warning(n,
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s%s; crushing "
-                     "patches grow in jumps. Take run.time_step under %.3g s",
+                     "patches grow in jumps. Take run.time_step under %s s",
                      title.text, way / thickness, speed, kind_text_of(n, ", where it is ", &n->ice.thinnest, "").text,
-                     THICKNESS_STEP * thickness / speed);
+                     most_text_of(THICKNESS_STEP * thickness / speed, 3).text);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;

@@ -1,5 +1,6 @@
 #include "sim/rest_tell.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "vessel/mooring.h"
 
@@ -95,9 +96,9 @@ static void warn_of_height(const rest_view *v, const char *which, double gm, dou
     log_write(v->ctx, LOG_WARNING,
               "%s.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with %.4g N, "
               "which takes its %s metacentric height from %.4g m to %.4g m; lower %s.mooring.z, %.4g m, by more than "
-              "%.3g m, or let the lines pull less",
+              "%s m, or let the lines pull less",
               v->entry->path, v->lines.force, which, gm, moored, v->entry->path, v->lines.moment.z / v->lines.force,
-              over);
+              least_text_of(over, 3).text);
 }
 
 /* false: the vessel capsizes, and has no list or trim. */
@@ -109,9 +110,10 @@ static bool tell_stability(const rest_view *v, unrest *heel, unrest *trim)
     double gm = f->waterplane_xx / f->volume + lift, gm_long = f->waterplane_yy / f->volume + lift;
     if (!(gm > 0) || !(gm_long > 0)) {
         log_write(v->ctx, LOG_WARNING,
-                  "the vessel capsizes: its %s metacentric height is %.4g m where it floats; lower "
+                  "the vessel capsizes: its %s metacentric height is %s m where it floats; lower "
                   "%s.centre_of_gravity_z, %.4g m, by more than that",
-                  gm > 0 ? "longitudinal" : "transverse", gm > 0 ? gm_long : gm, v->entry->path, centre.z);
+                  gm > 0 ? "longitudinal" : "transverse", most_text_of(gm > 0 ? gm_long : gm, 4).text, v->entry->path,
+                  centre.z);
         return false;
     }
     double across = moored_height(v, gm), along = moored_height(v, gm_long);

@@ -27,6 +27,9 @@ typedef struct usual {
     const char *why, *remedy;
 } usual;
 
+/* By which part a bound is known that goes with the scale: one that would be 0.005 is 0.005000000000000001. */
+#define SCALE_ROUNDED 1e-9
+
 /* The most that lines are set to, at full size [N]: a spring without a breaking load that pulls more is told. */
 #define MOST_PULL 3e7
 
@@ -182,11 +185,13 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
         double factor = sanity_at_scale(t->s, u->power);
-        double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
+        double least = u->least * fmin(1, factor) - SCALE_ROUNDED * fabs(u->least),
+               most = u->most * fmax(1, factor) * (1 + SCALE_ROUNDED);
         if (strcmp(u->key, pattern) != 0 || (judged >= least && judged <= most) || (u->least > 0 && value == 0))
             continue;
-        sanity_say(t->tell, t->to, "%s: %.6g%s%s%s is outside of %.3g to %.3g, %s: %s", path, value,
-                   has_unit ? " " : "", has_unit ? key->unit : "", on, least, most, u->why, u->remedy);
+        const range_text usual_range = range_text_of(least, most, 3);
+        sanity_say(t->tell, t->to, "%s: %.6g%s%s%s is outside of %s to %s, %s: %s", path, value, has_unit ? " " : "",
+                   has_unit ? key->unit : "", on, usual_range.least.text, usual_range.most.text, u->why, u->remedy);
     }
     return FRAM_OK;
 }
@@ -310,17 +315,6 @@ static vec2 edges_from(const scenario_domain *d, vec2 at)
     return vec2_make(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
 }
 
-/* A number above 0, rounded up to the three digits that are told: who does as told has enough. */
-static double told_upward(double value)
-{
-    double unit = 1;
-    while (value >= 1000 * unit)
-        unit *= 10;
-    while (value < 100 * unit)
-        unit /= 10;
-    return ceil(value / unit * (1 - 1e-12)) * unit;
-}
-
 /* Of a reach [m]: what is missing to it by rounding. */
 #define ROOM_ROUNDED 1e-9
 
@@ -335,10 +329,11 @@ static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
     double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
     if (d->boundary == DOMAIN_FEEDING && most - room > ROOM_ROUNDED * most)
         sanity_say(t->tell, t->to,
-                   "domain: its edge%s is %.4g m from %s, which reaches %.4g m%s; enlarge the domain by %.3g m or more "
+                   "domain: its edge%s is %.4g m from %s, which reaches %.4g m%s; enlarge the domain by %s m or more "
                    "on that side",
                    band > 0 ? " with the band" : "", room, e->path, most,
-                   e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it", told_upward(most - room));
+                   e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it",
+                   least_text_of((most - room) * (1 - ROOM_ROUNDED), 3).text);
 }
 
 static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)

@@ -1,3 +1,4 @@
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
@@ -247,8 +248,8 @@ static void tell_slow(const teller *t)
     if (lacks < least && wanted > 0 && is_automatic(p->pattern.period) && t->s->ice.source != ICE_NONE)
         sanity_say(t->tell, t->to,
                    "%s.propulsion.speed: at %.3g m/s the ship, stopped by ice, pushes with %.2g %% of its pull: it "
-                   "never counts as beset and waits; take %.3g m/s or more",
-                   t->e->path, wanted, 100 * propulsion_push(most, lacks), least);
+                   "never counts as beset and waits; take %s m/s or more",
+                   t->e->path, wanted, 100 * propulsion_push(most, lacks), least_text_of(least, 3).text);
 }
 
 static void tell_propulsion(const teller *t)

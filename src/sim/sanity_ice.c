@@ -1,3 +1,4 @@
+#include "base/number_text.h"
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/material.h"
@@ -110,8 +111,8 @@ static void tell_thresholds(const teller *t)
     if (i->breakable && i->smallest_floe_area < speck)
         sanity_say(t->tell, t->to,
                    "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "
-                   "it breaks: take %.2g m2 or more",
-                   i->smallest_floe_area, thickness, speck);
+                   "it breaks: take %s m2 or more",
+                   i->smallest_floe_area, thickness, least_text_of(speck, 2).text);
     if (i->edge_threshold > LONG_EDGE * thickness)
         sanity_say(t->tell, t->to,
                    "ice.edge_threshold: edges under %.4g m are removed from floes of %.3g m thickness, and their shape "

@@ -1,5 +1,6 @@
 #include "sim/scene_size.h"
 
+#include "base/number_text.h"
 #include "sim/build.h"
 #include "sim/build_feeding.h"
 #include "sim/build_level.h"
@@ -164,8 +165,8 @@ static fram_status check_tiles(const scenario *s, fram_error *error)
         return FRAM_OK;
     if (is_automatic(s->ice.level.tile_size))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.smallest_floe_area",
-                         "expected no more than a tile of the sheet, %.4g m2, or nothing is left of it, found %g m2",
-                         area, least);
+                         "expected no more than a tile of the sheet, %s m2, or nothing is left of it, found %g m2",
+                         most_text_of(area, 4).text, least);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.tile_size",
                      "expected tiles no smaller than ice.smallest_floe_area, %g m2, or nothing is left of the sheet, "
                      "found %g m, %.4g m2",

@@ -38,28 +38,28 @@ static void tell_arcs(const pattern_view *v, double checked)
     const pattern_shape *p = &v->shape;
     const char *what = p->kind == PATTERN_SECTOR ? "distance" : "width";
     double radius = least_radius(p), factor = p->kind == PATTERN_SECTOR ? 1 : 2;
+    const bound_text wide = least_text_of(factor * t->corner, 4);
     if (radius < t->radius)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m, and %s turns on %.4g m at full helm in "
-            "open water at %.3g m/s: it cannot keep this pattern; take %.4g m or more, or a lower speed",
+            "open water at %.3g m/s: it cannot keep this pattern; take %s m or more, or a lower speed",
             v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius, t->speed,
-            factor * t->corner);
+            wide.text);
     else if (radius < fmin(t->corner, checked))
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; under %.4g m the hull of %s turns on by "
-            "itself, which takes most of its helm and leaves none for ice: take %.4g m or more, or a larger "
+            "itself, which takes most of its helm and leaves none for ice: take %s m or more, or a larger "
             "rudder_area",
-            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, factor * t->corner);
+            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, wide.text);
     else if (radius < t->corner)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s turns on %.4g m at full helm in open "
-            "water, which leaves little helm, or time to put it over, to correct, and none for ice: take %.4g m or "
+            "water, which leaves little helm, or time to put it over, to correct, and none for ice: take %s m or "
             "more",
-            v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius,
-            factor * t->corner);
+            v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius, wide.text);
     if (p->kind == PATTERN_SQUARE && p->width < 2 * t->corner)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.width: corners of %.4g m radius leave nothing straight of a side of %.4g m: "
@@ -200,21 +200,22 @@ static void tell_period(const pattern_view *v)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s makes %.4g m/s in "
-            "open water at that power: take %.4g s or more",
+            "open water at that power: take %s s or more",
             v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
-            set->open_water_speed, length / set->open_water_speed);
+            set->open_water_speed, least_text_of(length / set->open_water_speed, 4).text);
     else if (vessel_lacks_in_ice(v->s, set->speed) < least && v->s->ice.source != ICE_NONE)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, at which %s, stopped "
-                  "by ice, pushes with %.2g %% of its pull: it never counts as beset and waits; take less than %.4g s",
+                  "by ice, pushes with %.2g %% of its pull: it never counts as beset and waits; take less than %s s",
                   v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
-                  100 * propulsion_push(set->open_water_speed, vessel_lacks_in_ice(v->s, set->speed)), length / least);
+                  100 * propulsion_push(set->open_water_speed, vessel_lacks_in_ice(v->s, set->speed)),
+                  most_text_of(length / least, 4).text);
     else if (set->speed <= set->beset_speed)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s counts as beset "
-                  "under %.3g m/s (propulsion.beset_speed): take less than %.4g s",
+                  "under %.3g m/s (propulsion.beset_speed): take less than %s s",
                   v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
-                  set->beset_speed, length / set->beset_speed);
+                  set->beset_speed, most_text_of(length / set->beset_speed, 4).text);
 }
 
 /* Without the rounding about an axis. */

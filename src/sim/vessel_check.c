@@ -25,6 +25,8 @@
    axis alone. */
 #define LEAST_GYRATION 0.02
 #define MOST_GYRATION 1.5
+/* By which part a place is known that was moved to the centre of gravity and back. */
+#define PLACE_ROUNDED 1e-14
 
 static fram_status entry_fault(const scenario *s, const vessel_entry *e, const char *member, const char *expected,
                                double found, const char *unit, fram_error *error)
@@ -45,7 +47,8 @@ static fram_status check_mass(const scenario *s, const vessel_entry *e, const ve
     double mass = mass_of(e, hull), least = LEAST_MASS * hull->displaced_mass;
     if (e->keys->mode == VESSEL_PRESCRIBED || !s->environment.water || (mass >= least && mass <= most))
         return FRAM_OK;
-    snprintf(expected, sizeof expected, "expected %.4g to %.4g kg, %s", least, most,
+    const range_text range = range_text_of(least, most, 4);
+    snprintf(expected, sizeof expected, "expected %s to %s kg, %s", range.least.text, range.most.text,
              mass > most ? "all that the hull can displace: it sinks"
                          : "a twentieth of what it displaces at its draught: it would be thrown out of the water");
     return entry_fault(s, e, "mass", expected, mass, "kg", error);
@@ -63,9 +66,11 @@ static fram_status check_centre(const scenario *s, const vessel_entry *e, const 
         if (lo[k] <= 0 && hi[k] >= 0)
             continue;
         char expected[160];
-        snprintf(expected, sizeof expected, "expected a place %s, from %.4g to %.4g m",
-                 k < 2 ? "inside the hull" : "between the bottom and the hull's depth above its top", centre[k] + lo[k],
-                 centre[k] + hi[k]);
+        double rounded = PLACE_ROUNDED * (fabs(centre[k]) + hi[k] - lo[k]);
+        const range_text range = range_text_of(centre[k] + lo[k] - rounded, centre[k] + hi[k] + rounded, 4);
+        snprintf(expected, sizeof expected, "expected a place %s, from %s to %s m",
+                 k < 2 ? "inside the hull" : "between the bottom and the hull's depth above its top", range.least.text,
+                 range.most.text);
         return entry_fault(s, e, keys[k], expected, centre[k], "m", error);
     }
     return FRAM_OK;
@@ -101,13 +106,14 @@ static fram_status check_gyration(const scenario *s, const vessel_entry *e, cons
         double others = k[(i + 1) % 3] * k[(i + 1) % 3] + k[(i + 2) % 3] * k[(i + 2) % 3];
         if (is_automatic(given[i]))
             continue;
-        snprintf(expected, sizeof expected, "expected %.4g to %.4g m, for the hull reaches %.4g m from the axis",
-                 LEAST_GYRATION * far[i], MOST_GYRATION * far[i], far[i]);
+        const range_text range = range_text_of(LEAST_GYRATION * far[i], MOST_GYRATION * far[i], 4);
+        snprintf(expected, sizeof expected, "expected %s to %s m, for the hull reaches %.4g m from the axis",
+                 range.least.text, range.most.text, far[i]);
         if (!(k[i] >= LEAST_GYRATION * far[i] && k[i] <= MOST_GYRATION * far[i]))
             return entry_fault(s, e, keys[i], expected, k[i], "m", error);
         snprintf(expected, sizeof expected,
-                 "expected %.6g m at most, the root of the sum of the squares of the other two, as of every body",
-                 sqrt(others));
+                 "expected %s m at most, the root of the sum of the squares of the other two, as of every body",
+                 most_text_of(sqrt(others), 6).text);
         if (k[i] * k[i] > others * (1 + 1e-9))
             return entry_fault(s, e, keys[i], expected, k[i], "m", error);
     }
@@ -275,17 +281,17 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
     if (e->keys->hull.form != HULL_MESH)
         return;
     double least = SHORTEST * fmin(1, scenario_size(s)), most = VESSEL_LONGEST * fmax(1, scenario_size(s));
+    const range_text range = range_text_of(least, most, 3);
     if (p->length > most)
         log_write(ctx, LOG_WARNING,
-                  "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: a file in millimetres wants "
+                  "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: a file in millimetres wants "
                   "hull.file_scale 0.001, one in feet 0.3048",
-                  e->path, p->length, least, most);
+                  e->path, p->length, range.least.text, range.most.text);
     if (p->length < least)
-        log_write(
-            ctx, LOG_WARNING,
-            "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: hull.file_scale, now %g, is too "
-            "small, or give run.scale of a model",
-            e->path, p->length, least, most, e->keys->hull.file_scale);
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: hull.file_scale, now %g, is too "
+                  "small, or give run.scale of a model",
+                  e->path, p->length, range.least.text, range.most.text, e->keys->hull.file_scale);
     if (p->beam > p->length)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,

@@ -1,5 +1,6 @@
 #include "vessel/hull_ship.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 
 #include <math.h>
@@ -248,16 +249,16 @@ static fram_status check_corners(const hull_particulars *p, fram_error *error)
     double most = fmin(0.45 * p->beam, 0.95 * p->draught), bilge = 2 * p->bilge_radius / p->beam;
     if (!(p->bilge_radius >= 0 && p->bilge_radius <= most))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "bilge_radius",
-                         "must be 0 to %.4g m (0.45 of the beam and 0.95 of the draught at most), found %g", most,
-                         p->bilge_radius);
+                         "must be 0 to %s m (0.45 of the beam and 0.95 of the draught at most), found %g",
+                         most_text_of(most, 4).text, p->bilge_radius);
     if (!(p->transom >= 0 && p->transom <= 0.95))
         return error_value(error, "transom", "a share of the beam from 0 to 0.95", p->transom);
     if (p->transom == 0 || p->transom >= BEYOND_BILGE * bilge)
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "transom",
                      "a transom of %g of the beam is narrower than the bilges under it; take 0 (a pointed stern), "
-                     "%.3g or more, or reduce bilge_radius (%g m)",
-                     p->transom, BEYOND_BILGE * bilge, p->bilge_radius);
+                     "%s or more, or reduce bilge_radius (%g m)",
+                     p->transom, least_text_of(BEYOND_BILGE * bilge, 3).text, p->bilge_radius);
 }
 
 static fram_status check_room(const hull_particulars *p, fram_error *error)
@@ -277,10 +278,11 @@ static fram_status check_room(const hull_particulars *p, fram_error *error)
                          angle ? " or entrance_angle" : "");
     if (isnan(parallel) || (1 - parallel >= shortest && 1 - parallel <= longest))
         return FRAM_OK;
+    const range_text range = range_text_of(1 - longest, 1 - shortest, 3);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
-                     "with the other particulars it can be %.3g to %.3g of the length, found %g; entrance and run "
+                     "with the other particulars it can be %s to %s of the length, found %g; entrance and run "
                      "need their room, and the rakes of stem and stern shorten the keel",
-                     1 - longest, 1 - shortest, parallel);
+                     range.least.text, range.most.text, parallel);
 }
 
 fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
@@ -296,11 +298,12 @@ fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
     hull_ship_block_range(p, &least, &most);
     if (asked >= least && asked <= most)
         return FRAM_OK;
+    const range_text range = range_text_of(least, most, 4);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
-                     "with the other particulars the block coefficient can be %.4f to %.4f, found %g; a larger one "
+                     "with the other particulars the block coefficient can be %s to %s, found %g; a larger one "
                      "takes steeper stem_angle or stern_angle, a wider transom, a smaller bilge_radius or a larger "
                      "entrance_angle, a smaller one the opposite; parallel_midbody is best left out",
-                     least, most, asked);
+                     range.least.text, range.most.text, asked);
 }
 
 /* ---- surface ---- */

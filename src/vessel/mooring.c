@@ -1,5 +1,6 @@
 #include "vessel/mooring.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 
 #include <stdio.h>
@@ -84,8 +85,8 @@ static fram_status find_length(const line_definition *d, double height, double *
             "its length instead of the pretension",
             d->weight, d->pretension, d->distance);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "pretension",
-                     "pretension must be more than the weight of the line over the depth, %g N, found %g N",
-                     d->weight * height, d->pretension);
+                     "pretension must be more than the weight of the line over the depth, %s N, found %g N",
+                     least_text_of(d->weight * height, 6).text, d->pretension);
 }
 
 fram_status mooring_add_line(context *ctx, const line_definition *d, const vessel_table *vessels,

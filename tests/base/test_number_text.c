@@ -38,6 +38,45 @@ START_TEST(times_have_units)
 }
 END_TEST
 
+/* What is told of a bound is no number outside of it, and the nearest of so many digits that is not. */
+START_TEST(bounds_are_rounded_into_their_range)
+{
+    static const struct {
+        double value;
+        int digits;
+        const char *least, *most;
+    } cases[] = {{13.5731, 4, "13.58", "13.57"},
+                 {-13.5731, 4, "-13.57", "-13.58"},
+                 {5.47723, 3, "5.48", "5.47"},
+                 {1.0 / 1200, 3, "0.000834", "0.000833"},
+                 {0.9996, 3, "1", "0.999"},
+                 {40, 4, "40", "40"},
+                 {0.1, 3, "0.1", "0.1"},
+                 {0, 3, "0", "0"},
+                 {123456, 3, "1.24e+05", "1.23e+05"},
+                 {(double)INFINITY, 3, "inf", "inf"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ck_assert_str_eq(least_text_of(cases[i].value, cases[i].digits).text, cases[i].least);
+        ck_assert_str_eq(most_text_of(cases[i].value, cases[i].digits).text, cases[i].most);
+    }
+    random_stream r = random_begin(9, 0, 0);
+    for (int i = 0; i < 5000; i++) {
+        double value = random_uniform(&r, -1, 1) * pow(10, random_uniform(&r, -20, 20));
+        int digits = (int)random_uniform(&r, 1, 17);
+        double least = strtod(least_text_of(value, digits).text, NULL);
+        double most = strtod(most_text_of(value, digits).text, NULL);
+        ck_assert_msg(least >= value && most <= value &&
+                          least - most <= 1.000001 * fabs(value) * pow(10, 1 - digits) + 4e-16 * fabs(value),
+                      "%.17g with %d digits: %.17g and %.17g", value, digits, least, most);
+    }
+    range_text wide = range_text_of(0.61234, 0.7, 4), narrow = range_text_of(0.612341, 0.612349, 4);
+    ck_assert_str_eq(wide.least.text, "0.6124");
+    ck_assert_str_eq(wide.most.text, "0.7");
+    ck_assert_str_eq(narrow.least.text, "0.612341");
+    ck_assert_str_eq(narrow.most.text, "0.612349");
+}
+END_TEST
+
 /* Frames 0.02 s apart are not both of 0.0 s. */
 START_TEST(clocks_tell_their_steps_apart)
 {
@@ -278,7 +317,7 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", times_have_units, clocks_tell_their_steps_apart, units_go_with_the_size,
-          reals_print_as_the_shortest_text, digits_are_as_many_as_asked, coordinates_show_their_decimetre,
-          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
-          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", times_have_units, bounds_are_rounded_into_their_range, clocks_tell_their_steps_apart,
+          units_go_with_the_size, reals_print_as_the_shortest_text, digits_are_as_many_as_asked,
+          coordinates_show_their_decimetre, digits_are_those_of_printf, numbers_are_read_as_by_strtod,
+          reals_of_any_bits_come_back, reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

@@ -50,12 +50,16 @@ refused vessel.centre_of_gravity_y "from -5 to 5 m, found -6 m" --set vessel.cen
 refused vessel.centre_of_gravity_z "found 8.1 m" --set vessel.centre_of_gravity_z=8.1
 refused vessel.centre_of_gravity_z "found -4.1 m" --set vessel.centre_of_gravity_z=-4.1
 
-# Gyration: the hull reaches sqrt(5^2 + 4^2) = 6.403 m from the roll axis; 1.5 of that is 9.605 m, 0.02 of it 0.1281 m.
-refused vessel.gyration_roll "0.1281 to 9.605 m" --set vessel.gyration_roll=9.7
+# Gyration: the hull reaches sqrt(5^2 + 4^2) = 6.403 m from the roll axis; 1.5 of that is 9.6047 m, 0.02 of it 0.1281 m.
+refused vessel.gyration_roll "0.1281 to 9.604 m" --set vessel.gyration_roll=9.7
 refused vessel.gyration_roll "6.403 m from the axis, found 0.12 m" --set vessel.gyration_roll=0.12
 # k_z^2 <= k_x^2 + k_y^2 of every body: 3.5 m and 10 m by default, 10.595 m.
 refused vessel.gyration_yaw "expected 10.5948 m at most" --set vessel.gyration_yaw=10.6
-silent --set vessel.gyration_yaw=10.59
+# With a beam of 12 m 10.846197 m: what is told is taken.
+told=$(sed -n 's/.*expected \(.*\) m at most.*/\1/p' <("$FRAM" check box.yaml --set vessel.hull.beam=12 \
+    --set vessel.gyration_yaw=11 2>&1))
+same "$told" 10.8461 "largest radius of gyration"
+silent --set vessel.hull.beam=12 --set vessel.gyration_yaw="$told"
 
 # GM = KB + BM - KG: the centre of mass at 0.0833 m over the water line is where it vanishes.
 told "transverse metacentric height is -0.01667 m" --set vessel.centre_of_gravity_z=0.1

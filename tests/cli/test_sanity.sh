@@ -30,6 +30,9 @@ says "$(printf '%.0f\n' $radii | sort -nru | xargs | sed 's/ /, /; s/ \([0-9]*\)
 
 # A number in another unit.
 refused domain.band "expected less than half of the domain, 160 m, found 200 m" --set domain.band=200
+bound_of() { sed -n "s/.*domain.band: expected a band from \([0-9.]*\) m.*, to less than 160 m.*/\1/p" err; }
+expect 2 "$FRAM" check ship.yaml --build --set domain.band=1
+expect 0 "$FRAM" check ship.yaml --build --set domain.band="$(bound_of)"
 refused vessel.mass "thrown out of the water" --set vessel.mass=5000
 refused vessel.mass "it sinks" --set vessel.mass=5e9
 refused ice.concentration "from 0.01 to 1" --set ice.concentration=70
@@ -161,7 +164,7 @@ expect 0 "$FRAM" check two.yaml "${light[@]}"
 grep 'capsizes' err && fail "a light barge is told to capsize at another draught"
 told two.yaml "vessels[1].centre_of_gravity_y: the vessel heels by about 5 degrees" "${light[@]}" \
     --set vessels.barge.centre_of_gravity_y=0.5
-told two.yaml "its transverse metacentric height is -0.5991 m where it floats" "${barge[@]}" \
+told two.yaml "its transverse metacentric height is -0.5992 m where it floats" "${barge[@]}" \
     --set vessels.barge.mass=4.6e6 --set vessels.barge.centre_of_gravity_z=4.5
 
 # Thrusters that hold the heading alone, and no mooring that holds the rest.
@@ -170,6 +173,10 @@ expect 0 "$FRAM" check adrift.yaml --set vessel.positioning.active=true --set ve
 says "positioning.control: heading alone leaves the position to a mooring" err
 
 # At another scale the bounds go along: a tank of 1:30 with ice of 23 mm, and the same numbers at full size.
+told ship.yaml "offset_limit: 0.0008 m|is outside of 0.000834 to 500" --set run.scale=0.5 \
+    --set vessel.station.offset_limit=0.0008
+expect 0 "$FRAM" check ship.yaml --set run.scale=0.5 --set vessel.station.offset_limit=0.000834
+grep offset_limit err && fail "the least limit that is told is told as too small"
 expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --set ice.flexural_strength=2e4 \
     --set ice.breakable=true
 grep '^warning: ice' err && fail "ice of a tank is told"

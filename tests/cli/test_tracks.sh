@@ -49,6 +49,9 @@ expect 0 "$FRAM" check scene.yaml --set domain.boundary=open --set domain.drift_
 says "vessel breaker: its pattern points as its bow does at the start, whatever the current" err
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.width=8
 holds "vessels\[1\].propulsion.pattern.width: 8 m asks for a radius of 4 m.*it cannot keep this pattern" err
+wide=$(sed -n 's/.*cannot keep this pattern; take \([0-9.]*\) m or more.*/\1/p' err)
+expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.width="$wide"
+grep 'pattern.width' err && fail "a width of $wide m is told as the least, and as too small"
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.distance=160
 holds "pattern: at 0 s it leads to .*outside of the domain" err
 expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.pattern.kind=square \
