@@ -20,7 +20,7 @@ void sanity_say(sanity_teller tell, const void *to, const char *format, ...)
 
 /* What a number of full size usually is.  At another scale one of its bounds goes with that power of scale / 30
    (Froude's and Cauchy's law), the default scale being that at which lengths are those of the sea; the other stays,
-   since a tank may also keep full-size strengths. */
+   since a tank may also keep full-size strengths. What may have either sign has the same bound on both sides. */
 typedef struct usual {
     const char *key; /* without indices */
     double least, most, power;
@@ -185,8 +185,9 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
         double factor = sanity_at_scale(t->s, u->power);
-        double least = u->least * fmin(1, factor) - SCALE_ROUNDED * fabs(u->least),
-               most = u->most * fmax(1, factor) * (1 + SCALE_ROUNDED);
+        bool mirrored = u->least == -u->most;
+        double most = u->most * fmax(1, factor) * (1 + SCALE_ROUNDED);
+        double least = mirrored ? -most : u->least * fmin(1, factor) - SCALE_ROUNDED * fabs(u->least);
         if (strcmp(u->key, pattern) != 0 || (judged >= least && judged <= most) || (u->least > 0 && value == 0))
             continue;
         const range_text usual_range = range_text_of(least, most, 3);
