@@ -113,6 +113,8 @@ bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE])
 /* In place of endings: a folder of files. */
 #define FOLDER_OUTPUT "/"
 
+/* Whether a name ends in one of the endings, "png svg". */
+bool has_ending(const char *path, const char *endings);
 /* A file that a command writes: the option that names it, and the endings of the names of its kind, "stl obj" (NULL:
    any).  NULL as path: none is asked for. */
 typedef struct output_file {

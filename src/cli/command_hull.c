@@ -1,5 +1,6 @@
 /* fram hull: a hull from a file or from main particulars; how it floats, its convex pieces, a drawing, a file. */
 #include "cli/cli.h"
+#include "cli/hull_warnings.h"
 
 #include "fram/hull.h"
 
@@ -398,37 +399,6 @@ static void warn_of_size(const common_options *common, const hull_words *w, cons
                 f->length_waterline);
 }
 
-/* As a scenario is told of such water [kg/m3]. */
-#define LIGHTEST_WATER 980.0
-#define HEAVIEST_WATER 1100.0
-/* Of all that the hull can displace: an empty one weighs more. */
-#define LIGHTEST_MASS 0.05
-
-static void warn_of_condition(const common_options *common, const fram_hull_condition *c, const fram_hull_floating *f)
-{
-    if (!isnan(c->mass) && f->volume < LIGHTEST_MASS * f->enclosed_volume && !common->quiet)
-        fprintf(stderr, "warning: --mass: %.6g kg is %.2g %% of what the hull can displace, %.6g kg: give kilograms\n",
-                c->mass, 100 * f->volume / f->enclosed_volume, c->water_density * f->enclosed_volume);
-    if ((c->water_density < LIGHTEST_WATER || c->water_density > HEAVIEST_WATER) && !common->quiet)
-        fprintf(stderr,
-                "warning: --water-density: %.4g kg/m3 is outside of %.4g to %.4g, fresh water to brine: give kg/m3\n",
-                c->water_density, LIGHTEST_WATER, HEAVIEST_WATER);
-}
-
-/* A scenario refuses such a centre of gravity. */
-static void warn_of_centre(const common_options *common, const fram_hull_surface *s, const fram_hull_floating *f)
-{
-    static const char *const names[3] = {"--lcg", "--tcg", "--kg"};
-    for (int i = 0; i < 3; i++) {
-        double top = i == 2 ? 2 * s->hi[i] - s->lo[i] : s->hi[i];
-        if ((f->centre[i] < s->lo[i] || f->centre[i] > top) && !common->quiet)
-            fprintf(stderr,
-                    "warning: %s: the centre of gravity is at %c = %.6g m, outside of the hull, %.6g to %.6g m%s\n",
-                    names[i], "xyz"[i], f -> centre[i], s -> lo[i], top,
-                    i == 2 ? ", its depth above its top included" : "");
-    }
-}
-
 /* Words that do not go together: an exit code, -1 to go on. */
 static int check_hull_words(const common_options *common, const hull_words *w)
 {
@@ -479,8 +449,8 @@ int command_hull(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         warn_of_size(&common, &w, &floating);
-        warn_of_condition(&common, &w.condition, &floating);
-        warn_of_centre(&common, &surface, &floating);
+        hull_warn_of_condition(&common, &w.condition, &surface, &floating);
+        hull_warn_of_level(&common, &w.condition, &surface, &floating, w.output);
         warn_of_half(&common, &surface);
         warn_of_well(&common, &surface);
         warn_of_freeboard(&common, &w, &surface);

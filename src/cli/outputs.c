@@ -39,8 +39,7 @@ static bool is_one_file(const char *a, const char *b)
     return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* Whether a name ends in one of the endings, "png svg". */
-static bool has_ending(const char *path, const char *endings)
+bool has_ending(const char *path, const char *endings)
 {
     const char *dot = strrchr(path, '.');
     size_t length = dot ? strlen(dot + 1) : 0;

@@ -224,9 +224,8 @@ fram_status hull_file_read(context *ctx, const char *path, const hull_file_optio
     return status == FRAM_OK ? hull_file_finish(ctx, path, &file, options, surface, report, error) : status;
 }
 
-static int32_t count_panels_above(const mesh *m)
+static int32_t count_panels_above(const mesh *m, double tolerance)
 {
-    double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(m);
     int32_t count = 0;
     for (int32_t f = 0; f < m->face.count; f++) {
         vec3 p[3];
@@ -241,14 +240,21 @@ fram_status hull_file_write(context *ctx, const char *path, const mesh *surface,
     fram_status status = mesh_file_write(ctx, path, surface, error);
     if (status != FRAM_OK || !mesh_file_ends_with(path, ".gdf"))
         return status;
-    int32_t lids = hull_count_lids(surface), above = count_panels_above(surface);
+    double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(surface);
+    int32_t lids = hull_count_lids(surface), above = count_panels_above(surface, tolerance);
     if (lids > 0)
         log_write(
             ctx, LOG_WARNING,
             "%.200s: %d triangles lie in z = 0, where panels are lids of the water plane, which are left out when "
             "the file is read: move the hull, or write .stl or .obj",
             path, (int)lids);
-    if (above > 0)
+    if (mesh_bounds(surface).lo.z >= -tolerance)
+        log_write(
+            ctx, LOG_WARNING,
+            "%.200s: no panel reaches under z = 0, which is the waterline for programs of panel methods: move the "
+            "hull down",
+            path);
+    else if (above > 0)
         log_write(ctx, LOG_WARNING,
                   "%.200s: %d panels reach above z = 0; programs of panel methods take those under water alone: cut "
                   "them off there",

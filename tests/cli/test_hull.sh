@@ -102,6 +102,15 @@ same "$(grep -c "above z = 0" err)" 0 "warnings of a hull under water"
 expect 0 "$FRAM" hull box.stl --draught 2 -o box.gdf
 says "warning: box.gdf: 10 panels reach above z = 0; programs of panel methods take those under water alone" err
 same "$(grep -c "triangles lie in" err)" 0 "lids of a box"
+says "warning: box.gdf: its z = 0 is not the waterline at that draught: move the hull up by 1 m first" err
+expect 0 "$FRAM" hull box.stl --mass 1230e3 -o box.gdf
+! grep -q "is not the waterline" err || fail "the box is warned of at its own waterline: $(cat err)"
+# Of a hull on its keel nothing is to be cut off there.
+sed 's/^\(v .*\) -3e3$/\1 0/; s/e3//g' long.obj >keel.obj
+expect 0 "$FRAM" hull keel.obj --draught 1.5 -o keel.gdf
+says "warning: keel.gdf: its z = 0 is not the waterline at that draught: move the hull down by 1.5 m first" err
+says "warning: keel.gdf: no panel reaches under z = 0" err
+! grep -q "cut them off" err || fail "the hull is to be cut off at its keel: $(cat err)"
 expect 0 "$FRAM" hull deck.obj --draught 2 -o deck.stl
 ! grep -q warning err || fail "deck.stl is warned of: $(cat err)"
 # Plating of a metre without a deck: the water in it is told of.

@@ -1,0 +1,54 @@
+#include "cli/hull_warnings.h"
+
+#include <math.h>
+
+/* As a scenario is told of such water [kg/m3]. */
+#define LIGHTEST_WATER 980.0
+#define HEAVIEST_WATER 1100.0
+/* Of all that the hull can displace: an empty one weighs more. */
+#define LIGHTEST_MASS 0.05
+
+static void warn_of_weight(const common_options *common, const fram_hull_condition *c, const fram_hull_floating *f)
+{
+    if (!isnan(c->mass) && f->volume < LIGHTEST_MASS * f->enclosed_volume && !common->quiet)
+        fprintf(stderr, "warning: --mass: %.6g kg is %.2g %% of what the hull can displace, %.6g kg: give kilograms\n",
+                c->mass, 100 * f->volume / f->enclosed_volume, c->water_density * f->enclosed_volume);
+    if ((c->water_density < LIGHTEST_WATER || c->water_density > HEAVIEST_WATER) && !common->quiet)
+        fprintf(stderr,
+                "warning: --water-density: %.4g kg/m3 is outside of %.4g to %.4g, fresh water to brine: give kg/m3\n",
+                c->water_density, LIGHTEST_WATER, HEAVIEST_WATER);
+}
+
+/* A scenario refuses such a centre of gravity. */
+static void warn_of_centre(const common_options *common, const fram_hull_surface *s, const fram_hull_floating *f)
+{
+    static const char *const names[3] = {"--lcg", "--tcg", "--kg"};
+    for (int i = 0; i < 3; i++) {
+        double top = i == 2 ? 2 * s->hi[i] - s->lo[i] : s->hi[i];
+        if ((f->centre[i] < s->lo[i] || f->centre[i] > top) && !common->quiet)
+            fprintf(stderr,
+                    "warning: %s: the centre of gravity is at %c = %.6g m, outside of the hull, %.6g to %.6g m%s\n",
+                    names[i], "xyz"[i], f -> centre[i], s -> lo[i], top,
+                    i == 2 ? ", its depth above its top included" : "");
+    }
+}
+
+void hull_warn_of_condition(const common_options *common, const fram_hull_condition *condition,
+                            const fram_hull_surface *surface, const fram_hull_floating *floating)
+{
+    warn_of_weight(common, condition, floating);
+    warn_of_centre(common, surface, floating);
+}
+
+/* Of the length: less is rounding, as where the file is read again. */
+#define LEVEL_TOLERANCE 1e-6
+
+void hull_warn_of_level(const common_options *common, const fram_hull_condition *condition,
+                        const fram_hull_surface *surface, const fram_hull_floating *floating, const char *output)
+{
+    double tolerance = LEVEL_TOLERANCE * (surface->hi[0] - surface->lo[0]);
+    if (output && has_ending(output, "gdf") && fabs(floating->level) > tolerance && !common->quiet)
+        fprintf(stderr, "warning: %s: its z = 0 is not the waterline at that %s: move the hull %s by %.6g m first\n",
+                output, isnan(condition->mass) ? "draught" : "mass", floating->level > 0 ? "down" : "up",
+                fabs(floating->level));
+}
