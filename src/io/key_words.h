@@ -23,8 +23,8 @@ bool key_nested(const scenario_section *section, const char *name, char out[KEY_
 
 /* The item of a list that is called so; -1 when none is. */
 int32_t item_find(const scenario_key *key, const void *member, const char *name);
-/* The name in a list that was meant by a word that none of its items is called; NULL: none is like it.  names: the
-   first few that there are, ", or the name, tug, tanker", "" where items have none. */
+/* The name in a list that was meant by a word that none of its items is called; NULL: none is like it, or several are
+   equally.  names: the first few that there are, ", or the name, tug, tanker", "" where items have none. */
 enum { ITEM_NAMES_MOST = 4, ITEM_NAMES_SIZE = 160 };
 const char *item_meant(const scenario_key *key, const void *member, const char *word, char names[ITEM_NAMES_SIZE]);
 

@@ -81,16 +81,17 @@ static int find_head(const csv_want *head, const char *line, const char *name, b
             found = at;
             memcpy(unit, own, sizeof own);
         }
-        search.found = NULL;
         name_try(&search, text);
-        if (search.found)
+        if (search.found == text) {
             snprintf(near, sizeof near, "%s", text);
+            search.found = near; /* the next cell takes the place of the text */
+        }
     }
-    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = *near && !other_marks;
+    bool other_marks = strcspn(line, ";\t") < strcspn(line, "\n"), guess = search.found && !other_marks;
     if (must && found < 0)
         error_set(error, FRAM_ERROR_INPUT, head->path, 1, name, "the file has no column of this name%s%s%s",
                   other_marks ? "; columns are divided by commas"
-                  : *near     ? "; did you mean "
+                  : guess     ? "; did you mean "
                               : "",
                   guess ? near : "", guess ? "?" : "");
     return found;

@@ -420,6 +420,7 @@ START_TEST(bad_overrides_are_refused)
         {"=3", "", "expected key=value"},
         {"", "", "expected key=value"},
         {"run.sed=3", "run.sed", "did you mean seed?"},
+        {"run.SEED=3", "run.SEED", "did you mean seed?"},
         {"vessel.hull.draft=3", "vessel.hull.draft", "did you mean draught?"},
         {"run.dt=3", "run.dt", "did you mean time_step?"},
         {"vessel.draft=3", "vessel.draft", "did you mean vessel.hull.draught?"},

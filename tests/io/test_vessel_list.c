@@ -159,6 +159,9 @@ static const char six[] = "vessels:\n  - {name: a1, hull: {form: box}}\n  - {nam
                           "  - {name: c1, x: 200, hull: {form: box}}\n  - {name: d1, x: 300, hull: {form: box}}\n"
                           "  - {name: e1, x: 400, hull: {form: box}}\n  - {name: f1, x: 500, hull: {form: box}}\n";
 
+static const char letters[] = "vessels:\n  - {name: Icebreaker-A, hull: {form: box}}\n"
+                              "  - {name: Icebreaker-B, x: 400, hull: {form: box}}\n";
+
 /* Where an item is none of a list, what is there instead. */
 static const struct {
     const char *text, *override, *message;
@@ -167,6 +170,8 @@ static const struct {
      "expected the number of an item, vessels[0], vessels[1], ..., or the name, icebreaker-1, tanker; found \"tug\""},
     {two, "vessels.tnaker.x=3", "found \"tnaker\"; did you mean tanker?"},
     {six, "vessels[f2].x=3", "or the name, a1, b1, c1, d1, ...; found \"f2\"; did you mean f1?"},
+    {letters, "vessels.icebreaker-b.x=70", "found \"icebreaker-b\"; did you mean Icebreaker-B?"},
+    {letters, "vessels.Icebreaker-C.x=70", "found \"Icebreaker-C\""},
     {two, "vessels.tanker.thrusters[0].x=3", "expected an item of thrusters, and the file lists none"},
     {one, "vessels.solo.hull.length=3", "the file lists no vessels; the key of its one vessel is vessel.hull.length"},
     {one, "vessels[0].speed=3", "the file lists no vessels; the key of its one vessel is vessel.speed"},
@@ -181,6 +186,8 @@ START_TEST(what_there_is_instead_is_told)
     scenario s;
     ck_assert_int_eq(parse(other_items[_i].text, other_items[_i].override, &s), FRAM_ERROR_INPUT);
     ck_assert_msg(strstr(error.message, other_items[_i].message), "%s: %s", other_items[_i].override, error.message);
+    bool guess = strstr(other_items[_i].message, "did you mean") != NULL;
+    ck_assert_msg((strstr(error.message, "did you mean") != NULL) == guess, "%s", error.message);
 }
 END_TEST
 
