@@ -190,7 +190,8 @@ static void add_head(context *ctx, const scenario *s, const fmu_names *names, te
     }
 }
 
-/* Where the last step ends, as a run's does: no importer can step on to a duration that is no whole number of steps. */
+/* Where a run of the scenario ends, with the step that ends nearest to its duration: no importer can step on to one
+   that is no whole number of steps. */
 static double end_of(const scenario *s)
 {
     double end = (double)step_at(s->run.duration, s->run.time_step) * s->run.time_step;
