@@ -296,15 +296,18 @@ class Worlds(unittest.TestCase):
                          towed(overrides={"ice.breakable": True}).hash)
         for seed in (8.0, np.float64(8), np.float32(8), np.uint8(8), np.array(8.0)):
             self.assertEqual(towed(overrides={"run.seed": seed}).hash, towed(overrides="run.seed=8").hash)
-        for wrong in (5, [8.0], [("run.seed", 8)], np.ones(2), object()):
+        for wrong in (5, [8.0], [("run.seed", 8)], np.ones(2), object(), np.array(8.0), dict,
+                      {"run.seed": np.ones(1)}):
             with self.assertRaisesRegex(fram.UsageError, "a mapping of keys to values, or texts") as caught:
                 towed(overrides=wrong)
             self.assertEqual(caught.exception.key, "overrides")
 
     @unittest.skipIf(fram.runs.pandas is None, "without pandas")
     def test_a_row_of_pandas_is_a_mapping(self):
-        row = fram.runs.pandas.DataFrame({"run.seed": [8, 9], "vessel.speed": [2.5, 3]}).iloc[1]
-        self.assertEqual(towed(overrides=row).hash, towed(overrides=["run.seed=9", "vessel.speed=3"]).hash)
+        table = fram.runs.pandas.DataFrame({"run.seed": [8, 9], "vessel.speed": [2.5, 3]})
+        with self.assertRaisesRegex(fram.UsageError, "found Series of 2 values for run.seed"):
+            towed(overrides=table)
+        self.assertEqual(towed(overrides=table.iloc[1]).hash, towed(overrides=["run.seed=9", "vessel.speed=3"]).hash)
 
     def test_a_step_that_cannot_be_recorded_is_made(self):
         world = towed().world()

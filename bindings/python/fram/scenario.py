@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -13,19 +13,36 @@ from .context import Context, default_context
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
 
 
+def _no_overrides(found: str) -> UsageError:
+    return UsageError("usage", f"expected a mapping of keys to values, or texts like run.seed=7, found {found}",
+                      key="overrides")
+
+
+def _members(overrides: Any, mapping: bool) -> list:
+    """Its items, or what it has in it."""
+    try:
+        return [(key, value) for key, value in overrides.items()] if mapping else list(overrides)
+    except (TypeError, ValueError) as error:  # a class, an array of no dimension, items that are no pairs
+        raise _no_overrides(f"{type(overrides).__name__} {overrides}") from error
+
+
 def _override_texts(overrides: Overrides) -> list[bytes]:
     """{"run.seed": 7} or ["run.seed=7"] as the library takes them; what has items, as a row of pandas, is a mapping."""
     if overrides is None:
         return []
-    if isinstance(overrides, (str, bytes)):
+    if isinstance(overrides, (str, bytes, os.PathLike)):
         return [text_bytes_of(overrides)]
     if not hasattr(overrides, "items"):
-        texts = list(overrides) if isinstance(overrides, Iterable) else [overrides]
+        texts = _members(overrides, False)
         for text in texts:
             if not isinstance(text, (str, bytes, os.PathLike)):
-                raise UsageError("usage", "expected a mapping of keys to values, or texts like run.seed=7, found "
-                                 f"{type(text).__name__} {text}", key="overrides")
+                raise _no_overrides(f"{type(text).__name__} {text}")
         return [text_bytes_of(text) for text in texts]
+
+    items = _members(overrides, True)
+    for key, value in items:
+        if getattr(value, "ndim", 0):  # a column of a whole table
+            raise _no_overrides(f"{type(value).__name__} of {len(value)} values for {key}")
 
     def word(value: Any) -> str:
         if isinstance(value, (bool, np.bool_)):
@@ -34,7 +51,7 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
 
     # A path is written as the file system has it, whose bytes Python's str tells by the locale.
     return [text_bytes_of(f"{key}=") + bytes_of(value) if isinstance(value, os.PathLike)
-            else text_bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
+            else text_bytes_of(f"{key}={word(value)}") for key, value in items]
 
 
 def _read_again(how: str, what: bytes, base, overrides: list[bytes]) -> "Scenario":
