@@ -135,13 +135,6 @@ for job in $(jobs -p); do wait "$job" || fail "a command beside others failed: $
 tail -c 16 same.html | grep -q '</html>' || fail "same.html is not whole"
 python3 -c 'import json; json.load(open("same.geojson"))' || fail "same.geojson is not whole"
 
-# A link laid where a temporary file used to be is not followed.
-echo mine >other
-for name in target.html.new .target.html.new; do ln -s other $name; done
-expect 0 "$FRAM" report open -o target.html -q
-same "$(cat other)" mine "a file behind a link"
-rm -f target.html.new .target.html.new
-
 # What a run that was killed left behind goes with the next one, and the state as it went wrong with one that goes on;
 # what others are writing stays.
 touch open/failed.fram open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new

@@ -2,8 +2,20 @@
 #include "io/record.h"
 #include "scratch.h"
 
+#include <sys/random.h>
+
 static context ctx;
 static fram_error error;
+
+/* In place of the C library's: the names of temporary files can be foreseen here, one after the other from 0. */
+static uint64_t drawn;
+ssize_t getrandom(void *out, size_t size, unsigned flags)
+{
+    (void)flags;
+    memcpy(out, &drawn, size < sizeof drawn ? size : sizeof drawn);
+    drawn++;
+    return (ssize_t)size;
+}
 
 enum { BLOCK_COUNT = 5 };
 static const char *const payloads[BLOCK_COUNT] = {"", "a", "12345678", "a longer payload of some bytes", "end"};
@@ -240,13 +252,15 @@ START_TEST(a_record_is_placed_in_one_go)
     char other[300], path[300], link[320];
     snprintf(other, sizeof other, "%s", scratch_path(&s, "other"));
     snprintf(path, sizeof path, "%s", scratch_path(&s, "r"));
-    snprintf(link, sizeof link, "%s.new", path);
+    snprintf(link, sizeof link, "%s.0000000000000000.new", path);
     scratch_write(other, "mine", 4);
     ck_assert_int_eq(symlink(other, link), 0);
     ck_assert_int_eq(symlink(other, path), 0);
     for (int bad = 1; bad >= 0; bad--) {
         record_writer w;
+        drawn = 0;
         assert_ok(record_create_beside(&ctx, path, &w, &error), error);
+        ck_assert_uint_eq(drawn, 2); /* the first name is taken */
         fram_status written = bad ? FRAM_ERROR_MEMORY : record_append(&w, 7, NULL, 0, &error);
         ck_assert_int_eq(record_place(&w, path, written, &error), written);
         size_t size;
