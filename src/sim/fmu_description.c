@@ -192,7 +192,7 @@ static void add_head(context *ctx, const scenario *s, const fmu_names *names, te
 
 /* Where a run of the scenario ends, with the step that ends nearest to its duration: no importer can step on to one
    that is no whole number of steps. */
-static double end_of(const scenario *s)
+static double experiment_end(const scenario *s)
 {
     double end = (double)step_at(s->run.duration, s->run.time_step) * s->run.time_step;
     return fabs(end - s->run.duration) < 1e-9 * end ? s->run.duration : end; /* as it was given, but for rounding */
@@ -206,7 +206,7 @@ void fmu_describe(context *ctx, const scenario *s, const fmu_names *names, const
     text_add(ctx, out,
              "  <LogCategories>\n    <Category name=\"logStatusWarning\"/>\n    <Category name=\"logStatusError\"/>\n"
              "    <Category name=\"logAll\"/>\n  </LogCategories>\n  <DefaultExperiment startTime=\"0\"");
-    add_real(ctx, out, "stopTime", end_of(s));
+    add_real(ctx, out, "stopTime", experiment_end(s));
     add_real(ctx, out, "stepSize", s->run.time_step);
     text_add(ctx, out, "/>\n  <ModelVariables>\n");
     for (int32_t i = 0; i < variables->count; i++)
