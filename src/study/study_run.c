@@ -418,9 +418,12 @@ static void tell_kept_less(const study_work *w)
                   (long long)less, less == 1 ? "run was" : "runs were", w->folder.path);
 }
 
-/* The tables of what is there; of a study that is whole also the records of its worst runs, to which its page leads. */
+/* The tables of what is there, asked to stop or not; of a whole study also the worst runs, to which its page leads. */
 static fram_status write_results(const study_work *w, bool whole, study_result *result, fram_error *error)
 {
+    context own = context_unstopped(w->ctx);
+    study_folder folder = w->folder;
+    folder.ctx = &own;
     condition_rows *rows = memory_array(w->ctx, (size_t)w->s->conditions, sizeof *rows);
     fram_status status = rows ? FRAM_OK : error_memory(error);
     *result = (study_result){.conditions = w->s->conditions, .made = w->made};
@@ -439,17 +442,16 @@ static fram_status write_results(const study_work *w, bool whole, study_result *
             }
         }
     }
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
         tell_alike(w, rows);
-    if (status == FRAM_OK)
         tell_kept_less(w);
-    if (status == FRAM_OK)
-        status = study_tables_write(&w->folder, rows, !is_dry(w), error);
+        status = study_tables_write(&folder, rows, !is_dry(w), error);
+    }
     bool changed = false;
     if (status == FRAM_OK && whole)
         status = study_worst_record(&w->folder, rows, w->options, &changed, error);
     if (changed) {
-        fram_status written = study_page_write(&w->folder, rows, status == FRAM_OK ? error : NULL);
+        fram_status written = study_page_write(&folder, rows, status == FRAM_OK ? error : NULL);
         status = status == FRAM_OK ? written : status;
     }
     for (int32_t c = 0; rows && c < w->s->conditions; c++)
@@ -465,8 +467,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     ctx = &own;
     study_work w = {.ctx = ctx, .s = s, .options = options, .started = clock_wall()};
     const volatile int *stop = ctx->stop;
-    if (options->stop)
-        ctx->stop = options->stop;
+    ctx->stop = options->stop ? options->stop : stop;
     fram_status status = study_folder_open(ctx, s, options->folder, is_dry(&w), &w.folder, error);
     ctx->stop = stop;
     if (status != FRAM_OK)
@@ -482,7 +483,6 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         status = update_wanted(&w, c, error);
     if (status == FRAM_OK)
         status = options->slurm ? slurm_loop(&w, error) : work_loop(&w, error);
-    /* Also of a study that was stopped. */
     if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
         bool whole = status == FRAM_OK && !is_dry(&w);
         fram_status written = write_results(&w, whole, result, status == FRAM_OK ? error : NULL);

@@ -475,16 +475,16 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                      "100000000 runs")
 
     def test_ctrl_c_keeps_what_ended(self):
-        study = self.write("set: {run.duration: %d}\nseeds: 6\n" % (4 if SHORT else 20))
-        process = subprocess.Popen([FRAM, "study", study, "-o", self.at / "out", "--quiet"], stderr=subprocess.DEVNULL)
+        study = self.write("set: {run.duration: %g}\nseeds: 20\nextremes: {duration: 1min}\n" % (1.5 if SHORT else 5))
+        process = subprocess.Popen([FRAM, "study", study, "-o", self.at / "out", "--jobs=2"], stderr=subprocess.DEVNULL)
         end = time.monotonic() + 60
-        while not list(self.at.glob("out/runs/*/*.row")) and time.monotonic() < end:
-            time.sleep(0.05)
+        while len(list(self.at.glob("out/runs/*/*.row"))) < 11 and time.monotonic() < end:
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60), 130)
         there = len(self.rows("out"))
-        self.assertLess(there, 6)
-        self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 6)
+        self.assertEqual((there < 20, self.rows("out", "extremes.csv")[0]["runs"]), (True, str(there)))
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 20)
 
     @WHOLE
     def test_the_page_and_the_netcdf_file(self):
