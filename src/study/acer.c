@@ -89,6 +89,20 @@ static void count_part(acer_rates *r, const series_part *part, int32_t k, int32_
     *next += batches;
 }
 
+/* Parts shorter than k have no values: such batches tell nothing, and stand for no realization. */
+static void drop_empty(acer_rates *r)
+{
+    int32_t kept = 0;
+    for (int32_t b = 0; b < r->batches; b++) {
+        if (r->values.data[b] == 0)
+            continue;
+        r->values.data[kept] = r->values.data[b];
+        memmove(r->count.data + (int64_t)kept++ * ACER_LEVELS, r->count.data + (int64_t)b * ACER_LEVELS,
+                ACER_LEVELS * sizeof *r->count.data);
+    }
+    r->batches = kept;
+}
+
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out)
 {
     *out = (acer_rates){.step = s->step, .levels = ACER_LEVELS};
@@ -116,7 +130,9 @@ bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32
     for (int32_t p = 0; good && p < s->count; p++)
         count_part(out, &s->parts[p], k, batch, &w, &next);
     memory_free(ctx, w.index);
-    if (!good)
+    if (good)
+        drop_empty(out);
+    else
         acer_free(ctx, out);
     return good;
 }
@@ -141,6 +157,17 @@ int64_t acer_values(const acer_rates *r)
     for (int32_t b = 0; b < r->batches; b++)
         sum += r->values.data[b];
     return sum;
+}
+
+double acer_effective_batches(const acer_rates *r)
+{
+    double sum = 0, square = 0;
+    for (int32_t b = 0; b < r->batches; b++) {
+        double n = r->values.data[b];
+        sum += n;
+        square += n * n;
+    }
+    return square > 0 ? sum * sum / square : 0;
 }
 
 /* ---- the law of the tail ---- */

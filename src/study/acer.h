@@ -13,8 +13,8 @@ enum { ACER_LEVELS = 40, ACER_BATCHES_LEAST = 20, ACER_REPLICATES = 499 };
    length: a rate is over the values of the batches that it is counted in. */
 typedef struct acer_rates {
     double level[ACER_LEVELS];
-    int32_t levels; /* 0: there are too few exceedances */
-    int32_t batches;
+    int32_t levels;        /* 0: there are too few exceedances */
+    int32_t batches;       /* that have values */
     ARRAY(int32_t) count;  /* batches x ACER_LEVELS: conditional exceedances */
     ARRAY(int32_t) values; /* of each batch: those that have k - 1 values of their part before them */
     double step;           /* between values [s] */
@@ -32,6 +32,9 @@ void acer_free(context *ctx, acer_rates *r);
 /* How often a level is exceeded, over all batches, and by how many values it could be. */
 int64_t acer_exceedances(const acer_rates *r, int32_t level);
 int64_t acer_values(const acer_rates *r);
+/* As many batches of one length have rates of the same scatter (Kish 1965): (sum n)^2 / sum n^2 of the values of each.
+ */
+double acer_effective_batches(const acer_rates *r);
 
 /* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:
    there are fewer than five such levels, or no law fits. */

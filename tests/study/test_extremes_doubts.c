@@ -392,6 +392,43 @@ START_TEST(rates_of_short_parts_are_those_of_a_long_one)
 }
 END_TEST
 
+/* Runs shorter than the order, or little longer: of a series of twelve batches they make none of twenty. */
+START_TEST(batches_without_values_stand_for_no_run)
+{
+    enum { ORDER = 39, EMPTY = 16, SHORT = 8, BATCHES = 12, LENGTH = 200 };
+    static double value[VALUES];
+    static extreme_result result;
+    series_part parts[1 + EMPTY + SHORT] = {{value, BATCHES * LENGTH}};
+    for (int i = 0; i < EMPTY + SHORT; i++)
+        parts[1 + i] = (series_part){value + BATCHES * LENGTH + i * ORDER, i < EMPTY ? ORDER - 1 : ORDER};
+    random_stream random = random_begin(14, 7, 1);
+    double x = 0;
+    for (int i = 0; i < VALUES; i++) {
+        x = 0.9 * x + random_normal(&random);
+        value[i] = x;
+    }
+    const series_part whole = {value, VALUES};
+    const series_set set = {parts, 1 + EMPTY + SHORT, 1}, one = {&whole, 1, 1};
+    acer_rates r;
+    context ctx;
+    context_init(&ctx);
+    ck_assert(acer_count(&ctx, &set, ORDER, 3, LENGTH, &r));
+    ck_assert_int_eq(r.batches, BATCHES + SHORT);
+    for (int b = 0; b < r.batches; b++)
+        ck_assert_int_gt(r.values.data[b], 0);
+    assert_absolute(acer_effective_batches(&r), BATCHES, 0.1);
+    acer_free(&ctx, &r);
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = VALUES;
+    ask.order = ORDER;
+    ck_assert(extremes_of_series(&ctx, &set, EXTREME_ACER, &ask, &result, NULL) == FRAM_OK);
+    ck_assert_msg(!result.answered && strstr(result.note, "too short for a bootstrap"), "%s", result.note);
+    ck_assert(extremes_of_series(&ctx, &one, EXTREME_ACER, &ask, &result, NULL) == FRAM_OK);
+    ck_assert_msg(result.answered, "%s", result.note);
+}
+END_TEST
+
 /* Blocks that met no ice: with many such there is no generalized law, with more no law of maxima at all. */
 START_TEST(many_maxima_that_are_equal_carry_no_answer)
 {
@@ -524,4 +561,5 @@ TEST_MAIN("extremes_doubts", few_peaks_have_an_interval, a_shape_at_the_bound_of
           rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
           no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
           a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
+          batches_without_values_stand_for_no_run,
           the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
