@@ -340,14 +340,16 @@ static bool peaks_over(const series_work *w, double threshold, extreme_sample *s
 }
 
 /* Fits over rising thresholds, from half the threshold's way to the greatest value on. */
-static bool add_stability(const series_work *w, double threshold, extreme_sample *s)
+static fram_status add_stability(const series_work *w, double threshold, extreme_sample *s)
 {
     double from = w->nature.mean + 0.5 * (threshold - w->nature.mean), z = NORMAL_95;
-    for (int i = 0; i < STABILITY_MOST; i++) {
+    fram_status status = FRAM_OK;
+    for (int i = 0; i < STABILITY_MOST && status == FRAM_OK; i++) {
         extreme_law law;
         double u = from + (w->nature.greatest - from) * i / STABILITY_MOST;
         if (!peaks_over(w, u, s))
-            return false;
+            return error_memory(w->error);
+        status = work_continue(w->ctx, "trying thresholds", i + 1, STABILITY_MOST, w->error);
         if (!extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, s->value.data, s->value.count, u, &law))
             continue;
         /* Asymptotic deviation of the shape (Smith 1984). */
@@ -355,7 +357,7 @@ static bool add_stability(const series_work *w, double threshold, extreme_sample
         w->out->stability[w->out->stability_rows++] =
             (threshold_row){u, law.shape, half, law.scale - law.shape * u, s->value.count};
     }
-    return true;
+    return status;
 }
 
 /* The lowest threshold whose clusters keep apart. */
@@ -375,9 +377,14 @@ static fram_status answer_peaks(const series_work *w)
     extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time, .series = w->s};
     double threshold = w->ask->threshold;
     bool good = !isnan(threshold) || choose_threshold(w, &s, &threshold);
-    good = good && (!w->ask->stability || add_stability(w, threshold, &s)) && peaks_over(w, threshold, &s);
+    fram_status status = good ? FRAM_OK : error_memory(w->error);
+    if (status == FRAM_OK && w->ask->stability)
+        status = add_stability(w, threshold, &s);
+    if (status == FRAM_OK && !peaks_over(w, threshold, &s))
+        status = error_memory(w->error);
     w->out->threshold = threshold;
-    fram_status status = good ? answer_sample(w->ctx, &s, w->ask, w->out, w->error) : error_memory(w->error);
+    if (status == FRAM_OK)
+        status = answer_sample(w->ctx, &s, w->ask, w->out, w->error);
     array_free(w->ctx, &s.value);
     return status;
 }
@@ -386,12 +393,11 @@ static fram_status answer_peaks(const series_work *w)
 static fram_status answer_weibull(const series_work *w)
 {
     extreme_sample s = {.kind = LAW_WEIBULL, .exposure = w->ask->duration / w->time};
-    fram_status status = FRAM_OK;
     s.location = w->nature.mean;
     weibull_jackknife jackknife;
-    if (!cluster_peaks(w->ctx, w->s, w->nature.mean, 1, &s.value) ||
-        !jackknife_weibull(w->ctx, w->s, &w->nature, w->ask->duration, &jackknife))
-        status = error_memory(w->error);
+    fram_status status = cluster_peaks(w->ctx, w->s, w->nature.mean, 1, &s.value) ? FRAM_OK : error_memory(w->error);
+    if (status == FRAM_OK)
+        status = jackknife_weibull(w->ctx, w->s, &w->nature, w->ask->duration, &jackknife, w->error);
     values_sort(&s.value);
     w->out->threshold = w->nature.mean;
     s.jackknife = status == FRAM_OK && jackknife.groups >= JACKKNIFE_LEAST ? &jackknife : NULL;

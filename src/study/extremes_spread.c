@@ -59,28 +59,31 @@ static bool add_group(context *ctx, const series_set *left, double duration, dou
     return true;
 }
 
-bool jackknife_weibull(context *ctx, const series_set *s, const series_nature *nature, double duration,
-                       weibull_jackknife *out)
+fram_status jackknife_weibull(context *ctx, const series_set *s, const series_nature *nature, double duration,
+                              weibull_jackknife *out, fram_error *error)
 {
     double scales = (double)nature->values * s->step / nature->time_scale / SCALES_OF_GROUP;
     int groups = scales < JACKKNIFE_GROUPS ? (int)scales : JACKKNIFE_GROUPS;
     out->groups = 0;
     if (groups < JACKKNIFE_LEAST)
-        return true;
+        return FRAM_OK;
     series_part *parts = memory_array(ctx, (size_t)s->count + 1, sizeof *parts);
     double_array peaks = {0};
-    bool good = parts != NULL;
-    for (int g = 0; g < groups && good && out->groups == g; g++) {
+    fram_status status = parts ? FRAM_OK : error_memory(error);
+    for (int g = 0; g < groups && status == FRAM_OK && out->groups == g; g++) {
         int32_t count = without(s, nature->values * g / groups, nature->values * (g + 1) / groups, parts);
         const series_set left = {parts, count, s->step};
-        good = add_group(ctx, &left, duration, &peaks, out);
+        if (!add_group(ctx, &left, duration, &peaks, out))
+            status = error_memory(error);
+        else
+            status = work_continue(ctx, "leaving out groups", g + 1, groups, error);
     }
     /* Groups without which there is no law are those that hold many of few peaks, by which the law goes. */
     if (out->groups < groups)
         out->groups = 0;
     array_free(ctx, &peaks);
     memory_free(ctx, parts);
-    return good;
+    return status;
 }
 
 /* Variance of the level, of independent peaks over a known location: by the inverse of Fisher's information of

@@ -15,9 +15,9 @@ typedef struct weibull_jackknife {
 } weibull_jackknife;
 
 /* Groups are pieces of the series of at least twenty time scales; of each remainder mean, peaks above it and law are
-   found anew.  false: no memory. */
-bool jackknife_weibull(context *ctx, const series_set *s, const series_nature *nature, double duration,
-                       weibull_jackknife *out);
+   found anew.  FRAM_ERROR_MEMORY, FRAM_INTERRUPTED. */
+fram_status jackknife_weibull(context *ctx, const series_set *s, const series_nature *nature, double duration,
+                              weibull_jackknife *out, fram_error *error);
 /* The bound of the root of the deviance, of a level with this exponent: the deviance of peaks that are not independent,
    about a mean that is not known, is that of independent ones times a factor (Chandler and Bate 2007), here the ratio
    of the variance by the jackknife (Miller 1974) to that of the fit, at least a tenth; Student's t of as many degrees

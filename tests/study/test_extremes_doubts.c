@@ -217,7 +217,7 @@ START_TEST(independent_peaks_keep_their_bound)
         const series_set set = {&part, 1, 1};
         series_nature nature = series_nature_of(&set);
         static weibull_jackknife j;
-        ck_assert(jackknife_weibull(&ctx, &set, &nature, 3.0 * 2 * PEAKS, &j));
+        ck_assert(jackknife_weibull(&ctx, &set, &nature, 3.0 * 2 * PEAKS, &j, NULL) == FRAM_OK);
         ck_assert_int_eq(j.groups, JACKKNIFE_GROUPS);
         for (int g = 0; g < j.groups; g++)
             assert_relative(j.peaks[g], 3.0 * PEAKS, 1e-9);

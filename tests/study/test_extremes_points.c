@@ -50,27 +50,36 @@ START_TEST(lines_go_through_the_answer)
 END_TEST
 
 typedef struct stopper {
+    const char *work;
     int told, stop;
 } stopper;
 
 static void stop_at_the_third(void *user, const char *what, double done, double total)
 {
     stopper *s = user;
-    ck_assert_str_eq(what, "drawing bootstrap samples");
+    ck_assert_str_eq(what, s->work);
     ck_assert(done > 0 && done < total);
     s->stop = ++s->told == 3;
 }
 
-/* Who asks to stop is heard from one sample of a bootstrap to the next. */
-START_TEST(bootstraps_are_stopped)
+/* Who asks to stop is heard from one sample of a bootstrap to the next, and from one fit of many. */
+START_TEST(bootstraps_and_fits_are_stopped)
 {
     static double value[VALUES];
     draw_series(value);
     const series_part part = {value, VALUES};
     const series_set set = {&part, 1, 2.0};
-    const extreme_method methods[] = {EXTREME_ACER, EXTREME_UPCROSSING, EXTREME_POT};
-    for (int i = 0; i < 3; i++) {
-        stopper s = {0};
+    static const struct {
+        extreme_method method;
+        bool stability;
+        const char *work;
+    } cases[] = {{EXTREME_ACER, true, "drawing bootstrap samples"},
+                 {EXTREME_UPCROSSING, true, "drawing bootstrap samples"},
+                 {EXTREME_POT, false, "drawing bootstrap samples"},
+                 {EXTREME_POT, true, "trying thresholds"},
+                 {EXTREME_WEIBULL, true, "leaving out groups"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        stopper s = {.work = cases[i].work};
         context ctx;
         fram_error error = {0};
         extreme_request ask;
@@ -81,8 +90,9 @@ START_TEST(bootstraps_are_stopped)
         ctx.stop = &s.stop;
         extreme_request_default(&ask);
         ask.fit = FIT_MOMENTS;
-        assert_fails(extremes_of_series(&ctx, &set, methods[i], &ask, &r, &error), error, FRAM_INTERRUPTED,
-                     "bootstrap samples");
+        ask.stability = cases[i].stability;
+        assert_fails(extremes_of_series(&ctx, &set, cases[i].method, &ask, &r, &error), error, FRAM_INTERRUPTED,
+                     cases[i].work);
         ck_assert_int_eq(s.told, 3);
         ck_assert(!r.answered);
     }
@@ -114,4 +124,4 @@ START_TEST(plotting_positions)
 }
 END_TEST
 
-TEST_MAIN("extremes_points", lines_go_through_the_answer, bootstraps_are_stopped, plotting_positions)
+TEST_MAIN("extremes_points", lines_go_through_the_answer, bootstraps_and_fits_are_stopped, plotting_positions)
