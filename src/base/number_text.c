@@ -189,6 +189,14 @@ int clock_digits(double step)
     return digits;
 }
 
+int digits_beside(double size, double part, int digits, int least)
+{
+    enum { MOST = 15 }; /* what a double has */
+    for (; part > 0 && digits < MOST && 10 * part <= fabs(size); part *= 10)
+        digits++;
+    return digits > least ? digits : least;
+}
+
 coordinate_text coordinate_text_of(double metres)
 {
     enum { NEAR_ZERO = 5 };

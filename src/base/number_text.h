@@ -24,6 +24,10 @@ int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
 /* Digits behind the point with which times of a clock that are `step` apart are told apart [s]; one at least. */
 int clock_digits(double step);
 
+/* Significant digits with which a number of this size tells so small a part of it to `digits` digits, as one far from
+   zero needs, from `least` to 15. */
+int digits_beside(double size, double part, int digits, int least);
+
 /* A coordinate [m] for people: five digits near 0, to the decimetre where that is more, as on a map: "12.346",
    "-1400000", "2000000.3". */
 typedef struct coordinate_text {

@@ -1,5 +1,6 @@
 #include "io/chart_ticks.h"
 
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "io/image.h"
 
@@ -8,17 +9,14 @@
 
 /* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
 enum { MOST_TICKS = 50 };
-/* What an axis is told with where that is enough; and what a double has. */
-enum { LEAST_DIGITS = 6, MOST_DIGITS = 15 };
+/* What an axis is told with where that is enough; and of the step, which may be several of its last place. */
+enum { LEAST_DIGITS = 6, STEP_DIGITS = 2 };
 
 /* Those of the end that is farther from zero, down to the last one of the step. */
 static int digits_for(const tick_row *t)
 {
-    double most = fmax(fabs(t->first), fabs(tick_at(t, t->count - 1))), place = t->step;
-    int digits = 2; /* the step may be several of its last place */
-    for (; digits < MOST_DIGITS && 10 * place <= most; place *= 10)
-        digits++;
-    return digits > LEAST_DIGITS ? digits : LEAST_DIGITS;
+    double most = fmax(fabs(t->first), fabs(tick_at(t, t->count - 1)));
+    return digits_beside(most, t->step, STEP_DIGITS, LEAST_DIGITS);
 }
 
 tick_row tick_row_of(double lo, double hi, int parts, double step, bool logarithmic)

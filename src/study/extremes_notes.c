@@ -1,6 +1,7 @@
 #include "study/extremes_notes.h"
 
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "base/transcendental.h"
 
 #include <math.h>
@@ -42,6 +43,19 @@ static void say(extreme_result *out, const char *format, ...)
     va_end(arguments);
 }
 
+/* Digits of a value beside the scatter of those it is one of. */
+static int digits_of(double value, double scatter)
+{
+    enum { OF_SCATTER = 3, LEAST = 4 };
+    return digits_beside(value, scatter, OF_SCATTER, LEAST);
+}
+
+/* Scatter of what the law tells; of a tail of rates its way down by a factor of e. */
+static double scale_of(const extreme_result *out)
+{
+    return out->tail.c > 0 ? real_pow(out->tail.a, -1 / out->tail.c) : out->law.scale;
+}
+
 fram_status extremes_refuse(extreme_result *out, const char *why)
 {
     out->answered = false;
@@ -78,8 +92,8 @@ fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, in
     if (tied == 0 || tied == count)
         return extremes_refuse(out, "no law fits: the values are equal, or their likelihood has no maximum");
     snprintf(why, sizeof why,
-             "no law fits: %d of %d maxima are equal, %.4g, the least: they take longer blocks, or runs", (int)tied,
-             (int)count, sorted[0]);
+             "no law fits: %d of %d maxima are equal, %.*g, the least: they take longer blocks, or runs", (int)tied,
+             (int)count, digits_of(sorted[0], sorted[count - 1] - sorted[0]), sorted[0]);
     return extremes_refuse(out, why);
 }
 
@@ -93,7 +107,8 @@ void extremes_cut_low(extreme_result *out, int levels, double least)
         cut = true;
     }
     if (cut)
-        say(out, "Levels that are not over %.4g are not told: the law is one of what is over it.", least);
+        say(out, "Levels that are not over %.*g are not told: the law is one of what is over it.",
+            digits_of(least, scale_of(out)), least);
 }
 
 /* Values are known up to `least` only, in some runs: levels from there on are not told, and `why` is (a sentence). */
@@ -141,11 +156,13 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
     else if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && out->law.shape > 0.5)
         say(out, "The tail is so heavy (shape %.2g) that its variance is infinite.", out->law.shape);
     if (!rates && ask->fit == FIT_LIKELIHOOD && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) &&
-        out->law.shape < SHAPE_REGULAR)
+        out->law.shape < SHAPE_REGULAR) {
+        double end = out->law.location - out->law.scale / out->law.shape;
         say(out,
-            "The law ends at %.4g (shape %.2g): under -0.5 likelihood has no interval (Smith 1985), and levels may be "
+            "The law ends at %.*g (shape %.2g): under -0.5 likelihood has no interval (Smith 1985), and levels may be "
             "too low.",
-            out->law.location - out->law.scale / out->law.shape, out->law.shape);
+            digits_of(end, out->law.scale), end, out->law.shape);
+    }
     if (out->sample < 2 * LAW_VALUES_LEAST)
         say(out, "The sample is small (%d): its interval is a guess of the right size.", (int)out->sample);
 }
@@ -182,14 +199,15 @@ void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t co
 void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t count)
 {
     double largest = sorted[count - 1], above = count * real_exp(-extreme_law_exponent(&out->law, largest));
+    int digits = digits_of(largest, out->law.scale);
     if (above > ABOVE_MOST)
-        say(out, "By this law %.3g peaks would lie above the largest that was seen, %.4g: its levels are too high.",
-            above, largest);
+        say(out, "By this law %.3g peaks would lie above the largest that was seen, %.*g: its levels are too high.",
+            above, digits, largest);
     else if (above < ABOVE_LEAST)
         say(out,
-            "By this law the largest peak that was seen, %.4g, is passed once in %.2g samples as large as this one: "
+            "By this law the largest peak that was seen, %.*g, is passed once in %.2g samples as large as this one: "
             "its levels are too low.",
-            largest, 1 / above);
+            digits, largest, 1 / above);
 }
 
 void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_t runs, bool offset, double least)
@@ -225,9 +243,9 @@ void extremes_doubt_tail(extreme_result *out, const acer_doubt *doubt)
             100 * (1 - doubt->fitted));
     if (doubt->upper_differs)
         say(out,
-            "The upper half of the levels alone gives %.4g: the tail does not go on as it begins, and the data do not "
+            "The upper half of the levels alone gives %.*g: the tail does not go on as it begins, and the data do not "
             "carry the answer.",
-            doubt->upper);
+            digits_of(doubt->upper, scale_of(out)), doubt->upper);
 }
 
 /* Mean and sum of squares about it of the means of the batches of one half of every part. */

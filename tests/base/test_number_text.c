@@ -151,6 +151,10 @@ START_TEST(coordinates_show_their_decimetre)
                  {-1e300, "-1e+300"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         ck_assert_str_eq(coordinate_text_of(cases[i].metres).text, cases[i].text);
+    ck_assert_int_eq(digits_beside(-6534199.8, 0.25, 3, 4), 10);
+    ck_assert_int_eq(digits_beside(12, 3, 3, 5), 5);
+    ck_assert_int_eq(digits_beside(1, 1e-30, 3, 4), 15);
+    ck_assert_int_eq(digits_beside(1, 0, 3, 4), 4);
 }
 END_TEST
 

@@ -57,6 +57,28 @@ START_TEST(draws_without_a_fit_are_told)
 }
 END_TEST
 
+/* The first digits of a northing are the same for all. */
+START_TEST(notes_have_the_digits_that_tell_values_far_from_zero_apart)
+{
+    static const double peaks[] = {6534000.5, 6534020.25};
+    static extreme_result r;
+    extreme_request ask;
+    extreme_request_default(&ask);
+    r.method = EXTREME_GEV;
+    r.law = (extreme_law){LAW_GEV, 6534199.8, 0.25, -0.75};
+    r.level[0].level = 6534199;
+    extremes_doubt(&r, &ask, ask.duration);
+    extremes_cut_low(&r, 1, 6534199.8123);
+    ck_assert_msg(strstr(r.note, "ends at 6534200.133 (") && strstr(r.note, "not over 6534199.812 are"), "%s", r.note);
+    r = (extreme_result){.law = {LAW_WEIBULL, 6534000, 1, 2}};
+    extremes_doubt_largest(&r, peaks, 2);
+    ck_assert_msg(strstr(r.note, "seen, 6534020.25, is"), "%s", r.note);
+    r = (extreme_result){.tail = {1, 4, 6534000, 2}};
+    extremes_doubt_tail(&r, &(acer_doubt){1, 6534021.75, true});
+    ck_assert_msg(strstr(r.note, "gives 6534021.75: the"), "%s", r.note);
+}
+END_TEST
+
 static double power_of(double g, int power)
 {
     return power < 0 ? 0 : real_pow(fabs(g), power) * (g < 0 && power % 2 ? -1 : 1);
@@ -443,12 +465,12 @@ START_TEST(many_maxima_that_are_equal_carry_no_answer)
     context ctx;
     context_init(&ctx);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        double value[ALL];
+        double value[ALL], shift = k > 1 ? 6534000 : 0;
         for (int i = 0; i < ALL; i++)
-            value[i] = fmax(0, i + 1 - cases[k].zeros);
+            value[i] = shift + fmax(0, i + 1 - cases[k].zeros);
         for (int m = 0; m < 2; m++) {
             char why[64];
-            snprintf(why, sizeof why, "%d of 50 maxima are equal, 0, the least", cases[k].zeros);
+            snprintf(why, sizeof why, "%d of 50 maxima are equal, %.7g, the least", cases[k].zeros, shift);
             ck_assert(extremes_of_maxima(&ctx, value, ALL, 45, m ? EXTREME_GEV : EXTREME_GUMBEL, &ask, &r, NULL) ==
                       FRAM_OK);
             ck_assert_msg(r.answered == (m ? cases[k].gev : cases[k].gumbel), "%d, %d: %s", cases[k].zeros, m, r.note);
@@ -561,5 +583,5 @@ TEST_MAIN("extremes_doubts", few_peaks_have_an_interval, a_shape_at_the_bound_of
           rates_that_do_not_fall_have_no_tail, levels_under_the_law_s_own_are_not_told,
           no_end_of_an_interval_lies_under_the_law_s_location, intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
           a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
-          batches_without_values_stand_for_no_run,
+          notes_have_the_digits_that_tell_values_far_from_zero_apart, batches_without_values_stand_for_no_run,
           the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
