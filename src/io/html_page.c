@@ -68,7 +68,7 @@ void html_escaped(html_page *p, const char *text)
         else if (code == '"')
             add(p, "&quot;");
         else if (code == UTF8_REPLACEMENT)
-            add(p, "\xef\xbf\xbd");
+            add(p, UTF8_REPLACEMENT_TEXT);
         else
             text_add_bytes(p->ctx, &p->text, c, (size_t)(next - c));
     }

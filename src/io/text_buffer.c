@@ -35,6 +35,18 @@ void text_format(context *ctx, text_buffer *b, const char *format, ...)
     va_end(again);
 }
 
+void text_add_utf8(context *ctx, text_buffer *b, const char *text)
+{
+    for (const char *end = text + strlen(text), *next = text; text < end; text = next) {
+        if (utf8_next(&next, end) >= 0) {
+            text_add_bytes(ctx, b, text, (size_t)(next - text));
+        } else {
+            text_add(ctx, b, UTF8_REPLACEMENT_TEXT);
+            next = text + 1;
+        }
+    }
+}
+
 void text_quoted(context *ctx, text_buffer *b, const char *text)
 {
     text_add(ctx, b, "\"");

@@ -15,7 +15,9 @@ typedef struct text_buffer {
 void text_add(context *ctx, text_buffer *b, const char *text);
 void text_add_bytes(context *ctx, text_buffer *b, const char *data, size_t size);
 void text_format(context *ctx, text_buffer *b, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* A JSON string, in quotes; bytes that are not UTF-8, as names of files may have, are U+FFFD each. */
+/* Bytes that are not UTF-8, as names of files may have, become U+FFFD each. */
+void text_add_utf8(context *ctx, text_buffer *b, const char *text);
+/* A JSON string, in quotes; with the same of such bytes. */
 void text_quoted(context *ctx, text_buffer *b, const char *text);
 void text_free(context *ctx, text_buffer *b);
 

@@ -85,7 +85,9 @@ static fram_status add_file(context *ctx, text_buffer *b, const char *what, cons
         return status;
     sha256_text(data, size, digest);
     memory_free(ctx, data);
-    text_format(ctx, b, "# %s %s, sha256 %s\n", what, path, digest);
+    text_format(ctx, b, "# %s ", what);
+    text_add_utf8(ctx, b, path);
+    text_format(ctx, b, ", sha256 %s\n", digest);
     return FRAM_OK;
 }
 
@@ -177,7 +179,11 @@ static void add_conditions(context *ctx, text_buffer *b, const study *s)
 
 char *study_scenario_whole(context *ctx, const study *s)
 {
-    char *whole = realpath(s->scenario, NULL), *out = memory_string(ctx, whole ? whole : s->scenario);
+    text_buffer shown = {0};
+    char *whole = realpath(s->scenario, NULL);
+    text_add_utf8(ctx, &shown, whole ? whole : s->scenario);
+    char *out = shown.failed ? NULL : memory_string(ctx, shown.data);
+    text_free(ctx, &shown);
     free(whole);
     return out;
 }

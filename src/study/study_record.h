@@ -12,7 +12,7 @@ void study_index_heads(study_folder *f);
 void study_index_row(study_folder *f, int32_t condition, const char *scenario_hash, const char *inputs);
 /* Whether all conditions of the index.csv that is in the folder are among those of this study; false without one. */
 bool study_index_is_within(const study_folder *f);
-/* The scenario with its whole path, for memory_free; NULL: no memory. */
+/* The scenario with its whole path as a record has it, in UTF-8, for memory_free; NULL: no memory. */
 char *study_scenario_whole(context *ctx, const study *s);
 /* Both files, of a folder whose conditions all have their names. */
 fram_status study_record_write(const study_folder *f, fram_error *error);

@@ -72,6 +72,15 @@ class Folders(StudyTest):
         self.assertEqual(error["message"], "the folder holds something else than a study; name another one")
         self.assertEqual([p.name for p in (self.at / "mine").iterdir()], ["letter"])
 
+    def test_a_folder_whose_name_is_no_utf_8_is_known_again(self):
+        folder = self.at / os.fsdecode(b"n\xe9")
+        folder.mkdir()
+        (folder / "study.yaml").write_text("scenario: base.yaml\nset: {run.duration: 0.1, run.transient: 0}\n")
+        for title in ("one", "two"):
+            (folder / "base.yaml").write_text((self.at / "base.yaml").read_text() + f"title: {title}\n")
+            self.assertNotIn("was of a study", "".join(self.warned(folder / "study.yaml", "-o", self.at / "out")))
+        self.assertEqual((self.at / "out" / "effective.yaml").read_text("utf-8").count("n\ufffd/base.yaml"), 2)
+
     def warned(self, *words):
         """The warnings of a study, all of which come before its runs."""
         done = subprocess.run([FRAM, "study", *words], check=True, capture_output=True, text=True)
