@@ -138,6 +138,8 @@ enum { LOOKS_MOST = 80 };
    inner end which is the answer then. */
 #define ENDS_NEAR 1e-9
 #define ROOT_SHORT 0.99
+/* A level that is no farther from the threshold of peaks, as a part of the fitted one's way, is at it. */
+#define THRESHOLD_NEAR 1e-6
 
 /* From the fitted level outwards to where the root of the deviance, which is nearly straight in the level, is z. */
 static double end_of(const profile_question *q, double level, double first, double least, double z)
@@ -145,9 +147,12 @@ static double end_of(const profile_question *q, double level, double first, doub
     double inside = level, root_inside = 0, outside = level + first, root_outside = (double)NAN, next = outside;
     double from[2] = {0, q->law->shape};
     for (int i = 0; i < LOOKS_MOST; i++) {
-        /* Peaks tell nothing of levels under their threshold. */
-        if (is_peaks(q->law->kind) && next <= q->law->location)
-            return q->law->location;
+        /* Peaks tell nothing of levels under their threshold: it is gone to by halves, for the end may lie before. */
+        if (is_peaks(q->law->kind) && next <= q->law->location) {
+            if (!(inside - q->law->location > THRESHOLD_NEAR * (level - q->law->location)))
+                return q->law->location;
+            next = 0.5 * (inside + q->law->location);
+        }
         if (q->ctx)
             work_tell(q->ctx, "finding intervals by profile likelihood", i + 1, 0);
         double x[2] = {from[0], from[1]}, root = sqrt(2 * fmax(cost_at(q, next, x) - least, 0));

@@ -124,6 +124,35 @@ START_TEST(upper_ends_rise_with_their_levels)
 }
 END_TEST
 
+/* A step of the search that goes beyond the threshold has passed an end on its way: there lie only ends of levels that
+   the peaks allow to be there. */
+START_TEST(lower_ends_of_peaks_rise_with_their_levels)
+{
+    enum { FEW = 30 };
+    static const double probability[] = {0.5, 0.9, 0.97, 0.99, 0.999, 0.9999};
+    const extreme_law of = {LAW_PARETO, 10, 2, 0.4};
+    double value[FEW];
+    extreme_law law;
+    for (int i = 0; i < FEW; i++)
+        value[i] = extreme_law_level(&of, -real_log(1 - (i + 0.5) / FEW));
+    ck_assert(extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, value, FEW, 10, &law));
+    for (double exposure = 0.2; exposure < 30; exposure *= 5) {
+        double last = 10;
+        for (size_t i = 0; i < sizeof probability / sizeof *probability; i++) {
+            const profile_question q = {&law, value, FEW, exposure, -real_log(probability[i]), 0.95, 0, NULL};
+            level_interval got = profile_interval(&q);
+            ck_assert_msg(got.low > last && got.low < got.level, "exposure %g: %g (%g, %g) behind %g", exposure,
+                          got.level, got.low, got.high, last);
+            ck_assert_msg(fabs(profile_beyond(&q, profile_least(&q), got.low, false) - 0.025) < 1e-5,
+                          "exposure %g: %g (%g, %g)", exposure, got.level, got.low, got.high);
+            last = got.low;
+        }
+    }
+    const profile_question easy = {&law, value, FEW, 1.1 / FEW, 1, 0.95, 0, NULL};
+    ck_assert_double_eq(profile_interval(&easy).low, 10);
+}
+END_TEST
+
 /* Greatest sea levels of 65 years at Port Pirie [m] (Coles 2001, table 1.1), ascending. */
 static const double sea_level[] = {3.57, 3.62, 3.63, 3.65, 3.66, 3.66, 3.71, 3.71, 3.72, 3.73, 3.74, 3.75, 3.75,
                                    3.78, 3.79, 3.80, 3.83, 3.85, 3.85, 3.85, 3.85, 3.86, 3.86, 3.88, 3.88, 3.88,
@@ -235,6 +264,7 @@ START_TEST(maxima_most_of_which_are_equal_are_of_no_law)
 }
 END_TEST
 
-TEST_MAIN("extreme_law", upper_ends_rise_with_their_levels, maxima_most_of_which_are_equal_are_of_no_law,
-          gamma_is_scipys, likelihood_fits_are_scipys, profile_intervals_are_scipys, the_textbook_s_sea_levels,
-          moments_give_the_law_back, levels_invert_exponents, what_cannot_be_fitted_is_refused)
+TEST_MAIN("extreme_law", upper_ends_rise_with_their_levels, lower_ends_of_peaks_rise_with_their_levels,
+          maxima_most_of_which_are_equal_are_of_no_law, gamma_is_scipys, likelihood_fits_are_scipys,
+          profile_intervals_are_scipys, the_textbook_s_sea_levels, moments_give_the_law_back, levels_invert_exponents,
+          what_cannot_be_fitted_is_refused)
