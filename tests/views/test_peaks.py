@@ -5,6 +5,7 @@ What the page shows is held against series.csv, fram why and fram pressure, and 
 with two vessels, one that meets no ice, and a record of an earlier layout.  Skipped (77) without Chromium or without
 the viewer's page.
 """
+import base64
 import csv
 import json
 import math
@@ -206,6 +207,17 @@ def check_finger(browser):
     browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
     time = browser.run("fram.time / fram.timeline.span")
     assert abs(time - 0.8) < 0.01, f"a finger leads to {time} of the timeline, not 0.8"
+
+
+def check_print(browser):
+    """On paper is what the view shows: drawing begins anew on a canvas that has changed its size, which is not waited
+    for."""
+    paper = base64.b64decode(browser.call("Page.printToPDF", landscape=True, printBackground=True)["data"])
+    images = [zlib.decompressobj().decompress(paper[head.end():])
+              for head in re.finditer(rb"/Subtype ?/Image\b[^>]*/FlateDecode[^>]*>>\s*stream\r?\n", paper)]
+    view = max(images, key=len)  # the legend and the timeline are smaller
+    most = len({view[k:k + 3] for k in range(0, len(view), 291)})
+    assert most > 30, f"the view on paper has {most} colours"
 
 
 def check_low(browser, run):
@@ -423,6 +435,7 @@ def main():
         check_odd_clicks(browser)
         check_keys(browser)
         check_finger(browser)
+        check_print(browser)
         pressure = check_pressure(browser, run)
         check_two(browser, folder, pressure)
         check_few_rows(browser, folder)

@@ -338,10 +338,12 @@ class Player {
         this.dirty = true;
     }
 
-    /** A page that is zoomed, or comes to another screen, may keep its size. */
+    /** A page that is zoomed, or comes to another screen, may keep its size.  One that is printed is asked for other
+     *  pixels too, but it must keep its picture: that is not drawn again before it is on the paper. */
     watchRatio() {
-        matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`).addEventListener('change', () => {
-            this.resize();
+        const ratio = window.devicePixelRatio;
+        matchMedia(`(resolution: ${ratio}dppx)`).addEventListener('change', () => {
+            if (window.devicePixelRatio !== ratio) this.resize();
             this.watchRatio();
         }, { once: true });
     }
