@@ -17,6 +17,7 @@ import sys
 import tempfile
 
 import chromium
+import twins
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from skipping import skip  # noqa: E402  (tests is no package)
@@ -92,35 +93,6 @@ FLOE = """(() => {
     }
     return null;
 })()"""
-
-
-def numbers_after(path, name):
-    """Of the first pair of outer braces, brackets or the first value after `name =` in a source file."""
-    found = re.search(rf"{name}(?:\[\d*\])? = ([\[{{].*?[\]}}];|[^,;]+)", (SOURCE / path).read_text(encoding="utf-8"),
-                      re.DOTALL)
-    return [float(n) for n in re.findall(r"\d+(?:\.\d+)?(?:e\d+)?", found[1])]
-
-
-def check_twins():
-    """What the page cannot be told, since a record has none of it, is as the program has it."""
-    page, image = numbers_after("viewer/src/colours.js", "STOPS"), "src/io/image.c"
-    ramp = re.findall(r"\{(\d\.\d+), (\d\.\d+), (\d\.\d+)\}", (SOURCE / image).read_text(encoding="utf-8"))[:3]
-    assert page == [float(v) for stop in ramp for v in stop] and len(page) == 9, (page, ramp)
-    for path, names in ("src/sim/build_wash.c", ("SPACING", "DEPTH")), ("src/sim/build_propulsion.c", ("STERN",)):
-        for name in names:
-            assert numbers_after(path, name) == numbers_after("viewer/src/station.js", name), name
-    assert numbers_after("src/sim/build_wash.c", "DISC_LOAD") == numbers_after("viewer/src/station.js",
-                                                                              "DISC_PRESSURE")
-    kinds = re.findall(r"RECORD_FORCE_(\w+)\] = \{\{([\d., ]+)\}, \"([^\"]+)\"",
-                       (SOURCE / "src/results/video_scene.c").read_text(encoding="utf-8"))
-    legend = (SOURCE / "viewer/src/legend.js").read_text(encoding="utf-8")
-    colours = dict(re.findall(r"(\w+): '#(\w+)'", legend[legend.index("FORCE_COLOURS"):].split("\n")[0]))
-    words = dict(re.findall(r"(\w+): '([^']+)'", legend[legend.index("FORCE_WORDS"):].split("\n")[0]))
-    assert len(kinds) == len(colours) == 4, (kinds, colours)
-    for kind, rgb, name in kinds:
-        drawn = [int(colours[kind.lower()][k:k + 2], 16) / 255 for k in (0, 2, 4)]
-        assert all(abs(a - float(b)) < 0.006 for a, b in zip(drawn, rgb.split(","))), (kind, drawn, rgb)
-        assert words.get(kind.lower(), kind.lower()) == name, (kind, name)
 
 
 def is_deck(p):
@@ -766,7 +738,7 @@ def main():
         skip("Chromium is not installed")
     if not PAGE.exists():
         skip("the viewer's page is not built (make viewer)")
-    check_twins()
+    twins.check()
     with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
         towed, rows = make_run(pathlib.Path(folder), "towed", TOWED)
         moored, _ = make_run(pathlib.Path(folder), "moored", MOORED)
