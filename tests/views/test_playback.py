@@ -288,7 +288,8 @@ def check_few(browser, folder):
 
 
 def check_open_water(browser, folder):
-    """A ship without ice or walls stays on the water and in the cameras that show all, to the end of its domain."""
+    """A ship without ice or walls stays on the water and in the cameras that show all, to the end of its domain; beside
+    it the camera is near, and arrows are no longer than it, however large that is."""
     run, _ = make_run(folder, "sails", TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", "{source: none}")
                        .replace("x_max: -1399920", "x_max: -1399300, boundary: open").replace("speed: 4", "speed: 99"))
     browser.open(run / "playback.html")
@@ -299,6 +300,16 @@ def check_open_water(browser, folder):
         seen = browser.run(LOOK.replace("114, 0", "hull[0], hull[1] + 45"))
         assert seen["hull"][0] > 150, seen["hull"]
         assert is_deck(seen["hullPixel"]) and is_blue(seen["waterPixel"]), (camera, seen)
+    browser.choose("camera", "follow")
+    ends = """[-24, 24].map((x) => fram.camera.centre().add({ x, y: 0, z: 0 }).project(fram.scene.camera))
+        .map((p) => [p.x / 2 * innerWidth, p.y / 2 * fram.room().height])"""
+    long, (arrow, thick) = math.dist(*browser.run(ends)), browser.run("""[fram.colours.arrowScale *
+        fram.colours.ends.pulls.value, fram.scene.arrowWidth]""")
+    assert 250 < long < 1200, f"a ship of 48 m is {long} pixels long"
+    assert 2 < arrow < 24 and thick < 12, f"arrows of {arrow} m and {thick} m beside a ship of 48 m"
+    seen = browser.run("""(() => { const { field, camera } = fram.scene; field.max.x = 1e5; fram.placeCamera();
+        return camera.position.distanceTo(fram.camera.controls.target) / camera.far; })()""")
+    assert 0 < seen < 1, f"of two ships that are 100 km apart the camera sees {1 / seen} of the way"
 
 
 def check_no_vessel(browser, folder):

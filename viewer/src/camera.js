@@ -18,7 +18,7 @@ export class Camera {
             const at = 7 * this.hull.index;
             return new THREE.Vector3(this.poses.pose[at], this.poses.pose[at + 1], 0);
         }
-        return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
+        return this.scene.field.getCenter(new THREE.Vector3()).setZ(0);
     }
 
     /** Of the hull [m]. */
@@ -33,12 +33,12 @@ export class Camera {
 
     /** A ready view, of the moment that the poses are of.  room: {width, height} of the view. */
     place(mode, room) {
-        const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
-        const { camera } = this.scene;
-        // A ship is seen whole, however small the domain is beside it and however narrow the window.
+        const { camera, box, field } = this.scene, along = goesAlong(mode);
+        const size = (along ? field : box).getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
+        // A ship is seen whole, however small the field is beside it and however narrow the window.
         const upright = Math.max(1, room.height / room.width);
         const near = Math.max(wide, 3.5 * this.length()) * upright;
-        const target = goesAlong(mode) ? this.centre() : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
+        const target = along ? this.centre() : box.getCenter(new THREE.Vector3()).setZ(0);
         const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
             : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
             : mode === 'follow' ? [-0.28 * near, -0.3 * near, 0.2 * near]
@@ -46,7 +46,9 @@ export class Camera {
         camera.position.copy(target).add(new THREE.Vector3(...offset));
         this.controls.target.copy(target);
         this.controls.update();
-        if (mode === 'top' || mode === 'orbit') this.showWhole(room);
+        if (!along) this.showWhole(room);
+        camera.far = Math.max(camera.far, 2 * camera.position.distanceTo(target));
+        camera.updateProjectionMatrix();
         this.hullAt = this.hull && this.centre();
     }
 
@@ -64,8 +66,6 @@ export class Camera {
             }
         }
         camera.position.copy(target).addScaledVector(back, away);
-        camera.far = Math.max(camera.far, 2 * away);
-        camera.updateProjectionMatrix();
     }
 
     /** After the poses have gone on: as far as the hull has from where it was at the last call. */

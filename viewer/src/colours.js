@@ -67,8 +67,8 @@ export class Colours {
     }
 
     /** Ends of the colours and lengths of arrows: the 99th percentile of the frames that need no file from beside the
-     *  page; of speeds, which all bodies have, that of some of these.  box: of the scene; end: of the run [s]. */
-    findRanges(box, end) {
+     *  page; of speeds, which all bodies have, that of some of these.  field: of the scene; end: of the run [s]. */
+    findRanges(field, end) {
         this.ranged = this.looked = this.record.frames.length;
         this.marked = this.record.fractures.length > 0;
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
@@ -93,7 +93,7 @@ export class Colours {
             age: [0, Math.max(10, 0.25 * (end - record.frames[0].time))],
         };
         this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
-        const size = box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
+        const size = field.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
         // A few arrows may be longer: one hard blow must not make all others vanish.
         this.arrowScale = 0.12 * wide / this.ends.pulls.value; // metres a newton
         this.arrowWidth = 0.05 * wide;

@@ -256,7 +256,7 @@ class Player {
     }
 
     findRanges() {
-        this.colours.findRanges(this.scene.box, this.end);
+        this.colours.findRanges(this.scene.field, this.end);
         this.scene.arrowWidth = this.colours.arrowWidth;
     }
 

@@ -34,7 +34,7 @@ export class Scene {
         this.camera = new THREE.PerspectiveCamera(40, 1, this.metre, 20000 * this.metre);
         this.camera.up.set(0, 0, 1);
         this.addBodies();
-        this.box = this.bounds(first);
+        this.findBoxes(first);
         this.addWaterAndLight();
         this.addArrows();
         this.addMarkers();
@@ -250,24 +250,33 @@ export class Scene {
         this.camera.updateProjectionMatrix();
     }
 
-    /** Box around all bodies of the first frame; without ice around the domain too, wherever in it vessels will sail: a
-     *  record that grows does not know. */
-    bounds(first) {
-        const box = new THREE.Box3(), point = new THREE.Vector3();
-        for (let i = 0; i < first.poses.length; i += 7)
-            box.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
-        const { bodies, origin: [x, y] } = this.record, bare = !bodies.some((b) => b.material === 'ice');
+    /** Of the first frame, since a record that grows knows no more: `field` is around its bodies but walls, for what is
+     *  seen near a vessel and for arrows; `box` is around all that there will be to see, without ice the walls and the
+     *  domain too, wherever in it vessels will sail and ice will come. */
+    findBoxes(first) {
+        const { bodies, origin: [x, y] } = this.record;
         const { x_min: west, x_max: east, y_min: south, y_max: north } = this.domain;
-        for (const b of bodies)
-            if (b.pose && (bare || b.material !== 'wall'))
-                box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
+        const there = bodies, bare = !there.some((b) => b.material === 'ice');
+        const field = new THREE.Box3(), box = new THREE.Box3(), point = new THREE.Vector3();
+        for (let i = 0; i < first.poses.length; i += 7)
+            field.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
+        for (const b of there) {
+            if (!b.pose) continue;
+            point.set(b.pose[0], b.pose[1], 0);
+            if (b.material !== 'wall') field.expandByPoint(point);
+            else if (bare) box.expandByPoint(point);
+        }
+        box.union(field);
         if (bare && east > west && north > south) {
             box.expandByPoint(point.set(west - x, south - y, 0));
             box.expandByPoint(point.set(east - x, north - y, 0));
         }
-        if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
-        const hulls = bare ? bodies.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
-        return box.expandByScalar(hulls.reduce((far, x) => Math.max(far, Math.abs(x)), 20 * this.metre));
+        if (box.isEmpty()) box.expandByPoint(point.set(0, 0, 0));
+        if (field.isEmpty()) field.copy(box);
+        const hulls = bare ? there.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
+        const reach = hulls.reduce((far, v) => Math.max(far, Math.abs(v)), 20 * this.metre);
+        this.box = box.expandByScalar(reach);
+        this.field = field.expandByScalar(reach);
     }
 }
 
