@@ -55,6 +55,14 @@ vessel: {mode: towed, x: -20, speed: 0.1, hull: {length: 48, beam: 12, draught: 
 ice: {mean_floe_area: 64, concentration: 0.3}
 domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
 """
+# A sheet that drifts into the domain.
+LATER = """
+run: {duration: 2, time_step: 0.02}
+vessel: {mode: towed, x: -30, speed: 1, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {source: level, level: {x_min: 180, tile_size: 16}}
+domain: {x_min: -200, x_max: 120, y_min: -40, y_max: 40, boundary: feeding, drift_speed: 40, drift_direction_deg: 180}
+output: {frame_interval: 0.5}
+"""
 
 
 def fram(*arguments, check=True):
@@ -407,6 +415,27 @@ def check_no_ice(browser, folder):
     assert abs(browser.run("fram.time") - 1) < 0.02
 
 
+def check_later_ice(browser, folder):
+    """Ice that comes after the first frame: all of the domain is seen, and a page that follows the run sees the same."""
+    run, _ = make_run(folder, "later", LATER)
+    boxes = "[fram.scene.box, fram.scene.field].flatMap((b) => [b.min.x, b.max.x, b.min.y, b.max.y])"
+    browser.open(run / "playback.html")
+    births = browser.run("fram.record.bodies.filter((b) => b.material === 'ice').map((b) => b.birth)")
+    assert births and min(births) > 0, f"ice is there from frame {births} on"
+    whole = browser.run(boxes)
+    assert whole[0] < -200 and whole[1] > 120 and whole[4] > -60 and whole[5] < 20, whole
+    page = folder / "follows.html"
+    page.write_text(PAGE.read_text().replace("<!--BESIDE-->", "").replace("<!--RECORD-->", ""))
+    browser.call("Page.navigate", url=page.as_uri())
+    browser.until("location.pathname.endsWith('follows.html') && window.framEnd", "the page follows nothing")
+    data = base64.b64encode((run / "record.fram").read_bytes()).decode()
+    browser.run(f"(() => {{ const bytes = Uint8Array.from(atob('{data}'), (c) => c.charCodeAt(0));"
+                "for (let at = 0; !window.fram; at += 256) framAppend(bytes.slice(at, at + 256).buffer); })()")
+    browser.until("window.fram.ready", "the page does not get ready")
+    assert not browser.run("fram.record.bodies.some((b) => b.material === 'ice')"), "too much of the run is there"
+    assert browser.run(boxes) == whole, (browser.run(boxes), whole)
+
+
 def check_earlier_layout(run):
     """The type of the first block of bodies becomes that of an earlier layout."""
     path = run / "record.fram"
@@ -442,6 +471,7 @@ def main():
         check_narrow(browser, run)
         check_low(browser, run)
         check_no_ice(browser, folder)
+        check_later_ice(browser, folder)
         check_earlier_layout(run)
         assert not browser.complaints, browser.complaints
     print("curves, peaks and pressure in the playback page are those of the run")

@@ -256,7 +256,7 @@ export class Scene {
     findBoxes(first) {
         const { bodies, origin: [x, y] } = this.record;
         const { x_min: west, x_max: east, y_min: south, y_max: north } = this.domain;
-        const there = bodies, bare = !there.some((b) => b.material === 'ice');
+        const there = bodies.filter((b) => b.birth === 0), bare = !there.some((b) => b.material === 'ice');
         const field = new THREE.Box3(), box = new THREE.Box3(), point = new THREE.Vector3();
         for (let i = 0; i < first.poses.length; i += 7)
             field.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
