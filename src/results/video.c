@@ -36,6 +36,7 @@ typedef struct video {
     box2 extent;             /* of the places of the first frame's bodies but walls; without ice of the domain [m] */
     box2 whole;              /* of all its bodies [m] */
     double top;              /* of those, over still water [m] */
+    double near;             /* what `follow` sees across [m] */
     replay r;
     replay_moment moment;
     replay_plan plan;
@@ -57,6 +58,10 @@ static void find_extent(video *v)
     }
     /* Vessels without ice sail wherever the domain has water. */
     v->extent = ice && lo.x < hi.x ? (box2){lo, hi} : domain_box(&v->s.domain);
+    /* Beside one it is the bodies that count.  A ship is seen whole, however small the field is beside it. */
+    v->near = fmax(fmax(hi.x - lo.x, hi.y - lo.y), 3.5 * replay_hull_size(&v->r, 0).x);
+    if (!(v->near > 0))
+        v->near = fmax(v->extent.hi.x - v->extent.lo.x, v->extent.hi.y - v->extent.lo.y);
 }
 
 static void find_whole(video *v)
@@ -116,6 +121,8 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
     if (!(v->hi > 0))
         v->hi = 1;
     double across = v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
+    if (v->options->camera == VIDEO_FOLLOW)
+        across = fmin(across, v->near);
     /* As on the playback page, a few arrows may be longer: one hard blow must not make all others vanish. */
     double strong = thinned_percentile(&forces, 99);
     v->arrow = strong > 0 ? ARROW_LENGTH * across / strong : 0;
@@ -178,6 +185,7 @@ static fram_status draw_space(const video *v, double time, const char *caption, 
                                .extent = v->extent,
                                .whole = v->whole,
                                .top = v->top,
+                               .near = v->near,
                                .colour = v->options->colour,
                                .lo = v->lo,
                                .hi = v->hi,

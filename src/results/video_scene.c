@@ -63,14 +63,12 @@ static void show_whole(const video_scene *s, double upright, solid_camera *c)
 /* upright: height of the picture over its width. */
 static solid_camera camera_of(const video_scene *s, const replay *r, const replay_moment *m, double upright)
 {
-    double wide = fmax(s->extent.hi.x - s->extent.lo.x, s->extent.hi.y - s->extent.lo.y);
     solid_camera c = {.target = target_of(s, r, m), .zoom = 1.374};
     if (s->camera == VIDEO_FOLLOW) {
-        /* A ship is seen whole, however small the field is beside it. */
-        double near = fmax(wide, 3.5 * replay_hull_size(r, 0).x) * fmax(1, upright);
-        c.eye = vec3_mad(c.target, vec3_make(-0.28, -0.3, 0.2), near);
+        c.eye = vec3_mad(c.target, vec3_make(-0.28, -0.3, 0.2), s->near * fmax(1, upright));
         return c;
     }
+    double wide = fmax(s->extent.hi.x - s->extent.lo.x, s->extent.hi.y - s->extent.lo.y);
     c.eye = vec3_mad(c.target, vec3_make(-0.55, -0.75, 0.6), wide);
     show_whole(s, upright, &c);
     return c;

@@ -20,6 +20,7 @@ typedef struct video_scene {
     box2 extent; /* of the field: bodies' places but those of walls [m] */
     box2 whole;  /* of all that there is, whole [m] */
     double top;  /* of that, over still water [m] */
+    double near; /* what VIDEO_FOLLOW sees across [m] */
     plan_colour colour;
     double lo, hi;    /* what the ends of the colours stand for */
     double arrow;     /* [m/N]; 0: none */

@@ -496,7 +496,8 @@ def check_open_hull(folder):
 
 
 def check_bare_videos(folder):
-    """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain."""
+    """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain, but however large
+    that is they and their arrows are as large for the camera that goes with them."""
     def picture(name, camera, scene):
         (folder / "cat.yaml").write_text(scene)
         fram("run", folder / "cat.yaml", "-o", folder / name, "-q")
@@ -507,10 +508,16 @@ def check_bare_videos(folder):
     nobody = "vessel: {present: false}\n" + re.sub("vessels:|  - .*", "", CATAMARAN)
     inked = [x for row in picture("nobody", "plan", nobody)[362:373] for x, p in enumerate(row) if max(p) < 100]
     assert 40 < len(inked) and max(inked) < 100, f"more than 'no vessel' over the curve, to pixel {max(inked)}"
-    water = re.sub("ice: .*", "ice: {source: none}", CATAMARAN)
-    seen = [sum(p[0] > 1.6 * p[1] for row in picture(f"from{x}", "orbit", water.replace("-1400050", x))[:360]
-                for p in row) for x in ("-1400050", "-1400450")]
-    assert seen[0] > 2 * seen[1] > 0, f"ships of {seen} pixels in domains of 150 and 550 m"
+    water, seen = re.sub("ice: .*", "ice: {source: none}", CATAMARAN), []
+    moored = water.replace("prescribed, x: -1400000", "free, x: -1400000, mooring: {depth: 60, lines: [{count: 4, "
+                           "spacing_deg: 90, distance: 300, pretension: 2.0e5}]}")
+    for camera, scene in ("orbit", water), ("follow", moored):
+        for x in "-1400050", "-1400450":
+            space = sum(picture(f"{camera}{x}", camera, scene.replace("-1400050", x))[:360], [])
+            seen.append([sum(p[0] > 1.6 * p[1] for p in space), sum(p[1] > 1.5 * max(p[0], p[2]) for p in space)])
+    (near, _), (far, _), *beside = seen
+    assert near > 2 * far > 0, f"ships of {near} and {far} pixels in domains of 150 and 550 m"
+    assert beside[0] == beside[1] and min(beside[0]) > 200, f"pixels of ships and arrows beside them: {beside}"
 
 
 def main():
