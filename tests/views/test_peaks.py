@@ -294,6 +294,7 @@ def check_two(browser, folder, pressure):
     assert not browser.run("document.getElementById('vessels').hidden")
     told = browser.run("document.getElementById('load').textContent")
     assert told.startswith("averaged ice force on first: X "), told
+    check_phone(browser)
     # Without its loads, as a page of a run that goes on.
     told = browser.run("(() => { const t = fram.timeline; t.loads = null; t.drawCurve(900, 90, 1);"
                        "return t.canvas.ariaDescription; })()")
@@ -306,6 +307,17 @@ def check_two(browser, folder, pressure):
     check_smallest(browser)
     browser.call("Emulation.clearDeviceMetricsOverride")
     check_legend(browser)
+
+
+def check_phone(browser):
+    """On its side it has the whole caption in two lines, and room for the curve."""
+    browser.call("Emulation.setDeviceMetricsOverride", width=667, height=375, deviceScaleFactor=1, mobile=False)
+    browser.until("document.documentElement.clientHeight === 375", "the window does not get low")
+    written = browser.run("(fram.timeline.events = [1, 2], fram.timeline.back = null, fram.draw(), "
+                          "fram.timeline.written)")
+    words, foot = " ".join(text for text, *_ in written), max(bottom for *_, bottom in written)
+    assert "click one" in words and "orange: 2 breaks" in words, words
+    assert browser.run("fram.timeline.canvas.clientHeight") - foot > 55, written
 
 
 def check_smallest(browser):

@@ -166,7 +166,7 @@ export class Timeline {
         const what = this.largest > 0 ? `largest ${forceText(this.largest / 1000)}` : 'none in this run';
         const foot = this.drawCaption(g, w, `ice load${of}, averaged over ${
             Number(vessel.window.toPrecision(3))} s: ${what}${
-            vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`, h - 90);
+            vessel.peaks.length ? '; numbers: peaks, click one or press Enter here' : ''}${this.eventText()}`, h - 74);
         let x = 4, y = foot + LINE;
         for (const m of this.kinds) {
             const wide = 14 + g.measureText(loads.names[m]).width + 12;
