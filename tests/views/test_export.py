@@ -496,8 +496,8 @@ def check_open_hull(folder):
 
 
 def check_bare_videos(folder):
-    """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain, but however large
-    that is they and their arrows are as large for the camera that goes with them."""
+    """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain, and as large as
+    ever, with their arrows, by the camera that goes with them."""
     def picture(name, camera, scene):
         (folder / "cat.yaml").write_text(scene)
         fram("run", folder / "cat.yaml", "-o", folder / name, "-q")

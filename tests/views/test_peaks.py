@@ -321,22 +321,29 @@ def check_phone(browser):
 
 
 def check_smallest(browser):
-    """Whatever the size of a window the buttons begin in it, the view has room over them, the legend keeps to that, and
-    captions leave a low timeline to its curve."""
+    """Whatever the size of a window the buttons begin in it, the view has room over them, legend and what is told of a
+    floe keep to that, and captions leave a low timeline to its curve."""
     browser.run("""(() => { const { vessel } = fram.timeline;
         fram.timeline.show(fram.loads, { ...vessel, name: 'a long name of a ship '.repeat(3) }); })()""")
-    for height in (568, 200, 256):
-        browser.call("Emulation.setDeviceMetricsOverride", width=320, height=height, deviceScaleFactor=1, mobile=False)
+    pick = "fram.pick(fram.record.bodies.find((b) => b.material === 'ice'))"
+    browser.run(pick)
+    for width, height in ((568, 320), (320, 568), (320, 200), (320, 256)):
+        browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                     mobile=False)
         if height == 256:
             browser.call("Page.reload")
             browser.until("window.fram?.ready", "the page does not get ready")
+            browser.run(pick)
         browser.until(f"document.documentElement.clientHeight === {height} && document.getElementById('view')"
                       ".clientHeight === fram.room().height", "the view does not take the room there is")
         browser.run("fram.draw()")
-        play, view, foot, legend, folded = browser.run("""[...['#play', '#view', 'footer', '#legend']
-            .map((q) => document.querySelector(q).getBoundingClientRect()).map((b) => [b.top, b.bottom]),
-            document.body.className === 'folded']""")
+        play, view, foot, legend, told, folded, cut, scrolls = browser.run("""(() => {
+            const panel = document.getElementById('history');
+            return [...['#play', '#view', 'footer', '#legend', '#history'].map((q) => document.querySelector(q)
+                .getBoundingClientRect()).map((b) => [b.top, b.bottom]), document.body.className === 'folded',
+                panel.scrollHeight > panel.clientHeight, getComputedStyle(panel).pointerEvents === 'auto']; })()""")
         assert view[1] >= 40 and abs(view[1] - foot[0]) <= 1 < play[0] - foot[0], (height, view, foot, play)
+        assert told[0] + 20 < told[1] <= foot[0] and cut == scrolls, (width, height, told, foot, cut, scrolls)
         assert legend[1] <= foot[0] and folded == (height == 200), (height, legend, foot, folded)
         head = max(bottom for _, _, _, _, bottom in browser.run("fram.timeline.written"))
         high = browser.run("fram.timeline.canvas.clientHeight")
@@ -428,7 +435,7 @@ def check_no_ice(browser, folder):
 
 
 def check_later_ice(browser, folder):
-    """Ice that comes after the first frame: all of the domain is seen, and a page that follows the run sees the same."""
+    """Ice that comes after the first frame: all of the domain is seen, and a page that follows the run sees as much."""
     run, _ = make_run(folder, "later", LATER)
     boxes = "[fram.scene.box, fram.scene.field].flatMap((b) => [b.min.x, b.max.x, b.min.y, b.max.y])"
     browser.open(run / "playback.html")

@@ -309,6 +309,7 @@ class Player {
         this.picked = body;
         this.scene.pick(body);
         this.history.show(body);
+        this.placeHistory();
         this.dirty = true;
     }
 
@@ -335,6 +336,7 @@ class Player {
         const { width, height } = this.room();
         this.scene.resize(width, height);
         this.placePeak();
+        this.placeHistory();
         this.dirty = true;
     }
 
@@ -366,6 +368,13 @@ class Player {
         style.left = under ? '' : '8px';
         style.right = under ? '' : 'auto';
         style.maxHeight = `${height - top - 8}px`;
+    }
+
+    /** What is told of a floe neither; where it has no room it takes the pointer, to be scrolled. */
+    placeHistory() {
+        const panel = $('history');
+        panel.style.maxHeight = `${this.room().height - panel.offsetTop - 8}px`;
+        panel.style.pointerEvents = panel.scrollHeight > panel.clientHeight ? 'auto' : '';
     }
 
     tick(now) {
