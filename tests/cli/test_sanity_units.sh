@@ -67,7 +67,8 @@ ice: {thickness: 0.03, crushing_strength: 2.0e+4, crushing_exponent: -0.5, mean_
 domain: {x_min: -4, x_max: 5, y_min: -2, y_max: 2}
 YAML
 all_told tank.yaml --
-sed 's/mean_floe_area.*/source: floes, floes: [{x: 3, length: 0.5, width: 0.5, velocity_y: -0.5, spin: -4}]}/' tank.yaml >turning.yaml
+floe='{x: 3, length: 0.5, width: 0.5, velocity_y: -0.5, spin: -4}'
+sed "s/mean_floe_area.*/source: floes, floes: [$floe]}/" tank.yaml >turning.yaml
 all_told turning.yaml --
 all_told tank.yaml ice.crushing_strength=500 ice.breakable=true -- "is less than the flexural strength"
 all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \

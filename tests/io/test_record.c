@@ -9,6 +9,7 @@ static fram_error error;
 
 /* In place of the C library's: the names of temporary files can be foreseen here, one after the other from 0. */
 static uint64_t drawn;
+/* NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): its own names are reserved */
 ssize_t getrandom(void *out, size_t size, unsigned flags)
 {
     (void)flags;
