@@ -309,7 +309,7 @@ static void tell_radius(const pattern_view *v, const model *m, int32_t vessel)
         differ ? " to the side on which it turns wider, since those of its current_coefficients differ" : "";
     if (turning_is_found(t) && least && turning_goes_on(v->ctx, m, vessel, v->set))
         log_write(v->ctx, LOG_INFO,
-                  "no steady turn of %s was found at full helm in open water at %.3g m/s up to a radius of %.4g m%s: "
+                  "no steady turn of %s was found at full helm in open water at %.3g m/s down to a radius of %.4g m%s: "
                   "this hull turns on by itself; corners and loops of its track have %.4g m",
                   vessel_title_of(v->entry).text, t->speed, t->radius, wider, t->corner);
     else if (turning_is_found(t))

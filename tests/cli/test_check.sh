@@ -364,7 +364,7 @@ grep 'steers no ship' err && fail "a ship without a track is told that it does n
 broad="--set vessel.hull.form=icebreaker --set vessel.hull.beam=19 --set vessel.hull.draught=7"
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad
-holds "no steady turn of the vessel was found .* at 3 m/s up to a radius of 20 m: this hull turns on by itself" err
+holds "no steady turn of the vessel was found .* at 3 m/s down to a radius of 20 m: this hull turns on by itself" err
 holds "pattern.width: 300 m asks for a radius of 150 m; under .* m the hull of the vessel turns on by itself" err
 grep -e 'the vessel turns on a radius' -e 'does not stop a turn' err && fail "a radius that is none is told"
 # shellcheck disable=SC2086
