@@ -19,6 +19,8 @@ typedef struct pattern_view {
     const vessel_entry *entry;
     const propulsion_settings *set;
     pattern_shape shape;
+    const model *m;
+    int32_t vessel;
 } pattern_view;
 
 /* ---- arcs ---- */
@@ -31,6 +33,33 @@ static double least_radius(const pattern_shape *p)
     return p->kind == PATTERN_SECTOR ? p->distance : HUGE_VAL;
 }
 
+/* Whether the hull turns on by itself on all that were tried. */
+static bool turns_on(const pattern_view *v)
+{
+    return turning_is_sought_no_further(&v->set->turning, &v->m->vessels.data[v->vessel]) &&
+           turning_goes_on(v->ctx, v->m, v->vessel, v->set);
+}
+
+/* What was found of a ship at full helm. */
+typedef struct turn_text {
+    char text[256];
+} turn_text;
+
+static turn_text turn_text_of(const pattern_view *v)
+{
+    const turning_ability *t = &v->set->turning;
+    const vessel_title title = vessel_title_of(v->entry);
+    turn_text out;
+    if (turns_on(v))
+        snprintf(out.text, sizeof out.text,
+                 "no steady turn of %s was found at full helm in open water at %.3g m/s down to a radius of %.4g m",
+                 title.text, t->speed, t->radius);
+    else
+        snprintf(out.text, sizeof out.text, "%s turns on %.4g m at full helm in open water at %.3g m/s", title.text,
+                 t->radius, t->speed);
+    return out;
+}
+
 /* checked: the tightest turn that its helm stops. */
 static void tell_arcs(const pattern_view *v, double checked)
 {
@@ -40,12 +69,10 @@ static void tell_arcs(const pattern_view *v, double checked)
     double radius = least_radius(p), factor = p->kind == PATTERN_SECTOR ? 1 : 2;
     const bound_text wide = least_text_of(factor * t->corner, 4);
     if (radius < t->radius)
-        log_write(
-            v->ctx, LOG_WARNING,
-            "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m, and %s turns on %.4g m at full helm in "
-            "open water at %.3g m/s: it cannot keep this pattern; take %s m or more, or a lower speed",
-            v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius, t->speed,
-            wide.text);
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m, and %s: it cannot keep this pattern; "
+                  "take %s m or more, or a lower speed",
+                  v->entry->path, what, factor * radius, radius, turn_text_of(v).text, wide.text);
     else if (radius < fmin(t->corner, checked))
         log_write(
             v->ctx, LOG_WARNING,
@@ -56,10 +83,9 @@ static void tell_arcs(const pattern_view *v, double checked)
     else if (radius < t->corner)
         log_write(
             v->ctx, LOG_WARNING,
-            "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s turns on %.4g m at full helm in open "
-            "water, which leaves little helm, or time to put it over, to correct, and none for ice: take %s m or "
-            "more",
-            v->entry->path, what, factor * radius, radius, vessel_title_of(v->entry).text, t->radius, wide.text);
+            "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s, which leaves little helm, or time to "
+            "put it over, to correct, and none for ice: take %s m or more",
+            v->entry->path, what, factor * radius, radius, turn_text_of(v).text, wide.text);
     if (p->kind == PATTERN_SQUARE && p->width < 2 * t->corner)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.width: corners of %.4g m radius leave nothing straight of a side of %.4g m: "
@@ -299,15 +325,15 @@ static void tell_outside(const pattern_view *v, const model *m, const world *w, 
         }
 }
 
-static void tell_radius(const pattern_view *v, const model *m, int32_t vessel)
+static void tell_radius(const pattern_view *v)
 {
     const turning_ability *t = &v->set->turning;
-    const vessel_model *hull = &m->vessels.data[vessel];
-    bool differ = m->forces == FORCES_FLUID && turning_sides_differ(hull),
+    const vessel_model *hull = &v->m->vessels.data[v->vessel];
+    bool differ = v->m->forces == FORCES_FLUID && turning_sides_differ(hull),
          least = turning_is_sought_no_further(t, hull);
     const char *wider =
         differ ? " to the side on which it turns wider, since those of its current_coefficients differ" : "";
-    if (turning_is_found(t) && least && turning_goes_on(v->ctx, m, vessel, v->set))
+    if (turning_is_found(t) && turns_on(v))
         log_write(v->ctx, LOG_INFO,
                   "no steady turn of %s was found at full helm in open water at %.3g m/s down to a radius of %.4g m%s: "
                   "this hull turns on by itself; corners and loops of its track have %.4g m",
@@ -360,8 +386,8 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     const propulsion_settings *set = &p->settings[p->count - 1];
     const turning_ability *t = &set->turning;
     pattern_view v = {
-        ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
-    tell_radius(&v, m, row);
+        ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}, m, row};
+    tell_radius(&v);
     tell_helm_of_use(&v);
     double checked = turning_is_found(t) ? turning_checked_radius(ctx, m, row, set) : 0;
     if (v.shape.kind == PATTERN_NONE) {

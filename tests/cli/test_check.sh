@@ -368,6 +368,9 @@ holds "no steady turn of the vessel was found .* at 3 m/s down to a radius of 20
 holds "pattern.width: 300 m asks for a radius of 150 m; under .* m the hull of the vessel turns on by itself" err
 grep -e 'the vessel turns on a radius' -e 'does not stop a turn' err && fail "a radius that is none is told"
 # shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.pattern.width=30
+holds "asks for a radius of 15 m, and no steady turn .* down to a radius of 20 m: it cannot keep this pattern" err
+# shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1
 holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 m/s with a radius under .* m" err
 # shellcheck disable=SC2086
