@@ -60,6 +60,12 @@ static turn_text turn_text_of(const pattern_view *v)
     return out;
 }
 
+/* What gives a ship more helm. */
+static const char *helm_key(const pattern_view *v)
+{
+    return v->set->rudder.area > 0 ? "rudder_area" : "steering_angle_deg";
+}
+
 /* checked: the tightest turn that its helm stops. */
 static void tell_arcs(const pattern_view *v, double checked)
 {
@@ -77,9 +83,9 @@ static void tell_arcs(const pattern_view *v, double checked)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; under %.4g m the hull of %s turns on by "
-            "itself, which takes most of its helm and leaves none for ice: take %s m or more, or a larger "
-            "rudder_area",
-            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, wide.text);
+            "itself, which takes most of its helm and leaves none for ice: take %s m or more, or a larger %s",
+            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, wide.text,
+            helm_key(v));
     else if (radius < t->corner)
         log_write(
             v->ctx, LOG_WARNING,
@@ -372,9 +378,8 @@ static void tell_unchecked(const pattern_view *v, double checked)
         snprintf(from, sizeof from, " with a radius under %.4g m", checked);
     log_write(v->ctx, LOG_WARNING,
               "%s.propulsion.%s: the helm of %s does not stop a turn at %.3g m/s%s, since its hull turns on by itself: "
-              "on corners and loops of %.4g m it may turn right round; give a larger rudder_area or a turning_radius",
-              v->entry->path, v->set->rudder.area > 0 ? "rudder_area" : "steering_angle_deg",
-              vessel_title_of(v->entry).text, t->speed, from, t->corner);
+              "on corners and loops of %.4g m it may turn right round; give a larger %s or a turning_radius",
+              v->entry->path, helm_key(v), vessel_title_of(v->entry).text, t->speed, from, t->corner, helm_key(v));
 }
 
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,

@@ -376,4 +376,7 @@ holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 --set vessel.propulsion.turning_radius=9e3
 grep 'does not stop a turn' err && fail "a radius that was given is told to be given"
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=0
+holds "of 150 m; under .* m the hull of the vessel turns on by itself, .* or a larger steering_angle_deg" err
 finish "what cannot be is refused, what will be is told"
