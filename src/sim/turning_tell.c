@@ -66,6 +66,19 @@ static const char *helm_key(const pattern_view *v)
     return v->set->rudder.area > 0 ? "rudder_area" : "steering_angle_deg";
 }
 
+/* What to take as wide, before what else would do; nothing where no turn is wide enough. */
+typedef struct wide_text {
+    char text[40];
+} wide_text;
+
+static wide_text wide_text_of(double least)
+{
+    wide_text out = {""};
+    if (isfinite(least))
+        snprintf(out.text, sizeof out.text, "%s m or more, or ", least_text_of(least, 4).text);
+    return out;
+}
+
 /* checked: the tightest turn that its helm stops. */
 static void tell_arcs(const pattern_view *v, double checked)
 {
@@ -73,25 +86,28 @@ static void tell_arcs(const pattern_view *v, double checked)
     const pattern_shape *p = &v->shape;
     const char *what = p->kind == PATTERN_SECTOR ? "distance" : "width";
     double radius = least_radius(p), factor = p->kind == PATTERN_SECTOR ? 1 : 2;
-    const bound_text wide = least_text_of(factor * t->corner, 4);
+    char under[40] = "however wide";
+    if (isfinite(checked))
+        snprintf(under, sizeof under, "under %.4g m", checked);
+    const wide_text wide = wide_text_of(factor * fmax(t->corner, checked));
     if (radius < t->radius)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m, and %s: it cannot keep this pattern; "
-                  "take %s m or more, or a lower speed",
+                  "take %sa lower speed",
                   v->entry->path, what, factor * radius, radius, turn_text_of(v).text, wide.text);
-    else if (radius < fmin(t->corner, checked))
-        log_write(
-            v->ctx, LOG_WARNING,
-            "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; under %.4g m the hull of %s turns on by "
-            "itself, which takes most of its helm and leaves none for ice: take %s m or more, or a larger %s",
-            v->entry->path, what, factor * radius, radius, checked, vessel_title_of(v->entry).text, wide.text,
-            helm_key(v));
+    else if (radius < checked)
+        log_write(v->ctx, LOG_WARNING,
+                  "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s the hull of %s turns on by itself, "
+                  "which takes most of its helm and leaves none for ice: take %sa larger %s",
+                  v->entry->path, what, factor * radius, radius, under, vessel_title_of(v->entry).text, wide.text,
+                  helm_key(v));
     else if (radius < t->corner)
         log_write(
             v->ctx, LOG_WARNING,
             "%s.propulsion.pattern.%s: %.4g m asks for a radius of %.4g m; %s, which leaves little helm, or time to "
             "put it over, to correct, and none for ice: take %s m or more",
-            v->entry->path, what, factor * radius, radius, turn_text_of(v).text, wide.text);
+            v->entry->path, what, factor * radius, radius, turn_text_of(v).text,
+            least_text_of(factor * t->corner, 4).text);
     if (p->kind == PATTERN_SQUARE && p->width < 2 * t->corner)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.width: corners of %.4g m radius leave nothing straight of a side of %.4g m: "

@@ -379,4 +379,12 @@ grep 'does not stop a turn' err && fail "a radius that was given is told to be g
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=0
 holds "of 150 m; under .* m the hull of the vessel turns on by itself, .* or a larger steering_angle_deg" err
+# A circle as wide as corners may be at most, ten lengths, and less than its helm stops; the width that is advised is.
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 --set vessel.propulsion.pattern.width=1210
+wide=$(sed -n 's/.*radius of 605 m; under .* m the hull of .* take \([0-9.]*\) m or more, or a larger rudder_area.*/\1/p' err)
+# shellcheck disable=SC2086
+expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 \
+    --set vessel.propulsion.pattern.width="${wide:-0}"
+grep 'pattern.width' err && fail "a width of $wide m is told as the least, and as too small"
 finish "what cannot be is refused, what will be is told"
