@@ -204,6 +204,19 @@ static void tell_short_legs(const pattern_view *v, const course_part *c)
                   (int)count, count == 1 ? "has" : "have");
 }
 
+/* Whether it turns anywhere, but for what rounding makes of points on one line. */
+static bool course_turns(const course_part *c)
+{
+    const double rounding = 1e-6;
+    for (int32_t i = 0; i + 1 < c->count; i++) {
+        vec2 before = vec2_sub(c->place[i], place_of_course(c, i - 1)), after = vec2_sub(c->place[i + 1], c->place[i]);
+        double along = vec2_dot(before, after);
+        if (fabs(vec2_cross(before, after)) > rounding * along)
+            return true;
+    }
+    return false;
+}
+
 /* The first corner that is too sharp to be rounded. */
 static void tell_loop(const pattern_view *v, const course_part *c)
 {
@@ -383,6 +396,9 @@ static void tell_helm_of_use(const pattern_view *v)
                   v->entry->path, most, vessel_title_of(v->entry).text, v->set->turning.speed, given);
 }
 
+/* Whether a pattern has corners or loops: a circle has its own radius, and the way ahead is straight. */
+static bool has_corners(const pattern_shape *p) { return p->kind != PATTERN_CIRCLE && p->kind != PATTERN_AHEAD; }
+
 /* A ship whose helm stops no turn as tight as its corners are. */
 static void tell_unchecked(const pattern_view *v, double checked)
 {
@@ -413,7 +429,7 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
     double checked = turning_is_found(t) ? turning_checked_radius(ctx, m, row, set) : 0;
     if (v.shape.kind == PATTERN_NONE) {
         course_part legs = course_part_of(w, p->count - 1);
-        if (legs.count > 1)
+        if (course_turns(&legs))
             tell_unchecked(&v, checked);
         tell_near_points(&v, &legs);
         tell_short_legs(&v, &legs);
@@ -426,7 +442,8 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
                   "%s: its pattern points as its bow does at the start, whatever the current, since no ice drifts "
                   "through (domain.boundary: feeding)",
                   vessel_title_of(entry).text);
-    tell_unchecked(&v, checked);
+    if (has_corners(&v.shape))
+        tell_unchecked(&v, checked);
     if (turning_is_found(t))
         tell_arcs(&v, checked);
     tell_period(&v);

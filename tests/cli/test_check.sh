@@ -370,21 +370,32 @@ grep -e 'the vessel turns on a radius' -e 'does not stop a turn' err && fail "a 
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.pattern.width=30
 holds "asks for a radius of 15 m, and no steady turn .* down to a radius of 20 m: it cannot keep this pattern" err
-# shellcheck disable=SC2086
-expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1
-holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 m/s with a radius under .* m" err
-# shellcheck disable=SC2086
-expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 --set vessel.propulsion.turning_radius=9e3
+turns() {
+    sed "s/pattern: {kind: circle,/$1/" helm.yaml >course.yaml
+    shift
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" check course.yaml $broad --set vessel.propulsion.rudder_area=1 "$@"
+}
+for course in "pattern: {kind: line," "waypoints: [{x: 300, y: 0}, {x: 900, y: 0}, {x: 1200, y: 200}], pattern: {"; do
+    turns "$course"
+    holds "propulsion.rudder_area: the helm of the vessel does not stop a turn at 3 m/s with a radius under .* m" err
+done
+for course in "pattern: {kind: ahead," "waypoints: [{x: 300, y: 0}, {x: 900, y: 0}, {x: 1200, y: 0}], pattern: {"; do
+    turns "$course"
+    grep 'does not stop a turn' err && fail "corners are told of $course"
+done
+turns "pattern: {kind: line," --set vessel.propulsion.turning_radius=9e3
 grep 'does not stop a turn' err && fail "a radius that was given is told to be given"
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=0
 holds "of 150 m; under .* m the hull of the vessel turns on by itself, .* or a larger steering_angle_deg" err
-# A circle as wide as corners may be at most, ten lengths, and less than its helm stops; the width that is advised is.
+# A circle wider than any corner, ten lengths, and narrower than what its helm stops; the width that is advised is not.
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 --set vessel.propulsion.pattern.width=1210
-wide=$(sed -n 's/.*radius of 605 m; under .* m the hull of .* take \([0-9.]*\) m or more, or a larger rudder_area.*/\1/p' err)
+holds "of 605 m; under .* m the hull of the vessel turns on by itself, .* or a larger rudder_area" err
+wide=$(sed -n 's/.*radius of 605 m.* take \([0-9.]*\) m or more.*/\1/p' err)
 # shellcheck disable=SC2086
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 \
     --set vessel.propulsion.pattern.width="${wide:-0}"
-grep 'pattern.width' err && fail "a width of $wide m is told as the least, and as too small"
+grep -e 'pattern.width' -e 'does not stop a turn' err && fail "a width of $wide m is told as the least, and too small"
 finish "what cannot be is refused, what will be is told"
