@@ -88,8 +88,8 @@ static void note_ice(const note_taker *n, const scenario *s)
                   i->mean_floe_area, area);
     note_fact(n, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)", i->smallest_floe_area,
               i->smallest_piece_area, i->edge_threshold, s->run.scale);
-    double wedge = i->breakable ? build_wedge_area(s, &n->ice.thinnest) : 0;
-    if (i->breakable)
+    double wedge = ice_may_break(i) ? build_wedge_area(s, &n->ice.thinnest) : 0;
+    if (ice_may_break(i))
         note_fact(n, "thresholds: floes have %.2g of a wedge at least, %.3g m2 where ice breaks at rest",
                   i->smallest_floe_area / wedge, wedge);
 }
@@ -133,7 +133,7 @@ static double crushed_under(const ice_material *m, double thickness, double load
     return power > 0 ? real_pow(load / sigma, 1 / power) / thickness : (double)NAN;
 }
 
-/* Which ice it is, between two texts; nothing where all is alike. */
+/* Which ice it is, between two texts; nothing where all is alike.  Some may be as thick and differ in strength. */
 typedef struct kind_text {
     char text[96];
 } kind_text;
@@ -142,7 +142,8 @@ static kind_text kind_text_of(const note_taker *n, const char *before, const ice
 {
     kind_text out = {""};
     if (!ice_is_alike(&n->ice))
-        snprintf(out.text, sizeof out.text, "%s%.4g m thick%s", before, k->thickness, after);
+        snprintf(out.text, sizeof out.text, "%s%.4g m thick (bending %.4g kPa, crushing %.4g kPa)%s", before,
+                 k->thickness, 1e-3 * k->flexural_strength, 1e-3 * k->crushing_strength, after);
     return out;
 }
 
@@ -152,9 +153,6 @@ static void note_edge(const note_taker *n, const scenario *s, const ice_kind *ki
     double h = kind->thickness, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = ice_kind_material(&s->ice, kind);
     fracture_settings f = build_fracture_settings(s);
-    char strength[64];
-    snprintf(strength, sizeof strength, " (bending %.4g kPa, crushing %.4g kPa), ", 1e-3 * kind->flexural_strength,
-             1e-3 * kind->crushing_strength);
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
         double crushing = ice_crushing_pressure(&m, areas[k]) * areas[k];
@@ -162,7 +160,7 @@ static void note_edge(const note_taker *n, const scenario *s, const ice_kind *ki
         note_fact(n,
                   "fracture: %son %.3g m2 the radial crack opens at %.4g %s, %d wedges break off at %.4g %s, %.4g m "
                   "from the load; crushing there gives %.4g %s",
-                  kind_text_of(n, "of ice ", kind, strength).text, areas[k], e.radial_capacity * u.factor, u.name,
+                  kind_text_of(n, "of ice ", kind, ", ").text, areas[k], e.radial_capacity * u.factor, u.name,
                   (int)f.wedges, e.wedge_capacity * u.factor, u.name, e.breaking_radius, crushing * u.factor, u.name);
     }
 }
@@ -197,8 +195,9 @@ static void note_fracture(const note_taker *n, const scenario *s)
     const ice_range *r = &n->ice;
     if (s->ice.source == ICE_NONE || !ice_is_known(r))
         return;
-    if (!s->ice.breakable) {
-        note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
+    if (!ice_may_break(&s->ice)) {
+        note_fact(n, "ice: nothing breaks or splits (ice.%sbreakable: false); contacts are crushed at most",
+                  s->ice.breakable ? "populations[]." : "");
         return;
     }
     note_edge(n, s, &r->soonest);
@@ -239,11 +238,14 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     vessel_title title = vessel_title_of(entry);
     double speed = speed_in_ice(s, v), way = speed * s->run.time_step;
     double thickness = n->ice.thinnest.thickness;
+    char where[40] = "";
+    if (thickness < n->ice.thickest.thickness)
+        snprintf(where, sizeof where, ", where it is %.4g m thick", thickness);
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * thickness)
         note_warning(n,
                      "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s%s; crushing "
                      "patches grow in jumps. Take run.time_step under %s s",
-                     title.text, way / thickness, speed, kind_text_of(n, ", where it is ", &n->ice.thinnest, "").text,
+                     title.text, way / thickness, speed, where,
                      most_text_of(THICKNESS_STEP * thickness / speed, 3).text);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);

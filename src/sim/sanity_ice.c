@@ -51,7 +51,7 @@ double sanity_least_band(const scenario *s)
 static double wedge_of(const teller *t)
 {
     const ice_range ice = ice_range_made(&t->s->ice, t->made);
-    return t->s->ice.breakable && ice_is_known(&ice) ? build_wedge_area(t->s, &ice.thinnest) : HUGE_VAL;
+    return ice_may_break(&t->s->ice) && ice_is_known(&ice) ? build_wedge_area(t->s, &ice.thinnest) : HUGE_VAL;
 }
 
 static void tell_left_out(const teller *t, const char *key, double area)

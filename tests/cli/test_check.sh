@@ -270,8 +270,8 @@ for order in strengths swapped; do
     says "take run.time_step under 0.00315 s" err
     says "crushing strength 4000 kPa, flexural strength 200 kPa, breaks" err
     says "fracture: of ice 1 m thick (bending 200 kPa, crushing 4000 kPa), on 1 m2 the radial crack" err
-    says "fracture: in ice 1 m thick steps of 0.01 s are short" err
-    says "and ice 1 m thick, as wide as it is thick breaks after" err
+    says "fracture: in ice 1 m thick (bending 200 kPa, crushing 4000 kPa) steps of 0.01 s are short" err
+    says "and ice 1 m thick (bending 200 kPa, crushing 4000 kPa), as wide as it is thick breaks after" err
 done
 # Lines of the loads are of what may break, of the thickest too; where all ice is alike they name none.
 expect 0 "$FRAM" check strengths.yaml --set "ice.populations[0].thickness=2"
@@ -280,6 +280,11 @@ says "fracture: of ice 2 m thick (bending 500 kPa, crushing 500 kPa), on 4 m2 th
 grep 'fracture: on' err && fail "a load that is told of no ice, and there are two"
 expect 0 "$FRAM" check strengths.yaml --set "ice.populations[1].breakable=false"
 grep -e 'take run.time_step' -e 'fracture: .*bending 200' err && fail "told of ice that does not break as if it did"
+expect 0 "$FRAM" check strengths.yaml --set "ice.populations[0].breakable=false" \
+    --set "ice.populations[1].breakable=false" --set run.time_step=0.1 --set ice.smallest_floe_area=30
+says "ice: nothing breaks or splits (ice.populations[].breakable: false)" err
+says "move 0.2 of its thickness past each other in a step at 2 m/s; crushing" err
+grep -e 'take run.time_step' -e fracture: -e wedge err && fail "told of ice none of which breaks as if it did"
 expect 0 "$FRAM" check thin.yaml --set ice.breakable=true
 says "fracture: on 0.0225 m2 the radial crack" err
 # Floes of a file have the thicknesses that it gives, which are known where they are made.
