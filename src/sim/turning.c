@@ -22,9 +22,10 @@ static const double EASED = 2.0 / 3, CUT = 0.25;
    by half a radian before its helm has answered, and a helm that is slow swings to and fro. */
 static const double FORESEEN = 2;
 /* In a corner helm to the other side keeps this part of the moment that it has on a straight course: where it has less,
-   a hull that is unstable in yaw turns on before it is stopped.  With 0.4 hulls of 45 by 13 and 93 by 25 m went past a
-   corner by a breadth, with 0.5 none of seven by more than 0.62 (docs/ice-management.md). */
-static const double CHECKED = 0.5;
+   a hull that is unstable in yaw turns on before it is stopped.  With 0.5 one of 93 by 25 m went past a corner by 1.15
+   of its breadth, with 0.55 none of eight by more than 0.79; with 0.7 some have no such corner under WIDEST
+   (docs/decisions/0380). */
+static const double CHECKED = 0.55;
 /* No corner is made wider than so many lengths for that. */
 static const double WIDEST = 10;
 /* Coefficients of a table of the current that differ by less between its sides are alike. */
@@ -39,6 +40,7 @@ typedef struct turning_search {
     double speed, angle;
     double most_thrust; /* [N] */
     double side;        /* 1: it turns to port; -1: to starboard, of which all is told as if to port */
+    bool against;       /* it steers to the other side, by no more than that angle and than the rudders stall at */
 } turning_search;
 
 /* Drag of the water on the hull without its lift, and linear damping; ship's axes.  All else that turns a ship has
@@ -68,6 +70,15 @@ typedef struct turning_forces {
     double thrust;        /* gross [N] */
 } turning_forces;
 
+/* The helm of a ship whose stern moves so [m/s].  Drift has the rudders stall at less helm to the other side, and the
+   autopilot asks for no more than that. */
+static double helm_at(const turning_search *t, double stern, double thrust)
+{
+    if (!t->against)
+        return t->angle;
+    return -fmax(fmin(t->angle, rudder_most_angle(&t->s->rudder, t->speed, -stern, thrust)), -t->angle);
+}
+
 /* Of a ship that keeps its speed at a sway and a rate of turn. */
 static turning_forces forces_of(const turning_search *t, double sway, double rate)
 {
@@ -80,9 +91,9 @@ static turning_forces forces_of(const turning_search *t, double sway, double rat
     double most = propulsion_net_thrust(s->bollard_pull, s->open_water_speed, u) - drag.force.x;
     most = fmin(most, t->most_thrust);
     double thrust = fmin(fmax(asked, 0), most);
-    steering_force f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
+    steering_force f = rudder_force(&s->rudder, u, stern, thrust, helm_at(t, stern, thrust));
     thrust = fmin(fmax(asked + thrust - f.ahead, 0), most);
-    f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
+    f = rudder_force(&s->rudder, u, stern, thrust, helm_at(t, stern, thrust));
     return (turning_forces){u * (l->y_v * sway + l->y_r * rate) + drag.force.y + f.aside - s->ship.mass * u * rate,
                             u * (l->n_v * sway + l->n_r * rate) + drag.moment.z + s->steering_x * f.aside, thrust};
 }
@@ -124,13 +135,15 @@ static double steady_rate(const turning_search *t, double *sway)
     return low;
 }
 
-/* The moment of full helm to the other side in a turn, with the thrust of a straight course: it comes at once. */
+/* The moment of the helm of most use to the other side in a turn, with the thrust of a straight course: it comes at
+   once. */
 static double moment_against(turning_search t, double rate)
 {
     double sway;
     t.angle = 0;
     t.most_thrust = forces_of(&t, 0, 0).thrust;
-    t.angle = -t.s->steering_most;
+    t.angle = t.s->steering_most;
+    t.against = true;
     return moment_at(&t, rate, &sway);
 }
 
@@ -176,7 +189,7 @@ static double yaw_acceleration(const turning_search *t, double rate)
 static turning_search search_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                 double speed)
 {
-    turning_search t = {ctx, m, &m->vessels.data[vessel], s, m->media, speed, s->steering_most, HUGE_VAL, 1};
+    turning_search t = {ctx, m, &m->vessels.data[vessel], s, m->media, speed, s->steering_most, HUGE_VAL, 1, false};
     t.water.current = t.water.wind = (vec3){0, 0, 0};
     t.water.profile.count = 0;
     return t;

@@ -37,12 +37,13 @@ output: {csv_interval: 0.2, frame_interval: 1}
 YAML
 # With the drag of a ship's side: without it the hull turns on by itself (tests/cli/test_check.sh).
 side=environment.hull_drag.water_form=1
-expect 0 "$FRAM" check scene.yaml --set $side
+expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.pattern.width=170
 holds "vessel breaker turns on a radius of .* m at full helm in open water at 4 m/s, in ice on a larger one" err
 grep '^warning.*pattern' err && fail "a warning without reason"
 grep 'points as its bow does' err && fail "a pattern that turns with the drift is said to stand"
-expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.steering_rate_deg=1.5
-says "pattern.width: 160 m asks for a radius of 80 m" err
+expect 0 "$FRAM" check scene.yaml --set $side --set vessels.breaker.propulsion.pattern.width=170 \
+    --set vessels.breaker.propulsion.steering_rate_deg=1.5
+says "pattern.width: 170 m asks for a radius of 85 m" err
 says "leaves little helm, or time to put it over, to correct" err
 expect 0 "$FRAM" check scene.yaml --set domain.boundary=open --set domain.drift_speed=auto \
     --set domain.drift_direction_deg=0
