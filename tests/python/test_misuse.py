@@ -297,7 +297,7 @@ class Worlds(unittest.TestCase):
         for seed in (8.0, np.float64(8), np.float32(8), np.uint8(8), np.array(8.0)):
             self.assertEqual(towed(overrides={"run.seed": seed}).hash, towed(overrides="run.seed=8").hash)
         for wrong in (5, [8.0], [("run.seed", 8)], np.ones(2), object(), np.array(8.0), dict,
-                      {"run.seed": np.ones(1)}):
+                      {"run.seed": np.ones(1)}, {"run.seed": np.ndarray}):
             with self.assertRaisesRegex(fram.UsageError, "a mapping of keys to values, or texts") as caught:
                 towed(overrides=wrong)
             self.assertEqual(caught.exception.key, "overrides")

@@ -18,6 +18,14 @@ def _no_overrides(found: str) -> UsageError:
                       key="overrides")
 
 
+def _count_of(values: Any) -> str:
+    """How many they are, for a message; a class, or an array of another library, may not say."""
+    try:
+        return f" of {len(values)} values"
+    except TypeError:
+        return ""
+
+
 def _members(overrides: Any, mapping: bool) -> list:
     """Its items, or what it has in it."""
     try:
@@ -42,7 +50,7 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
     items = _members(overrides, True)
     for key, value in items:
         if getattr(value, "ndim", 0):  # a column of a whole table
-            raise _no_overrides(f"{type(value).__name__} of {len(value)} values for {key}")
+            raise _no_overrides(f"{type(value).__name__}{_count_of(value)} for {key}")
 
     def word(value: Any) -> str:
         if isinstance(value, (bool, np.bool_)):
