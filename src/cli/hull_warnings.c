@@ -42,12 +42,33 @@ void hull_warn_of_condition(const common_options *common, const fram_hull_condit
 
 /* Of the length: less is rounding, as where the file is read again. */
 #define LEVEL_TOLERANCE 1e-6
+/* Heel and trim that are no more than rounding of the equilibrium [rad]: 5 mm at the ends of 100 m. */
+#define UPRIGHT_TOLERANCE 1e-4
+
+static double degrees_of(double angle)
+{
+    return fabs(angle) > UPRIGHT_TOLERANCE ? angle * 180 / 3.14159265358979323846 : 0;
+}
+
+/* The level is one of the hull turned upright: of a hull that is not, no plane z = const is the waterline. */
+static bool warn_of_lean(const fram_hull_floating *f, const char *output)
+{
+    if (fmax(fabs(f->heel), fabs(f->trim)) <= UPRIGHT_TOLERANCE)
+        return false;
+    fprintf(stderr,
+            "warning: %s: its z = 0 is not the waterline at that mass: the hull floats with a heel of %.3g deg and a "
+            "trim of %.3g deg: turn it so first, or give --lcg, --tcg and --kg with which it floats upright\n",
+            output, degrees_of(f->heel), degrees_of(f->trim));
+    return true;
+}
 
 void hull_warn_of_level(const common_options *common, const fram_hull_condition *condition,
                         const fram_hull_surface *surface, const fram_hull_floating *floating, const char *output)
 {
     double tolerance = LEVEL_TOLERANCE * (surface->hi[0] - surface->lo[0]);
-    if (output && has_ending(output, "gdf") && fabs(floating->level) > tolerance && !common->quiet)
+    if (!output || !has_ending(output, "gdf") || common->quiet || warn_of_lean(floating, output))
+        return;
+    if (fabs(floating->level) > tolerance)
         fprintf(stderr, "warning: %s: its z = 0 is not the waterline at that %s: move the hull %s by %.6g m first\n",
                 output, isnan(condition->mass) ? "draught" : "mass", floating->level > 0 ? "down" : "up",
                 fabs(floating->level));

@@ -105,6 +105,11 @@ same "$(grep -c "triangles lie in" err)" 0 "lids of a box"
 says "warning: box.gdf: its z = 0 is not the waterline at that draught: move the hull up by 1 m first" err
 expect 0 "$FRAM" hull box.stl --mass 1230e3 -o box.gdf
 ! grep -q "is not the waterline" err || fail "the box is warned of at its own waterline: $(cat err)"
+# Moved up or down a hull that lists floats no better.
+expect 0 "$FRAM" hull "${off[@]}" -o box.gdf
+says "warning: box.gdf: its z = 0 is not the waterline at that mass: the hull floats with a heel of -" err
+says "deg: turn it so first, or give --lcg, --tcg and --kg with which it floats upright" err
+! grep -q "move the hull" err || fail "a hull that lists is to be moved: $(cat err)"
 # Of a hull on its keel nothing is to be cut off there.
 sed 's/^\(v .*\) -3e3$/\1 0/; s/e3//g' long.obj >keel.obj
 expect 0 "$FRAM" hull keel.obj --draught 1.5 -o keel.gdf
