@@ -74,13 +74,12 @@ static void log_notes(context *ctx, const import_rings *rings, const import_fiel
 /* Of thicknesses that stand in the file, as of ice.thickness. */
 static void tell_thickness(context *ctx, const scenario *s, const import_field *field)
 {
-    double factor = sanity_at_scale(s, 1);
-    double least = USUAL_THICKNESS_LEAST * fmin(1, factor), most = USUAL_THICKNESS_MOST * fmax(1, factor);
-    const range_text range = range_text_of(least, most, 3);
+    const sanity_range usual = sanity_usual(s, USUAL_THICKNESS_LEAST, USUAL_THICKNESS_MOST, 1);
+    const range_text range = range_text_of(usual.least, usual.most, 3);
     int32_t beyond = 0, first = -1;
     for (int32_t i = 0; i < field->thickness.count; i++) {
         double h = field->thickness.data[i];
-        if (isnan(h) || (h >= least && h <= most))
+        if (isnan(h) || (h >= usual.least && h <= usual.most))
             continue;
         first = beyond++ == 0 ? i : first;
     }

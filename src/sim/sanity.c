@@ -27,9 +27,6 @@ typedef struct usual {
     const char *why, *remedy;
 } usual;
 
-/* By which part a bound is known that goes with the scale: one that would be 0.005 is 0.005000000000000001. */
-#define SCALE_ROUNDED 1e-9
-
 /* The most that lines are set to, at full size [N]: a spring without a breaking load that pulls more is told. */
 #define MOST_PULL 3e7
 
@@ -184,13 +181,10 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
         judged = sanity_pressure_on(&t->s->ice, value, area, on);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
-        double factor = sanity_at_scale(t->s, u->power);
-        bool mirrored = u->least == -u->most;
-        double most = u->most * fmax(1, factor) * (1 + SCALE_ROUNDED);
-        double least = mirrored ? -most : u->least * fmin(1, factor) - SCALE_ROUNDED * fabs(u->least);
-        if (strcmp(u->key, pattern) != 0 || (judged >= least && judged <= most) || (u->least > 0 && value == 0))
+        const sanity_range r = sanity_usual(t->s, u->least, u->most, u->power);
+        if (strcmp(u->key, pattern) != 0 || (judged >= r.least && judged <= r.most) || (u->least > 0 && value == 0))
             continue;
-        const range_text usual_range = range_text_of(least, most, 3);
+        const range_text usual_range = range_text_of(r.least, r.most, 3);
         sanity_say(t->tell, t->to, "%s: %.6g%s%s%s is outside of %s to %s, %s: %s", path, value, has_unit ? " " : "",
                    has_unit ? key->unit : "", on, usual_range.least.text, usual_range.most.text, u->why, u->remedy);
     }

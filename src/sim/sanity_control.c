@@ -181,13 +181,13 @@ static void tell_thruster(const teller *t, int32_t i)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_thruster *p = &v->thrusters.data[i];
-    double speed = sanity_at_scale(t->s, 0.5);
+    const sanity_range usual = sanity_usual(t->s, POWER_LEAST, POWER_MOST, 0.5);
     double ratio = automatic_or(p->power, (double)NAN) / p->thrust;
-    if (ratio < POWER_LEAST * fmin(1, speed) || ratio > POWER_MOST * fmax(1, speed))
+    if (ratio < usual.least || ratio > usual.most)
         sanity_say(t->tell, t->to,
                    "%s.thrusters[%d].power: %.4g W is %.3g W for each newton of thrust, %.3g to %.3g are usual: give "
                    "watts, not kW or MW",
-                   t->e->path, (int)i, p->power, ratio, POWER_LEAST * fmin(1, speed), POWER_MOST * fmax(1, speed));
+                   t->e->path, (int)i, p->power, ratio, usual.least, usual.most);
     if (sanity_own_hull(v) && (p->z > 0 || p->z < -DEEPEST * v->hull.draught))
         sanity_say(t->tell, t->to,
                    "%s.thrusters[%d].z: %.4g m %s: give metres above the design waterline, negative under it",
@@ -278,8 +278,8 @@ static void tell_propulsion(const teller *t)
                    t->e->path, p->steering_x, v->hull.length);
     tell_helm(t);
     double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
-    double pressure = sanity_at_scale(t->s, 1);
-    if (!is_automatic(d) && (disc > DISC_MOST * fmax(1, pressure) || disc < DISC_LEAST * fmin(1, pressure)))
+    const sanity_range usual = sanity_usual(t->s, DISC_LEAST, DISC_MOST, 1);
+    if (!is_automatic(d) && (disc > usual.most || disc < usual.least))
         sanity_say(t->tell, t->to,
                    "%s.propulsion.propeller_diameter: %.4g m leaves %.3g kPa of bollard pull on the disc, 20 to 100 "
                    "are usual: give metres",

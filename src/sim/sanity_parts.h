@@ -86,4 +86,19 @@ double sanity_pressure_on(const scenario_ice *i, double strength, double area, c
 /* What goes with a power of the scale has that of full size at the default one. */
 static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
 
+/* By which part a bound is known that goes with the scale: one that would be 0.005 is 0.005000000000000001. */
+#define SANITY_SCALE_ROUNDED 1e-9
+
+/* What a number usually is, from bounds of full size of which one goes with a power of the scale (usual_values in
+   sanity.c); a range about zero is the same on both sides. */
+typedef struct sanity_range {
+    double least, most;
+} sanity_range;
+static inline sanity_range sanity_usual(const scenario *s, double least, double most, double power)
+{
+    double factor = sanity_at_scale(s, power), high = most * fmax(1, factor) * (1 + SANITY_SCALE_ROUNDED);
+    double low = least * fmin(1, factor) - SANITY_SCALE_ROUNDED * fabs(least);
+    return (sanity_range){least == -most ? -high : low, high};
+}
+
 #endif

@@ -10,6 +10,7 @@
 #include "sim/matrix_check.h"
 #include "sim/meeting_check.h"
 #include "sim/rest_tell.h"
+#include "sim/sanity_parts.h"
 #include "sim/turning_tell.h"
 #include "sim/wall_check.h"
 
@@ -280,14 +281,14 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    double least = SHORTEST * fmin(1, scenario_size(s)), most = VESSEL_LONGEST * fmax(1, scenario_size(s));
-    const range_text range = range_text_of(least, most, 3);
-    if (p->length > most)
+    const sanity_range usual = sanity_usual(s, SHORTEST, VESSEL_LONGEST, 1);
+    const range_text range = range_text_of(usual.least, usual.most, 3);
+    if (p->length > usual.most)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: a file in millimetres wants "
                   "hull.file_scale 0.001, one in feet 0.3048",
                   e->path, p->length, range.least.text, range.most.text);
-    if (p->length < least)
+    if (p->length < usual.least)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: hull.file_scale, now %g, is too "
                   "small, or give run.scale of a model",
