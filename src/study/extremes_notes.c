@@ -225,9 +225,9 @@ void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_
                  "tell them.");
     else if (least < HUGE_VAL)
         snprintf(rest, room,
-                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.3g %s on are not "
+                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.*g %s on are not "
                  "told. Lines without breaking_load tell them.",
-                 least * unit.factor, unit.name);
+                 digits_of(least, scale_of(out)), least * unit.factor, unit.name);
     else
         snprintf(rest, room, "whose tensions from there on are those of a mooring with fewer lines.");
     cut_from(out, levels, offset ? -HUGE_VAL : least, why);

@@ -572,8 +572,8 @@ START_TEST(levels_that_parted_lines_did_not_hold_are_not_told)
     extremes_cut_parted(&r[3], 3, 2, 5, false, HUGE_VAL);
     ck_assert(r[3].answered && isfinite(r[3].level[2].level) && strstr(r[3].note, "fewer lines."));
     /* Those of a model are in newtons. */
-    extremes_cut_parted(&r[4], 3, 2, 5, false, 3.5);
-    ck_assert_msg(strstr(r[4].note, "levels from 3.5 N on"), "%s", r[4].note);
+    extremes_cut_parted(&r[4], 3, 2, 5, false, 3.4567);
+    ck_assert_msg(strstr(r[4].note, "levels from 3.457 N on"), "%s", r[4].note);
 }
 END_TEST
 
