@@ -105,7 +105,7 @@ static void drop_empty(acer_rates *r)
 
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out)
 {
-    *out = (acer_rates){.step = s->step, .levels = ACER_LEVELS};
+    *out = (acer_rates){.step = s->step, .levels = ACER_LEVELS, .full = batch >= k ? batch - k + 1 : 1};
     double greatest = -(double)INFINITY;
     int64_t batches = 0;
     for (int32_t p = 0; p < s->count; p++) {
@@ -161,13 +161,10 @@ int64_t acer_values(const acer_rates *r)
 
 double acer_effective_batches(const acer_rates *r)
 {
-    double sum = 0, square = 0;
-    for (int32_t b = 0; b < r->batches; b++) {
-        double n = r->values.data[b];
-        sum += n;
-        square += n * n;
-    }
-    return square > 0 ? sum * sum / square : 0;
+    double sum = 0;
+    for (int32_t b = 0; b < r->batches; b++)
+        sum += fmin(1, (double)r->values.data[b] / r->full);
+    return sum;
 }
 
 /* ---- the law of the tail ---- */

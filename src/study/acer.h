@@ -17,6 +17,7 @@ typedef struct acer_rates {
     int32_t batches;       /* that have values */
     ARRAY(int32_t) count;  /* batches x ACER_LEVELS: conditional exceedances */
     ARRAY(int32_t) values; /* of each batch: those that have k - 1 values of their part before them */
+    int32_t full;          /* such values of a part that is just as long as a batch */
     double step;           /* between values [s] */
 } acer_rates;
 
@@ -32,8 +33,8 @@ void acer_free(context *ctx, acer_rates *r);
 /* How often a level is exceeded, over all batches, and by how many values it could be. */
 int64_t acer_exceedances(const acer_rates *r, int32_t level);
 int64_t acer_values(const acer_rates *r);
-/* As many batches of one length have rates of the same scatter (Kish 1965): (sum n)^2 / sum n^2 of the values of each.
- */
+/* How many batches there are, of which a short one counts as the part that its values are of those of a full one, and a
+   longer one, which knows no less of its own, as one. */
 double acer_effective_batches(const acer_rates *r);
 
 /* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:

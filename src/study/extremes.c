@@ -412,7 +412,7 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     extreme_result *out = w->out;
     int64_t exceedances = rates->levels > 0 ? acer_exceedances(rates, 0) : 0;
     out->sample = (int32_t)(exceedances < INT32_MAX ? exceedances : INT32_MAX);
-    /* To the nearest: the first batch of a series lacks the values that have too few before them. */
+    /* To the nearest: series that are a little shorter than a batch are hardly less. */
     if (floor(acer_effective_batches(rates) + 0.5) < ACER_BATCHES_LEAST)
         return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 series or batches of 20 "
                                     "time scales, of which short ones count as parts");

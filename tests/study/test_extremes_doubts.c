@@ -440,6 +440,13 @@ START_TEST(batches_without_values_stand_for_no_run)
         ck_assert_int_gt(r.values.data[b], 0);
     assert_absolute(acer_effective_batches(&r), BATCHES, 0.1);
     acer_free(&ctx, &r);
+    /* Runs that are longer than a batch count no less for it. */
+    series_part longer[20];
+    for (int i = 0; i < 20; i++)
+        longer[i] = (series_part){value + i * 2 * LENGTH, i < 10 ? LENGTH : LENGTH + 3 * LENGTH / 5};
+    ck_assert(acer_count(&ctx, &(series_set){longer, 20, 1}, ORDER, 3, LENGTH, &r));
+    assert_absolute(acer_effective_batches(&r), 20, 1e-12);
+    acer_free(&ctx, &r);
     extreme_request ask;
     extreme_request_default(&ask);
     ask.duration = VALUES;
