@@ -161,10 +161,13 @@ int64_t acer_values(const acer_rates *r)
 
 double acer_effective_batches(const acer_rates *r)
 {
-    double sum = 0;
-    for (int32_t b = 0; b < r->batches; b++)
-        sum += fmin(1, (double)r->values.data[b] / r->full);
-    return sum;
+    double sum = 0, squares = 0;
+    for (int32_t b = 0; b < r->batches; b++) {
+        double n = fmin(r->full, (double)r->values.data[b]);
+        sum += n;
+        squares += n * n;
+    }
+    return squares > 0 ? sum * sum / squares : 0;
 }
 
 /* ---- the law of the tail ---- */

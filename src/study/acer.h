@@ -33,8 +33,8 @@ void acer_free(context *ctx, acer_rates *r);
 /* How often a level is exceeded, over all batches, and by how many values it could be. */
 int64_t acer_exceedances(const acer_rates *r, int32_t level);
 int64_t acer_values(const acer_rates *r);
-/* How many batches there are, of which a short one counts as the part that its values are of those of a full one, and a
-   longer one, which knows no less of its own, as one. */
+/* As many batches of one length have rates of the same scatter (Kish 1965): (sum n)^2 / sum n^2 of the values of each,
+   of which one that is longer than a batch has no more than a full one: it knows no less of its own. */
 double acer_effective_batches(const acer_rates *r);
 
 /* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:

@@ -415,7 +415,7 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     /* To the nearest: series that are a little shorter than a batch are hardly less. */
     if (floor(acer_effective_batches(rates) + 0.5) < ACER_BATCHES_LEAST)
         return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 series or batches of 20 "
-                                    "time scales, of which short ones count as parts");
+                                    "time scales, of which ones much shorter than the others count as parts");
     if (out->sample < LAW_VALUES_LEAST)
         return extremes_refuse_few(out);
     if (!acer_fit(rates, &out->tail))

@@ -447,6 +447,12 @@ START_TEST(batches_without_values_stand_for_no_run)
     ck_assert(acer_count(&ctx, &(series_set){longer, 20, 1}, ORDER, 3, LENGTH, &r));
     assert_absolute(acer_effective_batches(&r), 20, 1e-12);
     acer_free(&ctx, &r);
+    /* Equal short ones are as many as there are: runs are independent. */
+    for (int i = 0; i < 20; i++)
+        longer[i].count = LENGTH / 2;
+    ck_assert(acer_count(&ctx, &(series_set){longer, 20, 1}, ORDER, 3, LENGTH, &r));
+    assert_absolute(acer_effective_batches(&r), 20, 1e-12);
+    acer_free(&ctx, &r);
     extreme_request ask;
     extreme_request_default(&ask);
     ask.duration = VALUES;
