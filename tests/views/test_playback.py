@@ -300,6 +300,17 @@ def check_open_water(browser, folder):
         seen = browser.run(LOOK.replace("114, 0", "hull[0], hull[1] + 45"))
         assert seen["hull"][0] > 150, seen["hull"]
         assert is_deck(seen["hullPixel"]) and is_blue(seen["waterPixel"]), (camera, seen)
+    browser.choose("camera", "below")
+    reach = browser.run("""(() => { const { camera } = fram.scene, { index, vertices } = fram.hull, out = [];
+        fram.draw();
+        camera.updateMatrixWorld();
+        const [x, y, z] = fram.poses.pose.subarray(7 * index);
+        for (let i = 0; i < vertices.length; i += 3) {
+            const p = camera.position.clone().set(x + vertices[i], y + vertices[i + 1], z + vertices[i + 2]);
+            out.push(...p.project(camera).toArray().slice(0, 2).map(Math.abs));
+        }
+        return Math.max(...out); })()""")
+    assert 0.3 < reach < 1, f"from below a ship reaches {reach} of the way to the edge of the view"
     browser.choose("camera", "follow")
     ends = """[-24, 24].map((x) => fram.camera.centre().add({ x, y: 0, z: 0 }).project(fram.scene.camera))
         .map((p) => [p.x / 2 * innerWidth, p.y / 2 * fram.room().height])"""

@@ -35,12 +35,13 @@ export class Camera {
     place(mode, room) {
         const { camera, box, field } = this.scene, along = goesAlong(mode);
         const size = (along ? field : box).getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
-        // A ship is seen whole, however small the field is beside it and however narrow the window.
-        const upright = Math.max(1, room.height / room.width);
-        const near = Math.max(wide, 3.5 * this.length()) * upright;
+        // A ship is seen whole, however small the field is beside it and however narrow the window; from below, where
+        // the camera is nearer, by more of its lengths.
+        const upright = Math.max(1, room.height / room.width), length = this.length();
+        const near = Math.max(wide, 3.5 * length) * upright, under = Math.max(wide, 5.5 * length * upright);
         const target = along ? this.centre() : box.getCenter(new THREE.Vector3()).setZ(0);
         const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
-            : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
+            : mode === 'below' ? [-0.12 * under, -0.24 * under, -0.14 * under]
             : mode === 'follow' ? [-0.28 * near, -0.3 * near, 0.2 * near]
             : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
         camera.position.copy(target).add(new THREE.Vector3(...offset));
