@@ -219,7 +219,17 @@ def check_finger(browser):
 
 def check_print(browser):
     """On paper is what the view shows: drawing begins anew on a canvas that has changed its size, which is not waited
-    for."""
+    for; on a screen with finer pixels too, and back from there."""
+    size = {name: browser.run(f"inner{name.title()}") for name in ("width", "height")}
+    print_view(browser)
+    for ratio in (2, 1):
+        browser.call("Emulation.setDeviceMetricsOverride", **size, deviceScaleFactor=ratio, mobile=False)
+        browser.until(f"fram.scene.renderer.getPixelRatio() === {ratio}", f"the view is not drawn for {ratio} pixels")
+        print_view(browser)
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
+def print_view(browser):
     paper = base64.b64decode(browser.call("Page.printToPDF", landscape=True, printBackground=True)["data"])
     images = [zlib.decompressobj().decompress(paper[head.end():])
               for head in re.finditer(rb"/Subtype ?/Image\b[^>]*/FlateDecode[^>]*>>\s*stream\r?\n", paper)]

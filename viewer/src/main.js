@@ -202,7 +202,6 @@ class Player {
         $('film').onclick = () => this.takeFilm();
         this.camera.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
-        this.watchRatio();
         // Its texts may take another line; the view ends where it begins.
         new ResizeObserver(() => this.resize()).observe(document.querySelector('footer'));
         window.addEventListener('keydown', (e) => this.key(e));
@@ -334,20 +333,11 @@ class Player {
 
     resize() {
         const { width, height } = this.room();
+        this.ratio = window.devicePixelRatio;
         this.scene.resize(width, height);
         this.placePeak();
         this.placeHistory();
         this.dirty = true;
-    }
-
-    /** A page that is zoomed, or comes to another screen, may keep its size.  One that is printed is asked for other
-     *  pixels too, but it must keep its picture: that is not drawn again before it is on the paper. */
-    watchRatio() {
-        const ratio = window.devicePixelRatio;
-        matchMedia(`(resolution: ${ratio}dppx)`).addEventListener('change', () => {
-            if (window.devicePixelRatio !== ratio) this.resize();
-            this.watchRatio();
-        }, { once: true });
     }
 
     /** The legend is as small as the room asks for; returns where it ends. */
@@ -380,6 +370,10 @@ class Player {
     tick(now) {
         const passed = this.last ? (now - this.last) / 1000 : 0;
         this.last = now;
+        // A page that is zoomed, or comes to another screen, may keep its size, and hear of nothing.  One that is
+        // printed is asked for other pixels too, but has no ticks then: it keeps its picture, which is not drawn again
+        // before it is on the paper.
+        if (window.devicePixelRatio !== this.ratio) this.resize();
         if (this.playing && !this.waiting) {
             this.time = Math.min(this.end, this.time + passed * Number($('speed').value));
             if (this.time >= this.end) this.stop();
