@@ -471,6 +471,12 @@ def check_pick(browser):
         const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
         let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n / (c.width * c.height); })()""")
     assert inked > 0.02, f"the history of a floe is blank: {inked}"
+    scrolled = browser.run("""(() => { const { history } = fram, { style } = document.getElementById('history');
+        const { fate } = history;
+        return [() => 'a line<br>'.repeat(99), fate].map((tell) => {
+            Object.assign(history, { fate: tell }).grow();
+            return style.pointerEvents; }); })()""")
+    assert scrolled == ["auto", ""], f"the pointer on a history that grows and shrinks again: {scrolled}"
     check_ratio(browser)
     if browser.run("!document.getElementById('whole').hidden"):
         check_whole_history(browser)

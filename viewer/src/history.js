@@ -9,8 +9,10 @@ const MOST = 400; // frames that are looked at
 function short(value) { return value < 10 ? `${Number(value.toPrecision(3))}` : value.toFixed(1); }
 
 export class History {
-    constructor(panel, record, store) {
+    /** resized: told whenever the panel may have another height. */
+    constructor(panel, record, store, resized) {
         this.panel = panel;
+        this.resized = resized;
         this.record = record;
         this.store = store;
     }
@@ -88,6 +90,7 @@ export class History {
         button.hidden = missing === 0;
         button.disabled = this.loading !== null;
         button.textContent = this.loading ?? `load the other ${missing} frames of its history`;
+        this.resized();
     }
 
     /** What the frames that are in the page now tell beyond what is known. */

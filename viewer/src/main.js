@@ -69,7 +69,7 @@ class Player {
         this.timeline = new Timeline($('timeline'), record, this.ofVessel || ' on the vessel', (t) => this.seek(t),
             (p) => this.peaks.open(p));
         this.tellLoads();
-        this.history = new History($('history'), record, this.store);
+        this.history = new History($('history'), record, this.store, () => this.placeHistory());
         this.drawn = { bodies: record.bodies.length, fractures: record.fractures.length };
         this.poses.show(0);
         this.findRanges();
@@ -308,7 +308,6 @@ class Player {
         this.picked = body;
         this.scene.pick(body);
         this.history.show(body);
-        this.placeHistory();
         this.dirty = true;
     }
 
