@@ -43,6 +43,8 @@ typedef struct video {
     char path[PATH_ROOM];
 } video;
 
+static double widest(box2 box) { return fmax(box.hi.x - box.lo.x, box.hi.y - box.lo.y); }
+
 static void find_extent(video *v)
 {
     bool ice = false;
@@ -61,7 +63,7 @@ static void find_extent(video *v)
     /* Beside one it is the bodies that count.  A ship is seen whole, however small the field is beside it. */
     v->near = fmax(fmax(hi.x - lo.x, hi.y - lo.y), 3.5 * replay_hull_size(&v->r, 0).x);
     if (!(v->near > 0))
-        v->near = fmax(v->extent.hi.x - v->extent.lo.x, v->extent.hi.y - v->extent.lo.y);
+        v->near = widest(v->extent);
 }
 
 static void find_whole(video *v)
@@ -86,6 +88,16 @@ static void find_whole(video *v)
 
 /* Of an arrow of the strongest forces but a few, over the width of what is seen. */
 #define ARROW_LENGTH 0.12
+
+/* [m] */
+static double seen_across(const video *v)
+{
+    if (v->options->camera == VIDEO_FOLLOW)
+        return v->near;
+    if (v->options->camera == VIDEO_ORBIT)
+        return widest(v->extent);
+    return v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
+}
 
 /* Times, loads, the range of what is shown (its 98th percentile) and the scale of the arrows, from a first reading. */
 static fram_status look_ahead(video *v, const char *folder, fram_error *error)
@@ -120,12 +132,9 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
     v->hi = thinned_percentile(&values, 98);
     if (!(v->hi > 0))
         v->hi = 1;
-    double across = v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
-    if (v->options->camera == VIDEO_FOLLOW)
-        across = fmin(across, v->near);
     /* As on the playback page, a few arrows may be longer: one hard blow must not make all others vanish. */
     double strong = thinned_percentile(&forces, 99);
-    v->arrow = strong > 0 ? ARROW_LENGTH * across / strong : 0;
+    v->arrow = strong > 0 ? ARROW_LENGTH * seen_across(v) / strong : 0;
     array_free(v->ctx, &values.value);
     array_free(v->ctx, &forces.value);
     replay_close(&v->r);

@@ -497,7 +497,7 @@ def check_open_hull(folder):
 
 def check_bare_videos(folder):
     """Without a vessel there is no load to tell of; ships without ice are seen in all of their domain, and as large as
-    ever, with their arrows, by the camera that goes with them."""
+    ever, with their arrows, by the camera that goes with them; beside ice arrows go by what is seen, not the domain."""
     def picture(name, camera, scene):
         (folder / "cat.yaml").write_text(scene)
         fram("run", folder / "cat.yaml", "-o", folder / name, "-q")
@@ -509,15 +509,16 @@ def check_bare_videos(folder):
     inked = [x for row in picture("nobody", "plan", nobody)[362:373] for x, p in enumerate(row) if max(p) < 100]
     assert 40 < len(inked) and max(inked) < 100, f"more than 'no vessel' over the curve, to pixel {max(inked)}"
     water, seen = re.sub("ice: .*", "ice: {source: none}", CATAMARAN), []
-    moored = water.replace("prescribed, x: -1400000", "free, x: -1400000, mooring: {depth: 60, lines: [{count: 4, "
-                           "spacing_deg: 90, distance: 300, pretension: 2.0e5}]}")
-    for camera, scene in ("orbit", water), ("follow", moored):
+    moored = [scene.replace("prescribed, x: -1400000", "free, x: -1400000, mooring: {depth: 60, lines: [{count: 4, "
+                            "spacing_deg: 90, distance: 300, pretension: 2.0e5}]}") for scene in (water, CATAMARAN)]
+    for name, camera, scene in ("all", "orbit", water), ("beside", "follow", moored[0]), ("ice", "orbit", moored[1]):
         for x in "-1400050", "-1400450":
-            space = sum(picture(f"{camera}{x}", camera, scene.replace("-1400050", x))[:360], [])
+            space = sum(picture(f"{name}{x}", camera, scene.replace("-1400050", x))[:360], [])
             seen.append([sum(p[0] > 1.6 * p[1] for p in space), sum(p[1] > 1.5 * max(p[0], p[2]) for p in space)])
-    (near, _), (far, _), *beside = seen
+    (near, _), (far, _), *beside = seen[:4]
     assert near > 2 * far > 0, f"ships of {near} and {far} pixels in domains of 150 and 550 m"
     assert beside[0] == beside[1] and min(beside[0]) > 200, f"pixels of ships and arrows beside them: {beside}"
+    assert seen[4] == seen[5] and seen[4][1] > 50, f"pixels of ships and arrows over a field of ice: {seen[4:]}"
 
 
 def main():
