@@ -60,8 +60,9 @@ static void find_extent(video *v)
     }
     /* Vessels without ice sail wherever the domain has water. */
     v->extent = ice && lo.x < hi.x ? (box2){lo, hi} : domain_box(&v->s.domain);
-    /* Beside one it is the bodies that count.  A ship is seen whole, however small the field is beside it. */
-    v->near = fmax(fmax(hi.x - lo.x, hi.y - lo.y), 3.5 * replay_hull_size(&v->r, 0).x);
+    /* Beside one it is the ice that counts, not where others sail.  A ship is seen whole, however small the field is
+       beside it. */
+    v->near = fmax(ice ? widest((box2){lo, hi}) : 0, 3.5 * replay_hull_size(&v->r, 0).x);
     if (!(v->near > 0))
         v->near = widest(v->extent);
 }

@@ -518,6 +518,8 @@ def check_bare_videos(folder):
     (near, _), (far, _), *beside = seen[:4]
     assert near > 2 * far > 0, f"ships of {near} and {far} pixels in domains of 150 and 550 m"
     assert beside[0] == beside[1] and min(beside[0]) > 200, f"pixels of ships and arrows beside them: {beside}"
+    space = sum(picture("apart", "follow", re.sub("-1400050|-1399950", "-1400450", moored[0]))[:360], [])
+    assert sum(p[0] > 1.6 * p[1] for p in space) > 0.4 * beside[0][0], "a ship is seen from far where another is"
     assert seen[4] == seen[5] and seen[4][1] > 50, f"pixels of ships and arrows over a field of ice: {seen[4:]}"
 
 

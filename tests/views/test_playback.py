@@ -289,9 +289,14 @@ def check_few(browser, folder):
 
 def check_open_water(browser, folder):
     """A ship without ice or walls stays on the water and in the cameras that show all, to the end of its domain; beside
-    it the camera is near, and arrows are no longer than it, however large that is."""
-    run, _ = make_run(folder, "sails", TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", "{source: none}")
-                       .replace("x_max: -1399920", "x_max: -1399300, boundary: open").replace("speed: 4", "speed: 99"))
+    it the camera is near, and arrows are no longer than it, however large that is and far away another ship."""
+    scene = TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", "{source: none}").replace("speed: 4", "speed: 99")
+    ship = scene[scene.index("vessel:"):scene.index("ice:")]
+    first = ship.replace("vessel:\n  mode", "vessels:\n- name: one\n  mode")
+    other = re.sub("mode.*", "mode: prescribed", re.sub("  speed.*\n", "", first)).replace("-1400036", "-1399330")
+    other = other.replace("vessels:\n", "").replace("one", "two")
+    run, _ = make_run(folder, "sails", scene.replace(ship, first + other)
+                       .replace("x_max: -1399920", "x_max: -1399300, boundary: open"))
     browser.open(run / "playback.html")
     browser.choose("colour", "plain")
     for camera in ("top", "orbit"):
@@ -318,9 +323,10 @@ def check_open_water(browser, folder):
         fram.colours.ends.pulls.value, fram.scene.arrowWidth]""")
     assert 250 < long < 1200, f"a ship of 48 m is {long} pixels long"
     assert 2 < arrow < 24 and thick < 12, f"arrows of {arrow} m and {thick} m beside a ship of 48 m"
-    seen = browser.run("""(() => { const { field, camera } = fram.scene; field.max.x = 1e5; fram.placeCamera();
+    browser.choose("camera", "top")
+    seen = browser.run("""(() => { const { box, camera } = fram.scene; box.max.x = 1e5; fram.placeCamera();
         return camera.position.distanceTo(fram.camera.controls.target) / camera.far; })()""")
-    assert 0 < seen < 1, f"of two ships that are 100 km apart the camera sees {1 / seen} of the way"
+    assert 0 < seen < 1, f"of a domain of 100 km the camera sees {1 / seen} of the way"
 
 
 def check_no_vessel(browser, folder):

@@ -251,8 +251,9 @@ export class Scene {
     }
 
     /** Of the first frame, since a record that grows knows no more: `field` is around its bodies but walls, for what is
-     *  seen near a vessel and for arrows; `box` is around all that there will be to see, without ice the walls and the
-     *  domain too, wherever in it vessels will sail and ice will come. */
+     *  seen near a vessel and for arrows, without ice as wide as a vessel, however far apart they are; `box` is around
+     *  all that there will be to see, without ice the walls and the domain too, wherever in it vessels will sail and
+     *  ice will come. */
     findBoxes(first) {
         const { bodies, origin: [x, y] } = this.record;
         const { x_min: west, x_max: east, y_min: south, y_max: north } = this.domain;
@@ -274,6 +275,7 @@ export class Scene {
         if (box.isEmpty()) box.expandByPoint(point.set(0, 0, 0));
         if (field.isEmpty()) field.copy(box);
         const hulls = bare ? there.flatMap((b) => (b.material === 'hull' ? [...b.vertices] : [])) : [];
+        if (hulls.length) field.set(field.getCenter(point), point);
         const reach = hulls.reduce((far, v) => Math.max(far, Math.abs(v)), 20 * this.metre);
         this.box = box.expandByScalar(reach);
         this.field = field.expandByScalar(reach);
