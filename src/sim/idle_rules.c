@@ -85,7 +85,7 @@ static bool is_fixed(const idle_question *q) { return q->floe->fixed; }
 static bool is_dry(const idle_question *q) { return !q->s->environment.water; }
 /* The current is the drift of an endless field that has none of its own. */
 static bool is_dry_and_still(const idle_question *q) { return is_dry(q) && (is_unfed(q) || has_own_drift(q)); }
-static bool cuts_no_floe(const idle_question *q) { return is_unbreakable(q) && is_unfed(q); }
+static bool cuts_no_floe(const idle_question *q) { return has_no_breakable(q) && is_unfed(q); }
 static bool keeps_packed_floes(const idle_question *q) { return q->s->ice.source == ICE_PACKED && cuts_no_floe(q); }
 static bool keeps_listed_floes(const idle_question *q) { return !is_no_list(q) && cuts_no_floe(q); }
 static bool has_no_current(const idle_question *q) { return q->s->environment.current_speed == 0; }
@@ -192,8 +192,8 @@ static const idle_rule rules[] = {
     {"ice.mean_floe_area", is_of_cells, "floes are not cells of ice.source voronoi without populations"},
     {"ice.size_deviation", is_no_voronoi, "ice.source is not voronoi"},
     {"ice.roundness", is_no_voronoi, "ice.source is not voronoi"},
-    {"ice.smallest_floe_area", keeps_packed_floes, "packed floes are made as drawn, and ice.breakable is false"},
-    {"ice.smallest_floe_area", keeps_listed_floes, "listed floes are made as given, and ice.breakable is false"},
+    {"ice.smallest_floe_area", keeps_packed_floes, "packed floes are made as drawn, and none may break"},
+    {"ice.smallest_floe_area", keeps_listed_floes, "listed floes are made as given, and none may break"},
     {"ice.open_water", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.populations", is_no_field, "ice.source is neither voronoi nor file nor packed"},
     {"ice.floes", is_no_list, "ice.source is not floes"},

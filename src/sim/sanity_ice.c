@@ -108,7 +108,7 @@ static void tell_thresholds(const teller *t)
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
     tell_law_cut(t);
     tell_wedges_kept(t);
-    if (i->breakable && i->smallest_floe_area < speck)
+    if (ice_may_break(i) && i->smallest_floe_area < speck)
         sanity_say(t->tell, t->to,
                    "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "
                    "it breaks: take %s m2 or more",

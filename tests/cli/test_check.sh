@@ -285,6 +285,10 @@ expect 0 "$FRAM" check strengths.yaml --set "ice.populations[0].breakable=false"
 says "ice: nothing breaks or splits (ice.populations[].breakable: false)" err
 says "move 0.2 of its thickness past each other in a step at 2 m/s; crushing" err
 grep -e 'take run.time_step' -e fracture: -e wedge err && fail "told of ice none of which breaks as if it did"
+expect 0 "$FRAM" check strengths.yaml --set "ice.populations[0].breakable=false" \
+    --set "ice.populations[1].breakable=false" --set ice.smallest_floe_area=1e-6
+says "ice.smallest_floe_area: without effect, since packed floes are made as drawn, and none may break" err
+grep specks err && fail "told of specks of ice that does not break"
 expect 0 "$FRAM" check thin.yaml --set ice.breakable=true
 says "fracture: on 0.0225 m2 the radial crack" err
 # Floes of a file have the thicknesses that it gives, which are known where they are made.

@@ -197,9 +197,9 @@ silent packed.yaml --set "ice.populations[0].exponent=2" --set "ice.populations[
 silent packed.yaml --set ice.smallest_floe_area=20 --set ice.breakable=true
 silent packed.yaml --set ice.smallest_floe_area=20 --set domain.boundary=feeding
 before=$(hash_of packed.yaml)
-idle packed.yaml ice.smallest_floe_area=20 "packed floes are made as drawn, and ice.breakable is false"
+idle packed.yaml ice.smallest_floe_area=20 "packed floes are made as drawn, and none may break"
 before=$(hash_of floes.yaml)
-idle floes.yaml ice.smallest_floe_area=2000 "listed floes are made as given, and ice.breakable is false"
+idle floes.yaml ice.smallest_floe_area=2000 "listed floes are made as given, and none may break"
 silent floes.yaml --set ice.smallest_floe_area=20 --set ice.breakable=true
 told packed.yaml "ice.populations[0].diameter: without effect, since size is neither constant nor lognormal" \
     --set "ice.populations[0].diameter=12"
