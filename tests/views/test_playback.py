@@ -293,9 +293,8 @@ def check_open_water(browser, folder):
     scene = TOWED.replace("{mean_floe_area: 64, concentration: 0.7}", "{source: none}").replace("speed: 4", "speed: 99")
     ship = scene[scene.index("vessel:"):scene.index("ice:")]
     first = ship.replace("vessel:\n  mode", "vessels:\n- name: one\n  mode")
-    other = re.sub("mode.*", "mode: prescribed", re.sub("  speed.*\n", "", first)).replace("-1400036", "-1399330")
-    other = other.replace("vessels:\n", "").replace("one", "two")
-    run, _ = make_run(folder, "sails", scene.replace(ship, first + other)
+    other = re.sub("mode.*", "mode: prescribed", re.sub("  speed.*\n|vessels:\n", "", first)).replace("one", "two")
+    run, _ = make_run(folder, "sails", scene.replace(ship, first + other.replace("-1400036", "-1399330"))
                        .replace("x_max: -1399920", "x_max: -1399300, boundary: open"))
     browser.open(run / "playback.html")
     browser.choose("colour", "plain")
@@ -307,13 +306,11 @@ def check_open_water(browser, folder):
         assert is_deck(seen["hullPixel"]) and is_blue(seen["waterPixel"]), (camera, seen)
     browser.choose("camera", "below")
     reach = browser.run("""(() => { const { camera } = fram.scene, { index, vertices } = fram.hull, out = [];
-        fram.draw();
-        camera.updateMatrixWorld();
+        fram.draw(); camera.updateMatrixWorld();
         const [x, y, z] = fram.poses.pose.subarray(7 * index);
-        for (let i = 0; i < vertices.length; i += 3) {
-            const p = camera.position.clone().set(x + vertices[i], y + vertices[i + 1], z + vertices[i + 2]);
-            out.push(...p.project(camera).toArray().slice(0, 2).map(Math.abs));
-        }
+        for (let i = 0; i < vertices.length; i += 3)
+            out.push(...camera.position.clone().set(x + vertices[i], y + vertices[i + 1], z + vertices[i + 2])
+                .project(camera).toArray().slice(0, 2).map(Math.abs));
         return Math.max(...out); })()""")
     assert 0.3 < reach < 1, f"from below a ship reaches {reach} of the way to the edge of the view"
     browser.choose("camera", "follow")
@@ -480,8 +477,7 @@ def check_pick(browser):
     scrolled = browser.run("""(() => { const { history } = fram, { style } = document.getElementById('history');
         const { fate } = history;
         return [() => 'a line<br>'.repeat(99), fate].map((tell) => {
-            Object.assign(history, { fate: tell }).grow();
-            return style.pointerEvents; }); })()""")
+            Object.assign(history, { fate: tell }).grow(); return style.pointerEvents; }); })()""")
     assert scrolled == ["auto", ""], f"the pointer on a history that grows and shrinks again: {scrolled}"
     check_ratio(browser)
     if browser.run("!document.getElementById('whole').hidden"):
