@@ -152,12 +152,12 @@ static double checked_rate(const turning_search *t, double most)
 {
     double step = FASTEST * t->speed / t->hull->particulars.length / RATES, low = 0, high = 0;
     double wanted = CHECKED * moment_against(*t, 0);
-    while (high < most && moment_against(*t, high) <= wanted) {
+    while (moment_against(*t, high) <= wanted) {
+        if (high >= most)
+            return most;
         low = high;
-        high += step;
+        high = fmin(high + step, most);
     }
-    if (high >= most)
-        return most;
     for (int k = 0; k < HALVINGS; k++) {
         double middle = 0.5 * (low + high);
         if (moment_against(*t, middle) <= wanted)

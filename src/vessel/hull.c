@@ -1,7 +1,6 @@
 /* Particulars, generated hulls and zones. */
 #include "vessel/hull.h"
 
-#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "vessel/hull_cone.h"
 #include "vessel/hull_ship.h"
@@ -222,12 +221,10 @@ static fram_status check_block(const hull_particulars *p, fram_error *error)
     if (p->form == HULL_BOX)
         return error_value(error, "block_coefficient", "1, that of a box, or none: a finer hull takes another form",
                            asked);
-    const range_text range = range_text_of(least, most, 4);
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
-                     "with the other particulars the block coefficient can be %s to %s, found %g; a larger one takes "
-                     "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller one the "
-                     "opposite",
-                     range.least.text, range.most.text, asked);
+    return hull_block_refuse(least, most, asked,
+                             "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller "
+                             "one the opposite",
+                             error);
 }
 
 fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)

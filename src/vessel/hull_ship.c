@@ -285,6 +285,15 @@ static fram_status check_room(const hull_particulars *p, fram_error *error)
                      range.least.text, range.most.text, parallel);
 }
 
+fram_status hull_block_refuse(double least, double most, double asked, const char *remedy, fram_error *error)
+{
+    const range_text range = range_text_of(least, most, 4);
+    return error_set(
+        error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
+        "with the other particulars the block coefficient can be %s to %s, found %g; a larger one takes %s",
+        range.least.text, range.most.text, asked, remedy);
+}
+
 fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
 {
     fram_status status = check_ship_angles(p, error);
@@ -298,12 +307,10 @@ fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
     hull_ship_block_range(p, &least, &most);
     if (asked >= least && asked <= most)
         return FRAM_OK;
-    const range_text range = range_text_of(least, most, 4);
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
-                     "with the other particulars the block coefficient can be %s to %s, found %g; a larger one "
-                     "takes steeper stem_angle or stern_angle, a wider transom, a smaller bilge_radius or a larger "
-                     "entrance_angle, a smaller one the opposite; parallel_midbody is best left out",
-                     range.least.text, range.most.text, asked);
+    return hull_block_refuse(least, most, asked,
+                             "steeper stem_angle or stern_angle, a wider transom, a smaller bilge_radius or a larger "
+                             "entrance_angle, a smaller one the opposite; parallel_midbody is best left out",
+                             error);
 }
 
 /* ---- surface ---- */

@@ -15,6 +15,9 @@
 void hull_ship_fill(hull_particulars *p);
 /* FRAM_ERROR_INPUT names the particular that does not fit; a block coefficient out of reach is told with its range. */
 fram_status hull_ship_check(const hull_particulars *p, fram_error *error);
+/* FRAM_ERROR_INPUT, of any form: a block coefficient beyond what the other particulars leave.  remedy: what a larger
+   one takes, and a smaller one. */
+fram_status hull_block_refuse(double least, double most, double asked, const char *remedy, fram_error *error);
 /* The least and the largest block coefficient that the other particulars leave. */
 void hull_ship_block_range(const hull_particulars *p, double *least, double *most);
 /* Lengths of entrance and run at the waterline [m]. */
