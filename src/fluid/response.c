@@ -329,6 +329,18 @@ static double deferred_share(const matrix6 *whole, const matrix6 *known)
     return f < 1 ? fmin(1, DEFERRED_SHRINK * (1 - f) / fmax(f, LEAST_COUPLING)) : 0;
 }
 
+enum { HEAVE = 2 };
+
+/* Damping of what is free to move: to a motion that a joint holds nothing is implicit, it bears all that damps it. */
+static matrix6 damping_of_free(const matrix6 *damping, bool coupled)
+{
+    if (coupled)
+        return *damping;
+    matrix6 out = {0};
+    out.m[HEAVE][HEAVE] = damping->m[HEAVE][HEAVE];
+    return out;
+}
+
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
                            const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load)
 {
@@ -339,13 +351,14 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
     pair6 force = {mat3_tmul_vec(r, load->force), mat3_tmul_vec(r, load->moment)};
     force = pair_sum(force, matrix6_mul(&damping, v), -1);
     matrix6 known = matrix6_sum(&rigid, &diagonal, 1), whole = matrix6_sum(&rigid, &added, 1);
-    whole = matrix6_sum(&whole, &damping, time_step);
+    matrix6 implicit = damping_of_free(&damping, coupled);
+    whole = matrix6_sum(&whole, &implicit, time_step);
     vec3 gyroscopic = {0, 0, 0};
-    pair6 deferred = {{0, 0, 0}, {0, 0, 0}};
+    /* Damping alone couples nothing: all of it can be made up for. */
+    double share = coupled ? deferred_share(&whole, &known) : 1;
+    pair6 deferred = {mat3_tmul_vec(r, vec3_scale(contacts->force, share)),
+                      mat3_tmul_vec(r, vec3_scale(contacts->moment, share))};
     if (coupled) {
-        double share = deferred_share(&whole, &known);
-        deferred.linear = mat3_tmul_vec(r, vec3_scale(contacts->force, share));
-        deferred.angular = mat3_tmul_vec(r, vec3_scale(contacts->moment, share));
         /* Known to the dynamics, who divide it by what they know: it must be divided by all, and then put back. */
         vec3 turning = matrix6_mul(&diagonal, v).angular;
         gyroscopic = vec3_cross(v.angular, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.angular), turning));

@@ -57,8 +57,8 @@ double hydrodynamics_munk(const hydrodynamics *h, vec3 velocity);
    by the diagonal; what all of M + A + dt D would have made of them is made up for now, so that over time the body
    answers to them by all of it too.  With a lag of a step this converges while the couplings are weak against the
    diagonal, as those of ships are; where they are not, that much of it is left out as might not. coupled: false is for
-   a body that a joint leads and allows to heave only: the diagonals move it, the rest of the damping and Kirchhoff's
-   terms are loads that the joint bears; what couplings of A make of an acceleration is left out. */
+   a body that a joint leads and allows to heave only: of D only its heave is implicit, the rest of D v and Kirchhoff's
+   terms are loads that the joint bears whatever the step; what couplings of A make of an acceleration is left out. */
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
                            const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load);
 
