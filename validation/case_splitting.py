@@ -70,7 +70,8 @@ def case(out):
         2,
         "Fixed floes of 1 m, 20 to 80 m long, whose side meets a steep plate, frictionless, with the option "
         "`splitting: toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits; bending does not "
-        "reach its strength. And the same with upright stems.",
+        "reach its strength. And the same with upright stems. `narrowness` is 100, so that the floe of 60 x 80 m may "
+        "split into one of 60 x 10 m: with the default, 4, it would not split at any load.",
         "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by finite elements, computed "
         "for each floe (`validation/splitting_factors.py`; 0.1334 at a width of 0.5 lengths, 0.1869 at 1, 0.2105 at "
         "2, as "

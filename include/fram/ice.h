@@ -105,6 +105,8 @@ typedef struct fram_ice_splitting {
     double smaller_side, larger_side; /* of the floe, to both sides of the crack [m] */
     double factor;                    /* F */
     double splitting_load;            /* largest opening force of the crack, F h K_IC sqrt(length) [N] */
+    double slenderness;               /* of the narrower piece, longer over shorter side; a run splits no floe where
+                                         it is over ice.fracture.narrowness (4), whatever the load */
 } fram_ice_splitting;
 /* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
 FRAM_API fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error,

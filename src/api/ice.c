@@ -258,11 +258,13 @@ fram_status(fram_ice_split)(const fram_ice_floe *given, fram_ice_splitting *spli
     if (status != FRAM_OK)
         return status;
     double far = floe->width / 2 + fabs(floe->place), near = floe->width - far;
+    double slender = fmax(floe->length / near, fmax(far / floe->length, near / floe->length));
     const fram_ice_splitting full = {
         .smaller_side = near,
         .larger_side = far,
         .factor = fracture_splitting_factor(floe->length, near, far),
         .splitting_load = fracture_splitting_force(floe->thickness, floe->toughness, floe->length, near, far),
+        .slenderness = slender,
     };
     result_give(splitting, size, &full);
     return FRAM_OK;

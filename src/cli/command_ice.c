@@ -220,6 +220,8 @@ static int answer_split(const ice_words *w, const common_options *common)
         {"larger_side", s.larger_side, "m", "width on the other side"},
         {"factor", s.factor, "", "F of the largest opening force F h K_IC sqrt(length)"},
         {"splitting_load", s.splitting_load, "N", "opening force at which the floe splits"},
+        {"slenderness", s.slenderness, "",
+         "of the narrower piece; over ice.fracture.narrowness (4) no run splits the floe"},
     };
     PRINT(common, rows);
     return EXIT_GOOD;

@@ -274,7 +274,8 @@
       "toughness: fracture toughness K_IC; goes with lambda^1.5 in a scenario that is scaled")                        \
     X(narrowness, REAL(4, 1, 1e6), "1",                                                                               \
       "R_size: a floe does not split into one whose box is longer than this many "                                    \
-      "widths")                                                                                                       \
+      "widths, by length or by toughness and whatever the load: a square one that is hit a quarter of its side off "  \
+      "the middle needs more than 4")                                                                                 \
     X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")          \
     X(wide_contacts, BOOLEAN(true), "",                                                                               \
       "a load that is wider along the edge than the ice is thick, and four times as wide as it is deep, breaks a "    \

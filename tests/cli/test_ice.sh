@@ -85,6 +85,9 @@ expect 0 "$FRAM" ice split --length 50 --width 50 --place -18.75 --json
 near 'j["smaller_side"]' 6.25 1e-12 "side"
 near 'j["larger_side"]' 43.75 1e-12 "other side"
 near 'j["factor"]' 0.106 6e-3 "splitting near a corner"
+near 'j["slenderness"]' 8 1e-12 "the narrower piece"
+expect 0 "$FRAM" ice split --length 10 --width 100 --place 10 --json
+near 'j["slenderness"]' 6 1e-12 "the wider piece is the more slender one"
 expect 0 "$FRAM" ice split
 says splitting_load out
 expect 2 "$FRAM" ice split --place 25
