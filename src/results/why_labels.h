@@ -11,6 +11,9 @@
    push comes from, its colour the part of the load up to `most` [%].  Returns how many. */
 int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d, double most, double length,
                    plan_label labels[PEAK_FLOES]);
+/* What the picture shows of the plan: around the middle of what touches the vessel, or the vessel where nothing does,
+   and what the chains reach; reach: half its sides [m]. */
+box2 why_window(const replay *r, const replay_moment *m, const peak_detail *d, int32_t vessel, double reach);
 /* What bears most of the load, if any does, and what the marks in the window are; span: of the crosses [s]; labels: how
    many. */
 enum { WHY_CAPTION = 200 };

@@ -122,17 +122,27 @@ static double length_of(const replay *r, const scenario_hull *hull, int32_t vess
     return hull->form == HULL_MESH ? replay_hull_size(r, vessel).x : hull->length;
 }
 
-/* Around the middle of what touches the vessel, and what the chains reach. */
-static box2 peak_window(const peak_detail *d, double reach)
+/* The middle of what touches the vessel; where nothing does, the vessel itself. */
+static vec2 peak_middle(const replay *r, const replay_moment *m, const peak_detail *d, int32_t vessel)
 {
-    vec2 vessel = vec2_make(0, 0);
+    vec2 middle = vec2_make(0, 0);
     for (int32_t i = 0; i < d->floe_count; i++)
-        vessel = vec2_add(vessel, vec2_make(d->floe[i].point.x / d->floe_count, d->floe[i].point.y / d->floe_count));
-    box2 box = {vec2_make(vessel.x - reach, vessel.y - reach), vec2_make(vessel.x + reach, vessel.y + reach)};
+        middle = vec2_add(middle, vec2_make(d->floe[i].point.x / d->floe_count, d->floe[i].point.y / d->floe_count));
+    const int32_t hull = replay_hull(r, vessel);
+    for (int32_t i = 0; d->floe_count == 0 && i < m->poses.count; i++)
+        if (m->poses.data[i].body == hull)
+            middle = vec2_make(m->poses.data[i].position.x, m->poses.data[i].position.y);
+    return middle;
+}
+
+box2 why_window(const replay *r, const replay_moment *m, const peak_detail *d, int32_t vessel, double reach)
+{
+    const vec2 middle = peak_middle(r, m, d, vessel);
+    box2 box = {vec2_make(middle.x - reach, middle.y - reach), vec2_make(middle.x + reach, middle.y + reach)};
     for (int32_t i = 0; i < d->link_count; i++) {
         /* A fixed floe's place may be far: the middle of a sheet. */
         vec3 p = d->link[i].place;
-        if (fabs(p.x - vessel.x) > 3 * reach || fabs(p.y - vessel.y) > 3 * reach)
+        if (fabs(p.x - middle.x) > 3 * reach || fabs(p.y - middle.y) > 3 * reach)
             continue;
         box.lo = vec2_make(fmin(box.lo.x, p.x), fmin(box.lo.y, p.y));
         box.hi = vec2_make(fmax(box.hi.x, p.x), fmax(box.hi.y, p.y));
@@ -183,7 +193,7 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         const char *on = scenario_vessel_name(&y->run.s, y->vessel);
         snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
                  d->load * unit.factor, unit.name, d->time);
-        const box2 window = peak_window(d, reach);
+        const box2 window = why_window(r, m, d, y->vessel, reach);
         why_caption(d, &plan, window, span, label_count, caption);
         plan_view view = {.window = window,
                           .title = title,

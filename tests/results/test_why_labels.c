@@ -66,4 +66,31 @@ START_TEST(the_caption_tells_what_bears)
 }
 END_TEST
 
-TEST_MAIN("why_labels", floes_without_an_outline, the_caption_tells_what_bears)
+/* Of a vessel far from the global origin that no ice touches; else around what touches it. */
+START_TEST(the_window_is_where_the_vessel_is)
+{
+    context ctx;
+    context_init(&ctx);
+    replay r = {.ctx = &ctx};
+    replay_moment m = {0};
+    static peak_detail d;
+    ck_assert(array_push(&ctx, &r.bodies, (replay_body){.material = MATERIAL_HULL, .number = -1, .vessel = 0}) &&
+              array_push(&ctx, &r.bodies, (replay_body){.material = MATERIAL_HULL, .number = -1, .vessel = 1}) &&
+              array_push(&ctx, &m.poses, (replay_pose){.body = 0, .position = {5, 6, 0}}) &&
+              array_push(&ctx, &m.poses, (replay_pose){.body = 1, .position = {300, -40, 1}}));
+    box2 window = why_window(&r, &m, &d, 1, 45);
+    assert_absolute(window.lo.x, 255, 1e-9);
+    assert_absolute(window.hi.x, 345, 1e-9);
+    assert_absolute(window.lo.y, -85, 1e-9);
+    assert_absolute(window.hi.y, 5, 1e-9);
+    d.floe[0] = floe(7, 400, 320);
+    d.floe_count = 1;
+    window = why_window(&r, &m, &d, 1, 45);
+    assert_absolute(window.lo.x, 275, 1e-9);
+    assert_absolute(window.lo.y, -43, 1e-9);
+    array_free(&ctx, &r.bodies);
+    array_free(&ctx, &m.poses);
+}
+END_TEST
+
+TEST_MAIN("why_labels", the_window_is_where_the_vessel_is, floes_without_an_outline, the_caption_tells_what_bears)
