@@ -3,6 +3,7 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/path.h"
@@ -37,6 +38,31 @@ fram_status fram_time_read(const char *text, double *seconds, fram_error *error)
         return status;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "text",
                      "expected a time, as 3h, 90min or 10800 (seconds), found \"%.60s\"", text);
+}
+
+fram_status fram_number_read(const char *text, double *value, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"text", text}, {"value", value});
+    number_fault fault = status == FRAM_OK ? real_from_text(text, value) : NUMBER_GOOD;
+    if (fault == NUMBER_GOOD)
+        return status;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "text",
+                     "expected a decimal number, as 0.5 or 1e3, found %s\"%.60s\"",
+                     fault == NUMBER_TOO_LARGE ? "one that is too large, " : "", text);
+}
+
+void fram_duration_text(double seconds, char *text, size_t size)
+{
+    if (text && size > 0)
+        snprintf(text, size, "%s", duration_text_of(seconds).text);
+}
+
+enum { LOAD_DIGITS = 4 };
+
+void fram_load_text(double newton, double half, char *text, size_t size)
+{
+    if (text && size > 0)
+        snprintf(text, size, "%s", load_range_text_of(newton, half, LOAD_DIGITS).text);
 }
 
 /* ---- the series ---- */

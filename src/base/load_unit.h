@@ -7,11 +7,24 @@ typedef struct load_unit {
     double factor; /* of the number in N, W or J */
 } load_unit;
 
-/* N, kN or MN. */
+/* N, kN or MN: the rule of every load that is told, by its size. */
 load_unit load_unit_for(double newton);
 
-/* What keeps to one unit at full size, whatever the size: kN, kJ, MW and GJ, and N, J, W and J (or kJ) of what is under
-   1e4 N, J or W, but for nothing.  An energy in GJ goes with the power that it is of. */
+/* A load with its unit, "9.64 N", "-739 kN", "26.1 MN", to so many significant digits and without an exponent
+   (plain_text_of); nothing is "0 kN". */
+enum { LOAD_TEXT_SIZE = 48 };
+typedef struct load_text {
+    char text[LOAD_TEXT_SIZE];
+} load_text;
+load_text load_text_of(double newton, int digits);
+/* The same of a load and half its interval, in one unit: "739 +- 169 kN"; half: NaN without an interval. */
+typedef struct load_range_text {
+    char text[2 * LOAD_TEXT_SIZE];
+} load_range_text;
+load_range_text load_range_text_of(double newton, double half, int digits);
+
+/* Of columns and axes that are to keep to one unit at full size, whatever the size: kN, kJ, MW and GJ, and N, J, W and
+   J (or kJ) of what is under 1e4 N, J or W, but for nothing.  An energy in GJ goes with the power that it is of. */
 load_unit kilonewtons_or_less(double newton);
 load_unit kilojoules_or_less(double joule);
 load_unit megawatts_or_less(double watt);

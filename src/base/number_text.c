@@ -208,6 +208,46 @@ coordinate_text coordinate_text_of(double metres)
     return out;
 }
 
+plain_text plain_text_of(double value, int digits)
+{
+    static const double most = 1e15; /* beyond it a double has no digit for each place */
+    plain_text out;
+    real_to_digits(value, digits, out.text);
+    double told = fabs(strtod(out.text, NULL));
+    if (told == 0)
+        snprintf(out.text, sizeof out.text, "0"); /* not -0 */
+    else if (told >= 1 && told < most && strchr(out.text, 'e'))
+        snprintf(out.text, sizeof out.text, "%.0f", value);
+    return out;
+}
+
+/* Two parts of a duration that was rounded to the smaller one, which is left out where it is none. */
+static void two_parts(double count, int per, const char *large, const char *small, duration_text *out)
+{
+    double whole = floor(count / per);
+    int rest = (int)(count - whole * per), length = snprintf(out->text, sizeof out->text, "%.0f %s", whole, large);
+    if (rest > 0)
+        snprintf(out->text + length, sizeof out->text - (size_t)length, " %02d %s", rest, small);
+}
+
+duration_text duration_text_of(double seconds)
+{
+    enum { MINUTE = 60, HOUR = 3600, DAY = 24 };
+    static const double least = 99.95, most = 1e15; /* three digits tell less as "99.9 s" at most */
+    duration_text out;
+    /* What is rounded up to the next unit is told in it. */
+    double s = floor(seconds + 0.5), min = floor(seconds / MINUTE + 0.5), h = floor(seconds / HOUR + 0.5);
+    if (!(seconds >= least && seconds < most))
+        snprintf(out.text, sizeof out.text, "%.3g s", seconds + 0.0); /* 0, not -0 */
+    else if (s < HOUR)
+        two_parts(s, MINUTE, "min", "s", &out);
+    else if (h < 2 * DAY)
+        two_parts(min, MINUTE, "h", "min", &out);
+    else
+        two_parts(h, DAY, "days", "h", &out);
+    return out;
+}
+
 /* ---- bounds ---- */
 
 enum { ALL_DIGITS = 17 };

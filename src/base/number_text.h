@@ -35,6 +35,21 @@ typedef struct coordinate_text {
 } coordinate_text;
 coordinate_text coordinate_text_of(double metres);
 
+/* A number for people with so many significant digits, as by %g, but whole and without an exponent where more of them
+   stand before the point: 26105.3 as "26105" and 999.6 as "1000" to three digits.  Under 1e-4 and from 1e15 on it has
+   one; a zero has no sign. */
+typedef struct plain_text {
+    char text[NUMBER_TEXT_SIZE];
+} plain_text;
+plain_text plain_text_of(double value, int digits);
+
+/* A duration for people, to a hundredth of it or better: "0.123 s", "85.7 s", "2 min 05 s", "3 h", "3 h 12 min", from
+   two days on "4 days 07 h"; what is no number as by %g, in s. */
+typedef struct duration_text {
+    char text[2 * NUMBER_TEXT_SIZE];
+} duration_text;
+duration_text duration_text_of(double seconds);
+
 /* The end of a range that is worked out, for who is to give a number within it: with so many digits, up to 17, and
    rounded into the range, so that what is told is itself taken. */
 typedef struct bound_text {

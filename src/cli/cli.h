@@ -160,6 +160,7 @@ int session_open_for(const char *file, const common_options *common, work_view *
 /* Of no beginning in particular, never turned back [s]. */
 double wall_clock(void);
 /* "3 min 20 s" to standard error, "not known yet" for a NaN. */
+enum { DURATION_ROOM = 64 }; /* of fram_duration_text */
 void print_duration(double seconds);
 /* The s of a plural: 1 run, 2 runs. */
 const char *plural(int64_t count);

@@ -1,6 +1,7 @@
 /* fram study: many runs of one scenario, and what they say together. */
 #include "cli/cli.h"
 
+#include "fram/statistics.h"
 #include "fram/study.h"
 
 #include <limits.h>
@@ -25,27 +26,20 @@ static int own_path(const common_options *common, char path[PATH_MAX])
 #define MUCH_LONGER 1.2
 #define MUCH_LESS 0.8
 
-/* A duration or an amount in the unit in which it is read most easily. */
-static const char *time_text(double seconds, char out[32])
+static const char *time_text(double seconds, char out[DURATION_ROOM])
 {
-    static const struct {
-        double size;
-        const char *name;
-    } units[] = {{86400, "days"}, {3600, "h"}, {60, "min"}, {1, "s"}};
-    size_t i = 0;
-    while (i + 1 < sizeof units / sizeof *units && seconds < 1.5 * units[i].size)
-        i++;
-    snprintf(out, 32, "%.3g %s", seconds / units[i].size, units[i].name);
+    fram_duration_text(seconds, out, DURATION_ROOM);
     return out;
 }
 
-static const char *bytes_text(double bytes, char out[32])
+/* An amount in the unit in which it is read most easily. */
+static const char *bytes_text(double bytes, char out[DURATION_ROOM])
 {
     static const char *const units[] = {"kB", "MB", "GB", "TB"};
     size_t i = 0;
     for (bytes /= 1e3; i + 1 < sizeof units / sizeof *units && bytes >= 1e3; i++)
         bytes /= 1e3;
-    snprintf(out, 32, "%.3g %s", bytes, units[i]);
+    snprintf(out, DURATION_ROOM, bytes < 999.5 ? "%.3g %s" : "%.0f %s", bytes, units[i]);
     return out;
 }
 
@@ -54,7 +48,7 @@ static double turns(int64_t runs, int jobs) { return ceil((double)runs / jobs); 
 
 static void print_extent(const fram_study_extent *e, int jobs)
 {
-    char one[32], other[32], page[BESIDE_SIZE];
+    char one[DURATION_ROOM], other[DURATION_ROOM], page[BESIDE_SIZE];
     double least = turns(e->runs_least, jobs) * e->run_seconds;
     double most = turns(e->runs_most, jobs) * fmax(e->run_seconds, e->run_seconds_packed);
     printf("conditions: %d", e->conditions);
@@ -127,18 +121,13 @@ typedef struct list_view {
     int64_t conditions, runs, failed, wanted;
 } list_view;
 
-/* "739 +- 169 kN", of a model "1.2 +- 0.4 N"; half: NaN without an interval. */
-static void tell_load(double newton, double half, char out[48])
+enum { LOAD_ROOM = 64 };
+/* half: NaN without an interval. */
+static void tell_load(double newton, double half, char out[LOAD_ROOM])
 {
-    bool small = newton > 0 && newton < 1e4;
-    double factor = small ? 1 : 1e-3;
-    const char *unit = small ? "N" : "kN";
-    if (isfinite(half))
-        snprintf(out, 48, "%.4g +- %.3g %s", newton * factor, half * factor, unit);
-    else if (isfinite(newton))
-        snprintf(out, 48, "%.4g %s", newton * factor, unit);
-    else
-        snprintf(out, 48, "-");
+    snprintf(out, LOAD_ROOM, "-");
+    if (isfinite(newton))
+        fram_load_text(newton, half, out, LOAD_ROOM);
 }
 
 static void list_condition(void *user, const fram_study_standing *c)
@@ -168,7 +157,7 @@ static void list_condition(void *user, const fram_study_standing *c)
     }
     if (first)
         printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load", "largest", "id and keys");
-    char runs[48], mean[48], largest[48];
+    char runs[48], mean[LOAD_ROOM], largest[LOAD_ROOM];
     snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
     tell_load(c->load_mean, c->load_mean_half, mean);
     tell_load(c->load_largest, (double)NAN, largest);

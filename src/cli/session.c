@@ -1,6 +1,8 @@
 /* What a command needs around the library: a context that logs to standard error, Ctrl-C, a progress line. */
 #include "cli/cli.h"
 
+#include "fram/statistics.h"
+
 #include <math.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -145,17 +147,9 @@ const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
 
 void print_duration(double seconds)
 {
-    if (isnan(seconds)) {
-        fputs("not known yet", stderr);
-        return;
-    }
-    long s = (long)(seconds + 0.5);
-    if (s >= 3600)
-        fprintf(stderr, "%ld h %02ld min", s / 3600, s / 60 % 60);
-    else if (s >= 60)
-        fprintf(stderr, "%ld min %02ld s", s / 60, s % 60);
-    else
-        fprintf(stderr, "%ld s", s);
+    char text[DURATION_ROOM];
+    fram_duration_text(seconds, text, sizeof text);
+    fputs(isnan(seconds) ? "not known yet" : text, stderr);
 }
 
 void progress_show(void *user, const fram_progress *p)

@@ -1,7 +1,5 @@
 #include "io/image.h"
 
-#include "base/load_unit.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,13 +27,6 @@ void image_ramp(double t, double rgb[3])
     const double *from = x < 0.5 ? low : middle, *to = x < 0.5 ? middle : high;
     for (int k = 0; k < 3; k++)
         rgb[k] = from[k] + part * (to[k] - from[k]);
-}
-
-void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
-{
-    load_unit unit = newton >= 1e6 ? (load_unit){"MN", 1e-6} : kilonewtons_or_less(newton);
-    double value = newton * unit.factor;
-    snprintf(out, IMAGE_FORCE_TEXT, value < 1e3 ? "%.3g %s" : "%.0f %s", value, unit.name);
 }
 
 #ifdef FRAM_HAVE_CAIRO

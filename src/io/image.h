@@ -61,10 +61,6 @@ void image_text_fitted(cairo_t *page, double x, double y, double size, bool bold
 void image_text_lines(cairo_t *page, double x, double y, double size, double room, const char *text);
 #endif
 
-/* "636 kN", or meganewtons from 1000 kN on. */
-enum { IMAGE_FORCE_TEXT = 24 };
-void image_force_text(double newton, char out[IMAGE_FORCE_TEXT]);
-
 /* Colours of a scale from 0 (the white of ice) over 0.5 (amber) to 1 (dark purple), none of which is that of water or a
    hull; the same as in the playback page.  r g b from 0 to 1. */
 void image_ramp(double t, double rgb[3]);

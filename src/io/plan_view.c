@@ -1,5 +1,6 @@
 #include "io/plan_view.h"
 
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 #include "io/image.h"
 
@@ -339,7 +340,7 @@ void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double h
 static double draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, double y)
 {
     double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
-    char text[48], force[IMAGE_FORCE_TEXT];
+    char text[80];
     snprintf(text, sizeof text, "%g m", length);
     image_set_colour(page, plan_ink);
     cairo_rectangle(page, x, y - 6, px, 6);
@@ -352,8 +353,7 @@ static double draw_scale_bar(cairo_t *page, const map *m, double arrow, double x
     double end = x + px + 8 + image_text_width(page, 12, false, text);
     if (!(arrow > 0))
         return end;
-    image_force_text(length / arrow, force);
-    snprintf(text, sizeof text, "as an arrow %s", force);
+    snprintf(text, sizeof text, "as an arrow %s", load_text_of(length / arrow, 3).text);
     image_text(page, x, y + 14, 12, ALIGN_LEFT, false, text);
     return end;
 }

@@ -2,6 +2,7 @@
 #include "results/manage_parts.h"
 
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
@@ -25,14 +26,15 @@ typedef struct management_page {
     double_array column[8]; /* of charts */
 } management_page;
 
-static void duration_text(double seconds, char out[32])
+enum { ARRIVAL_TEXT = 64 };
+
+/* How long ice takes to come. */
+static void arrival_text(double seconds, char out[ARRIVAL_TEXT])
 {
-    if (isnan(seconds))
-        snprintf(out, 32, "-");
-    else if (isinf(seconds))
-        snprintf(out, 32, "none in sight");
-    else
-        snprintf(out, 32, seconds < 100 ? "%.3g s" : "%.0f min", seconds < 100 ? seconds : seconds / 60);
+    snprintf(out, ARRIVAL_TEXT, "%s",
+             isnan(seconds)   ? "-"
+             : isinf(seconds) ? "none in sight"
+                              : duration_text_of(seconds).text);
 }
 
 /* ---- the first words ---- */
@@ -51,7 +53,7 @@ static void tell_tracks(management_page *p)
 static void management_verdict(management_page *p)
 {
     const manage_summary *s = p->s;
-    char text[240], time[32];
+    char text[240], time[ARRIVAL_TEXT];
     double managed = s->place[MANAGE_AT].managed, sheet = s->place[MANAGE_AT].sheet;
     html_verdict_begin(&p->html,
                        managed >= 0.95  ? VERDICT_GOOD
@@ -61,7 +63,7 @@ static void management_verdict(management_page *p)
     if (isnan(managed)) {
         html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
                           "Run longer, or shorten run.transient.");
-        duration_text(s->alarm_least, time);
+        arrival_text(s->alarm_least, time);
         snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
         if (isfinite(s->alarm_least))
             html_verdict_line(&p->html, VERDICT_NOTE, text, "");
@@ -89,7 +91,7 @@ static void management_verdict(management_page *p)
     else
         snprintf(text, sizeof text, "No loose floe reached it.");
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
-    duration_text(s->alarm_least, time);
+    arrival_text(s->alarm_least, time);
     if (isinf(s->alarm_least))
         snprintf(text, sizeof text, "No unmanaged ice was on its way to the vessel.");
     else
@@ -184,8 +186,8 @@ static void alarm_table(management_page *p)
     static const char *const heads[] = {"time until it arrives", "this run"};
     html_table_begin(&p->html, heads, 2);
     for (int i = 0; i < 4; i++) {
-        char text[32];
-        duration_text(value[i], text);
+        char text[ARRIVAL_TEXT];
+        arrival_text(value[i], text);
         html_row_begin(&p->html);
         html_cell(&p->html, name[i]);
         html_cell(&p->html, text);

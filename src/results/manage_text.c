@@ -48,19 +48,18 @@ static void tell_time(context *ctx, const char *name, double least, double media
 
 static void tell_loads(context *ctx, const manage_summary *a, text_buffer *out)
 {
-    load_unit load = kilonewtons_or_less(a->load_most), tension = kilonewtons_or_less(a->tension_most);
     if (isnan(a->load_mean))
         text_add(ctx, out, "ice load not known: the run ends before run.transient\n");
     else
-        text_format(ctx, out, "ice load %.4g %s mean, %.4g %s at most\n", load.factor * a->load_mean, load.name,
-                    load.factor * a->load_most, load.name);
+        text_format(ctx, out, "ice load %s mean, %s at most\n", load_text_of(a->load_mean, 4).text,
+                    load_text_of(a->load_most, 4).text);
     if (!isnan(a->offset_most))
         text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
     if (!isnan(a->tension_most))
-        text_format(ctx, out, "line tension %.4g %s at most\n", tension.factor * a->tension_most, tension.name);
+        text_format(ctx, out, "line tension %s at most\n", load_text_of(a->tension_most, 4).text);
     if (!isnan(a->tension_range))
-        text_format(ctx, out, "fatigue of line %d: %.4g %s, damage-equivalent range of tension\n", (int)a->tension_line,
-                    tension.factor * a->tension_range, tension.name);
+        text_format(ctx, out, "fatigue of line %d: %s, damage-equivalent range of tension\n", (int)a->tension_line,
+                    load_text_of(a->tension_range, 4).text);
 }
 
 static void tell(context *ctx, const manage_summary *s, const manage_summary *beside, text_buffer *out)

@@ -193,7 +193,6 @@ static void tell_floe(context *ctx, const peak_detail *d, text_buffer *out)
 
 void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out)
 {
-    load_unit unit = load_unit_for(d->load);
     double zones[PEAK_ZONES] = {0};
     int32_t zone = 0;
     for (int32_t z = 0; z < PEAK_ZONES; z++) {
@@ -203,9 +202,9 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     }
     ice_mechanism first = peak_main_mechanism(d->mechanism);
     double share = d->load > 0 ? 100 / d->load : 0;
-    text_format(ctx, out, "%.4g %s, %.0f %% of it by %s, %.0f %% on the %s, from %d %s", d->load * unit.factor,
-                unit.name, d->mechanism[first] * share, mechanism_text(first), zones[zone] * share,
-                peak_zone_name(zone), (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
+    text_format(ctx, out, "%s, %.0f %% of it by %s, %.0f %% on the %s, from %d %s", load_text_of(d->load, 4).text,
+                d->mechanism[first] * share, mechanism_text(first), zones[zone] * share, peak_zone_name(zone),
+                (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
     tell_floe(ctx, d, out);
     peak_breaks b = peak_breaks_before(run, d->time);
     if (b.splits + b.bendings > 0) {

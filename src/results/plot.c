@@ -1,5 +1,6 @@
 #include "results/plot.h"
 
+#include "base/load_unit.h"
 #include "io/chart.h"
 #include "io/csv_read.h"
 #include "results/run_channels.h"
@@ -125,20 +126,20 @@ static double greatest(const panel *at)
     return most;
 }
 
+enum { PREFIX_ROOM = 4 };
 /* The prefix of the panel's unit; its lines are given values to go with it. */
-static fram_status take_prefix(context *ctx, plot *p, panel *at, const char **prefix, fram_error *error)
+static fram_status take_prefix(context *ctx, plot *p, panel *at, char prefix[PREFIX_ROOM], fram_error *error)
 {
-    double most = takes_prefix(at->unit) ? greatest(at) : 0, factor = most >= 1e7 ? 1e-6 : 1e-3;
-    *prefix = "";
-    if (!(most >= 1e4))
+    const load_unit unit = load_unit_for(takes_prefix(at->unit) ? greatest(at) : 0);
+    snprintf(prefix, PREFIX_ROOM, "%.*s", (int)strlen(unit.name) - 1, unit.name); /* the N is one of many units here */
+    if (!*prefix)
         return FRAM_OK;
-    *prefix = most >= 1e7 ? "M" : "k";
     for (int32_t i = 0; i < at->count; i++) {
         double *y = keep_values(ctx, p, at->lines[i].count);
         if (!y)
             return error_memory(error);
         for (int32_t k = 0; k < at->lines[i].count; k++)
-            y[k] = factor * at->lines[i].y[k];
+            y[k] = unit.factor * at->lines[i].y[k];
         at->lines[i].y = y;
     }
     return FRAM_OK;
@@ -151,8 +152,8 @@ static fram_status draw_channels(context *ctx, const run_data *d, plot *p, const
     for (int32_t i = 0; i < p->count; i++) {
         panel *at = &p->panels[i];
         bool bare = strcmp(at->unit, "1") == 0 || !at->unit[0];
-        const char *prefix;
-        if (take_prefix(ctx, p, at, &prefix, error) != FRAM_OK)
+        char prefix[PREFIX_ROOM];
+        if (take_prefix(ctx, p, at, prefix, error) != FRAM_OK)
             return FRAM_ERROR_MEMORY;
         snprintf(at->label, sizeof at->label, "%s%s%s%s%s", at->count == 1 ? at->lines[0].name : "", bare ? "" : " [",
                  prefix, bare ? "" : at->unit, bare ? "" : "]");

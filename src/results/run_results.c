@@ -83,7 +83,7 @@ static load_unit scale_loads(double_array column[CHANNELS])
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < column[k].count; i++)
             most = fmax(most, fabs(column[k].data[i]));
-    load_unit unit = kilonewtons_or_less(most);
+    load_unit unit = most > 0 ? load_unit_for(most) : kilonewtons_or_less(most);
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < column[k].count; i++)
             column[k].data[i] *= unit.factor;
@@ -116,14 +116,12 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         snprintf(force, sizeof force, "force [%s]", unit.name);
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
         if (isfinite(mean))
-            snprintf(of_mean, sizeof of_mean,
-                     "mean along the vessel (x forward) %.4g %s after %g s, negative: it resists",
-                     mean * unit.factor + 0.0, /* 0, not -0 */
-                     unit.name, s->run.transient);
+            snprintf(of_mean, sizeof of_mean, "mean along the vessel (x forward) %s after %g s, negative: it resists",
+                     load_text_of(mean, 4).text, s->run.transient);
         else
             snprintf(of_mean, sizeof of_mean, "no mean: the transient of %g s has not ended", s->run.transient);
-        snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %.4g %s%s",
-                 scenario_averaging_window(s), of_mean, spike, unit.name, beyond[cut]);
+        snprintf(subtitle, sizeof subtitle, "averaged over %.3g s; %s; single steps reach %s%s",
+                 scenario_averaging_window(s), of_mean, load_text_of(spike / unit.factor, 4).text, beyond[cut]);
         chart c = chart_make(title, subtitle, "time [s]", force, lines, 3);
         c.y_from = axis[0], c.y_to = axis[1];
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);

@@ -60,12 +60,12 @@ static void describe_loads(context *ctx, const station_data *d, const station_un
     channel_statistics load = station_statistics(d, &d->load, transient);
     channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
     channel_statistics power = station_statistics(d, &d->column[POWER], transient);
-    load_unit l = u->load, t = u->tension, p = u->power, e = gigajoules_or_less(energy, u->most_power);
-    text_format(ctx, b, "Ice load: mean %.4g %s, significant %.4g %s, peak %.4g %s.\n", load.mean * l.factor, l.name,
-                load.significant * l.factor, l.name, load.greatest * l.factor, l.name);
+    load_unit p = u->power, e = gigajoules_or_less(energy, u->most_power);
+    text_format(ctx, b, "Ice load: mean %s, significant %s, peak %s.\n", load_text_of(load.mean, 4).text,
+                load_text_of(load.significant, 4).text, load_text_of(load.greatest, 4).text);
     if (d->lines > 0)
-        text_format(ctx, b, "Largest line tension: mean %.4g %s, peak %.4g %s.\n", tension.mean * t.factor, t.name,
-                    tension.greatest * t.factor, t.name);
+        text_format(ctx, b, "Largest line tension: mean %s, peak %s.\n", load_text_of(tension.mean, 4).text,
+                    load_text_of(tension.greatest, 4).text);
     if (station_lines_gone(d) > 0)
         text_format(ctx, b, "%d of %d lines parted or were let go: tensions are those of the lines that were left.\n",
                     (int)station_lines_gone(d), (int)d->lines);

@@ -151,9 +151,8 @@ static void curve_caption(const video *v, char *text, size_t room)
         return;
     }
     vessel_entry first = scenario_vessel_entry(&v->s, 0);
-    load_unit unit = kilonewtons_or_less(v->most);
-    snprintf(text, room, "horizontal ice load on %s, averaged, at the frames; largest of them %.4g %s",
-             vessel_title_of(&first).text, v->most * unit.factor, unit.name);
+    snprintf(text, room, "horizontal ice load on %s, averaged, at the frames; largest of them %s",
+             vessel_title_of(&first).text, load_text_of(v->most, 4).text);
 }
 
 static void draw_curve(const video *v, cairo_t *page, double now)

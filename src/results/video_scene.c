@@ -1,5 +1,6 @@
 #include "results/video_scene.h"
 
+#include "base/load_unit.h"
 #include "geometry/ear_clip.h"
 #include "io/solid_view.h"
 
@@ -214,9 +215,9 @@ static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_cam
     /* The force stands beside it, which in a narrow picture takes half of it. */
     double most = fmin(220, 0.35 * v->width / SOLID_FINE);
     double length = image_round_step(most * metres, 2), px = length / metres;
-    char text[64], force[IMAGE_FORCE_TEXT];
-    image_force_text(arrow > 0 ? length / arrow : 0, force);
-    snprintf(text, sizeof text, arrow > 0 ? "%g m, as an arrow %s" : "%g m", length, force);
+    char text[96];
+    snprintf(text, sizeof text, arrow > 0 ? "%g m, as an arrow %s" : "%g m", length,
+             load_text_of(arrow > 0 ? length / arrow : 0, 3).text);
     image_set_colour(page, ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);

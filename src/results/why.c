@@ -158,35 +158,35 @@ static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_
         const peak_floe *f = &d->floe[i];
         char name[24];
         name_floe(f->number, name);
-        text_format(ctx, out, "  %5.0f %%  %-12s %9.4g %s at (%s, %s, %.3g) m, %s, mostly %s\n",
-                    percent(sum_of(f->part), d), name, vec3_length(f->force) * unit.factor, unit.name,
-                    coordinate_text_of(f->point.x).text, coordinate_text_of(f->point.y).text, f->point.z,
+        text_format(ctx, out, "  %5.0f %%  %-12s %9s %s at (%s, %s, %.3g) m, %s, mostly %s\n",
+                    percent(sum_of(f->part), d), name, plain_text_of(vec3_length(f->force) * unit.factor, 4).text,
+                    unit.name, coordinate_text_of(f->point.x).text, coordinate_text_of(f->point.y).text, f->point.z,
                     peak_zone_name(f->zone), mechanism_text((ice_mechanism)f->mechanism));
     }
 }
 
-static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, load_unit unit, text_buffer *out)
+static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, text_buffer *out)
 {
     text_add(ctx, out, "  hull");
     for (int i = 0; i < f->links; i++) {
         char name[24];
         name_floe(link[i].number, name);
-        text_format(ctx, out, " -> %s (%.4g %s)",
+        text_format(ctx, out, " -> %s (%s)",
                     link[i].number >= 0                         ? name
                     : i == f->links - 1 && f->end == CHAIN_WALL ? "wall"
                                                                 : "body",
-                    vec3_length(link[i].push) * unit.factor, unit.name);
+                    load_text_of(vec3_length(link[i].push), 4).text);
     }
     text_format(ctx, out, "; the end: %s\n", chain_end_text((chain_end)f->end));
 }
 
-static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
+static void tell_chains(context *ctx, const peak_detail *d, text_buffer *out)
 {
     int32_t at = 0;
     text_add(ctx, out, "\nForce chains behind them in the step of the peak (impulses over the step):\n");
     for (int32_t i = 0; i < d->floe_count; i++) {
         if (d->floe[i].links > 0)
-            tell_chain(ctx, &d->floe[i], &d->link[at], unit, out);
+            tell_chain(ctx, &d->floe[i], &d->link[at], out);
         at += d->floe[i].links;
     }
     if (at == 0)
@@ -236,8 +236,8 @@ static void tell_difference(context *ctx, const char *how, why_method by, double
     if (by.wrong > 0)
         text_format(ctx, out, "  %-24s went wrong at t = %g s\n", how, by.wrong);
     else
-        text_format(ctx, out, "  %-24s %9.4g %s  %+.1f %%%s\n", how, by.load * unit.factor, unit.name, 100 * part,
-                    fabs(part) > MATTERS ? "  significant" : "");
+        text_format(ctx, out, "  %-24s %9s %s  %+.1f %%%s\n", how, plain_text_of(by.load * unit.factor, 4).text,
+                    unit.name, 100 * part, fabs(part) > MATTERS ? "  significant" : "");
 }
 
 static void tell_check(context *ctx, const why_check *c, load_unit unit, text_buffer *out)
@@ -265,10 +265,11 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
         text_format(ctx, out, "Vessel %s. ", vessel);
     if (rank > 0)
         text_format(ctx, out, "Peak %d of %d: ", (int)rank, (int)y->peaks.count);
-    text_format(ctx, out, "t = %.6g s, horizontal ice load %.4g %s, averaged over %.3g s\n", d->time,
-                d->load * unit.factor, unit.name, d->window);
-    text_format(ctx, out, "(%.4g, %.4g, %.4g) %s in x, y, z\n", d->force.x * unit.factor, d->force.y * unit.factor,
-                d->force.z * unit.factor, unit.name);
+    text_format(ctx, out, "t = %.6g s, horizontal ice load %s, averaged over %.3g s\n", d->time,
+                load_text_of(d->load, 4).text, d->window);
+    text_format(ctx, out, "(%s, %s, %s) %s in x, y, z\n", plain_text_of(d->force.x * unit.factor, 4).text,
+                plain_text_of(d->force.y * unit.factor, 4).text, plain_text_of(d->force.z * unit.factor, 4).text,
+                unit.name);
     if (d->floe_count == 0) {
         text_format(ctx, out, "No ice touched the vessel in the %.3g s up to then.\n", d->window);
         return out->failed ? error_memory(error) : FRAM_OK;
@@ -277,7 +278,7 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
     text_add(ctx, out, "\n");
     tell_parts(ctx, d, out);
     tell_floes(ctx, d, unit, out);
-    tell_chains(ctx, d, unit, out);
+    tell_chains(ctx, d, out);
     tell_breaks(y, d, out);
     tell_check(ctx, check, unit, out);
     return out->failed ? error_memory(error) : FRAM_OK;

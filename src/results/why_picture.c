@@ -1,6 +1,7 @@
 /* The picture of a peak: the field near the vessel, floes coloured by their part of the load, chains as lines. */
 #include "results/why.h"
 
+#include "base/load_unit.h"
 #include "results/replay_plan.h"
 #include "results/report_parts.h"
 #include "results/why_labels.h"
@@ -166,7 +167,6 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
                              const char *path, fram_error *error)
 {
     replay_plan plan = {0};
-    load_unit unit = load_unit_for(d->load);
     vessel_entry vessel = scenario_vessel_entry(&y->run.s, y->vessel);
     double most = 0, part, force = 0, reach = fmax(0.75 * length_of(r, &vessel.keys->hull, y->vessel), 1);
     for (int32_t i = 0; i < m->poses.count; i++)
@@ -191,8 +191,8 @@ static fram_status draw_peak(const why *y, const replay *r, const replay_moment 
         if (rank > 0)
             snprintf(name, sizeof name, "Peak %d", (int)rank);
         const char *on = scenario_vessel_name(&y->run.s, y->vessel);
-        snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
-                 d->load * unit.factor, unit.name, d->time);
+        snprintf(title, sizeof title, "%s%s%s: %s at %.6g s", name, on ? " on " : "", on ? on : "",
+                 load_text_of(d->load, 4).text, d->time);
         const box2 window = why_window(r, m, d, y->vessel, reach);
         why_caption(d, &plan, window, span, label_count, caption);
         plan_view view = {.window = window,

@@ -1,6 +1,7 @@
 #include "sim/build_station.h"
 
 #include "base/hash.h"
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 #include "sim/steady_load.h"
 
@@ -185,9 +186,8 @@ static void tell_equilibrium(context *ctx, const vessel_entry *entry, bool found
         log_write(ctx, LOG_INFO, "%s begins at the equilibrium of its mooring, (%.3g, %.3g) m off%s%s", title.text,
                   by.x, by.y, turned, onward);
     else
-        log_write(ctx, LOG_WARNING,
-                  "no equilibrium of the mooring of %s was found; %.4g kN are left (%.3g, %.3g) m off%s", title.text,
-                  left->residual * 1e-3, by.x, by.y, turned);
+        log_write(ctx, LOG_WARNING, "no equilibrium of the mooring of %s was found; %s are left (%.3g, %.3g) m off%s",
+                  title.text, load_text_of(left->residual, 4).text, by.x, by.y, turned);
 }
 
 static void find_equilibrium(context *ctx, const vessel_entry *entry, const model *m, int32_t vessel, world *w)

@@ -3,6 +3,8 @@
 #include "sim/capability.h"
 
 #include "base/channel_statistics.h"
+#include "base/load_unit.h"
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "io/csv_read.h"
 #include "sim/build.h"
@@ -261,8 +263,9 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
             if (status != FRAM_OK)
                 return status;
             c->loads.runs_done++;
-            log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %.4g kN, sway %.4g kN, yaw %.4g MN m",
-                      degrees(from), speed, load->x * 1e-3, load->y * 1e-3, load->z * 1e-6);
+            log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %s, sway %s, yaw %s MN m", degrees(from),
+                      speed, load_text_of(load->x, 4).text, load_text_of(load->y, 4).text,
+                      plain_text_of(load->z * 1e-6, 4).text);
         }
     }
     return FRAM_OK;

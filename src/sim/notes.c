@@ -62,10 +62,9 @@ static void note_kind(const note_taker *n, const scenario *s, const ice_kind *k)
               k->thickness * s->ice.density / e->water_density,
               ice_characteristic_length(&m, k->thickness, e->water_density, e->gravity));
     double line = ice_crushing_pressure(&m, k->thickness) * k->thickness;
-    load_unit unit = kilonewtons_or_less(line);
     /* With an exponent a wider face loads less, or more, per metre than a narrow one. */
-    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face%s loads %.4g %s%s",
-              ice_crushing_pressure(&m, 1), m.crushing_exponent != 0 ? " 1 m wide" : "", line * unit.factor, unit.name,
+    note_fact(n, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face%s loads %s%s", ice_crushing_pressure(&m, 1),
+              m.crushing_exponent != 0 ? " 1 m wide" : "", load_text_of(line, 4).text,
               m.crushing_exponent != 0 ? "" : " per metre of width");
 }
 
@@ -156,12 +155,12 @@ static void note_edge(const note_taker *n, const scenario *s, const ice_kind *ki
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
         double crushing = ice_crushing_pressure(&m, areas[k]) * areas[k];
-        load_unit u = kilonewtons_or_less(fmax(crushing, fmax(e.radial_capacity, e.wedge_capacity)));
         note_fact(n,
-                  "fracture: %son %.3g m2 the radial crack opens at %.4g %s, %d wedges break off at %.4g %s, %.4g m "
-                  "from the load; crushing there gives %.4g %s",
-                  kind_text_of(n, "of ice ", kind, ", ").text, areas[k], e.radial_capacity * u.factor, u.name,
-                  (int)f.wedges, e.wedge_capacity * u.factor, u.name, e.breaking_radius, crushing * u.factor, u.name);
+                  "fracture: %son %.3g m2 the radial crack opens at %s, %d wedges break off at %s, %.4g m "
+                  "from the load; crushing there gives %s",
+                  kind_text_of(n, "of ice ", kind, ", ").text, areas[k], load_text_of(e.radial_capacity, 4).text,
+                  (int)f.wedges, load_text_of(e.wedge_capacity, 4).text, e.breaking_radius,
+                  load_text_of(crushing, 4).text);
     }
 }
 

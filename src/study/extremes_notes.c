@@ -213,7 +213,6 @@ void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t c
 void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_t runs, bool offset, double least)
 {
     char why[240];
-    const load_unit unit = kilonewtons_or_less(least);
     int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted, (int)runs);
     char *rest = why + used;
     size_t room = sizeof why - (size_t)used;
@@ -225,9 +224,9 @@ void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_
                  "tell them.");
     else if (least < HUGE_VAL)
         snprintf(rest, room,
-                 "whose tensions from there on are those of a mooring with fewer lines: levels from %.*g %s on are not "
+                 "whose tensions from there on are those of a mooring with fewer lines: levels from %s on are not "
                  "told. Lines without breaking_load tell them.",
-                 digits_of(least, scale_of(out)), least * unit.factor, unit.name);
+                 load_text_of(least, digits_of(least, scale_of(out))).text);
     else
         snprintf(rest, room, "whose tensions from there on are those of a mooring with fewer lines.");
     cut_from(out, levels, offset ? -HUGE_VAL : least, why);

@@ -56,12 +56,11 @@ static void check_parting(const study *s, const condition_rows *conditions, run_
     out->level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
     int used = snprintf(out->why, sizeof out->why, "No answer: lines parted in %d runs of condition %d, ",
                         (int)parted.runs, (int)at + 1);
-    const load_unit unit = kilonewtons_or_less(parted.least);
     if (tension)
         snprintf(out->why + used, sizeof out->why - (size_t)used,
-                 "whose tensions from there on are those of a mooring with fewer lines: none from %.3g %s on is told; "
+                 "whose tensions from there on are those of a mooring with fewer lines: none from %s on is told; "
                  "lines without breaking_load tell it.",
-                 parted.least * unit.factor, unit.name);
+                 load_text_of(parted.least, 3).text);
     else
         snprintf(out->why + used, sizeof out->why - (size_t)used,
                  "and the vessel drifted on from there; lines without breaking_load tell it.");

@@ -1,4 +1,5 @@
 /* Rare loads on the page of a study: levels of the duration that is asked, and probability plots. */
+#include "base/number_text.h"
 #include "study/extremes_chart.h"
 #include "study/study_page_parts.h"
 
@@ -8,19 +9,6 @@
 
 /* Probability plots on a page. */
 enum { PLOTS_MOST = 24 };
-
-/* "3 h", "20 min", "90 s". */
-static void duration_text(double seconds, char out[32])
-{
-    bool hours = seconds >= 3600, minutes = seconds >= 60;
-    snprintf(out, 32, "%.4g %s",
-             hours     ? seconds / 3600
-             : minutes ? seconds / 60
-                       : seconds,
-             hours     ? "h"
-             : minutes ? "min"
-                       : "s");
-}
 
 static void level_cell(study_page *p, const level_interval *i, double factor)
 {
@@ -145,19 +133,18 @@ static fram_status add_annual(study_page *p, const bool *has, const double *bloc
 fram_status page_add_extremes(study_page *p, fram_error *error)
 {
     const study_extremes *x = &p->f->s->extremes;
-    char duration[32];
     bool has[STUDY_RARE];
     double *block = NULL;
     if (!x->asked)
         return FRAM_OK;
     fram_status status = study_blocks(p->f, &block, error);
-    duration_text(x->duration, duration);
     html_section(&p->page, "Rare loads");
     html_paragraph(&p->page,
                    "Levels of %s by %s law, fitted to the largest values of the runs of each condition, with %g %% "
                    "intervals: the most probable largest value, which is exceeded once on the average, and values that "
                    "are not exceeded with a probability.  They know of the scatter of seeds alone.",
-                   duration, x->gev ? "the generalized extreme value" : "Gumbel's", 100 * x->confidence);
+                   duration_text_of(x->duration).text, x->gev ? "the generalized extreme value" : "Gumbel's",
+                   100 * x->confidence);
     for (int i = 0; i < STUDY_RARE && status == FRAM_OK; i++) {
         page_figure figure = page_figure_of(p, study_rare[i]);
         has[i] = has_rare(p, study_rare[i]);

@@ -1,5 +1,6 @@
 #include "vessel/event.h"
 
+#include "base/load_unit.h"
 #include "base/transcendental.h"
 
 #include <stdio.h>
@@ -68,17 +69,18 @@ void event_text(const event_table *events, int32_t row, const char *other, doubl
 {
     double value = events->value[row];
     int number = (int)events->number[row] + 1;
+    const load_text load = load_text_of(value, 4); /* of events that are of a load */
     char name[24];
     snprintf(name, sizeof name, "%d", number);
     switch ((station_event)events->kind[row]) {
     case EVENT_LINE_BREAK:
-        snprintf(out, size, "mooring line %d broke at a tension of %.4g kN", number, value * 1e-3);
+        snprintf(out, size, "mooring line %d broke at a tension of %s", number, load.text);
         return;
     case EVENT_LINE_RELEASE:
-        snprintf(out, size, "mooring line %d was let go at a tension of %.4g kN", number, value * 1e-3);
+        snprintf(out, size, "mooring line %d was let go at a tension of %s", number, load.text);
         return;
     case EVENT_THRUSTER_FAILURE:
-        snprintf(out, size, "thruster %d failed at a thrust of %.4g kN", number, value * 1e-3);
+        snprintf(out, size, "thruster %d failed at a thrust of %s", number, load.text);
         return;
     case EVENT_POSITION_LOST:
         snprintf(out, size, "position lost: the offset is %.4g m", value);
@@ -93,7 +95,7 @@ void event_text(const event_table *events, int32_t row, const char *other, doubl
         snprintf(out, size, "heading regained: it is off by %.4g deg", degrees(value));
         return;
     case EVENT_BESET:
-        snprintf(out, size, "beset under a net thrust of %.4g kN", value * 1e-3);
+        snprintf(out, size, "beset under a net thrust of %s", load.text);
         return;
     case EVENT_RAM:
         snprintf(out, size, "backed %.4g m, and rams", value);
@@ -112,14 +114,13 @@ void event_text(const event_table *events, int32_t row, const char *other, doubl
         return;
     case EVENT_WALL:
         if (value > 0)
-            snprintf(out, size, "the hull runs into a wall of the domain, with %.4g kN", value * 1e-3);
+            snprintf(out, size, "the hull runs into a wall of the domain, with %s", load.text);
         else
             snprintf(out, size, "the hull is driven into a wall of the domain by the motion that is given to it");
         return;
     case EVENT_BAND:
         if (value > 0)
-            snprintf(out, size, "the hull meets floes of the band, which nothing pushes aside, with %.4g kN",
-                     value * 1e-3);
+            snprintf(out, size, "the hull meets floes of the band, which nothing pushes aside, with %s", load.text);
         else
             snprintf(out, size, "the hull comes into the band, whose floes nothing pushes aside");
         return;

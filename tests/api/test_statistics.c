@@ -60,6 +60,36 @@ START_TEST(times_are_read_as_they_stand)
 }
 END_TEST
 
+START_TEST(numbers_are_read_strictly_and_told)
+{
+    fram_error error = {0};
+    double got = 7;
+    ck_assert_int_eq(fram_number_read(NULL, &got, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_number_read("3", NULL, &error), FRAM_ERROR_USAGE);
+    static const char *const bad[] = {"", " 3", "3 ", "0x10", "0x1p3", "nan", "inf", "-infinity", "1e309", "3,0", "3h"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_fails(fram_number_read(bad[i], &got, &error), error, FRAM_ERROR_INPUT, "expected a decimal number");
+    ck_assert_str_eq(error.key, "text");
+    assert_absolute(got, 7, 0);
+    assert_ok(fram_number_read("-2.5e3", &got, NULL), error);
+    assert_absolute(got, -2500, 0);
+    char text[64] = "as it was";
+    fram_duration_text(125, NULL, sizeof text);
+    fram_duration_text(125, text, 0);
+    fram_load_text(125, 1, NULL, sizeof text);
+    fram_load_text(125, 1, text, 0);
+    ck_assert_str_eq(text, "as it was");
+    fram_duration_text(125, text, sizeof text);
+    ck_assert_str_eq(text, "2 min 05 s");
+    fram_duration_text(125, text, 6);
+    ck_assert_str_eq(text, "2 min");
+    fram_load_text(2.61e7, (double)NAN, text, sizeof text);
+    ck_assert_str_eq(text, "26.1 MN");
+    fram_load_text(739100, 169000, text, sizeof text);
+    ck_assert_str_eq(text, "739.1 +- 169 kN");
+}
+END_TEST
+
 START_TEST(misuse_is_refused_and_a_file_is_answered)
 {
     char path[] = "/tmp/fram_statistics_XXXXXX";
@@ -115,4 +145,5 @@ START_TEST(misuse_is_refused_and_a_file_is_answered)
 }
 END_TEST
 
-TEST_MAIN("statistics", times_are_read_as_they_stand, misuse_is_refused_and_a_file_is_answered)
+TEST_MAIN("statistics", times_are_read_as_they_stand, numbers_are_read_strictly_and_told,
+          misuse_is_refused_and_a_file_is_answered)

@@ -107,6 +107,82 @@ START_TEST(units_go_with_the_size)
 }
 END_TEST
 
+/* No exponent at any size that is met, also where rounding brings a digit more, and the unit that the rounded load has.
+ */
+START_TEST(loads_are_told_without_exponents)
+{
+    static const struct {
+        double newton;
+        int digits;
+        const char *text;
+    } cases[] = {{0, 3, "0 kN"},
+                 {-0.0, 4, "0 kN"},
+                 {0.0335, 3, "0.0335 N"},
+                 {500, 3, "500 N"},
+                 {999.6, 3, "1000 N"},
+                 {5e3, 3, "5000 N"},
+                 {9641, 3, "9641 N"},
+                 {9999.6, 4, "10 kN"},
+                 {9996, 3, "10 kN"},
+                 {1.2e4, 3, "12 kN"},
+                 {-7.391e5, 4, "-739.1 kN"},
+                 {9.996e5, 3, "1000 kN"},
+                 {2.5e6, 3, "2500 kN"},
+                 {5.1234e6, 3, "5123 kN"},
+                 {9.99996e6, 4, "10 MN"},
+                 {2.6134e7, 4, "26.13 MN"},
+                 {-2.6134e7, 3, "-26.1 MN"},
+                 {1.5e10, 3, "15000 MN"},
+                 {123456, 2, "123 kN"},
+                 {(double)NAN, 4, "nan kN"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        ck_assert_str_eq(load_text_of(cases[i].newton, cases[i].digits).text, cases[i].text);
+    ck_assert_str_eq(load_range_text_of(7.391e5, 1.69e5, 4).text, "739.1 +- 169 kN");
+    ck_assert_str_eq(load_range_text_of(2.613e7, 9.996e9, 4).text, "26.13 +- 9996 MN");
+    ck_assert_str_eq(load_range_text_of(1.2, (double)NAN, 4).text, "1.2 N");
+    for (double newton = 1e-3; newton < 1e14; newton *= 1.0173)
+        for (int digits = 1; digits < 7; digits++) {
+            load_text told = load_text_of(newton, digits);
+            char *unit;
+            double value = strtod(told.text, &unit) * (unit[1] == 'N' ? 1 : unit[1] == 'k' ? 1e3 : 1e6);
+            ck_assert_msg(!strchr(told.text, 'e') && fabs(value / newton - 1) <= 0.5001 * pow(10, 1 - digits),
+                          "%g N: %s", newton, told.text);
+        }
+    ck_assert_str_eq(plain_text_of(26105.3, 4).text, "26105");
+    ck_assert_str_eq(plain_text_of(-26, 1).text, "-26");
+    ck_assert_str_eq(plain_text_of(1e-7, 3).text, "1e-07");
+}
+END_TEST
+
+START_TEST(durations_hide_little)
+{
+    static const struct {
+        double seconds;
+        const char *text;
+    } cases[] = {
+        {0, "0 s"},          {0.1234, "0.123 s"}, {85.73, "85.7 s"},       {99.96, "1 min 40 s"},      {119.6, "2 min"},
+        {100, "1 min 40 s"}, {125, "2 min 05 s"}, {3599.6, "1 h"},         {3661, "1 h 01 min"},       {10800, "3 h"},
+        {86399, "24 h"},     {172799, "2 days"},  {370800, "4 days 07 h"}, {31557600, "365 days 06 h"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        ck_assert_str_eq(duration_text_of(cases[i].seconds).text, cases[i].text);
+    ck_assert_str_eq(duration_text_of((double)INFINITY).text, "inf s");
+    for (double seconds = 1e-3; seconds < 1e10; seconds *= 1.0173) {
+        double told = 0;
+        char words[64], *at = words;
+        snprintf(words, sizeof words, "%s", duration_text_of(seconds).text);
+        while (*at) {
+            double part = strtod(at, &at);
+            told += part * (strncmp(at, " d", 2) == 0   ? 86400
+                            : strncmp(at, " h", 2) == 0 ? 3600
+                            : strncmp(at, " m", 2) == 0 ? 60
+                                                        : 1);
+            at += 1 + strcspn(at + 1, " ");
+        }
+        ck_assert_msg(fabs(told / seconds - 1) < 0.0106, "%g s: %s", seconds, words);
+    }
+}
+END_TEST
+
 START_TEST(reals_print_as_the_shortest_text)
 {
     ck_assert_str_eq(text_of(0), "0");
@@ -322,6 +398,7 @@ START_TEST(locales_change_nothing)
 END_TEST
 
 TEST_MAIN("number_text", times_have_units, bounds_are_rounded_into_their_range, clocks_tell_their_steps_apart,
-          units_go_with_the_size, reals_print_as_the_shortest_text, digits_are_as_many_as_asked,
-          coordinates_show_their_decimetre, digits_are_those_of_printf, numbers_are_read_as_by_strtod,
-          reals_of_any_bits_come_back, reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+          units_go_with_the_size, loads_are_told_without_exponents, durations_hide_little,
+          reals_print_as_the_shortest_text, digits_are_as_many_as_asked, coordinates_show_their_decimetre,
+          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
+          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

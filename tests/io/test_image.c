@@ -61,19 +61,4 @@ START_TEST(long_texts_are_cut)
 }
 END_TEST
 
-START_TEST(forces_have_the_unit_of_their_size)
-{
-    static const struct {
-        double newton;
-        const char *text;
-    } cases[] = {{0, "0 kN"},      {0.0335, "0.0335 N"}, {500, "500 N"},   {5e3, "5000 N"},
-                 {1.2e4, "12 kN"}, {5e5, "500 kN"},      {2.5e6, "2.5 MN"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[IMAGE_FORCE_TEXT];
-        image_force_text(cases[i].newton, text);
-        ck_assert_str_eq(text, cases[i].text);
-    }
-}
-END_TEST
-
-TEST_MAIN("image", forces_have_the_unit_of_their_size, bytes_that_are_no_text, long_texts_are_cut)
+TEST_MAIN("image", bytes_that_are_no_text, long_texts_are_cut)

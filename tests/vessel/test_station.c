@@ -245,7 +245,7 @@ START_TEST(noise_of_the_sensors)
 }
 END_TEST
 
-/* Every kind of event, for programs and for people: newtons as kN, radians as degrees, numbers from 1. */
+/* Every kind of event, for programs and for people: newtons as N, kN or MN, radians as degrees, numbers from 1. */
 START_TEST(events_in_words)
 {
     static const struct {
@@ -253,14 +253,14 @@ START_TEST(events_in_words)
         double value;
         const char *name, *text;
     } told[] = {
-        {EVENT_LINE_BREAK, 2.1e6, "line_break", "mooring line 3 broke at a tension of 2100 kN"},
+        {EVENT_LINE_BREAK, 2.61e7, "line_break", "mooring line 3 broke at a tension of 26.1 MN"},
         {EVENT_LINE_RELEASE, 5e5, "line_release", "mooring line 3 was let go at a tension of 500 kN"},
         {EVENT_THRUSTER_FAILURE, -4e4, "thruster_failure", "thruster 3 failed at a thrust of -40 kN"},
         {EVENT_POSITION_LOST, 5.5, "position_lost", "position lost: the offset is 5.5 m"},
         {EVENT_POSITION_REGAINED, 4.5, "position_regained", "position regained: the offset is 4.5 m"},
         {EVENT_HEADING_LOST, 0.125 * PI, "heading_lost", "heading lost: it is off by 22.5 deg"},
         {EVENT_HEADING_REGAINED, -0.05 * PI, "heading_regained", "heading regained: it is off by -9 deg"},
-        {EVENT_BESET, 8e5, "beset", "beset under a net thrust of 800 kN"},
+        {EVENT_BESET, 13.5, "beset", "beset under a net thrust of 13.5 N"},
         {EVENT_RAM, 60, "ram", "backed 60 m, and rams"},
         {EVENT_APPROACH, 40, "approach", "vessel tug is going to pass at 40 m, in 90 s at present velocities"},
         {EVENT_APPROACH_OVER, 35, "approach_over", "vessel tug is clear again: it came as near as 35 m"},

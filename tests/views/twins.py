@@ -2,6 +2,8 @@
 import os
 import pathlib
 import re
+import shutil
+import subprocess
 
 SOURCE = pathlib.Path(os.environ["FRAM_SOURCE"])
 
@@ -11,6 +13,22 @@ def numbers_after(path, name):
     found = re.search(rf"{name}(?:\[\d*\])? = ([\[{{].*?[\]}}];|[^,;]+)", (SOURCE / path).read_text(encoding="utf-8"),
                       re.DOTALL)
     return [float(n) for n in re.findall(r"\d+(?:\.\d+)?(?:e\d+)?", found[1])]
+
+
+def check_units(legend):
+    """Forces have the unit of their size by one rule, and no exponent."""
+    unit = (SOURCE / "src/base/load_unit.c").read_text(encoding="utf-8")
+    ends = [float(re.search(rf"{name} (\S+?)\)?\n", unit)[1]) for name in ("TOLD_PLAIN", "newton >=")]
+    page = re.findall(r"kilonewton < (\S+)", legend[legend.index("function forceUnit"):].split("\n}")[0])
+    assert [1000 * float(end) for end in page] == ends == [1e4, 1e7], (page, ends)
+    wanted = {0: "0.00 N", 0.0335: "33.5 N", 0.9996: "1000 N", 9.641: "9641 N", 9.996: "10.0 kN", 999.6: "1000 kN",
+              2500: "2500 kN", 9994: "9994 kN", 9996: "10.0 MN", 26134: "26.1 MN"}
+    if shutil.which("node"):
+        script = (f"import {{ forceText }} from '{SOURCE}/viewer/src/legend.js';"
+                  f"console.log({list(wanted)}.map(forceText).join());")
+        told = subprocess.run(["node", "--input-type=module", "-e", script], check=True, capture_output=True,
+                              text=True).stdout.strip()
+        assert told == ",".join(wanted.values()), told
 
 
 def check():
@@ -26,6 +44,7 @@ def check():
     kinds = re.findall(r"RECORD_FORCE_(\w+)\] = \{\{([\d., ]+)\}, \"([^\"]+)\"",
                        (SOURCE / "src/results/video_scene.c").read_text(encoding="utf-8"))
     legend = (SOURCE / "viewer/src/legend.js").read_text(encoding="utf-8")
+    check_units(legend)
     colours = dict(re.findall(r"(\w+): '#(\w+)'", legend[legend.index("FORCE_COLOURS"):].split("\n")[0]))
     words = dict(re.findall(r"(\w+): '([^']+)'", legend[legend.index("FORCE_WORDS"):].split("\n")[0]))
     assert len(kinds) == len(colours) == 4, (kinds, colours)

@@ -15,14 +15,15 @@ export const CHAIN = '#111111', BEHIND = '#7a7f3a';
 /** Of a line that parted, a thruster that failed. */
 export const GONE = '#d62728';
 
-/** The unit in which a force is told, and how many of it a kilonewton has: newtons where four digits do. */
+/** The unit in which a force is told, and how many of it a kilonewton has: the rule of src/base/load_unit.c, which
+ *  texts and pictures of the library follow; no second one stands in these files. */
 export function forceUnit(kilonewton) {
-    return kilonewton < 10 ? ['N', 1000] : kilonewton < 1000 ? ['kN', 1] : ['MN', 0.001];
+    return kilonewton < 10 ? ['N', 1000] : kilonewton < 1e4 ? ['kN', 1] : ['MN', 0.001];
 }
 
-/** A number with its unit. */
+/** A number with its unit, to three digits and whole from 1000 on; what is rounded up to the next unit has that. */
 export function forceText(kilonewton) {
-    const [name, per] = forceUnit(kilonewton), value = kilonewton * per;
+    const [name, per] = forceUnit(Number(kilonewton.toPrecision(3))), value = kilonewton * per;
     return `${value < 999.5 ? value.toPrecision(3) : value.toFixed(0)} ${name}`;
 }
 

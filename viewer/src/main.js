@@ -421,13 +421,13 @@ class Player {
         return true;
     }
 
-    /** Kilonewtons, or newtons where the largest load at the frames is told in them, with as many digits as that asks
-     *  for to have three; never "-0". */
+    /** In the unit of the largest load at the frames, kilonewtons without any, with as many digits as that asks for to
+     *  have three; never "-0". */
     loadText(newton) {
-        const { most } = this.timeline, small = most > 0 && forceUnit(most)[0] === 'N', per = small ? 1 : 0.001;
-        const places = most > 0 ? 2 - Math.floor(Math.log10(small ? 1000 * most : most)) : 0;
+        const { most } = this.timeline, [name, per] = most > 0 ? forceUnit(most) : ['kN', 1];
+        const places = most > 0 ? 2 - Math.floor(Math.log10(most * per)) : 0;
         const digits = Math.min(20, Math.max(0, places));
-        return `${(Number((newton * per).toFixed(digits)) || 0).toFixed(digits)} ${small ? 'N' : 'kN'}`;
+        return `${(Number((newton / 1000 * per).toFixed(digits)) || 0).toFixed(digits)} ${name}`;
     }
 
     tell(state) {
