@@ -67,6 +67,10 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
 int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
                       int argc, char **argv, const char **positional, int least, int most);
 
+/* A decimal number up to one of the characters `ends` or the text's end, where *at is left: the numbers of all options,
+   by the rule of scenarios and tables (fram_number_read).  false: no such number. */
+bool take_number(const char **at, const char *ends, double *out);
+
 /* Whether --json is among the words, before a -- that ends the options. */
 bool words_ask_for_json(int count, char **words);
 

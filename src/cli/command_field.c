@@ -41,11 +41,9 @@ static bool read_window(const char *text, double lo[2], double hi[2])
     double value[4];
     const char *at = text;
     for (int k = 0; k < 4; k++) {
-        char *end;
-        value[k] = strtod(at, &end);
-        if (end == at || !isfinite(value[k]) || *end != (k < 3 ? ',' : '\0'))
+        if (!take_number(&at, ",", &value[k]) || *at != (k < 3 ? ',' : '\0'))
             return false;
-        at = end + 1;
+        at++;
     }
     for (int k = 0; k < 2; k++) {
         lo[k] = value[k];

@@ -28,15 +28,10 @@ static bool read_item(const char **text, line_list *list)
     double value[3];
     int count = 0;
     do {
-        char *end;
-        if (count == 3)
+        if (count == 3 || !take_number(text, ":,", &value[count++]))
             return false;
-        value[count++] = strtod(*text, &end);
-        if (end == *text)
-            return false;
-        *text = end;
     } while (*(*text) == ':' && (*text)++);
-    if (count == 2 || (**text && **text != ','))
+    if (count == 2)
         return false;
     if (count == 1)
         return add_line(list, value[0]);
@@ -51,14 +46,12 @@ static bool read_item(const char **text, line_list *list)
 
 static bool read_lines(const char *text, line_list *list)
 {
-    while (text) {
-        if (!read_item(&text, list))
-            return false;
+    while (read_item(&text, list)) {
         if (!*text)
             return true;
         text++;
     }
-    return true;
+    return false;
 }
 
 static int compute(const common_options *common, const char *run, const fram_pressure_definition *d)

@@ -33,14 +33,12 @@ static int take_numbers(const common_options *common, const char *option, const 
         if (i == 0)
             *count = 0;
         for (const char *c = list->value[i];; c++) {
-            char *end = NULL;
-            double value = strtod(c, &end);
-            if (end == c || !isfinite(value) || (*end && *end != ','))
-                return answer_usage(common, option, "expected numbers, separated by commas");
+            double value;
+            if (!take_number(&c, ",", &value))
+                return answer_usage(common, option, "expected numbers, separated by commas alone: 0.5,1e3");
             if (*count == room)
                 return answer_usage(common, option, "has too many numbers");
             out[(*count)++] = value;
-            c = end;
             if (!*c)
                 break;
         }

@@ -1,6 +1,8 @@
 /* Reading a command's words by its option table; the same table prints its help. */
 #include "cli/cli.h"
 
+#include "fram/statistics.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -61,23 +63,28 @@ static void print_command_help(const command_row *command, const option_row *row
     print_options(common, COMMON_ROWS, rows, row_count);
 }
 
-static bool store_real(const char *text, double *out)
+bool take_number(const char **at, const char *ends, double *out)
 {
-    char *end;
-    errno = 0;
-    double value = strtod(text, &end);
-    if (end == text || *end || errno == ERANGE || !isfinite(value))
+    enum { LONGEST = 400 }; /* that is read */
+    char text[LONGEST + 1];
+    fram_error error = {0};
+    size_t length = strcspn(*at, ends);
+    if (length > LONGEST)
         return false;
-    *out = value;
-    return true;
+    memcpy(text, *at, length);
+    text[length] = '\0';
+    *at += length;
+    return fram_number_read(text, out, &error) == FRAM_OK;
 }
+
+static bool store_real(const char *text, double *out) { return take_number(&text, "", out); }
 
 static bool store_integer(const char *text, int *out)
 {
-    char *end;
+    const char *digits = text + (*text == '+' || *text == '-');
     errno = 0;
-    long value = strtol(text, &end, 10);
-    if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX)
+    long value = strtol(text, NULL, 10);
+    if (!*digits || digits[strspn(digits, "0123456789")] || errno == ERANGE || value < INT_MIN || value > INT_MAX)
         return false;
     *out = (int)value;
     return true;
@@ -91,13 +98,16 @@ static const char *store_value(const option_row *row, const char *text)
         *(const char **)row->value = text;
         return NULL;
     case OPTION_REAL:
-        return store_real(text, row->value) ? NULL : "needs a number";
+        return store_real(text, row->value) ? NULL : "needs a number, as 0.5 or 1e3";
     case OPTION_SIZE:
-        return store_real(text, row->value) && *(double *)row->value > 0 ? NULL : "needs a number above zero";
+        return store_real(text, row->value) && *(double *)row->value > 0 ? NULL
+                                                                         : "needs a number above zero, as 0.5 or 1e3";
     case OPTION_INTEGER:
-        return store_integer(text, row->value) ? NULL : "needs a whole number";
+        return store_integer(text, row->value) ? NULL : "needs a whole number, of digits alone";
     case OPTION_COUNT:
-        return store_integer(text, row->value) && *(int *)row->value > 0 ? NULL : "needs a whole number above zero";
+        return store_integer(text, row->value) && *(int *)row->value > 0
+                   ? NULL
+                   : "needs a whole number above zero, of digits alone";
     case OPTION_LIST: {
         option_list *list = row->value;
         if (list->count == OPTION_LIST_ROOM)

@@ -251,7 +251,7 @@ for folder, since, until in ("map", 2.5, 2.54), ("rest", 2.54, 2.6):
 PYTHON
 for bad in "--panel 0" "--panel -1" "--panel 41" "--panel 1e-4" "--from 5" "--from 2 --to 1" "--vessel ghost" \
     "--from 2.54 --to 2.553" \
-    "--frames 3,1" "--frames 1,,2" "--frames 0:1" "--frames 0:-1:5" "--frames x" "--stringers 1,nan" \
+    "--frames 3,1" "--frames 1,,2" "--frames 0:1" "--frames 0:-1:5" "--frames x" "--stringers 1,nan" "--frames 0x1" \
     "--frames 0:1e-9:5" "--frames 100,200" "--stringers -90"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" pressure run -o none $bad

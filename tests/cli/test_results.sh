@@ -260,6 +260,29 @@ refuse_zero --unbroken-as capability scene.yaml -o none
 refuse_zero --cell field --cover run
 refuse_zero --separation extremes run
 refuse_zero --block extremes run
+# Numbers of options are those of scenarios and tables: decimal, finite, and nothing before or behind them.
+for text in 0x1 0x1p3 inf -infinity nan "1 " " 1" 1s 1e999; do
+    for words in "run scene.yaml -o none --until" "field run --cover" \
+        "capability scene.yaml -o none --window"; do
+        option=${words##* }
+        [ "$option" != --cover ] || option=--cell
+        # shellcheck disable=SC2086
+        expect 2 "$FRAM" ${words% *} "$option" "$text"
+        says "$option: needs a number" err
+        says ", as 0.5 or 1e3" err
+    done
+    expect 2 "$FRAM" field run --window "0,0,$text,5"
+    says "--window: expected X0,Y0,X1,Y1" err
+    expect 2 "$FRAM" extremes run --level "0.5,$text"
+    says "--level: expected numbers, separated by commas alone" err
+    expect 2 "$FRAM" pressure run -o none --frames "$text:2:20"
+    says "--frames: expected coordinates like" err
+done
+for text in 0x1 "1 " " 1" 1.0 1e3 ""; do
+    expect 2 "$FRAM" export run --vtk --every "$text"
+    says "--every: needs a" err
+done
+[ ! -e none ] || fail "a refused number leaves a folder"
 # What a command would not look at is refused, not passed over.
 expect 2 "$FRAM" bench scene.yaml --iterations 5
 says "--iterations: is for scenes" err
