@@ -55,7 +55,7 @@ static fram_status sync_folder(context *ctx, const char *path, fram_error *error
     folder[length] = '\0';
     fram_status status = FRAM_OK;
     int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0 || (fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS))
+    if (descriptor < 0 || !file_sync(descriptor))
         status = file_error(error, folder, "write to the disk", errno);
     if (descriptor >= 0)
         close(descriptor);
@@ -110,11 +110,9 @@ fram_status atomic_file_check(const char *path, fram_error *error)
 
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
 {
-    int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
     fram_status status = atomic_file_check(path, error);
-    if (status != FRAM_OK) {
-        /* said already */
-    } else if (descriptor < 0 || fsync(descriptor) != 0)
+    int descriptor = status == FRAM_OK ? open(temporary, O_RDONLY | O_CLOEXEC) : -1;
+    if (status == FRAM_OK && (descriptor < 0 || !file_sync(descriptor)))
         status = file_error(error, path, "write to the disk", errno);
     if (descriptor >= 0)
         close(descriptor);

@@ -312,6 +312,12 @@ fram_status file_write(file_writer *w, const void *data, size_t size, fram_error
     return FRAM_OK;
 }
 
+bool file_sync(int descriptor)
+{
+    /* A device or a pipe has no disk below it, and some file systems can only be written through. */
+    return fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+}
+
 fram_status file_flush(file_writer *w, bool sync, fram_error *error)
 {
     size_t filled = w->filled;
@@ -319,8 +325,7 @@ fram_status file_flush(file_writer *w, bool sync, fram_error *error)
     fram_status status = write_out(w, w->buffer, filled, error);
     if (status != FRAM_OK || !sync)
         return status;
-    /* A device or a pipe has no disk below it. */
-    if (fsync(w->descriptor) != 0 && errno != EINVAL && errno != EROFS) {
+    if (!file_sync(w->descriptor)) {
         w->failed = errno;
         return file_error(error, w->path, "write to the disk", w->failed);
     }

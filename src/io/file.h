@@ -60,6 +60,9 @@ bool file_is_in_place(const file_writer *w);
 /* Forget what stands after `length`; FRAM_ERROR_INPUT when the file is shorter. */
 fram_status file_cut(file_writer *w, uint64_t length, fram_error *error);
 fram_status file_write(file_writer *w, const void *data, size_t size, fram_error *error);
+/* What a descriptor's file holds goes on to the disk; good where there is none below it, as of a device, a pipe, and
+   some file systems.  Otherwise errno tells why. */
+bool file_sync(int descriptor);
 /* The buffer to the system; with `sync` on to the disk. */
 fram_status file_flush(file_writer *w, bool sync, fram_error *error);
 /* Flush and close; always frees, also after an error.  Safe on a writer that is closed or all zero. */

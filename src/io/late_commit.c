@@ -8,8 +8,7 @@
 
 static bool sync_one(late_commit *c, int descriptor, const char *path)
 {
-    /* A device or a pipe has no disk below it. */
-    if (fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS)
+    if (file_sync(descriptor))
         return true;
     c->failed = errno;
     c->failed_path = path;

@@ -1,6 +1,7 @@
 /* io/file and io/atomic_file: buffering, continuing, replacing, and what the operating system refuses. */
 #include "io/late_commit.h"
 #include "scratch.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -420,6 +421,32 @@ START_TEST(devices_and_links_are_written_through)
 }
 END_TEST
 
+/* A file on a file system that has no disk below it is adopted as it is written: what cannot be brought to a disk is
+   complete without.  Why one cannot be adopted is what befell that file. */
+START_TEST(what_has_no_disk_below_is_adopted)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char made[320];
+    int pipes[2];
+    ck_assert_int_eq(pipe(pipes), 0);
+    ck_assert(file_sync(pipes[1]));
+    ck_assert(!file_sync(-1) && errno == EBADF);
+    close(pipes[0]);
+    close(pipes[1]);
+    snprintf(made, sizeof made, "%s", scratch_path(&s, "a/made"));
+    scratch_write(scratch_path(&s, "a"), "old", 3);
+    assert_fails(atomic_file_adopt(&ctx, made, scratch_path(&s, "b"), &error), error, FRAM_ERROR_INPUT,
+                 "Not a directory");
+    snprintf(made, sizeof made, "%s", scratch_path(&s, "made"));
+    scratch_path(&s, "a");
+    ck_assert_int_eq(symlink("/dev/null", made), 0);
+    assert_ok(atomic_file_adopt(&ctx, made, s.path, &error), error);
+    ck_assert_int_eq(unlink(s.path), 0);
+    ck_assert_int_eq(rmdir(s.folder), 0);
+}
+END_TEST
+
 START_TEST(a_late_commit_brings_all_to_its_place)
 {
     context_init(&ctx);
@@ -490,4 +517,5 @@ TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, miss
           a_stop_waits_for_a_reader_that_pauses_not_for_a_slow_one, a_stream_that_does_not_wait_is_waited_for,
           a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once, a_partial_write_is_seen,
           replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
-          devices_and_links_are_written_through, a_bare_name_is_here, memory_runs_out)
+          devices_and_links_are_written_through, what_has_no_disk_below_is_adopted, a_bare_name_is_here,
+          memory_runs_out)
