@@ -85,7 +85,7 @@ static bool sum_alarms(const manage_run *m, bool largest, double *least, double 
     if (good && times.count > 0) {
         numbers_sort(times.data, times.count);
         *least = times.data[0];
-        *median = times.data[times.count / 2];
+        *median = numbers_median(times.data, times.count);
     }
     array_free(m->ctx, &times);
     return good;

@@ -300,7 +300,7 @@ static fram_status note_field(context *ctx, replay *r, const scenario_domain *d,
         return status;
     numbers_sort(f->areas.data, n);
     f->mean = f->area / n;
-    f->median = 0.5 * (f->areas.data[(n - 1) / 2] + f->areas.data[n / 2]);
+    f->median = numbers_median(f->areas.data, n);
     f->greatest = f->areas.data[n - 1];
     return FRAM_OK;
 }

@@ -9,7 +9,7 @@
 static double median(double *value, int64_t count)
 {
     numbers_sort(value, count);
-    return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
+    return numbers_median(value, count);
 }
 
 /* Of ascending values. */

@@ -29,4 +29,17 @@ START_TEST(numbers_come_in_order_and_none_is_lost)
 }
 END_TEST
 
-TEST_MAIN("sort", numbers_come_in_order_and_none_is_lost)
+START_TEST(the_median_lies_between_the_two_in_the_middle)
+{
+    const double value[] = {1, 2, 4, 9, HUGE_VAL, HUGE_VAL};
+    ck_assert(isnan(numbers_median(value, 0)));
+    assert_bits(numbers_median(value, 1), 1);
+    assert_bits(numbers_median(value, 2), 1.5);
+    assert_bits(numbers_median(value, 3), 2);
+    assert_bits(numbers_median(value, 4), 3);
+    assert_bits(numbers_median(value + 3, 2), HUGE_VAL);
+    assert_bits(numbers_median(value + 4, 2), HUGE_VAL);
+}
+END_TEST
+
+TEST_MAIN("sort", numbers_come_in_order_and_none_is_lost, the_median_lies_between_the_two_in_the_middle)
