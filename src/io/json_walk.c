@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "io/utf8.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -150,46 +151,86 @@ static bool is_hexadecimal(char c)
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
-/* Past one character of a string. */
-static fram_status pass_character(json_walk *w, fram_error *error)
+/* The value of four hexadecimal digits at `digit`; -1 where there are none. */
+static int32_t four_digits(const char *digit, const char *end)
 {
+    int32_t value = 0;
+    for (int k = 0; k < 4; k++) {
+        if (end - digit <= k || !is_hexadecimal(digit[k]))
+            return -1;
+        value = 16 * value + (digit[k] <= '9' ? digit[k] - '0' : (digit[k] | 0x20) - 'a' + 10);
+    }
+    return value;
+}
+
+static bool is_surrogate(int32_t unit, int32_t first) { return unit >= first && unit < first + 0x400; }
+enum { HIGH_SURROGATES = 0xd800, LOW_SURROGATES = 0xdc00 };
+
+/* Past \uXXXX, and past the second one where two are a pair of surrogates: what they mean.  One without the other,
+   which RFC 8259 allows and no text can hold, is U+FFFD; so is NUL, which would end the text. */
+static fram_status pass_code(json_walk *w, int32_t *code, fram_error *error)
+{
+    int32_t unit = four_digits(w->at + 2, w->end);
+    if (unit < 0)
+        return refuse_next(w, error, "four hexadecimal digits after \\u");
+    w->at += 6;
+    *code = unit;
+    if (is_surrogate(unit, HIGH_SURROGATES) && w->end - w->at > 2 && w->at[0] == '\\' && w->at[1] == 'u') {
+        int32_t low = four_digits(w->at + 2, w->end);
+        if (is_surrogate(low, LOW_SURROGATES)) {
+            *code = 0x10000 + ((unit - HIGH_SURROGATES) << 10) + (low - LOW_SURROGATES);
+            w->at += 6;
+        }
+    }
+    if (*code == 0 || is_surrogate(*code, HIGH_SURROGATES) || is_surrogate(*code, LOW_SURROGATES))
+        *code = UTF8_REPLACEMENT;
+    return FRAM_OK;
+}
+
+/* Past one character of a string, and what it means. */
+static fram_status pass_character(json_walk *w, int32_t *code, fram_error *error)
+{
+    static const char escapes[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
     if (*w->at != '\\') {
         if ((unsigned char)*w->at < 0x20)
             return refuse_next(w, error, "no control character in a string");
-        if (utf8_next(&w->at, w->end) < 0)
-            return refuse_next(w, error, "UTF-8");
-        return FRAM_OK;
+        *code = utf8_next(&w->at, w->end);
+        return *code < 0 ? refuse_next(w, error, "UTF-8") : FRAM_OK;
     }
-    if (w->end - w->at < 2 || !strchr("\"\\/bfnrtu", w->at[1]) || w->at[1] == '\0')
+    char next = w->end - w->at < 2 ? '\0' : w->at[1];
+    if (next == 'u')
+        return pass_code(w, code, error);
+    const char *found = next ? strchr(escapes, next) : NULL;
+    if (!found)
         return refuse_next(w, error, "an escape of JSON");
-    if (w->at[1] != 'u') {
-        w->at += 2;
-        return FRAM_OK;
-    }
-    for (int k = 2; k < 6; k++)
-        if (w->end - w->at <= k || !is_hexadecimal(w->at[k]))
-            return refuse_next(w, error, "four hexadecimal digits after \\u");
-    w->at += 6;
+    *code = (unsigned char)meanings[found - escapes];
+    w->at += 2;
     return FRAM_OK;
 }
 
 fram_status json_walk_text(json_walk *w, char *text, size_t room, fram_error *error)
 {
+    size_t length = 0;
+    bool cut = false;
     skip_blanks(w);
     if (w->at == w->end || *w->at != '"')
         return refuse_next(w, error, "a string");
-    const char *begin = ++w->at;
+    w->at++;
     while (w->at < w->end && *w->at != '"') {
-        fram_status status = pass_character(w, error);
+        int32_t code = 0;
+        char bytes[UTF8_MOST];
+        fram_status status = pass_character(w, &code, error);
         if (status != FRAM_OK)
             return status;
+        size_t size = (size_t)utf8_put(code, bytes);
+        cut = cut || length + size >= room;
+        if (cut)
+            continue;
+        memcpy(text + length, bytes, size);
+        length += size;
     }
     if (w->at == w->end)
         return refuse_next(w, error, "'\"' at the end of a string");
-    size_t length = (size_t)(w->at - begin);
-    if (length >= room)
-        length = room - 1;
-    memcpy(text, begin, length);
     text[length] = '\0';
     w->at++;
     return FRAM_OK;
@@ -280,6 +321,16 @@ static fram_status skip_single(json_walk *w, json_kind kind, fram_error *error)
     default:
         return pass_word(w, "null", error);
     }
+}
+
+fram_status json_walk_number_or_null(json_walk *w, double *value, fram_error *error)
+{
+    json_kind kind;
+    fram_status status = json_walk_kind(w, &kind, error);
+    if (status != FRAM_OK || kind != JSON_NULL)
+        return status == FRAM_OK ? json_walk_number(w, value, error) : status;
+    *value = (double)NAN;
+    return json_walk_skip(w, error);
 }
 
 fram_status json_walk_skip(json_walk *w, fram_error *error)

@@ -43,13 +43,16 @@ fram_status json_walk_enter(json_walk *w, json_kind kind, fram_error *error);
 /* To the next element of the array that was entered (first: none was read yet); *more is false, and the array is left,
    at its end. */
 fram_status json_walk_element(json_walk *w, bool first, bool *more, fram_error *error);
-/* The same for an object: to the value of the next member.  Its name, cut to `room` bytes with the NUL, is copied to
-   key; escapes in it are kept as they are written. */
+/* The same for an object: to the value of the next member.  Its name goes to key as UTF-8, of what its escapes mean;
+   what has no room in `room` bytes with the NUL is cut off between characters.  U+0000 and half a pair of surrogates,
+   which no text can hold, become U+FFFD. */
 fram_status json_walk_member(json_walk *w, bool first, char *key, size_t room, bool *more, fram_error *error);
-/* A string, copied as above. */
+/* A string, in the same way. */
 fram_status json_walk_text(json_walk *w, char *text, size_t room, fram_error *error);
 /* A number; one that overflows is refused. */
 fram_status json_walk_number(json_walk *w, double *value, fram_error *error);
+/* The same, or null, which is NaN. */
+fram_status json_walk_number_or_null(json_walk *w, double *value, fram_error *error);
 /* Past a value of any kind. */
 fram_status json_walk_skip(json_walk *w, fram_error *error);
 /* Only blanks are left. */

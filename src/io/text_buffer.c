@@ -1,6 +1,8 @@
 /* Text that grows, with the failure kept for the end. */
 #include "io/text_buffer.h"
+#include "base/number_text.h"
 #include "io/utf8.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,6 +47,20 @@ void text_add_utf8(context *ctx, text_buffer *b, const char *text)
             next = text + 1;
         }
     }
+}
+
+void text_real_or_null(context *ctx, text_buffer *b, double value)
+{
+    char number[NUMBER_TEXT_SIZE];
+    real_to_text(value, number);
+    text_add(ctx, b, isfinite(value) ? number : "null");
+}
+
+void text_digits_or_null(context *ctx, text_buffer *b, double value, int digits)
+{
+    char number[NUMBER_TEXT_SIZE];
+    real_to_digits(value, digits, number);
+    text_add(ctx, b, isfinite(value) ? number : "null");
 }
 
 void text_quoted(context *ctx, text_buffer *b, const char *text)

@@ -15,6 +15,9 @@ typedef struct text_buffer {
 void text_add(context *ctx, text_buffer *b, const char *text);
 void text_add_bytes(context *ctx, text_buffer *b, const char *data, size_t size);
 void text_format(context *ctx, text_buffer *b, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* A number of JSON: the fewest digits that read back as the same, or so many, and null for what is no finite number. */
+void text_real_or_null(context *ctx, text_buffer *b, double value);
+void text_digits_or_null(context *ctx, text_buffer *b, double value, int digits);
 /* Bytes that are not UTF-8, as names of files may have, become U+FFFD each. */
 void text_add_utf8(context *ctx, text_buffer *b, const char *text);
 /* A JSON string, in quotes; with the same of such bytes. */

@@ -27,6 +27,16 @@ int32_t utf8_next(const char **at, const char *end)
     return code;
 }
 
+int utf8_put(int32_t code, char out[UTF8_MOST])
+{
+    static const int32_t lead[UTF8_MOST] = {0, 0xc0, 0xe0, 0xf0};
+    int more = code >= 0x10000 ? 3 : code >= 0x800 ? 2 : code >= 0x80 ? 1 : 0;
+    out[0] = (char)(lead[more] | code >> 6 * more);
+    for (int i = 1; i <= more; i++)
+        out[i] = (char)(0x80 | (code >> 6 * (more - i) & 0x3f));
+    return more + 1;
+}
+
 size_t utf8_mark(const char *text, size_t size)
 {
     static const char mark[] = "\xef\xbb\xbf";

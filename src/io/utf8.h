@@ -9,6 +9,9 @@
 /* The code point at *at, which moves behind it; -1 when the bytes are not UTF-8 (also overlong forms, surrogates and
    values over 0x10ffff), *at is then not moved.  *at < end. */
 int32_t utf8_next(const char **at, const char *end);
+/* The bytes of a code point that utf8_next can give, without a NUL; returns how many. */
+enum { UTF8_MOST = 4 };
+int utf8_put(int32_t code, char out[UTF8_MOST]);
 /* Bytes of the byte order mark that some programs begin a text with: 3, or 0 where there is none. */
 size_t utf8_mark(const char *text, size_t size);
 /* What stands for what cannot be shown. */

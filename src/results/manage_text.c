@@ -87,10 +87,9 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
 
 static void real(context *ctx, text_buffer *out, const char *name, double value, const char *after)
 {
-    char number[NUMBER_TEXT_SIZE] = "null";
-    if (isfinite(value))
-        real_to_text(value, number);
-    text_format(ctx, out, "\"%s\": %s%s", name, number, after);
+    text_format(ctx, out, "\"%s\": ", name);
+    text_real_or_null(ctx, out, value);
+    text_add(ctx, out, after);
 }
 
 static void summary_json(context *ctx, const manage_summary *s, text_buffer *out)

@@ -28,9 +28,8 @@ static void add_numbers(context *ctx, const double *value, int32_t count, int di
 {
     text_add(ctx, out, "[");
     for (int32_t i = 0; i < count; i++) {
-        char text[NUMBER_TEXT_SIZE];
-        real_to_digits(value[i], digits, text);
-        text_format(ctx, out, "%s%s", i > 0 ? "," : "", isfinite(value[i]) ? text : "null");
+        text_add(ctx, out, i > 0 ? "," : "");
+        text_digits_or_null(ctx, out, value[i], digits);
     }
     text_add(ctx, out, "]");
 }

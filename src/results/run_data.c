@@ -31,7 +31,7 @@ static fram_status read_named(json_walk *w, const char *key, const note_member *
         if (strcmp(key, members[i].name) != 0)
             continue;
         return members[i].text ? json_walk_text(w, members[i].text, members[i].room, error)
-                               : json_walk_number(w, members[i].number, error);
+                               : json_walk_number_or_null(w, members[i].number, error);
     }
     return json_walk_skip(w, error);
 }

@@ -37,9 +37,9 @@ void offset_envelope(const double *time, const double *x, const double *y, int32
 
 static void add_number(context *ctx, text_buffer *b, const char *key, double value, const char *end)
 {
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, "\"%s\": %s%s", key, isfinite(value) ? text : "null", end);
+    text_format(ctx, b, "\"%s\": ", key);
+    text_real_or_null(ctx, b, value);
+    text_add(ctx, b, end);
 }
 
 /* Null where nothing was measured. */

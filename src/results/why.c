@@ -288,9 +288,8 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
 
 static void number(context *ctx, text_buffer *out, const char *key, double value)
 {
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, out, "\"%s\": %s", key, isfinite(value) ? text : "null");
+    text_format(ctx, out, "\"%s\": ", key);
+    text_real_or_null(ctx, out, value);
 }
 
 static void vector(context *ctx, text_buffer *out, const char *key, vec3 v)
@@ -298,9 +297,8 @@ static void vector(context *ctx, text_buffer *out, const char *key, vec3 v)
     const double part[3] = {v.x, v.y, v.z};
     text_format(ctx, out, "\"%s\": [", key);
     for (int i = 0; i < 3; i++) {
-        char text[NUMBER_TEXT_SIZE];
-        real_to_text(part[i], text);
-        text_format(ctx, out, "%s%s", i > 0 ? ", " : "", isfinite(part[i]) ? text : "null");
+        text_add(ctx, out, i > 0 ? ", " : "");
+        text_real_or_null(ctx, out, part[i]);
     }
     text_add(ctx, out, "]");
 }

@@ -37,11 +37,20 @@ static void failure_word(const capability *c, const capability_limit *l, word ou
                  (int)c->failure[l->failure].number + 1);
 }
 
-static void add_number(context *ctx, text_buffer *b, double value, const char *otherwise, const char *end)
+/* Of a table, with a word where there is none. */
+static void add_cell(context *ctx, text_buffer *b, double value, const char *otherwise, const char *end)
 {
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, "%s%s", isfinite(value) ? text : otherwise, end);
+    if (isfinite(value))
+        text_real_or_null(ctx, b, value);
+    else
+        text_add(ctx, b, otherwise);
+    text_add(ctx, b, end);
+}
+
+static void add_number(context *ctx, text_buffer *b, double value, const char *end)
+{
+    text_real_or_null(ctx, b, value);
+    text_add(ctx, b, end);
 }
 
 /* ---- tables ---- */
@@ -56,11 +65,11 @@ static void limits_table(context *ctx, const capability *c, text_buffer *b)
         limit_word(&c->intact[i], by);
         failure_word(c, &c->damaged[i], failure);
         limit_word(&c->damaged[i], then);
-        add_number(ctx, b, degrees_of(c, i), "", ",");
-        add_number(ctx, b, c->intact[i].speed, "", ",");
+        add_cell(ctx, b, degrees_of(c, i), "", ",");
+        add_cell(ctx, b, c->intact[i].speed, "", ",");
         text_format(ctx, b, "%s,", by);
         if (c->failures > 0)
-            add_number(ctx, b, c->damaged[i].speed, "", ",");
+            add_cell(ctx, b, c->damaged[i].speed, "", ",");
         text_format(ctx, b, c->failures > 0 ? "%s,%s\n" : ",none,none\n", failure, then);
     }
 }
@@ -80,7 +89,7 @@ static void use_table(context *ctx, const capability *c, text_buffer *b)
                                   ice.x, ice.y, ice.z,  load.x,          load.y,      load.z};
             int count = sizeof row / sizeof *row;
             for (int j = 0; j < count; j++)
-                add_number(ctx, b, row[j], "inf", j + 1 < count ? "," : "\n");
+                add_cell(ctx, b, row[j], "inf", j + 1 < count ? "," : "\n");
         }
     }
 }
@@ -90,14 +99,14 @@ static void limit_object(context *ctx, const capability_limit *l, text_buffer *b
     word by;
     limit_word(l, by);
     text_add(ctx, b, "{\"speed\": ");
-    add_number(ctx, b, l->speed, "null", ", ");
+    add_number(ctx, b, l->speed, ", ");
     text_format(ctx, b, "\"held_at_all_speeds\": %s, \"limited_by\": \"%s\"", l->beyond ? "true" : "false", by);
 }
 
 static void add_member(context *ctx, text_buffer *b, const char *name, double value)
 {
     text_format(ctx, b, "  \"%s\": ", name);
-    add_number(ctx, b, value, "null", ",\n");
+    add_number(ctx, b, value, ",\n");
 }
 
 static const char *ice_load_source(const capability *c)
@@ -116,14 +125,14 @@ static void met_object(context *ctx, const capability *c, text_buffer *b)
         text_quoted(ctx, b, met->runs[i]);
     }
     text_add(ctx, b, "], \"windows\": ");
-    add_number(ctx, b, met->windows, "null", ", \"concentration\": ");
-    add_number(ctx, b, law->concentration, "null", ", \"thickness_m\": ");
-    add_number(ctx, b, law->thickness, "null", ", \"mean_size_m\": ");
-    add_number(ctx, b, law->mean, "null", ", \"largest_m\": ");
-    add_number(ctx, b, law->largest, "null", ", \"unbroken\": ");
-    add_number(ctx, b, law->sheet, "null", ", \"unbroken_as_m\": ");
-    add_number(ctx, b, met->sheet_as, "null", ", \"window_m\": ");
-    add_number(ctx, b, c->side, "null", "},\n");
+    add_number(ctx, b, met->windows, ", \"concentration\": ");
+    add_number(ctx, b, law->concentration, ", \"thickness_m\": ");
+    add_number(ctx, b, law->thickness, ", \"mean_size_m\": ");
+    add_number(ctx, b, law->mean, ", \"largest_m\": ");
+    add_number(ctx, b, law->largest, ", \"unbroken\": ");
+    add_number(ctx, b, law->sheet, ", \"unbroken_as_m\": ");
+    add_number(ctx, b, met->sheet_as, ", \"window_m\": ");
+    add_number(ctx, b, c->side, "},\n");
 }
 
 /* A histogram as ice.populations takes it. */
@@ -132,9 +141,9 @@ static void sizes_table(context *ctx, const capability *c, text_buffer *b)
     const managed_law *law = &c->options.met->law;
     text_add(ctx, b, "diameter_min[m],diameter_max[m],floes[1]\n");
     for (int32_t i = 0; i < law->bins; i++) {
-        add_number(ctx, b, law->edge[i], "", ",");
-        add_number(ctx, b, law->edge[i + 1], "", ",");
-        add_number(ctx, b, law->weight[i], "", "\n");
+        add_cell(ctx, b, law->edge[i], "", ",");
+        add_cell(ctx, b, law->edge[i + 1], "", ",");
+        add_cell(ctx, b, law->weight[i], "", "\n");
     }
 }
 
@@ -156,7 +165,7 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
     text_add(ctx, b, "  \"directions\": [");
     for (int32_t i = 0; i < c->loads.directions; i++) {
         text_format(ctx, b, "%s\n    {\"from_bow_clockwise_deg\": ", i > 0 ? "," : "");
-        add_number(ctx, b, degrees_of(c, i), "null", ", \"intact\": ");
+        add_number(ctx, b, degrees_of(c, i), ", \"intact\": ");
         limit_object(ctx, &c->intact[i], b);
         text_add(ctx, b, "}");
         if (c->failures > 0) {
@@ -168,7 +177,7 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
         }
         text_add(ctx, b, ", \"use\": [");
         for (int32_t k = 0; k < c->loads.speeds; k++)
-            add_number(ctx, b, c->use[i * c->loads.speeds + k].use, "null", k + 1 < c->loads.speeds ? ", " : "]}");
+            add_number(ctx, b, c->use[i * c->loads.speeds + k].use, k + 1 < c->loads.speeds ? ", " : "]}");
     }
     text_add(ctx, b, "]\n}\n");
 }

@@ -213,11 +213,11 @@ static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
         else if (strcmp(key, "state_hash") == 0)
             status = json_walk_text(w, e->hash, sizeof e->hash, error);
         else if (strcmp(key, "time_s") == 0)
-            status = json_walk_number(w, &e->time, error);
+            status = json_walk_number_or_null(w, &e->time, error);
         else if (strcmp(key, "steps") == 0)
-            status = json_walk_number(w, &e->steps, error);
+            status = json_walk_number_or_null(w, &e->steps, error);
         else if (strcmp(key, "good_until_s") == 0)
-            status = json_walk_number(w, &e->good_until, error);
+            status = json_walk_number_or_null(w, &e->good_until, error);
         else
             status = json_walk_skip(w, error);
     }

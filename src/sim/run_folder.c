@@ -362,9 +362,8 @@ static void add_text_member(context *ctx, text_buffer *b, const char *key, const
 /* A member by the fewest digits that read back as the same number, as people are told it. */
 static void add_real_member(context *ctx, text_buffer *b, const char *before, double value)
 {
-    char text[NUMBER_TEXT_SIZE];
-    real_to_text(value, text);
-    text_format(ctx, b, "%s: %s", before, text);
+    text_format(ctx, b, "%s: ", before);
+    text_real_or_null(ctx, b, value);
 }
 
 static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
