@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/scenario_file.h"
+#include "model/scenario_words.h"
 #include "results/report_parts.h"
 #include "results/station_results.h"
 #include "results/track_results.h"
@@ -106,17 +107,12 @@ static const char *file_told(const report *r, const char *path)
 /* What keeps a free vessel: lines counted one by one, thrusters, control. */
 static void kept_facts(report *r, const scenario_vessel *v)
 {
-    char lines[80] = "no mooring", thrusters[48] = "no thrusters";
-    int64_t count = 0;
-    for (int32_t i = 0; i < v->mooring.lines.count; i++)
-        count += v->mooring.lines.data[i].count;
-    if (count > 0)
-        snprintf(lines, sizeof lines, "%lld mooring line%s%s in %.4g m of water", (long long)count,
-                 count > 1 ? "s" : "", v->mooring.turret ? " on a turret" : "", v->mooring.depth);
+    char thrusters[48] = "no thrusters";
+    const setting_text lines = mooring_lines_text(v);
     if (v->thrusters.count > 0)
         snprintf(thrusters, sizeof thrusters, "%d thruster%s", (int)v->thrusters.count,
                  v->thrusters.count > 1 ? "s" : "");
-    html_fact(&r->page, "station keeping", "%s, %s%s%s", lines, thrusters,
+    html_fact(&r->page, "station keeping", "%s, %s%s%s", lines.text[0] ? lines.text : "no mooring", thrusters,
               v->positioning.active ? ", dynamic positioning" : "",
               is_automatic(v->propulsion.bollard_pull) ? "" : ", its own propulsion");
 }
@@ -136,8 +132,7 @@ static void vessel_facts(report *r, const vessel_entry *entry)
         html_fact(&r->page, "motion", "along a path of %d points", (int)v->path.count);
     else if (v->mode == VESSEL_FREE)
         html_fact(&r->page, "motion", "free in six degrees of freedom, heading %g deg%s%s", v->heading_deg,
-                  vessel_begins_at_equilibrium(v) ? ", from which it begins at the equilibrium of its mooring"
-                                                  : " at the start",
+                  vessel_begins_at_equilibrium(v) ? vessel_equilibrium_text(v) : " at the start",
                   v->speed > 0 ? ", under way" : ", at rest");
     else
         html_fact(&r->page, "motion", "%g m/s towards %g deg, heading %g deg", v->speed,
@@ -146,20 +141,11 @@ static void vessel_facts(report *r, const vessel_entry *entry)
         kept_facts(r, v);
 }
 
-static const char *breaking_words(bool breaks) { return breaks ? "breaks" : "does not break"; }
-
 /* Ice that differs in kind: populations, each with what it has of its own. */
 static void population_facts(report *r, const scenario_ice *i)
 {
-    for (int32_t k = 0; k < i->populations.count; k++) {
-        const scenario_population *p = &i->populations.data[k];
-        html_fact(&r->page, k == 0 ? "populations" : "",
-                  "%d: %g m thick; crushing %g kPa, flexural strength %g kPa; %s", (int)k + 1,
-                  automatic_or(p->thickness, i->thickness),
-                  automatic_or(p->crushing_strength, i->crushing_strength) * 1e-3,
-                  automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
-                  breaking_words(i->breakable && p->breakable));
-    }
+    for (int32_t k = 0; k < i->populations.count; k++)
+        html_fact(&r->page, k == 0 ? "populations" : "", "%d: %s", (int)k + 1, ice_population_text(i, k).text);
 }
 
 static void take_thickness(double thickness, double range[2])
@@ -209,11 +195,11 @@ static void ice_facts(report *r)
     static const char *const sources[] = {
         "managed ice (Voronoi cells)", "listed floes", "none", "observed floes", "level ice", "packed floes"};
     const scenario_ice *i = &r->d.s.ice;
-    char thick[64], strength[128] = "";
+    char thick[64], strength[192] = "";
     bool populated = (i->source == ICE_VORONOI || i->source == ICE_PACKED) && i->populations.count > 0;
     if (!populated) /* each has its own */
-        snprintf(strength, sizeof strength, "; crushing %g kPa, flexural strength %g kPa; %s",
-                 i->crushing_strength * 1e-3, i->flexural_strength * 1e-3, breaking_words(i->breakable));
+        snprintf(strength, sizeof strength, "; %s",
+                 ice_strength_text(i->crushing_strength, i->flexural_strength, i->breakable).text);
     html_fact(&r->page, "ice", "%s, %s, %g kg/m3%s", sources[i->source], thickness_words(r, i, thick), i->density,
               strength);
     strength_fact(r, &i->strength);

@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "io/velocity_file.h"
 #include "model/scenario_vessel.h"
+#include "model/scenario_words.h"
 #include "sim/wall_check.h"
 
 #include <math.h>
@@ -205,14 +206,8 @@ static void list_populations(const effective_list *t)
         const scenario_population *p = &i->populations.data[k];
         char sizes[PART_SIZE];
         size_words(p, sizes);
-        sanity_say(
-            t->tell, t->to,
-            "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, crushing strength %.4g kPa, flexural "
-            "strength %.4g kPa, %s",
-            (int)k + 1, (int)i->populations.count, 100 * p->share / shares, sizes,
-            automatic_or(p->thickness, i->thickness), automatic_or(p->crushing_strength, i->crushing_strength) * 1e-3,
-            automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
-            i->breakable && p->breakable ? "breaks" : "does not break");
+        sanity_say(t->tell, t->to, "ice: population %d of %d: %.3g %% of the ice area, %s; %s", (int)k + 1,
+                   (int)i->populations.count, 100 * p->share / shares, sizes, ice_population_text(i, k).text);
     }
 }
 
@@ -221,14 +216,11 @@ static void list_populations(const effective_list *t)
 /* "12 mooring lines on a turret in 100 m of water, 2 thrusters, dynamic positioning". */
 static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2])
 {
-    int64_t lines = 0;
     size_t room = SANITY_SENTENCE / 2, n = 0;
-    for (int32_t i = 0; i < v->mooring.lines.count; i++)
-        lines += v->mooring.lines.data[i].count;
+    const setting_text lines = mooring_lines_text(v);
     out[0] = '\0';
-    if (lines > 0)
-        n = (size_t)snprintf(out, room, ", %lld mooring line%s%s in %.4g m of water", (long long)lines,
-                             lines > 1 ? "s" : "", v->mooring.turret ? " on a turret" : "", v->mooring.depth);
+    if (lines.text[0])
+        n = (size_t)snprintf(out, room, ", %s", lines.text);
     bool pushes = v->positioning.active;
     for (int32_t i = 0; i < v->thrusters.count; i++)
         pushes = pushes || v->thrusters.data[i].setting != 0;
@@ -247,9 +239,8 @@ static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2
 /* What goes with the heading of a free vessel. */
 static const char *equilibrium_words(const effective_list *t, const scenario_vessel *v)
 {
-    if (!vessel_begins_at_equilibrium(v))
-        return "";
-    return t->made ? " at the equilibrium of its mooring" : ", from which it begins at the equilibrium of its mooring";
+    return t->made && vessel_begins_at_equilibrium(v) ? " at the equilibrium of its mooring"
+                                                      : vessel_equilibrium_text(v);
 }
 
 static void tell_vessel(const effective_list *t, int32_t vessel)

@@ -543,7 +543,7 @@ def check_ice(folder):
     (folder / "thick.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [
         [[10, 0], [20, 0], [20, 10], [10, 10], [10, 0]]]}).join(
             ('{"type": "Feature", "properties": {"thickness": 1.5}, "geometry": ', "}")))
-    strengths = "; crushing 2000 kPa, flexural strength 500 kPa; does not break"
+    strengths = "; crushing strength 2000 kPa, flexural strength 500 kPa, does not break"
     for ice, told, populations in (
             ("source: file, file: thick.geojson, thickness: 0.8", f"observed floes, 1.5 m thick, 900 kg/m3{strengths}",
              None),
@@ -552,7 +552,7 @@ def check_ice(folder):
             ("source: voronoi, concentration: 0.5, breakable: true, populations: [{size: constant, diameter: 20, "
              "thickness: 0.2, crushing_strength: 1.0e+6, breakable: false}]",
              "managed ice (Voronoi cells), 0.2 m thick, 900 kg/m3",
-             "1: 0.2 m thick; crushing 1000 kPa, flexural strength 500 kPa; does not break"),
+             "1: 0.2 m thick, crushing strength 1000 kPa, flexural strength 500 kPa, does not break"),
             ("source: voronoi, concentration: 0.5", f"managed ice (Voronoi cells), 1 m thick, 900 kg/m3{strengths}",
              None)):
         file, run = folder / "ice.yaml", folder / "ice"
