@@ -40,7 +40,7 @@ int command_export(const command_row *self, int argc, char **argv)
         return code;
     if (vtk + geojson + netcdf != 1)
         return answer_usage(&common, "export", "name one format: --vtk, --netcdf or --geojson");
-    if (geojson == isnan(time))
+    if (geojson == !!isnan(time))
         return answer_usage(&common, "--time",
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
     if (every > 0 && !vtk)

@@ -92,10 +92,15 @@ static fram_status key_figures(report *r, fram_error *error)
     return status;
 }
 
-static const char *const modes[] = {"prescribed motion", "towed", "free"};
-static const char *const forms[] = {"box", "icebreaking hull", "hull from a file", "cone", "ship of full form"};
-
-static const char *const boundaries[] = {"walls", "open", "unbounded field that drifts through"};
+static const char *const modes[] = {
+    [VESSEL_PRESCRIBED] = "prescribed motion", [VESSEL_TOWED] = "towed", [VESSEL_FREE] = "free"};
+static const char *const forms[] = {[HULL_BOX] = "box",
+                                    [HULL_ICEBREAKER] = "icebreaking hull",
+                                    [HULL_MESH] = "hull from a file",
+                                    [HULL_CONE] = "cone",
+                                    [HULL_SHIP] = "ship of full form"};
+static const char *const boundaries[] = {
+    [DOMAIN_WALLS] = "walls", [DOMAIN_OPEN] = "open", [DOMAIN_FEEDING] = "unbounded field that drifts through"};
 
 /* A file as the page may tell it: with its path only where that was asked for. */
 static const char *file_told(const report *r, const char *path)
@@ -192,8 +197,12 @@ static void strength_fact(report *r, const scenario_strength *s)
 
 static void ice_facts(report *r)
 {
-    static const char *const sources[] = {
-        "managed ice (Voronoi cells)", "listed floes", "none", "observed floes", "level ice", "packed floes"};
+    static const char *const sources[] = {[ICE_VORONOI] = "managed ice (Voronoi cells)",
+                                          [ICE_FLOES] = "listed floes",
+                                          [ICE_NONE] = "none",
+                                          [ICE_FILE] = "observed floes",
+                                          [ICE_LEVEL] = "level ice",
+                                          [ICE_PACKED] = "packed floes"};
     const scenario_ice *i = &r->d.s.ice;
     char thick[64], strength[192] = "";
     bool populated = (i->source == ICE_VORONOI || i->source == ICE_PACKED) && i->populations.count > 0;

@@ -185,7 +185,8 @@ static double cell(const report *r, const char *column, int32_t row)
 
 /* By enum fracture_kind. */
 enum { BROKEN_KINDS = FRACTURE_RELEASE + 1 };
-static const char *const broken_names[BROKEN_KINDS] = {"", "split", "bending", "came loose"};
+static const char *const broken_names[BROKEN_KINDS] = {
+    [0] = "", [FRACTURE_SPLIT] = "split", [FRACTURE_BENDING] = "bending", [FRACTURE_RELEASE] = "came loose"};
 
 static int broken_kind(const report *r, int32_t row)
 {

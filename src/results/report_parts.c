@@ -51,12 +51,12 @@ load_unit report_load_unit(const report *r)
     return load_unit_for(most);
 }
 
-/* A channel of the vessel or of the world times a factor, from row `first` on; NULL without the channel, and without
-   memory: then the page fails as a whole. */
-static double *report_scaled(report *r, const char *channel, double factor, int32_t first)
+/* A channel of the vessel or of the world times a factor; NULL without the channel, and without memory: then the page
+   fails as a whole. */
+static double *report_scaled(report *r, const char *channel, double factor)
 {
     const double *from = run_vessel_channel(&r->d, r->vessel, channel);
-    int32_t rows = r->d.series.rows - first;
+    int32_t rows = r->d.series.rows;
     if (!from || rows < 1)
         return NULL;
     double *to = memory_array(r->ctx, (size_t)rows, sizeof *to);
@@ -66,7 +66,7 @@ static double *report_scaled(report *r, const char *channel, double factor, int3
         return NULL;
     }
     for (int32_t i = 0; i < rows; i++)
-        to[i] = from[first + i] * factor;
+        to[i] = from[i] * factor;
     return to;
 }
 
@@ -78,7 +78,7 @@ fram_status report_series(report *r, const char *title, const char *y_label, dou
     chart_line drawn[LINES_MOST];
     int32_t n = 0;
     for (int32_t i = 0; i < count && i < LINES_MOST; i++) {
-        const double *y = report_scaled(r, lines[i].channel, factor, 0);
+        const double *y = report_scaled(r, lines[i].channel, factor);
         if (!y)
             continue;
         drawn[n] = chart_line_make(lines[i].name, run_channel(&r->d, "time"), y, r->d.series.rows, wide && i > 0);
@@ -103,7 +103,7 @@ fram_status report_way(report *r, fram_error *error)
     char subtitle[96];
     int32_t first = 0, rows = r->d.series.rows;
     for (int k = 0; k < 2; k++)
-        place[k] = report_scaled(r, channels[k], 1, 0);
+        place[k] = report_scaled(r, channels[k], 1);
     if (!time || !place[0] || !place[1])
         return FRAM_OK;
     while (first + 1 < rows && !(isfinite(place[0][first]) && isfinite(place[1][first])))
@@ -129,7 +129,7 @@ void report_statistics_heads(report *r, const char *first)
 
 void report_statistics(report *r, const char *channel, const char *name, double factor)
 {
-    const double *time = run_channel(&r->d, "time"), *value = report_scaled(r, channel, factor, 0);
+    const double *time = run_channel(&r->d, "time"), *value = report_scaled(r, channel, factor);
     if (!time || !value)
         return;
     channel_statistics s = channel_statistics_of(time, value, r->d.series.rows, r->d.s.run.transient);

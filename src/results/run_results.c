@@ -104,7 +104,9 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         load_unit unit = scale_loads(column);
         int32_t rows = column[TIMES].count;
         const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
-        static const char *const beyond[] = {"", "; some lie beyond the picture", ", beyond the picture"};
+        static const char *const beyond[] = {[LOAD_CUT_NONE] = "",
+                                             [LOAD_CUT_SOME] = "; some lie beyond the picture",
+                                             [LOAD_CUT_LARGEST] = ", beyond the picture"};
         load_cut cut;
         double axis[2], spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut, axis);
         const chart_line lines[] = {
