@@ -120,6 +120,11 @@ int answer_error(const common_options *common, const fram_error *error)
     return exit_code_of(error->status);
 }
 
+int answer_memory(const common_options *common)
+{
+    return answer_error(common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "not enough memory"});
+}
+
 int answer_usage(const common_options *common, const char *key, const char *message)
 {
     fram_error error = {.status = FRAM_ERROR_USAGE};

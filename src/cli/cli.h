@@ -78,6 +78,8 @@ bool words_ask_for_json(int count, char **words);
 
 /* Print an error for people on standard error, and as JSON on standard output if asked; returns the exit code. */
 int answer_error(const common_options *common, const fram_error *error);
+/* That there was no memory, in the same way. */
+int answer_memory(const common_options *common);
 /* A usage error in the same way. */
 int answer_usage(const common_options *common, const char *key, const char *message);
 

@@ -98,7 +98,7 @@ int command_pressure(const command_row *self, int argc, char **argv)
     static const char wanted[] = "expected coordinates like -4,-2,0.5 or FIRST:SPACING:LAST, ten thousand at most";
     line_list *lines = calloc(2, sizeof *lines);
     if (!lines)
-        return answer_error(&common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "not enough memory"});
+        return answer_memory(&common);
     if (frames && !read_lines(frames, &lines[0]))
         code = answer_usage(&common, "--frames", wanted);
     else if (stringers && !read_lines(stringers, &lines[1]))

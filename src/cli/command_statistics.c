@@ -233,9 +233,9 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
     if (code >= 0)
         return code;
     fram_extremes *e = calloc(1, sizeof *e);
-    if (!e)
-        error = (fram_error){.status = FRAM_ERROR_MEMORY, .message = "not enough memory"};
-    if (!e || fram_extremes_find(context, d, e, &error) != FRAM_OK) {
+    if (!e) {
+        code = answer_memory(common);
+    } else if (fram_extremes_find(context, d, e, &error) != FRAM_OK) {
         code = answer_error(common, &error);
     } else if (common->json) {
         json j = json_begin();

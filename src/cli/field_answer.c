@@ -288,7 +288,7 @@ int field_answer(const field_words *w, const common_options *common, const fram_
     int count = fram_field_notes(field, NULL, 0);
     fram_field_note *notes = calloc((size_t)count + 1, sizeof *notes);
     if (!notes)
-        return answer_error(common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "out of memory"});
+        return answer_memory(common);
     fram_field_notes(field, notes, count);
     if (common->json) {
         print_field_json(w, field, &summary, notes, count);

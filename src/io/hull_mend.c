@@ -67,12 +67,10 @@ static const char *work_for(mesh_defect defect)
     case MESH_INSIDE_OUT:
         return "turn the triangles concerned in the program that made the file";
     case MESH_NOT_MANIFOLD:
-        return "remove inner walls, decks and lids, and unite parts that share an "
-               "edge, in the program that made the "
+        return "remove inner walls, decks and lids, and unite parts that share an edge, in the program that made the "
                "file: a hull is one closed skin";
     case MESH_SELF_INTERSECTING:
-        return "unite the parts that cross or touch (a boolean union) in the "
-               "program that made the file";
+        return "unite the parts that cross or touch (a boolean union) in the program that made the file";
     default:
         return "correct it in the program that made the file";
     }
@@ -380,9 +378,8 @@ static fram_status fill_holes(hull_reading *r)
         } else {
             vec3 p = m->vertex.data[ring[0]];
             error_set(&r->out->error, status, r->name, 0, "mesh",
-                      "the hole of %d edges that begins at (%g, %g, %g) is too "
-                      "crooked to be filled; %s",
-                      count, p.x, p.y, p.z, work_for(MESH_OPEN));
+                      "the hole of %d edges that begins at (%g, %g, %g) is too crooked to be filled; %s", count, p.x,
+                      p.y, p.z, work_for(MESH_OPEN));
         }
     }
     return status;
