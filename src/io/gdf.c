@@ -185,6 +185,17 @@ static fram_status place_panel(const mesh_reading *r, const vec3 corner[4], int3
     return FRAM_OK;
 }
 
+/* More panels; a remark after the last one is for people. */
+static bool goes_on(gdf_words *w)
+{
+    if (!next_number(w, word_next))
+        return false;
+    size_t sign = 0;
+    while (sign < w->reader.length && strchr("+-.", w->reader.word[sign]))
+        sign++;
+    return sign < w->reader.length && w->reader.word[sign] >= '0' && w->reader.word[sign] <= '9';
+}
+
 fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
 {
     gdf_words w = {.reader = word_reader_begin(data, size)};
@@ -204,7 +215,7 @@ fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
             corner[k] = vec3_make(c[3 * k] + 0.0, c[3 * k + 1] + 0.0, c[3 * k + 2] + 0.0);
         status = place_panel(r, corner, i, line);
     }
-    if (status == FRAM_OK && next_number(&w, word_next))
+    if (status == FRAM_OK && goes_on(&w))
         return mesh_refuse(r, w.reader.word_line, 0,
                            "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small",
                            panels, word_shown(&w.reader), w.reader.word);

@@ -209,19 +209,6 @@ bool mesh_file_ends_with(const char *name, const char *ending)
     return length > tail && strcasecmp(name + length - tail, ending) == 0;
 }
 
-static bool looks_like_obj(const char *data, size_t size)
-{
-    word_reader w = word_reader_begin(data, size);
-    while (word_next(&w)) {
-        if (word_is(&w, "v") || word_is(&w, "mtllib") || word_is(&w, "o") || word_is(&w, "g"))
-            return true;
-        if (w.word[0] != '#')
-            return false;
-        word_skip_line(&w);
-    }
-    return false;
-}
-
 static fram_status find_format(const mesh_reading *r, const char *data, size_t size)
 {
     word_reader w = word_reader_begin(data, size);
@@ -229,22 +216,31 @@ static fram_status find_format(const mesh_reading *r, const char *data, size_t s
     if (size == 0)
         return mesh_refuse(r, 0, 0, "the file is empty");
     bool solid = word_next(&w) && word_is(&w, "solid");
+    const bool binary = mesh_is_binary_stl(data, size);
+    if (binary && (mesh_file_ends_with(r->name, ".obj") || mesh_file_ends_with(r->name, ".gdf")))
+        return mesh_refuse(r, 0, 0, "found a binary STL file; let its name end in .stl");
+    /* The header of a binary file may be anything, and the title of a GDF. */
+    fram_status status = binary || mesh_looks_like_gdf(data, size) ? FRAM_OK : mesh_refuse_others(r, data, size);
+    if (status != FRAM_OK)
+        return status;
     if (mesh_file_ends_with(r->name, ".stl"))
         *f = solid ? mesh_solid_format(data, size) : MESH_STL_BINARY;
     else if (mesh_file_ends_with(r->name, ".obj"))
         *f = MESH_OBJ;
     else if (mesh_file_ends_with(r->name, ".gdf"))
         *f = MESH_GDF;
-    else if (mesh_is_binary_stl(data, size))
+    else if (binary)
         *f = MESH_STL_BINARY;
     else if (solid)
         *f = mesh_solid_format(data, size);
     else if (mesh_looks_like_gdf(data, size))
         *f = MESH_GDF;
-    else if (looks_like_obj(data, size))
+    else if (mesh_looks_like_obj(data, size))
         *f = MESH_OBJ;
     else
-        return mesh_refuse(r, 0, 0, "expected a mesh (STL, OBJ or GDF), found neither its ending nor its content");
+        return mesh_refuse(r, 0, 0,
+                           "expected a mesh (STL, OBJ or GDF), found neither its ending nor its content; "
+                           "export the surface as STL or OBJ in the program that made the file");
     return FRAM_OK;
 }
 

@@ -48,6 +48,10 @@ fram_status mesh_place_triangle(const mesh_reading *r, int32_t a, int32_t b, int
 /* A polygon of 3 vertices or more; repeated ones in a row are taken once.  Refused when it crosses itself. */
 fram_status mesh_place_polygon(const mesh_reading *r, int32_t *ring, int32_t count, int32_t element, int32_t line);
 
+/* Refuses what others than STL, OBJ and GDF write, by what it begins with, and says what to do with it: FRAM_OK is no
+   praise. */
+fram_status mesh_refuse_others(const mesh_reading *r, const char *data, size_t size);
+bool mesh_looks_like_obj(const char *data, size_t size);
 fram_status mesh_read_stl(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size);
 fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size);

@@ -35,11 +35,27 @@ mesh_format mesh_solid_format(const char *data, size_t size)
     return mesh_is_binary_stl(data, size) || memchr(data, '\0', head) ? MESH_STL_BINARY : MESH_STL_TEXT;
 }
 
+/* Headers of binary files may be all text, but not the number of facets after them: it would be 150 million or more. */
+static bool is_text(const char *data)
+{
+    for (int i = 0; i < PREFIX; i++) {
+        unsigned char c = (unsigned char)data[i];
+        if (c < ' ' && c != '\n' && c != '\r' && c != '\t')
+            return false;
+    }
+    return true;
+}
+
 static fram_status read_binary(const mesh_reading *r, const char *data, size_t size)
 {
     if (size < PREFIX)
         return mesh_refuse(r, 0, 0, "expected at least %d bytes of a binary STL file (or the word solid), found %zu",
                            PREFIX, size);
+    if (is_text(data))
+        return mesh_refuse(r, 1, 0, "expected an STL file, which begins with the word solid or is binary, found %s",
+                           mesh_looks_like_obj(data, size)   ? "OBJ; let its name end in .obj"
+                           : mesh_looks_like_gdf(data, size) ? "a GDF file; let its name end in .gdf"
+                                                             : "other text; export the surface as STL or OBJ");
     uint32_t count = read_u32(data + HEADER);
     if (!mesh_is_binary_stl(data, size))
         return mesh_refuse(

@@ -13,6 +13,9 @@ typedef struct bad_mesh {
 #define OBJ_CUBE                                                                                  \
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n" /* lines 1 to 8 */ \
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n"                  /* 9 to 13 */
+#define IGES                                                                             \
+    "                                                                        S      1\n" \
+    "1H,,1H;,4HSLOT,37H$1$DUA2:[IGESLIB.BDRAFT.B2I]SLOT.IGS;,17HBravo3 BravoDRAFT,G      1\n"
 #define OBJ_LAST "f 4 1 5 8\n"
 /* The same cube moved by half: it crosses the first. */
 #define OBJ_SECOND                                                                                                 \
@@ -23,7 +26,21 @@ static const bad_mesh bad[] = {
     /* any format */
     {"empty.stl", "", 0, "", "empty"},
     {"unknown.txt", "hello\n", 0, "", "expected a mesh (STL, OBJ or GDF)"},
-    {"unknown.dat", "1 2 3\n", 0, "", "expected a mesh"},
+    {"unknown.dat", "1 2 3\n", 0, "", "export the surface as STL or OBJ in the program that made the file"},
+    /* Files of others, whatever they are called. */
+    {"a.step", "ISO-10303-21;\nHEADER;\n", 0, "", "found a STEP file, which has curved surfaces; export"},
+    {"a.stl", IGES, 0, "", "found an IGES file, which has curved surfaces; export"},
+    {"a.gdf", IGES, 0, "", "found an IGES file"},
+    {"a.ply", "ply\nformat ascii 1.0\n", 0, "", "found a PLY file; export"},
+    {"a.obj", "ply\r\nformat ascii 1.0\r\n", 0, "", "found a PLY file; export"},
+    {"a.3dm", "3D Geometry File Format        4", 0, "", "found a Rhino file (3dm); export"},
+    {"a.stl.gz", "\x1f\x8b\x08", 0, "", "found a packed file (gzip); unpack it"},
+    {"a.zip", "PK\3\4", 0, "", "found a packed file (ZIP); unpack it"},
+    {"utf16.stl", "\xff\xfes", 0, "", "found text in UTF-16; save it as plain text"},
+    {"obj.stl", OBJ_CUBE, 1, "", "or is binary, found OBJ; let its name end in .obj"},
+    {"gdf.stl", GDF_BOX, 1, "", "found a GDF file; let its name end in .gdf"},
+    {"text.stl", "A letter about ships, which is long enough to fill the header of a binary file: 84 bytes and more.",
+     1, "", "found other text; export"},
     /* STL */
     {"short.stl", "sol", 0, "", "expected at least 84 bytes"},
     {"word.stl", "solid\nfacet normal 0 0 1\nouter lop\n", 3, "facet 1", "expected \"loop\", found \"lop\""},
@@ -173,4 +190,18 @@ START_TEST(bad_binary)
 }
 END_TEST
 
-TEST_MAIN("bad_meshes", every_bad_mesh_is_refused, bad_binary)
+START_TEST(binary_of_another_name)
+{
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 2; i++) {
+        static const char data[84] = "no facets";
+        mesh_file file;
+        fram_error error = {0};
+        assert_fails(mesh_file_parse(&ctx, i == 0 ? "b.obj" : "b.gdf", data, sizeof data, &file, &error), error,
+                     FRAM_ERROR_INPUT, "found a binary STL file; let its name end in .stl");
+    }
+}
+END_TEST
+
+TEST_MAIN("bad_meshes", every_bad_mesh_is_refused, bad_binary, binary_of_another_name)
