@@ -167,7 +167,8 @@ typedef struct fram_hull_pieces {
     double volume;    /* of all pieces [m3] */
 } fram_hull_pieces;
 /* Cut into convex pieces, as collisions use them.  tolerance: largest distance between pieces and surface [m], NaN: a
-   hundredth of the breadth; most: number of pieces, 1 to FRAM_HULL_PIECES.  The hull keeps them for drawings. */
+   hundredth of the breadth; most: number of pieces, 1 to FRAM_HULL_PIECES; each closed part has one at least.  The hull
+   keeps them for drawings. */
 FRAM_API fram_status fram_hull_cut(fram_hull *hull, double tolerance, int most, fram_hull_pieces *pieces,
                                    fram_error *error, size_t size);
 #define fram_hull_cut(...) fram_hull_cut(__VA_ARGS__, sizeof(fram_hull_pieces))

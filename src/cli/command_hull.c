@@ -52,7 +52,8 @@ static int read_hull_words(const command_row *self, hull_words *w, common_option
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE", "write the closed surface: .stl, .obj or .gdf"},
         {"--tolerance", NULL, OPTION_REAL, &w->tolerance, "D",
          "largest deviation of the convex pieces from the hull [m] (breadth/100)"},
-        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "largest number of convex pieces, 1 to 4096 (64)"},
+        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N",
+         "largest number of convex pieces, 1 to 4096 (64); each closed part has one at least"},
         {"--seal", NULL, OPTION_REAL, &w->file.seal_width, "WIDTH",
          "file: seal cracks up to this width [m]; 0: none (length/2000)"},
         {"--repair", NULL, OPTION_FLAG, &w->file.repair, NULL,
@@ -204,8 +205,23 @@ static int decimals_for(double size)
 /* 0, and not what rounding leaves of it [deg]. */
 static double told_angle(double angle) { return fabs(angle / DEGREE) < 1e-9 ? 0 : angle / DEGREE; }
 
-static void print_floating(const fram_hull_floating *f)
+/* 0, and not what rounding leaves of it beside a number of the size that it could have. */
+static double told_beside(double value, double size) { return fabs(value) <= 1e-12 * size ? 0 : value; }
+
+/* Places and couplings that are none. */
+static fram_hull_floating without_rounding(fram_hull_floating f)
 {
+    double *const lengths[] = {&f.level, f.centre, f.centre_of_buoyancy, f.centre_of_flotation};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < (i == 0 ? 1 : 3); k++)
+            lengths[i][k] = told_beside(lengths[i][k], f.length_overall);
+    f.c35 = told_beside(f.c35, f.c33 * f.length_overall);
+    return f;
+}
+
+static void print_floating(const fram_hull_floating *floating)
+{
+    const fram_hull_floating shown = without_rounding(*floating), *const f = &shown;
     /* Of lengths, volumes, areas, and second moments of area. */
     int l = decimals_for(f->length_overall), v = decimals_for(f->volume), a = decimals_for(f->waterplane_area);
     int m = f->second_moment_transverse < 1 ? decimals_for(f->second_moment_transverse) : 1;
@@ -230,7 +246,7 @@ static void print_floating(const fram_hull_floating *f)
            f->second_moment_longitudinal);
     printf("  transverse BM           %14.*f m     GM %.*f\n", l, f->bm_transverse, l, f->gm_transverse);
     printf("  longitudinal BM         %14.*f m     GM %.*f\n", l, f->bm_longitudinal, l, f->gm_longitudinal);
-    printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35 + 0.0); /* 0, not -0 */
+    printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35);
     printf("  stiffness roll C44      %14.6g N m   pitch C55 %.6g N m\n", f->c44, f->c55);
     printf("  coefficients: block %.4f, waterplane %.4f, midship %.4f, prismatic %.4f\n", f->block, f->waterplane,
            f->midship, f->prismatic);

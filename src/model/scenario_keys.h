@@ -140,7 +140,7 @@
       "ship: breadth of the transom at the waterline over the beam, 0: a pointed stern; auto: 0.5")                  \
     X(piece_distance, AUTOMATIC(1e-6, 1e3), "m",                                                                     \
       "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")     \
-    X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
+    X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces; no fewer than closed parts")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                           \
     X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level packed"), "",                             \

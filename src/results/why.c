@@ -255,6 +255,17 @@ static void tell_check(context *ctx, const why_check *c, load_unit unit, text_bu
                 100 * MATTERS);
 }
 
+/* 0, and not what rounding and solver leave of a part of a force beside the whole. */
+static double part_told(double part, vec3 whole) { return fabs(part) <= 1e-8 * vec3_length(whole) ? 0 : part; }
+
+static void tell_force_vector(context *ctx, vec3 force, load_unit unit, text_buffer *out)
+{
+    text_format(ctx, out, "(%s, %s, %s) %s in x, y, z\n",
+                plain_text_of(part_told(force.x, force) * unit.factor, 4).text,
+                plain_text_of(part_told(force.y, force) * unit.factor, 4).text,
+                plain_text_of(part_told(force.z, force) * unit.factor, 4).text, unit.name);
+}
+
 fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
                      fram_error *error)
 {
@@ -267,9 +278,7 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
         text_format(ctx, out, "Peak %d of %d: ", (int)rank, (int)y->peaks.count);
     text_format(ctx, out, "t = %.6g s, horizontal ice load %s, averaged over %.3g s\n", d->time,
                 load_text_of(d->load, 4).text, d->window);
-    text_format(ctx, out, "(%s, %s, %s) %s in x, y, z\n", plain_text_of(d->force.x * unit.factor, 4).text,
-                plain_text_of(d->force.y * unit.factor, 4).text, plain_text_of(d->force.z * unit.factor, 4).text,
-                unit.name);
+    tell_force_vector(ctx, d->force, unit, out);
     if (d->floe_count == 0) {
         text_format(ctx, out, "No ice touched the vessel in the %.3g s up to then.\n", d->window);
         return out->failed ? error_memory(error) : FRAM_OK;

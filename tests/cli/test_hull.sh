@@ -34,6 +34,22 @@ expect 0 "$FRAM" hull box.stl
 says "displaced volume" out
 says "closed, 12 triangles, 8 vertices" out
 says "C35 0 N" out
+# What rounding leaves is told as 0: of a level, of the middle of two hulls, of a coupling.
+expect 0 "$FRAM" hull box.stl --mass 1230e3
+says "Floating at z = 0 m" out
+for y in -20 10; do
+    z=$((y + 10))
+    printf 'v %s %s %s\n' -20 $y -3 20 $y -3 20 $z -3 -20 $z -3 -20 $y 2 20 $y 2 20 $z 2 -20 $z 2
+done >two.obj
+for i in 0 8; do
+    for face in "4 3 2 1" "5 6 7 8" "1 2 6 5" "2 3 7 6" "3 4 8 7" "4 1 5 8"; do
+        echo "f $(for v in $face; do echo -n "$((v + i)) "; done)"
+    done
+done >>two.obj
+expect 0 "$FRAM" hull two.obj --pieces 1
+! grep -q -e '-0\.0000 ' out || fail "rounding is told: $(cat out)"
+says "convex pieces: 2," out
+"$FRAM" hull --help | grep -q "each closed part has one at least" || fail "the help on pieces"
 ! grep -q warning err || fail "a box of 40 m is warned of: $(cat err)"
 
 # Off its centre it lies down by the bow and to port, and the report tells the numbers of the JSON, each in its place.
