@@ -32,7 +32,8 @@ typedef struct fram_hull_file_definition {
     double seal_width; /* cracks of at most this width are sealed [m]; 0: none; NaN: a two-thousandth of the length */
     bool repair;       /* fill holes and turn triangles, instead of refusing the file */
     double freeboard;  /* a level open top is raised by this and closed by a deck [m]; NaN: a third of the depth for GDF
-                          files, which end at the waterline; others are then refused */
+                          files, which end at the waterline (one that ends above it is decked there); others are then
+                          refused */
 } fram_hull_file_definition;
 FRAM_API void fram_hull_file_default(fram_hull_file_definition *definition, size_t size);
 #define fram_hull_file_default(definition) fram_hull_file_default((definition), sizeof *(definition))
@@ -99,6 +100,7 @@ typedef struct fram_hull_surface {
     double well;    /* part of what the waterline (z = 0, or half the height) goes round that is a hole in it */
     bool open_boat; /* more than half of it: plating without a deck, and full of water */
     bool half; /* the file has half a hull or a quarter, open along y = 0 or x = 0, and was closed there on request */
+    double decked; /* of a GDF's open top above the water that was closed where it is, 0 without [m2] */
 } fram_hull_surface;
 FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
 #define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))

@@ -52,6 +52,7 @@ static void describe_file(fram_hull *h, const hull_file_report *r)
         .crack_width = r->seal.width,
         .crack_area = r->seal.area,
         .topsides = r->freeboard,
+        .decked = r->decked,
         .lids = r->lids,
         .holes_filled = r->holes,
         .hole_area = r->hole_area,
@@ -103,7 +104,7 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_hull_file", error);
     if (status != FRAM_OK)
         return status;
-    const hull_file_options options = {d.scale, d.seal_width, d.repair, d.freeboard};
+    const hull_file_options options = {d.scale, d.seal_width, d.repair, d.freeboard, (double)NAN};
     fram_hull *h = hull_begin(c);
     if (!h)
         return error_memory(error);

@@ -186,6 +186,8 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
             s->crack_vector[2], s->crack_volume[0], s->crack_volume[1], s->crack_volume[2]);
     if (s->topsides > 0)
         printf("  topsides raised by %.4g m and decked\n", s->topsides);
+    if (s->decked > 0)
+        printf("  open top decked where it is, %.4g m2\n", s->decked);
     if (s->holes_filled)
         printf("  holes filled: %d, %.4g m2\n", s->holes_filled, s->hole_area);
     if (s->flipped)
@@ -284,6 +286,7 @@ static void json_surface(json *j, const fram_hull_surface *s)
     json_real(j, "well", s->well);
     json_boolean(j, "open_boat", s->open_boat);
     json_boolean(j, "half", s->half);
+    json_real(j, "top_decked_m2", s->decked);
 }
 
 static void json_floating(json *j, const fram_hull_floating *f, const fram_hull_condition *c)

@@ -4,14 +4,15 @@
 #include "io/hull_file.h"
 
 #include "io/hull_mend.h"
+#include "io/hull_mirror.h"
+#include "io/hull_top.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Default width of cracks to seal, as a part of the longest side: 10 cm on a
- * ship of 200 m. */
-#define DEFAULT_SEAL (1.0 / 2000)
+/* Default width of cracks to seal, as a part of the longest side. */
+#define DEFAULT_SEAL HULL_REACH
 /* Seals that are tried before the default one, as parts of the longest side:
    none, and the rounding of 4-byte floats and of six printed digits. */
 static const double narrow_seals[] = {0, 1e-6};
@@ -22,10 +23,12 @@ static const double wide_seals[] = {2, 5, 10, 20};
 enum { WIDE_SEALS = sizeof wide_seals / sizeof *wide_seals };
 /* Freeboard that is tried for a remedy, as a part of the longest side. */
 #define REMEDY_FREEBOARD (1.0 / 20)
-/* Part of the longest side by which a whole hull may be off the plane that it lies about. */
-#define OFF_SYMMETRY 1e-3
 
-hull_file_options hull_file_defaults(void) { return (hull_file_options){1, (double)NAN, false, (double)NAN}; }
+hull_file_options hull_file_defaults(void)
+{
+    return (hull_file_options){
+        .scale = 1, .seal_width = (double)NAN, .freeboard = (double)NAN, .usual_freeboard = (double)NAN};
+}
 
 static fram_status check_options(const hull_file_options *o, fram_error *error)
 {
@@ -52,26 +55,29 @@ static bool tells_more(const hull_outcome *narrow, const hull_outcome *wide)
     return narrow->one_sided || narrow->defect != MESH_OPEN || spoilt;
 }
 
-/* As little sealing as makes the surface sound; a width that is given is taken
-   as it is.  Holes are filled when no seal alone helps, after the widest one.
- */
+/* As little sealing as makes the surface sound; a width that is given is taken as it is.  Tops that are level to the
+   digits of files come first, those that are level within reach then.  Holes are filled when no seal alone helps, after
+   the widest one. */
 static fram_status attempt_all(const hull_request *q, hull_outcome *out)
 {
     bool given = !isnan(q->options.seal_width);
     double length = length_of(q), widest = given ? q->options.seal_width : DEFAULT_SEAL * length;
+    double exact = HULL_LEVEL_TOLERANCE * length, reach = HULL_REACH * length;
     hull_outcome narrow = {.defect = MESH_OPEN};
     fram_status status = FRAM_ERROR_INPUT;
     for (int i = 0; i < NARROW_SEALS && !given && may_go_on(status); i++) {
-        status = hull_mend(q, narrow_seals[i] * length, false, out);
+        status = hull_mend(q, narrow_seals[i] * length, exact, false, out);
         narrow = *out;
         narrow.surface = (mesh){0};
     }
     if (may_go_on(status))
-        status = hull_mend(q, widest, false, out);
+        status = hull_mend(q, widest, exact, false, out);
+    if (may_go_on(status) && out->defect == MESH_OPEN)
+        status = hull_mend(q, widest, reach, false, out);
     if (may_go_on(status) && q->options.repair)
-        status = hull_mend(q, widest, true, out);
+        status = hull_mend(q, widest, reach, true, out);
     for (int i = NARROW_SEALS; i-- > 0 && !given && q->options.repair && may_go_on(status);)
-        status = hull_mend(q, narrow_seals[i] * length, true, out);
+        status = hull_mend(q, narrow_seals[i] * length, reach, true, out);
     if (may_go_on(status) && !given && tells_more(&narrow, out)) {
         out->error = narrow.error;
         out->half = narrow.half;
@@ -82,10 +88,13 @@ static fram_status attempt_all(const hull_request *q, hull_outcome *out)
 
 /* ---- remedies ---- */
 
+enum { REMEDY_ROOM = 240 };
+
 typedef struct remedy {
     hull_file_options options;
     hull_half unmirrored; /* planes in which the file is not mirrored then */
-    char words[120];
+    bool raises;          /* an open top, which may have been drawn up to the deck already */
+    char words[REMEDY_ROOM];
 } remedy;
 
 enum { MOST_REMEDIES = WIDE_SEALS + 7 };
@@ -120,6 +129,7 @@ static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
     }
     if (isnan(given.freeboard)) {
         list[n].options = given;
+        list[n].raises = true;
         list[n].options.freeboard = freeboard;
         snprintf(list[n++].words, sizeof list->words,
                  "its top is open: give a freeboard, and it is raised and decked "
@@ -147,15 +157,6 @@ static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
     return n;
 }
 
-/* Half a hull does not lie about the plane in which it is to be mirrored; half of a catamaran may be sound alone. */
-static bool lies_about(const mesh *m, hull_half planes)
-{
-    box3 box = mesh_bounds(m);
-    double most = OFF_SYMMETRY * hull_longest_side(m);
-    return (!(planes & HULL_HALF_X) || fabs(box.lo.x + box.hi.x) <= most) &&
-           (!(planes & HULL_HALF_Y) || fabs(box.lo.y + box.hi.y) <= most);
-}
-
 static fram_status try_remedy(const hull_request *q, const remedy *with, hull_outcome *trial)
 {
     hull_request other = *q;
@@ -164,15 +165,35 @@ static fram_status try_remedy(const hull_request *q, const remedy *with, hull_ou
     fram_status status = FRAM_OK;
     if (with->unmirrored != HULL_WHOLE) {
         status = hull_unmirror(q->ctx, q->file, with->unmirrored, &file) ? FRAM_OK : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK && !lies_about(&file.surface, with->unmirrored))
+        if (status == FRAM_OK && !hull_lies_about(&file.surface, with->unmirrored))
             status = FRAM_ERROR_INPUT;
         other.file = &file;
     }
     if (status == FRAM_OK)
         status = attempt_all(&other, trial);
+    /* Whatever closes half a hull makes half a ship of it, and a hull that is closed in its water plane is awash. */
+    if (status == FRAM_OK && trial->ends_there)
+        status = FRAM_ERROR_INPUT;
     mesh_free(q->ctx, &trial->surface);
     mesh_file_free(q->ctx, &file);
     return status;
+}
+
+/* Where a top that is raised stood above the water before, it may be the deck that is missing there. */
+static fram_status add_repair(const hull_request *q, const hull_outcome *raised, char words[REMEDY_ROOM])
+{
+    remedy closed = {.options = q->options};
+    hull_outcome trial = {.defect = MESH_EMPTY};
+    closed.options.repair = true;
+    if (!(raised->report.top > 0) || q->options.repair)
+        return FRAM_OK;
+    fram_status status = try_remedy(q, &closed, &trial);
+    size_t length = strlen(words);
+    if (status == FRAM_OK)
+        snprintf(words + length, REMEDY_ROOM - length,
+                 "; as it ends %.3g m above the water, have it repaired (repair) if its deck is to be there",
+                 raised->report.top);
+    return status == FRAM_ERROR_MEMORY ? status : FRAM_OK;
 }
 
 /* Put the first remedy that makes the file sound in the place of the advice
@@ -184,6 +205,8 @@ static fram_status name_remedy(const hull_request *q, fram_error *error)
     int count = list_remedies(q, list);
     for (int i = 0; i < count; i++) {
         fram_status status = try_remedy(q, &list[i], &trial);
+        if (status == FRAM_OK && list[i].raises)
+            status = add_repair(q, &trial, list[i].words);
         if (status == FRAM_ERROR_MEMORY)
             return error_memory(error);
         if (status != FRAM_OK)

@@ -12,8 +12,11 @@ typedef struct hull_file_options {
     double scale;      /* lengths of the file times this are metres; > 0 */
     double seal_width; /* cracks up to this are sealed [m]; 0: none; NaN: a two-thousandth of the longest side */
     bool repair;       /* fill holes, turn triangles, leave out those without area */
-    double freeboard;  /* a level open top is raised by this and decked [m]; NaN: a third of the depth for GDF, which
-                          ends at  the waterline by convention, otherwise it stays open */
+    double freeboard;  /* a level open top is raised by this and decked [m]; NaN: as the next says */
+    /* A hull that ends at the water is raised by this and decked [m], and one that ends above it is decked there.  NaN:
+       so are GDF files alone, which end at the waterline by convention, and are raised by a third of their depth; tops
+       of others stay open. */
+    double usual_freeboard;
 } hull_file_options;
 hull_file_options hull_file_defaults(void);
 
@@ -26,6 +29,8 @@ typedef struct hull_file_report {
     double seal_width;
     mesh_seal_report seal;
     double freeboard;    /* of the topsides that were added, 0 without [m] */
+    double top;          /* z of an open top above the water, before it was raised; 0: there was none [m] */
+    double decked;       /* of an open top that was closed where it is, 0 without [m2] */
     int32_t holes;       /* filled on request */
     double hole_area;    /* [m2] */
     int32_t flipped;     /* triangles turned on request */

@@ -2,7 +2,9 @@
 #include "io/hull_mend.h"
 
 #include "io/hull_digits.h"
+#include "io/hull_mirror.h"
 #include "io/hull_skin.h"
+#include "io/hull_top.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,19 +22,13 @@ typedef struct hull_reading {
     const mesh *given; /* its surface as it was read */
     const hull_file_options *options;
     double seal_width; /* [m] */
+    double level;      /* by which corners of a top may be off its plane [m] */
     bool fill;         /* holes */
     hull_outcome *out;
     int32_array source; /* face of the file that each face was cut from */
     mesh_rims rims;
-    double longest, top, tolerance; /* [m] */
+    double longest, top, reach; /* [m] */
 } hull_reading;
-
-double hull_longest_side(const mesh *m)
-{
-    box3 box = mesh_bounds(m);
-    vec3 size = vec3_sub(box.hi, box.lo);
-    return fmax(size.x, fmax(size.y, size.z));
-}
 
 /* ---- errors ---- */
 
@@ -169,24 +165,12 @@ static void scale_surface(const hull_reading *r)
         m->vertex.data[i] = vec3_scale(m->vertex.data[i], r->options->scale);
 }
 
-/* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of
- * the wetted hull. */
-static bool is_level(const mesh *m, int32_t face, double tolerance)
-{
-    vec3 p[3];
-    mesh_face_points(m, face, p);
-    return fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= tolerance;
-}
-
-/* Of a hull whose keel is its z = 0 they are the flat of its bottom. */
-static bool may_have_lids(const mesh *m, double tolerance) { return mesh_bounds(m).lo.z < -tolerance; }
-
 int32_t hull_count_lids(const mesh *m)
 {
-    double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(m);
-    int32_t count = 0, faces = may_have_lids(m, tolerance) ? m->face.count : 0;
-    for (int32_t f = 0; f < faces; f++)
-        count += is_level(m, f, tolerance);
+    const hull_lids lids = hull_lids_of(m);
+    int32_t count = 0;
+    for (int32_t f = 0; f < m->face.count; f++)
+        count += hull_is_lid(&lids, m, f);
     return count;
 }
 
@@ -197,9 +181,9 @@ static fram_status drop_triangles(hull_reading *r)
 {
     mesh *m = &r->file->surface;
     int32_t kept = 0;
-    bool lids = r->file->format == MESH_GDF && may_have_lids(m, r->tolerance);
+    const hull_lids lids = r->file->format == MESH_GDF ? hull_lids_of(m) : (hull_lids){.any = false};
     for (int32_t f = 0; f < m->face.count; f++) {
-        bool lid = lids && is_level(m, f, r->tolerance), flat = !lid && !mesh_has_area(m, f);
+        bool lid = hull_is_lid(&lids, m, f), flat = !lid && !mesh_has_area(m, f);
         if (flat && !r->options->repair) {
             vec3 p = m->vertex.data[m->face.data[f].v[0]];
             char key[KEY_ROOM], advice[ADVICE_ROOM] = "move a corner of it, or leave it out";
@@ -243,15 +227,6 @@ static fram_status orient(hull_reading *r)
     return status == FRAM_ERROR_MEMORY ? error_memory(&r->out->error) : status;
 }
 
-/* Ring i of the rims lies in the height of the top. */
-static bool is_top(const hull_reading *r, int32_t i)
-{
-    for (int32_t k = r->rims.start.data[i]; k < r->rims.start.data[i + 1]; k++)
-        if (r->file->surface.vertex.data[r->rims.vertex.data[k]].z < r->top - r->tolerance)
-            return false;
-    return true;
-}
-
 static void turn_all(hull_reading *r)
 {
     mesh *m = &r->file->surface;
@@ -263,46 +238,35 @@ static void turn_all(hull_reading *r)
     r->out->report.flipped += m->face.count;
 }
 
-/* The rims at the top's height; area gets their sum in plan, positive when the
- * surface is right side out. */
-static fram_status pick_top(hull_reading *r, mesh_rims *top, double *area)
+/* By how much a top is raised [m]; 0: it is decked where it is, as hulls are that end above the water already.  NaN: it
+   stays open. */
+static double freeboard_of(const hull_reading *r, const hull_top *top)
 {
-    *area = 0;
-    bool done = array_push(r->ctx, &top->start, 0);
-    for (int32_t i = 0; done && i < mesh_rims_count(&r->rims); i++) {
-        int32_t begin = r->rims.start.data[i], end = r->rims.start.data[i + 1];
-        if (!is_top(r, i))
-            continue;
-        *area += mesh_ring_area(&r->file->surface, r->rims.vertex.data + begin, end - begin).z;
-        for (int32_t k = begin; done && k < end; k++)
-            done = array_push(r->ctx, &top->vertex, r->rims.vertex.data[k]);
-        done = done && array_push(r->ctx, &top->start, top->vertex.count);
-    }
-    return done ? FRAM_OK : error_memory(&r->out->error);
+    const hull_file_options *o = r->options;
+    const bool ends_at_water = r->file->format == MESH_GDF, decides = ends_at_water || !isnan(o->usual_freeboard);
+    if (!isnan(o->freeboard))
+        return o->freeboard;
+    if (decides && top->above)
+        return 0;
+    if (isnan(o->usual_freeboard) && ends_at_water)
+        return DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
+    return o->usual_freeboard;
 }
 
-/* Turn the rims as turn_all turns the triangles. */
-static void turn_rims(mesh_rims *rims)
+static fram_status close_top(hull_reading *r, hull_top *top, double freeboard)
 {
-    for (int32_t i = 0; i < mesh_rims_count(rims); i++)
-        for (int32_t a = rims->start.data[i], b = rims->start.data[i + 1] - 1; a < b; a++, b--) {
-            int32_t swap = rims->vertex.data[a];
-            rims->vertex.data[a] = rims->vertex.data[b];
-            rims->vertex.data[b] = swap;
-        }
-}
-
-static fram_status raise_rims(hull_reading *r, mesh_rims *top, double area, double freeboard)
-{
-    if (area < 0 && !r->options->repair)
+    hull_file_report *report = &r->out->report;
+    if (top->area < 0 && !r->options->repair)
         return refuse_face(r, 0, "the surface under the open top is turned the wrong way, inside out",
                            "corners run counter-clockwise seen from the water");
-    if (area < 0) {
+    if (top->area < 0) {
         turn_all(r);
-        turn_rims(top);
+        hull_turn_top(top);
     }
-    fram_status status = mesh_raise_top(r->ctx, &r->file->surface, top, freeboard, &r->out->error);
-    r->out->report.freeboard = freeboard;
+    hull_level_top(&r->file->surface, top, r->level);
+    fram_status status = hull_close_top(r->ctx, &r->file->surface, top, freeboard, &r->out->error);
+    report->freeboard = freeboard;
+    report->decked = freeboard > 0 ? 0 : fabs(top->area);
     if (status == FRAM_ERROR_INPUT) {
         r->out->defect = MESH_OPEN;
         snprintf(r->out->error.file, sizeof r->out->error.file, "%s", r->name);
@@ -312,16 +276,16 @@ static fram_status raise_rims(hull_reading *r, mesh_rims *top, double area, doub
 
 static fram_status raise_top(hull_reading *r)
 {
-    double freeboard = r->options->freeboard, area = 0;
-    if (isnan(freeboard) && r->file->format == MESH_GDF)
-        freeboard = DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
-    if (isnan(freeboard))
-        return FRAM_OK;
-    mesh_rims top = {0};
-    fram_status status = pick_top(r, &top, &area);
-    if (status == FRAM_OK && mesh_rims_count(&top) > 0)
-        status = raise_rims(r, &top, area, freeboard);
-    mesh_rims_free(r->ctx, &top);
+    hull_top top = {.z = 0};
+    if (!hull_find_top(r->ctx, &r->file->surface, &r->rims, r->level, &top)) {
+        hull_top_free(r->ctx, &top);
+        return error_memory(&r->out->error);
+    }
+    const bool any = mesh_rims_count(&top.rims) > 0;
+    const double freeboard = any ? freeboard_of(r, &top) : (double)NAN;
+    r->out->report.top = any && top.above ? top.z : 0;
+    fram_status status = isnan(freeboard) ? FRAM_OK : close_top(r, &top, freeboard);
+    hull_top_free(r->ctx, &top);
     return status;
 }
 
@@ -369,6 +333,7 @@ static fram_status fill_holes(hull_reading *r)
     for (int32_t i = 0; r->fill && i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
         const int32_t *ring = r->rims.vertex.data + r->rims.start.data[i];
         int32_t count = r->rims.start.data[i + 1] - r->rims.start.data[i];
+        r->out->ends_there = r->out->ends_there || hull_ends_in(m, ring, count, r->reach);
         status = mesh_add_polygon(r->ctx, m, ring, count);
         if (status == FRAM_OK) {
             r->out->report.holes++;
@@ -387,7 +352,7 @@ static fram_status fill_holes(hull_reading *r)
 
 static fram_status find_half(hull_reading *r)
 {
-    bool done = hull_find_half(r->ctx, &r->file->surface, r->tolerance, &r->out->half);
+    bool done = hull_find_half(r->ctx, &r->file->surface, r->reach, &r->out->half);
     return done ? FRAM_OK : error_memory(&r->out->error);
 }
 
@@ -395,7 +360,7 @@ static fram_status finish_hull(hull_reading *r)
 {
     scale_surface(r);
     r->longest = hull_longest_side(&r->file->surface);
-    r->tolerance = HULL_LEVEL_TOLERANCE * r->longest;
+    r->reach = HULL_REACH * r->longest;
     fram_status status = drop_triangles(r);
     if (status == FRAM_OK)
         status = seal(r);
@@ -416,52 +381,7 @@ static fram_status finish_hull(hull_reading *r)
     return status == FRAM_OK ? check(r) : status;
 }
 
-static bool copy_file(context *ctx, const mesh_file *from, mesh_file *to)
-{
-    int32_t count = from->element.count;
-    *to = *from;
-    to->surface = (mesh){0};
-    to->element = (int32_array){0};
-    to->line = (int32_array){0};
-    if (!mesh_copy(ctx, &to->surface, &from->surface) || !array_resize(ctx, &to->element, count) ||
-        !array_resize(ctx, &to->line, count))
-        return false;
-    if (count) {
-        memcpy(to->element.data, from->element.data, (size_t)count * sizeof *to->element.data);
-        memcpy(to->line.data, from->line.data, (size_t)count * sizeof *to->line.data);
-    }
-    return true;
-}
-
-/* Which of so many images of a panel a triangle is of: bit 1 in x, bit 2 in y, as the planes. */
-static int planes_of_image(const mesh_file *f, int image) { return f->mirror_x ? image : 2 * image; }
-
-/* The images of a panel stand one after the other in the order of their planes, each as many triangles (io/gdf.c). */
-bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_file *out)
-{
-    if (!copy_file(ctx, file, out))
-        return false;
-    const int32_t images = (file->mirror_x ? 2 : 1) * (file->mirror_y ? 2 : 1), count = file->element.count;
-    int32_t kept = 0, end = 0;
-    for (int32_t first = 0; first < count; first = end) {
-        while (end < count && file->element.data[end] == file->element.data[first])
-            end++;
-        for (int32_t f = first; f < end; f++) {
-            int32_t image = images * (f - first) / (end - first);
-            if (planes_of_image(file, (int)image) & (int)planes)
-                continue;
-            out->surface.face.data[kept] = file->surface.face.data[f];
-            out->element.data[kept] = file->element.data[f];
-            out->line.data[kept++] = file->line.data[f];
-        }
-    }
-    out->surface.face.count = out->element.count = out->line.count = kept;
-    out->mirror_x = file->mirror_x && !(planes & HULL_HALF_X);
-    out->mirror_y = file->mirror_y && !(planes & HULL_HALF_Y);
-    return mesh_drop_unused_vertices(ctx, &out->surface);
-}
-
-fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out)
+fram_status hull_mend(const hull_request *q, double seal_width, double level, bool fill, hull_outcome *out)
 {
     mesh_file file;
     mesh_free(q->ctx, &out->surface);
@@ -477,9 +397,10 @@ fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_
                       .given = &q->file->surface,
                       .options = &q->options,
                       .seal_width = seal_width,
+                      .level = level,
                       .fill = fill,
                       .out = out};
-    fram_status status = copy_file(q->ctx, q->file, &file) ? finish_hull(&r) : error_memory(&out->error);
+    fram_status status = hull_copy_file(q->ctx, q->file, &file) ? finish_hull(&r) : error_memory(&out->error);
     if (status == FRAM_OK) {
         out->surface = file.surface;
         file.surface = (mesh){0};

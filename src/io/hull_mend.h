@@ -6,9 +6,6 @@
 
 #include "io/hull_file.h"
 
-/* Heights this near, relative to the longest side, are one: files hold six or seven digits. */
-#define HULL_LEVEL_TOLERANCE 1e-6
-
 /* A file, and what is asked of it. */
 typedef struct hull_request {
     context *ctx;
@@ -26,20 +23,16 @@ typedef struct hull_outcome {
                            other reason */
     bool one_sided;     /* it was refused because it has one side only */
     hull_half half;     /* half a hull, or a quarter */
+    bool ends_there;    /* a hole that was filled lies in the water plane, or in a centre plane that the hull does not
+                           cross: what is missing there are topsides, or its other half */
 } hull_outcome;
 
-/* Seal cracks up to seal_width [m], fill holes where that is asked for, and the
-   rest as the options say.  What the outcome held is dropped; the file stays as
+/* Seal cracks up to seal_width [m], take corners that are off the plane of an open top by `level` [m] for level, fill
+   holes where that is asked for, and the rest as the options say.  What the outcome held is dropped; the file stays as
    it is.  FRAM_ERROR_INPUT without advice, FRAM_ERROR_MEMORY. */
-fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out);
+fram_status hull_mend(const hull_request *q, double seal_width, double level, bool fill, hull_outcome *out);
 
-/* A copy of a file that is not mirrored in some of the planes in which it is.  false: no memory; what `out` holds is to
-   be freed even then. */
-bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_file *out);
-
-/* [m] */
-double hull_longest_side(const mesh *m);
-/* Triangles in z = 0, which whoever reads a GDF takes for lids of the water plane, and leaves out. */
+/* Triangles that whoever reads a GDF takes for lids of the water plane, and leaves out. */
 int32_t hull_count_lids(const mesh *m);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "geometry/mesh_parts.h"
 #include "geometry/mesh_repair.h"
+#include "io/hull_top.h"
 
 #include <math.h>
 
@@ -83,7 +84,7 @@ static int find_planes(const mesh *m, const mesh_adjacency *adjacency, int may_e
         vec3 a = m->vertex.data[m->face.data[h / 3].v[h % 3]];
         vec3 b = m->vertex.data[m->face.data[h / 3].v[(h % 3 + 1) % 3]];
         int planes = planes_of(a, b, may_end, tolerance);
-        if (fmin(a.z, b.z) >= top - tolerance)
+        if (fmin(a.z, b.z) >= hull_top_low(top, tolerance))
             continue;
         if (planes == 0)
             return 0;

@@ -22,7 +22,7 @@ static hull_particulars particulars_of(const scenario_hull *h)
                           .length = h->length,
                           .beam = h->beam,
                           .draught = h->draught,
-                          .freeboard = h->freeboard,
+                          .freeboard = scenario_freeboard(h),
                           .stem_angle = radians(h->stem_angle_deg),
                           .entrance_angle = radians(h->entrance_angle_deg),
                           .flare_angle = radians(h->flare_angle_deg),
@@ -49,13 +49,6 @@ static fram_status name_hull_key(const scenario *s, const vessel_entry *entry, f
     return status;
 }
 
-/* Every hull has a freeboard: it is one that was given where it is not the usual one. */
-static bool is_freeboard_given(const scenario *s, const scenario_hull *keys)
-{
-    const scenario_section *hull = scenario_key_find("vessel", "hull")->section;
-    return keys->freeboard != key_default(&hull->keys[section_find(hull, "freeboard")], s->run.scale);
-}
-
 static void report_file(context *ctx, const hull_file_report *r)
 {
     log_write(ctx, LOG_INFO, "the hull is read from %d elements of %s", (int)r->elements, mesh_format_name(r->format));
@@ -68,6 +61,13 @@ static void report_file(context *ctx, const hull_file_report *r)
             r->seal.volume.z);
     if (r->freeboard > 0)
         log_write(ctx, LOG_INFO, "its open top is raised by %.3g m and decked", r->freeboard);
+    if (r->freeboard > 0 && r->top > 0)
+        log_write(ctx, LOG_WARNING,
+                  "hull.freeboard: the open top of the hull's file is %.3g m above the water already, and is raised by "
+                  "%.3g m to %.3g m: leave freeboard out (auto), and it is decked where it is",
+                  r->top, r->freeboard, r->top + r->freeboard);
+    if (r->decked > 0)
+        log_write(ctx, LOG_INFO, "its open top, %.3g m above the water, is decked where it is", r->top);
     if (r->holes || r->flipped)
         log_write(ctx, LOG_INFO, "it is repaired: %d holes of %.3g m2 filled, %d triangles turned", (int)r->holes,
                   r->hole_area, (int)r->flipped);
@@ -177,12 +177,13 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
         h->concavity = known->concavity;
         return copy_hull(ctx, &known->surface, &known->pieces, &h->surface, &h->pieces) ? FRAM_OK : error_memory(error);
     }
-    const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard};
+    const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard,
+                                       SCENARIO_FREEBOARD};
     hull_file_report report;
     fram_status status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK) {
         report_file(ctx, &report);
-        if (!(report.freeboard > 0) && is_freeboard_given(s, keys))
+        if (!(report.freeboard > 0) && !is_automatic(keys->freeboard))
             log_write(ctx, LOG_WARNING, "hull.freeboard: the hull's file has no level open top: without effect");
         double distance = keys->piece_distance;
         status = hull_cut(ctx, &h->surface, &distance, (int32_t)keys->most_pieces, &h->pieces, &h->concavity, error);

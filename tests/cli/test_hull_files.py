@@ -255,6 +255,11 @@ def ship_of(count):
     return [(x, y * waist(x, z), z) for x, y, z in v], f
 
 
+def uneven(panels):
+    """With the corners of z = 0 up to half a millimetre higher or lower, neighbours alike."""
+    return [[(x, y, z or 5e-4 * math.sin(17 * x + 5 * y)) for x, y, z in panel] for panel in panels]
+
+
 # ---- cases: name, what it is, bytes, arguments, expected ----
 
 def read(floats=None, close=1e-6, **more):
@@ -268,6 +273,9 @@ def refused(words, remedy=None, floats=None, close=1e-6):
 def cases():
     catamaran = join(box(-20, 20, -9, -6, -3, 2), box(-20, 20, 6, 9, -3, 2))
     fine = half_box_panels(40, 10, 3, 8, 8)
+    lid = [(-20, 0, 0), (20, 0, 0), (20, 5, 0), (-20, 5, 0)]
+    lidded = [[(x, y, z or 0.001) for x, y, z in p] for p in fine + [lid]]
+    sides = [[BOX[0][i] for i in face] for face in without(BOX, 1)[1]]
     fore = [p for p in fine if min(c[0] for c in p) >= 0]
     whole = fine + [[(x, -y, z) for x, y, z in reversed(p)] for p in fine]
     columns = [p for x in (-30, 30) for y in (-30, 30) for p in column_panels(x, y, 5, 20, 2000, 2)]
@@ -308,6 +316,12 @@ def cases():
          gdf(fine, 0, 1, (" ULEN GRAV", "   ISX  ISY", "  NPAN")), [], read(BOX_FLOATS)),
         ("remark.gdf", "GDF, a remark after its last panel", gdf(fine, 0, 1) + b"\n! end of file\n", [],
          read(BOX_FLOATS)),
+        ("uneven_top.gdf", "GDF, the corners of its top up to half a millimetre off z = 0", gdf(uneven(fine), 0, 1), [],
+         read(BOX_FLOATS, top=1)),
+        ("uneven_top_8.gdf", "the same, with a freeboard and repaired", gdf(uneven(fine), 0, 1),
+         ["--freeboard", "8", "--repair"], read(BOX_FLOATS, top=8)),
+        ("lid.gdf", "GDF, lids a millimetre above the water plane", gdf(lidded, 0, 1), [],
+         read(BOX_FLOATS, top=1.0013)),
         ("cracks.gdf", "GDF, sides and bottom divided otherwise, cracks of 15 mm", gdf(half_box_panels(40, 10,
          3, 8, 7, 0.015), 0, 1),
          [], read(BOX_FLOATS, 5e-3, crack=(0.01, 0.02))),
@@ -324,9 +338,17 @@ def cases():
         ("higher_order.gdf", "IGDEF 1 (B-splines)", gdf(fine, 0, 1, second=1), [], refused("IGDEF 1")),
         ("open_deck.obj", "no deck", obj(without(BOX, 1)), [], refused("freeboard", ["--freeboard", "1"],
                                                                       dict(BOX_FLOATS))),
+        ("deck_hole.stl", "a triangle of the deck is missing",
+         stl_binary((BOX[0], without(BOX, 1)[1] + [(4, 5, 7)])), [], refused("repair", ["--repair"], BOX_FLOATS)),
+        ("deck_panel.gdf", "GDF, decked, a panel of the deck is missing", gdf(sides + [[BOX[0][i] for i in (4, 5, 7)]],
+         0, 0), [], refused("repair", ["--repair"], BOX_FLOATS)),
+        ("high_top.gdf", "GDF, open at 2 m above the water: decked there", gdf(sides, 0, 0), [],
+         read(BOX_FLOATS, top=2)),
         ("hole.obj", "a side is missing", obj(without(BOX, 3)), [], refused("repair", ["--repair"], BOX_FLOATS)),
         ("half.obj", "half a hull, open along its centre plane", obj(without(box(-20, 20, 0, 5, -3, 2), 2)), [],
          refused("mirror it there")),
+        ("half_off.obj", "half a hull, its centre plane a tenth of a millimetre off",
+         obj(without(box(-20, 20, 0.0001, 5, -3, 2), 2)), [], refused("centre plane y = 0: mirror it there")),
         ("half_isy.gdf", "GDF, half of it, but ISY 0", gdf(fine, 0, 0), [], refused("set ISY to 1")),
         ("fore_isx.gdf", "GDF, a quarter of it, but ISX 0", gdf(fore, 0, 1), [], refused("set ISX to 1")),
         ("quarter.gdf", "GDF, a quarter of it, but ISX and ISY 0", gdf(fore, 0, 0), [],
@@ -426,6 +448,8 @@ def try_case(folder, case):
         off = compare(name, answer, expected["floats"], expected["close"])
         if "mirrored" in expected:
             check((answer["mirrored_x"], answer["mirrored_y"]) == expected["mirrored"], f"{name}: mirrored otherwise")
+        if "top" in expected:
+            check(abs(answer["box_hi_m"][2] - expected["top"]) < 1e-3, f"{name}: deck at {answer['box_hi_m'][2]}")
         if "crack" in expected:
             low, high = expected["crack"]
             check(low < answer["seal"]["widest_crack_m"] < high,

@@ -11,12 +11,14 @@ static fram_status finish(context *ctx, const char *name, const char *text, cons
     return status == FRAM_OK ? hull_file_finish(ctx, name, &file, options, surface, report, error) : status;
 }
 
+/* volume 0: any */
 static void check_sound(context *ctx, const mesh *m, double volume)
 {
     mesh_report report;
     ck_assert_int_eq(mesh_check(ctx, m, true, &report), FRAM_OK);
     ck_assert_int_eq(report.defect, MESH_CLOSED);
-    assert_relative(mesh_solid_properties(m).volume, volume, 1e-12);
+    if (volume > 0)
+        assert_relative(mesh_solid_properties(m).volume, volume, 1e-12);
 }
 
 START_TEST(topsides)
@@ -165,8 +167,10 @@ START_TEST(half)
 {
     context ctx;
     context_init(&ctx);
-    const char *const box = "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
-                            "f 4 3 2 1\nf 2 3 7 6\nf 3 4 8 7\n";
+    /* The second is off its planes by 2 and 4 mm, within a two-thousandth of its length. */
+    const char *const boxes[] = {"v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n",
+                                 "v 4e-3 2e-3 -1\nv 9 2e-3 -1\nv 9 2 -1\nv 2e-3 2 -1\n"
+                                 "v 2e-3 4e-3 1\nv 9 4e-3 1\nv 9 2 1\nv 2e-3 2 1\n"};
     const struct {
         const char *faces, *words;
         hull_half half;
@@ -175,10 +179,11 @@ START_TEST(half)
                   "open along x = 0: mirror it there in the program that made the file, or have it repaired (repair)",
                   HULL_HALF_X},
                  {"", "a quarter of a hull, open along x = 0 and y = 0: mirror it", HULL_QUARTER}};
-    for (int i = 0; i < 6; i++) {
-        const int deck = i % 2, c = i / 2;
+    for (int i = 0; i < 12; i++) {
+        const int deck = i % 2, c = i / 2 % 3;
         char text[400];
-        snprintf(text, sizeof text, "%s%s%s", box, cases[c].faces, deck ? "f 5 6 7 8\n" : "");
+        snprintf(text, sizeof text, "%sf 4 3 2 1\nf 2 3 7 6\nf 3 4 8 7\n%s%s", boxes[i / 6], cases[c].faces,
+                 deck ? "f 5 6 7 8\n" : "");
         hull_file_options options = hull_file_defaults();
         mesh m = {0};
         hull_file_report report;
@@ -195,6 +200,187 @@ START_TEST(half)
 }
 END_TEST
 
+/* A box of 40 x 10 m from z = -3 to `top`, whose corners there are off by some of `off`; its faces are picked by
+   letters: bottom, fore, aft, port, starboard, and the deck's two triangles d and e. */
+static void write_box(char text[1024], double top, double off, const char *faces)
+{
+    static const double part[] = {1, -0.5, 0.25, -1};
+    static const struct {
+        char letter;
+        const char *line;
+    } face[] = {{'b', "f 4 3 2 1\n"}, {'f', "f 2 3 7 6\n"}, {'a', "f 4 1 5 8\n"}, {'p', "f 3 4 8 7\n"},
+                {'s', "f 1 2 6 5\n"}, {'d', "f 5 6 7\n"},   {'e', "f 5 7 8\n"}};
+    int n = snprintf(text, 1024, "v -20 -5 -3\nv 20 -5 -3\nv 20 5 -3\nv -20 5 -3\n");
+    for (int i = 0; i < 4; i++)
+        n += snprintf(text + n, 1024 - (size_t)n, "v %d %d %.17g\n", i == 0 || i == 3 ? -20 : 20, i < 2 ? -5 : 5,
+                      top + off * part[i]);
+    for (size_t i = 0; i < sizeof face / sizeof *face; i++)
+        if (strchr(faces, face[i].letter))
+            n += snprintf(text + n, 1024 - (size_t)n, "%s", face[i].line);
+}
+
+/* Half a hull that has a hole elsewhere too is not told as half; repair, which would close it there, is not named. */
+START_TEST(half_with_a_hole)
+{
+    context ctx;
+    context_init(&ctx);
+    hull_file_options options = hull_file_defaults();
+    mesh m = {0};
+    hull_file_report report;
+    fram_error error = {0};
+    assert_fails(finish(&ctx, "half.obj",
+                        "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
+                        "f 4 3 2 1\nf 2 3 7 6\nf 4 1 5 8\nf 5 6 7 8\nf 3 8 7\n",
+                        &options, &m, &report, &error),
+                 error, FRAM_ERROR_INPUT, "close the gap in the program that made the file");
+    options.repair = true;
+    assert_ok(finish(&ctx, "half.obj",
+                     "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
+                     "f 4 3 2 1\nf 2 3 7 6\nf 4 1 5 8\nf 5 6 7 8\nf 3 8 7\n",
+                     &options, &m, &report, &error),
+              error);
+    ck_assert_int_eq(report.holes, 2);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
+#define OPEN_BOX "bfaps"
+
+/* Corners of an open top that are off its plane, as far as cracks are sealed (20 mm here), are laid into it: topsides
+   stand on z = 0, whether holes are to be filled or not; farther off it is not level. */
+START_TEST(tops_within_reach)
+{
+    context ctx;
+    context_init(&ctx);
+    const double offs[] = {1e-6, 5e-5, 5e-4, 0.0199, 0.021};
+    for (int i = 0; i < 15; i++) {
+        char text[1024];
+        const double off = offs[i / 3];
+        write_box(text, 0, off, OPEN_BOX);
+        hull_file_options options = hull_file_defaults();
+        options.repair = i % 3 == 1;
+        options.freeboard = i % 3 == 2 ? 2 : (double)NAN;
+        options.usual_freeboard = 4;
+        mesh m = {0};
+        hull_file_report report = {0};
+        fram_error error = {0};
+        fram_status status = finish(&ctx, "noise.obj", text, &options, &m, &report, &error);
+        const double freeboard = i % 3 == 2 ? 2 : 4;
+        if (off > 0.02) {
+            ck_assert(i % 3 == 1 ? report.holes == 1 : status == FRAM_ERROR_INPUT);
+        } else {
+            assert_ok(status, error);
+            check_sound(&ctx, &m, 0);
+            assert_relative(mesh_solid_properties(&m).volume, 400 * (3 + freeboard), 1e-6);
+            assert_absolute(mesh_bounds(&m).hi.z, freeboard, 1e-5);
+            ck_assert_int_eq(report.holes, 0);
+            assert_absolute(report.freeboard, freeboard, 0);
+        }
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
+/* A lid that is off the water plane by a millimetre is one; the upper strip of the sides, 10 mm high, is none. */
+START_TEST(lids_within_reach)
+{
+    static const char *const panels =
+        "-20 5 -3  20 5 -3  20 0 -3  -20 0 -3\n20 0 -3  20 5 -3  20 5 -0.01  20 0 -0.01\n"
+        "20 5 -3  -20 5 -3  -20 5 -0.01  20 5 -0.01\n-20 5 -3  -20 0 -3  -20 0 -0.01  -20 5 -0.01\n"
+        "20 0 -0.01  20 5 -0.01  20 5 %1$g  20 0 %1$g\n20 5 -0.01  -20 5 -0.01  -20 5 %1$g  20 5 %1$g\n"
+        "-20 5 -0.01  -20 0 -0.01  -20 0 %1$g  -20 5 %1$g\n-20 0 %1$g  20 0 %1$g  20 5 %1$g  -20 5 %1$g\n";
+    context ctx;
+    context_init(&ctx);
+    const double lids[] = {0, 0.001, -0.001, 0.019, 0.2};
+    for (int i = 0; i < 5; i++) {
+        char text[1024] = GDF_HEAD("0", "1", "8");
+        snprintf(text + strlen(text), sizeof text - strlen(text), panels, lids[i]);
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = 2;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        assert_ok(finish(&ctx, "lid.gdf", text, &options, &m, &report, &error), error);
+        const bool is_lid = lids[i] < 0.1; /* else a deck */
+        ck_assert_int_eq(report.lids, is_lid ? 4 : 0);
+        check_sound(&ctx, &m, 0);
+        assert_relative(mesh_solid_properties(&m).volume, 400 * (3 + lids[i] + (is_lid ? 2 : 0)), 1e-12);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
+/* A hole of a deck is none of its top: it is filled on request, and no tower is built on it. */
+START_TEST(holes_of_decks)
+{
+    context ctx;
+    context_init(&ctx);
+    const double tops[] = {2, 0}, offs[] = {0, 5e-4};
+    for (int i = 0; i < 4; i++) {
+        char text[1024];
+        write_box(text, tops[i / 2], offs[i % 2], OPEN_BOX "d");
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = 2;
+        options.usual_freeboard = 4;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        ck_assert_int_eq(finish(&ctx, "hole.obj", text, &options, &m, &report, &error), FRAM_ERROR_INPUT);
+        ck_assert_msg(strstr(error.message, "have it repaired (repair): it is sound then"), "%s", error.message);
+        options.repair = true;
+        assert_ok(finish(&ctx, "hole.obj", text, &options, &m, &report, &error), error);
+        assert_relative(mesh_solid_properties(&m).volume, 400 * (3 + tops[i / 2]), 1e-3);
+        ck_assert_int_eq(report.holes, 1);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
+/* A hull that ends at the water is raised by what is usual, one that ends above it is decked there, about a well too;
+   what is given is added.  Without either an OBJ file is refused, with both that it may be. */
+START_TEST(freeboards_left_to_fram)
+{
+    static const char *const well = "v -2 -1 -3\nv 2 -1 -3\nv 2 1 -3\nv -2 1 -3\nv -2 -1 2\nv 2 -1 2\nv 2 1 2\n"
+                                    "v -2 1 2\nf 9 10 2 1\nf 10 11 3 2\nf 11 12 4 3\nf 12 9 1 4\n"
+                                    "f 9 13 14 10\nf 10 14 15 11\nf 11 15 16 12\nf 12 16 13 9\n";
+    const struct {
+        double top, given, usual, deck, area;
+        bool well;
+    } cases[] = {{0, (double)NAN, 4, 4, 400, false},       {0.019, (double)NAN, 4, 4.019, 400, false},
+                 {-1, (double)NAN, 4, 3, 400, false},      {2, (double)NAN, 4, 2, 400, false},
+                 {0.03, (double)NAN, 4, 0.03, 400, false}, {2, 4, 4, 6, 400, false},
+                 {2, (double)NAN, 4, 2, 392, true},        {2, (double)NAN, (double)NAN, 0, 400, false}};
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        write_box(text, cases[i].top, 0, cases[i].well ? "faps" : OPEN_BOX);
+        if (cases[i].well)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%s", well);
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = cases[i].given;
+        options.usual_freeboard = cases[i].usual;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        fram_status status = finish(&ctx, "open.obj", text, &options, &m, &report, &error);
+        if (isnan(cases[i].usual)) {
+            ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+            ck_assert_ptr_nonnull(strstr(error.message, "it is sound with 2 m); as it ends 2 m above the water"));
+            options.repair = true;
+            assert_ok(finish(&ctx, "open.obj", text, &options, &m, &report, &error), error);
+            check_sound(&ctx, &m, 2000);
+        } else {
+            assert_ok(status, error);
+            check_sound(&ctx, &m, cases[i].area * (3 + cases[i].deck));
+            assert_relative(mesh_bounds(&m).hi.z, cases[i].deck, 1e-12);
+            assert_absolute(report.decked, cases[i].deck > cases[i].top ? 0 : cases[i].area, 1e-9);
+        }
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
 START_TEST(options_are_checked)
 {
     context ctx;
@@ -203,9 +389,12 @@ START_TEST(options_are_checked)
         hull_file_options options;
         const char *key;
     } cases[] = {
-        {{0, (double)NAN, false, (double)NAN}, "scale"}, {{-1, (double)NAN, false, (double)NAN}, "scale"},
-        {{1, -0.1, false, (double)NAN}, "seal_width"},   {{1, HUGE_VAL, false, (double)NAN}, "seal_width"},
-        {{1, (double)NAN, false, 0}, "freeboard"},       {{1, (double)NAN, false, HUGE_VAL}, "freeboard"},
+        {{.scale = 0, .seal_width = 1, .freeboard = 1}, "scale"},
+        {{.scale = -1, .seal_width = 1, .freeboard = 1}, "scale"},
+        {{.scale = 1, .seal_width = -0.1, .freeboard = 1}, "seal_width"},
+        {{.scale = 1, .seal_width = HUGE_VAL, .freeboard = 1}, "seal_width"},
+        {{.scale = 1, .seal_width = 1, .freeboard = 0}, "freeboard"},
+        {{.scale = 1, .seal_width = 1, .freeboard = HUGE_VAL}, "freeboard"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mesh m = {0};
@@ -233,4 +422,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, options_are_checked, memory_runs_out)
+TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, half_with_a_hole, tops_within_reach,
+          lids_within_reach, holes_of_decks, freeboards_left_to_fram, options_are_checked, memory_runs_out)

@@ -160,6 +160,38 @@ START_TEST(mistakes)
 }
 END_TEST
 
+/* Topsides of a file that ends at the water are 4 m high where no freeboard is given; one that ends above it is decked
+   there, and a freeboard that is given is added. */
+START_TEST(freeboards)
+{
+    static const char high[] = "a barge\n1 9.81\n0 1\n4\n"
+                               "0 0 -3000  0 5000 -3000  40000 5000 -3000  40000 0 -3000\n"
+                               "40000 0 -3000  40000 5000 -3000  40000 5000 1500  40000 0 1500\n"
+                               "40000 5000 -3000  0 5000 -3000  0 5000 1500  40000 5000 1500\n"
+                               "0 5000 -3000  0 0 -3000  0 0 1500  0 5000 1500\n";
+    const struct {
+        const char *mesh, *keys;
+        double deck;
+    } cases[] = {{half_box, "", 4}, {half_box, "    freeboard: 4\n", 4}, {half_box, "    freeboard: 2\n", 2},
+                 {high, "", 1.5},   {high, "    repair: true\n", 1.5},   {high, "    freeboard: 4\n", 5.5}};
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char keys[80];
+        snprintf(keys, sizeof keys, "    file_scale: 0.001\n%s", cases[i].keys);
+        folder f = make_folder(keys, cases[i].mesh);
+        vessel_model hull = {0};
+        solid_array solids = {0};
+        fram_error error = {0};
+        assert_ok(build(&ctx, &f, &hull, &solids, &error), error);
+        assert_absolute(hull.particulars.freeboard, cases[i].deck, 1e-12);
+        assert_relative(hull.displaced_mass, 1025 * 1200, 1e-12);
+        solid_array_free(&ctx, &solids);
+        remove_folder(&f);
+    }
+}
+END_TEST
+
 /* Keys of particulars that do not go together are named in full, with the place in the scenario. */
 START_TEST(particulars)
 {
@@ -272,5 +304,5 @@ START_TEST(a_ship_has_the_bilge_that_is_given)
 }
 END_TEST
 
-TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, particulars, radii_of_gyration,
+TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, freeboards, particulars, radii_of_gyration,
           radii_that_are_given, files_are_mended_as_their_keys_say, a_ship_has_the_bilge_that_is_given)
