@@ -86,7 +86,7 @@ static const usual usual_values[] = {
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
     {"vessel.mooring.lines[].pretension", 2e3, MOST_PULL, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
-    {"vessel.hull.freeboard", 0.2, 60, 1, "what ships have", "give metres"},
+    {"vessel.hull.freeboard", USUAL_LOWEST_DECK, 60, 1, "what ships have", "give metres"},
     {"vessel.hydrodynamics.heave_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
     {"vessel.hydrodynamics.roll_damping", 0, 1, 0, "what ships have", "give a part of the critical damping"},
     {"vessel.hydrodynamics.pitch_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
@@ -161,6 +161,12 @@ static double judged_on(const teller *t, const void *member)
     return h * h;
 }
 
+/* 0 is none of what is told here, or told in words of its own, but of Poisson's ratio there is no none. */
+static bool is_none(const usual *u, double value)
+{
+    return value == 0 && u->least > 0 && strcmp(u->key, "ice.poisson_ratio") != 0;
+}
+
 static fram_status look_at_number(void *user, const scenario_key *key, const void *member, const char *path,
                                   fram_error *error)
 {
@@ -175,14 +181,14 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     if (is_angle(pattern))
         tell_radians(t, path, value);
     double area = judged_on(t, member), judged = value;
-    if (isnan(area) || !sanity_is_taken(&t->s->ice, member))
+    if (isnan(area) || !sanity_is_taken(&t->s->ice, member) || sanity_is_added(t->s, member))
         return FRAM_OK;
     if (area > 0)
         judged = sanity_pressure_on(&t->s->ice, value, area, on);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
         const sanity_range r = sanity_usual(t->s, u->least, u->most, u->power);
-        if (strcmp(u->key, pattern) != 0 || (judged >= r.least && judged <= r.most) || (u->least > 0 && value == 0))
+        if (strcmp(u->key, pattern) != 0 || (judged >= r.least && judged <= r.most) || is_none(u, value))
             continue;
         const range_text usual_range = range_text_of(r.least, r.most, 3);
         sanity_say(t->tell, t->to, "%s: %.6g%s%s%s is outside of %s to %s, %s: %s", path, value, has_unit ? " " : "",

@@ -62,6 +62,8 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
    floe, of which something is known before it is drawn (sanity_ice.c). */
 double sanity_least_band(const scenario *s);
 
+/* Lower over the water than any deck, full size [m]. */
+#define USUAL_LOWEST_DECK 0.2
 /* Thickness of floes and sheets of full size [m]. */
 #define USUAL_THICKNESS_LEAST 0.02
 #define USUAL_THICKNESS_MOST 6
@@ -77,6 +79,9 @@ double sanity_least_band(const scenario *s);
 /* Whether some ice takes the strength that is a member of the ice's keys: not where all populations have their own.
    True of any other member. */
 bool sanity_is_taken(const scenario_ice *i, const void *member);
+/* Whether a member of the keys is the freeboard of a hull from a file, which is added to what that has:
+   vessel_mesh_warnings judges the whole. */
+bool sanity_is_added(const scenario *s, const void *member);
 /* The thinnest ice that takes ice.crushing_strength [m], where some does; NaN: not known. */
 double sanity_own_thickness(const scenario_ice *i, const world *made);
 /* The crushing pressure on an area of ice of a strength [Pa], and the words that say so after the strength. */

@@ -26,6 +26,16 @@ static void tell_scale(const teller *t)
                    scale, longest * scale, vessel_title_of(t->e).text, v->hull.length, scenario_default_scale());
 }
 
+bool sanity_is_added(const scenario *s, const void *member)
+{
+    bool added = false;
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
+        const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
+        added = added || (member == &v->hull.freeboard && !sanity_own_hull(v));
+    }
+    return added;
+}
+
 static void tell_deck(const teller *t)
 {
     const scenario_hull *h = &t->e->keys->hull;

@@ -315,6 +315,12 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
                   "move it down by the draught",
                   e->path, p->draught, p->beam);
+    const sanity_range deck = sanity_usual(s, USUAL_LOWEST_DECK, HUGE_VAL, 1);
+    if (p->freeboard < deck.least)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the hull ends %.3g m above its z = 0, the design waterline, and no deck is lower than "
+                  "%.3g m: move the mesh up or give it topsides; hull.freeboard raises an open top",
+                  e->path, p->freeboard, deck.least);
 }
 
 /* ---- floes that are listed ---- */

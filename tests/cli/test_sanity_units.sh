@@ -52,6 +52,8 @@ all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction
     "crushing_exponent: 0.5|falls with the area" "ice_hull_static: 6 is|not an angle" "ice_hull_kinetic: 6 is" \
     "crushing_strength: 4e+05 Pa on 1 m2|is less than the flexural strength, 5e+05 Pa" "correlation_length: 0.01 m" \
     "flexural_variation: 1.5|not per cent" "ridging_resistance: 400 MN/m|R is 2 to 10"
+all_told ship.yaml ice.poisson_ratio=0 ice.ridging_resistance=0 ice.breakable=true -- \
+    "poisson_ratio: 0 is outside of 0.2 to 0.45|about 0.3"
 # A pressure that goes with the area is that on the thickness squared: 0.49 m2 here, 9 cm2 of a tank.
 all_told ship.yaml ice.crushing_exponent=-0.5 ice.crushing_strength=2e5 ice.breakable=true -- \
     "crushing_strength: 2e+05 Pa on 1 m2, 2.857e+05 Pa on the thickness squared, 0.49 m2, is less than|swapped"
@@ -307,7 +309,10 @@ box stern 0 60 -7 7 -4 3
 box aside -30 30 6 20 -4 3
 box shallow -30 30 -7 7 -0.1 6.9
 box keel -30 30 -7 7 0 7
-for hull in good large athwart stern aside shallow; do
+box awash -30 30 -7 7 -4 0.1
+box open -30 30 -7 7 -4 3
+sed -i '/f 5 6 7 8/d' open.obj
+for hull in good large athwart stern aside shallow awash open; do
     sed "s/hull: {.*}}/hull: {form: file, file: $hull.obj}}/" towed.yaml >"$hull.yaml"
 done
 all_told good.yaml --
@@ -316,6 +321,10 @@ all_told athwart.yaml -- "vessel.hull.file: the hull is 60 m wide along y and 14
 all_told stern.yaml -- "the waterline of 60 m lies about x = 30 m, not about x = 0"
 all_told aside.yaml -- "the hull lies about y = 13 m, not about y = 0, the centre line"
 all_told shallow.yaml -- "the mesh reaches 0.1 m under its z = 0|move it down by the draught"
+all_told awash.yaml -- "vessel.hull.file: the hull ends 0.1 m above its z = 0|no deck is lower than 0.2 m"
+# It is the deck's height that is judged, not what is added to it; what is added to a hull with topsides is told.
+all_told open.yaml --
+all_told open.yaml vessel.hull.freeboard=0.1 -- "is 3 m above the water already, and is raised by 0.1 m|leave freeboard"
 sed "s/hull: {.*}}/hull: {form: file, file: keel.obj}}/" towed.yaml >keel.yaml
 expect 2 "$FRAM" check keel.yaml
 says "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = 0 to 7 m" err
