@@ -76,13 +76,12 @@ static double record_bytes_of(const scenario *s, int32_t floes)
 }
 
 /* Steps that the ice stays in a domain that it drifts through. */
-static double steps_of_stay(const scenario *s)
+static double steps_of_stay(const scenario *s, double drift)
 {
     const scenario_domain *d = &s->domain;
-    const ice_drift drift = scenario_drift(s);
-    if (d->boundary == DOMAIN_WALLS || drift.file[0] || !(drift.speed > 0))
+    if (d->boundary == DOMAIN_WALLS || !(drift > 0))
         return (double)INFINITY;
-    return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / drift.speed / s->run.time_step;
+    return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / drift / s->run.time_step;
 }
 
 static step_look step_look_of(const bench_look *l)
@@ -106,7 +105,7 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, stu
     if (status == FRAM_OK) {
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
         double steps = (double)step_at(one.run.duration, one.run.time_step);
-        double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
+        double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one, found[1].drift));
         out->run_seconds += PROGRAM_SECONDS + build + steps * late.time;
         out->run_seconds_packed += PROGRAM_SECONDS + build + steps * fmax(packed_step_time(&early, &late), breaking);
         out->run_bytes += bytes_of(&one, s->inner.keep, late.floes);

@@ -1,11 +1,18 @@
 #include "io/velocity_file.h"
 
+#include "io/csv_read.h"
+
 #include <math.h>
+
+enum { VELOCITY_AT, VELOCITY_X, VELOCITY_Y, VELOCITY_COLUMNS };
+typedef struct velocity_rows {
+    double_array column[VELOCITY_COLUMNS];
+} velocity_rows;
 
 /* As environment.wind_speed: more is a mistake in the units. */
 enum { SPEED_MOST = 200 };
 
-void velocity_rows_free(context *ctx, velocity_rows *rows)
+static void velocity_rows_free(context *ctx, velocity_rows *rows)
 {
     for (int i = 0; i < VELOCITY_COLUMNS; i++)
         array_free(ctx, &rows->column[i]);
@@ -45,8 +52,8 @@ static fram_status check_rows(context *ctx, const velocity_rows *rows, const cha
     return FRAM_OK;
 }
 
-fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file, const char *first,
-                               velocity_rows *rows, fram_error *error)
+static fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file, const char *first,
+                                      velocity_rows *rows, fram_error *error)
 {
     const char *const names[VELOCITY_COLUMNS] = {first, "x[m/s]", "y[m/s]"};
     char path[2 * SCENARIO_TEXT_SIZE];
@@ -73,6 +80,27 @@ fram_status velocity_file_read(context *ctx, const scenario *s, const char *file
             out->velocity[i] = vec3_make(rows.column[VELOCITY_X].data[i], rows.column[VELOCITY_Y].data[i], 0);
             out->count = count;
         }
+    }
+    velocity_rows_free(ctx, &rows);
+    return status;
+}
+
+fram_status velocity_profile_read(context *ctx, const scenario *s, const char *file, current_profile *out,
+                                  fram_error *error)
+{
+    if (!*file)
+        return FRAM_OK;
+    velocity_rows rows = {0};
+    fram_status status = velocity_rows_read(ctx, s, file, "depth[m]", &rows, error);
+    int32_t count = rows.column[VELOCITY_AT].count;
+    if (status == FRAM_OK && (count < 1 || count > CURRENT_LEVELS || rows.column[VELOCITY_AT].data[0] < 0))
+        status = error_set(error, FRAM_ERROR_INPUT, file, 0, "depth[m]",
+                           "expected 1 to %d depths, from 0 on, found %d, from %g on", (int)CURRENT_LEVELS, (int)count,
+                           count < 1 ? 0 : rows.column[VELOCITY_AT].data[0]);
+    for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
+        out->depth[i] = rows.column[VELOCITY_AT].data[i];
+        out->velocity[i] = vec3_make(rows.column[VELOCITY_X].data[i], rows.column[VELOCITY_Y].data[i], 0);
+        out->count = count;
     }
     velocity_rows_free(ctx, &rows);
     return status;

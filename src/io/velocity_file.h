@@ -4,21 +4,15 @@
 #define IO_VELOCITY_FILE_H
 
 #include "fluid/media.h"
-#include "io/csv_read.h"
 #include "model/scenario.h"
 
-enum { VELOCITY_AT, VELOCITY_X, VELOCITY_Y, VELOCITY_COLUMNS };
-typedef struct velocity_rows {
-    double_array column[VELOCITY_COLUMNS];
-} velocity_rows;
-
-/* Columns `first` ("time[s]"), x[m/s], y[m/s] of a CSV that a scenario names; at least one row, the first column
-   ascending, finite speeds within 200 m/s.  FRAM_ERROR_INPUT with file and line. */
-fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file, const char *first,
-                               velocity_rows *rows, fram_error *error);
-void velocity_rows_free(context *ctx, velocity_rows *rows);
-/* A history; "": none.  What was read until an error is in `out`, to be freed by the caller. */
+/* CSV that a scenario names, with the columns time[s] or depth[m], x[m/s] and y[m/s]: at least one row, the first
+   column ascending, finite speeds within 200 m/s; FRAM_ERROR_INPUT with file and line.  A history; "": none.  What was
+   read until an error is in `out`, to be freed by the caller. */
 fram_status velocity_file_read(context *ctx, const scenario *s, const char *file, velocity_series *out,
                                fram_error *error);
+/* A current over depth, 1 to CURRENT_LEVELS rows, depths from 0 on; "": none. */
+fram_status velocity_profile_read(context *ctx, const scenario *s, const char *file, current_profile *out,
+                                  fram_error *error);
 
 #endif

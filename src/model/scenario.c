@@ -152,14 +152,21 @@ box2 domain_with_walls(const scenario_domain *d)
     return (box2){{d->x_min - t, d->y_min - t}, {d->x_max + t, d->y_max + t}};
 }
 
+ice_drift scenario_current(const scenario *s)
+{
+    const scenario_environment *e = &s->environment;
+    bool fed = s->ice.source != ICE_NONE && s->domain.boundary == DOMAIN_FEEDING;
+    return (ice_drift){
+        e->current_file, e->current_profile_file, e->current_speed, e->current_direction_deg, fed, false};
+}
+
 ice_drift scenario_drift(const scenario *s)
 {
     const scenario_domain *d = &s->domain;
-    const scenario_environment *e = &s->environment;
-    bool fed = s->ice.source != ICE_NONE && d->boundary == DOMAIN_FEEDING;
-    if (fed && (d->drift_file[0] || !is_automatic(d->drift_speed)))
-        return (ice_drift){d->drift_file, automatic_or(d->drift_speed, 0), d->drift_direction_deg, fed, true};
-    return (ice_drift){e->current_file, e->current_speed, e->current_direction_deg, fed, false};
+    const ice_drift current = scenario_current(s);
+    if (current.fed && (d->drift_file[0] || !is_automatic(d->drift_speed)))
+        return (ice_drift){d->drift_file, "", automatic_or(d->drift_speed, 0), d->drift_direction_deg, true, true};
+    return current;
 }
 
 vec3 scenario_velocity(double speed, double direction_deg)

@@ -108,15 +108,20 @@ void scenario_locate(const scenario *s, fram_error *error);
 box2 domain_box(const scenario_domain *d);
 /* With its walls, where it has such: what pictures show. */
 box2 domain_with_walls(const scenario_domain *d);
-/* What moves the ice far from vessels: the current, or where an endless field is told its own, that. */
+/* What moves the ice far from vessels: the current at the surface, or where an endless field is told its own, that. */
 typedef struct ice_drift {
-    const char *file;   /* of a history, in place of the speed; empty: none */
-    double speed;       /* [m/s] */
-    double towards_deg; /* of the speed */
-    bool fed;           /* the field is endless */
-    bool own;           /* and this is its own drift (domain.drift_*), not the current */
+    const char *file;    /* of a history, in place of the speed; empty: none */
+    const char *profile; /* of what a current has on top at depths, the surface among them; empty: none */
+    double speed;        /* [m/s] */
+    double towards_deg;  /* of the speed */
+    bool fed;            /* the field is endless */
+    bool own;            /* and this is its own drift (domain.drift_*), not the current */
 } ice_drift;
 ice_drift scenario_drift(const scenario *s);
+/* The current by itself, whatever the ice drifts with. */
+ice_drift scenario_current(const scenario *s);
+/* Whether speed and direction are all there is to it: no file has a part in it. */
+static inline bool ice_drift_is_of_keys(const ice_drift *d) { return !d->file[0] && !d->profile[0]; }
 /* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
 vec3 scenario_velocity(double speed, double direction_deg);
 

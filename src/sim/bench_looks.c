@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "sim/bench_measure.h"
 #include "sim/build.h"
+#include "sim/known_flow.h"
 #include "sim/recording.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ typedef struct looked_run {
     const model *m;
     world *w;
     int64_t done, steps; /* made, and all of the run */
+    double drift;        /* of all its looks */
     double began, end;   /* processor time of the first step; what all steps may take [s] */
 } looked_run;
 
@@ -49,7 +51,7 @@ static fram_status look(looked_run *run, double pace, bench_look *out, fram_erro
     run->ctx->work = NULL;
     fram_status status = bench_measure(run->ctx, run->m, run->w, -1, 0, steps, &r, error);
     run->ctx->work = told;
-    *out = (bench_look){r.cpu_median, r.contact_points, 0, run->done, steps};
+    *out = (bench_look){r.cpu_median, r.contact_points, 0, run->drift, run->done, steps};
     for (int32_t i = 0; i < run->w->floes.count; i++)
         out->floes += run->w->floes.body[i] >= 0;
     run->done += steps;
@@ -91,7 +93,12 @@ fram_status bench_looks(context *ctx, const scenario *s, build_look made, const 
     if (made)
         made(ctx, s, status == FRAM_OK ? &m : NULL, status == FRAM_OK ? &w : NULL);
     if (status == FRAM_OK) {
-        looked_run run = {ctx, &m, &w, 0, step_at(s->run.duration, s->run.time_step), 0, 0};
+        const known_flow drift = known_drift(s, &m.history);
+        looked_run run = {.ctx = ctx,
+                          .m = &m,
+                          .w = &w,
+                          .steps = step_at(s->run.duration, s->run.time_step),
+                          .drift = drift.steady ? drift.fastest : 0};
         status = look_at_world(&run, after, count, out, error);
         world_free(ctx, &w);
     }

@@ -8,6 +8,7 @@ typedef struct bench_look {
     double time;     /* of a step, median processor time [s] */
     double contacts; /* points that overlap, mean */
     int32_t floes;
+    double drift;      /* that the ice has throughout the run; 0: none, or it changes [m/s] */
     int64_t at, steps; /* since the start before it, and of its own */
 } bench_look;
 

@@ -122,24 +122,20 @@ static void tell_flow(const effective_list *t, const flow *f)
 static void tell_profile(const effective_list *t)
 {
     const char *file = t->s->environment.current_profile_file;
-    velocity_rows rows = {0};
+    current_profile p = {.count = 0};
     fram_error error = {0};
     if (!file[0])
         return;
-    fram_status status = velocity_rows_read(t->ctx, t->s, file, "depth[m]", &rows, &error);
-    const double *depth = rows.column[VELOCITY_AT].data, *x = rows.column[VELOCITY_X].data;
-    const double *y = rows.column[VELOCITY_Y].data;
-    int32_t count = status == FRAM_OK ? rows.column[VELOCITY_AT].count : 0;
+    fram_status status = velocity_profile_read(t->ctx, t->s, file, &p, &error);
     double most = 0;
-    for (int32_t i = 0; i < count; i++)
-        most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
-    if (count > 0)
+    for (int32_t i = 0; i < p.count; i++)
+        most = fmax(most, vec3_length(p.velocity[i]));
+    if (status == FRAM_OK)
         sanity_say(t->tell, t->to, "current: on top of that up to %.4g m/s at depths of %.4g to %.4g m, by %s", most,
-                   depth[0], depth[count - 1], file_name(file));
+                   p.depth[0], p.depth[p.count - 1], file_name(file));
     else
         sanity_say(t->tell, t->to, "current: at depths by %s, which cannot be read here: %s", file_name(file),
                    error.message);
-    velocity_rows_free(t->ctx, &rows);
 }
 
 /* Of two steady flows. */
@@ -164,7 +160,9 @@ static void list_flows(const effective_list *t)
     tell_flow(t, &current);
     tell_profile(t);
     tell_flow(t, &wind);
-    tell_angle_between(t, ice.own ? &drift : &current, &wind);
+    /* With a profile its row at the surface has a part in it. */
+    if (!ice.profile[0])
+        tell_angle_between(t, ice.own ? &drift : &current, &wind);
 }
 
 /* ---- ice ---- */

@@ -7,9 +7,11 @@
 #include "ice/fracture.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
+#include "sim/build_media.h"
 #include "sim/build_model.h"
 #include "sim/effective.h"
 #include "sim/ice_kinds.h"
+#include "sim/known_flow.h"
 #include "sim/recording.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
@@ -23,7 +25,8 @@ typedef struct note_taker {
     text_buffer *out;  /* NULL: the log */
     const world *made; /* NULL: none */
     ice_range ice;
-    const model *model; /* the same */
+    const model *model;        /* the same */
+    const media_history *read; /* what files tell of flows; NULL: they cannot be read */
 } note_taker;
 
 enum { NOTE_SIZE = 400 };
@@ -113,13 +116,12 @@ static double own_speed_in_ice(const scenario_vessel *v)
     return fmax(v->speed, fmin(left, automatic_or(p->speed, HUGE_VAL)));
 }
 
-/* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files of drift and current say is not
-   known here, and a file stands in place of the speed that is given beside it. */
-static double speed_in_ice(const scenario *s, const scenario_vessel *v)
+/* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files say that
+   cannot be read is not known. */
+static double speed_in_ice(const note_taker *n, const scenario *s, const scenario_vessel *v)
 {
-    const ice_drift drift = scenario_drift(s);
-    bool drifts = !drift.file[0] && (drift.fed || s->environment.water);
-    return fmax(own_speed_in_ice(v), drifts ? drift.speed : 0);
+    bool drifts = scenario_drift(s).fed || s->environment.water;
+    return fmax(own_speed_in_ice(v), drifts ? known_drift(s, n->read).fastest : 0);
 }
 
 /* How far a patch as wide as the ice is thick is crushed when it bears a load [m]: from sigma (d h)^(1 + e), which with
@@ -176,7 +178,7 @@ static void note_breaking_steps(const note_taker *n, const scenario *s)
     double needed = crushed_under(&m, h, e.wedge_capacity);
     for (int32_t v = 0; v < scenario_vessel_count(s) && !isnan(needed); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
-        double speed = speed_in_ice(s, entry.keys), depth = speed * s->run.time_step;
+        double speed = speed_in_ice(n, s, entry.keys), depth = speed * s->run.time_step;
         note_fact(n, "fracture: %ssteps of %g s are short for %s up to %.3g m/s",
                   kind_text_of(n, "in ice ", kind, " ").text, s->run.time_step, vessel_title_of(&entry).text,
                   BREAKING_STEP * needed / s->run.time_step);
@@ -235,7 +237,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
 {
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
-    double speed = speed_in_ice(s, v), way = speed * s->run.time_step;
+    double speed = speed_in_ice(n, s, v), way = speed * s->run.time_step;
     double thickness = n->ice.thinnest.thickness;
     char where[40] = "";
     if (thickness < n->ice.thickest.thickness)
@@ -286,14 +288,18 @@ static void take_notes(const note_taker *n, const scenario *s)
         note_vessel(n, s, &entry);
         note_channel(n, s, &entry);
     }
-    sanity_tell(s, (sanity_built){n->model, n->made}, tell_warning, n);
+    sanity_tell(s, (sanity_built){n->model, n->made, n->read}, tell_warning, n);
     if (s->run.solver.baumgarte)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");
 }
 
 void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out)
 {
-    take_notes(&(note_taker){ctx, out, made, ice_range_made(&s->ice, made), m}, s);
+    media_history files = {0};
+    bool is_read = m || build_media(ctx, s, &files, NULL) == FRAM_OK;
+    const media_history *read = m ? &m->history : is_read ? &files : NULL;
+    take_notes(&(note_taker){ctx, out, made, ice_range_made(&s->ice, made), m, read}, s);
+    media_history_free(ctx, &files);
 }
 
 void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenario_notes_made(ctx, s, NULL, NULL, out); }
@@ -305,8 +311,8 @@ void scenario_log_warnings(context *ctx, const scenario *s, const model *m, cons
 
 bool scenario_tells_when_made(const scenario *s)
 {
-    const scenario_environment *n = &s->environment;
-    bool tells = s->ice.source == ICE_FILE || n->current_file[0] != '\0' || n->current_profile_file[0] != '\0';
+    const ice_drift current = scenario_current(s);
+    bool tells = s->ice.source == ICE_FILE || !ice_drift_is_of_keys(&current);
     for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++)
         tells = vessel_begins_at_equilibrium(scenario_vessel_entry(s, i).keys);
     return tells;

@@ -1,5 +1,6 @@
 #include "base/number_text.h"
 #include "sim/ice_kinds.h"
+#include "sim/known_flow.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
@@ -237,18 +238,17 @@ static void tell_ice_shape(const teller *t)
 static void tell_directions(const teller *t)
 {
     const scenario_environment *e = &t->s->environment;
-    const ice_drift drift = scenario_drift(t->s);
+    const known_flow drift = known_drift(t->s, t->read);
     if (e->air_density == 0 && (e->wind_speed > 0 || e->wind_file[0]))
         sanity_say(t->tell, t->to, "environment.air_density: 0 kg/m3 leaves a wind without any force");
-    bool histories = e->wind_file[0] || drift.file[0];
-    if (histories || !(drift.speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
+    if (e->wind_file[0] || !known_flow_goes(&drift) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
         return;
     if (sanity_degrees_apart(drift.towards_deg, e->wind_direction_deg) > 90)
         sanity_say(
             t->tell, t->to,
             "environment.wind_direction_deg: the wind blows towards %g degrees and %s goes towards %g, against it; "
             "directions are where it goes to, not where it comes from",
-            e->wind_direction_deg, drift.own ? "the ice (domain.drift_direction_deg)" : "the current",
+            e->wind_direction_deg, scenario_drift(t->s).own ? "the ice (domain.drift_direction_deg)" : "the current",
             drift.towards_deg);
 }
 
@@ -361,15 +361,16 @@ static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
 static void tell_basin(const teller *t)
 {
     const scenario *s = t->s;
-    bool drifts = s->environment.water && (s->environment.current_speed > 0 || s->environment.current_file[0]);
+    const known_flow current = known_current(s, t->read);
+    bool drifts = s->environment.water && (!current.known || current.fastest > 0);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         bool held = e.keys->mooring.lines.count > 0 || e.keys->positioning.active;
         if (!held || !drifts || s->domain.boundary != DOMAIN_WALLS || s->ice.source == ICE_NONE)
             continue;
         char speed[32] = "";
-        if (!s->environment.current_file[0])
-            snprintf(speed, sizeof speed, " of %.4g m/s", s->environment.current_speed);
+        if (current.steady)
+            snprintf(speed, sizeof speed, " of %.4g m/s", current.fastest);
         sanity_say(
             t->tell, t->to,
             "domain.boundary: walls keep the ice in a basin, where the current%s drives it against one of them: for "
@@ -383,10 +384,10 @@ static void tell_basin(const teller *t)
 static void tell_rest(const teller *t)
 {
     const scenario_environment *n = &t->s->environment;
-    const scenario_domain *d = &t->s->domain;
+    const known_flow current = known_current(t->s, t->read), drift = known_drift(t->s, t->read);
     int32_t count = scenario_vessel_count(t->s);
-    bool moves = n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] || n->wind_file[0] ||
-                 n->current_profile_file[0] || d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
+    bool known = current.known && drift.known;
+    bool moves = !known || current.fastest > 0 || drift.fastest > 0 || n->wind_speed > 0 || n->wind_file[0];
     for (int32_t i = 0; i < count; i++)
         moves = moves || sanity_vessel_moves(scenario_vessel_entry(t->s, i).keys);
     if (!moves && count > 0 && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
@@ -472,11 +473,11 @@ static void tell_vessel_station(const teller *t, const vessel_entry *e)
 void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, const void *to)
 {
     const world *made = built.made;
-    teller t = {s, tell, to, NULL, made, built.model};
+    teller t = {s, tell, to, NULL, made, built.model, built.read};
     (void)scenario_walk(s, look_at_number, &t, NULL);
     tell_heave(&t);
     tell_ice_shape(&t);
-    sanity_tell_ice(s, made, tell, to);
+    sanity_tell_ice(s, built, tell, to);
     sanity_tell_idle(s, tell, to);
     tell_directions(&t);
     sanity_tell_times(s, tell, to);
@@ -489,6 +490,6 @@ void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, cons
         tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, i, built, tell, to);
-        sanity_tell_control(s, &e, tell, to);
+        sanity_tell_control(s, &e, built, tell, to);
     }
 }

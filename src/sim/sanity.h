@@ -16,8 +16,9 @@ enum { SANITY_SENTENCE = 380 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* What was built of a scenario and knows more than its keys: NULL where there is none. */
 typedef struct sanity_built {
-    const model *model; /* currents of files, sizes of hulls */
-    const world *made;  /* before its first step */
+    const model *model;        /* currents at the depth of hulls, sizes of hulls */
+    const world *made;         /* before its first step */
+    const media_history *read; /* what files tell of flows */
 } sanity_built;
 /* From the keys and from what was built; nothing is built here. */
 void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, const void *to);
@@ -26,9 +27,10 @@ void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, s
 /* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
-void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
+void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
+                         const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
-void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to);
+void sanity_tell_ice(const scenario *s, sanity_built built, sanity_teller tell, const void *to);
 /* Of the times of the run and of what it writes.  sanity_tell asks. */
 void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to);
 /* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks.  All these

@@ -239,7 +239,7 @@ static void tell_slow(const teller *t)
     const scenario_vessel *v = t->e->keys;
     const scenario_propulsion *p = &v->propulsion;
     double most = vessel_open_water_speed(p), least = propulsion_least_lack(most);
-    double wanted = automatic_or(p->speed, HUGE_VAL), lacks = vessel_lacks_in_ice(t->s, wanted);
+    double wanted = automatic_or(p->speed, HUGE_VAL), lacks = vessel_speed_lost_in_ice(t->s, t->read, wanted);
     if (lacks >= least && p->beset_speed >= vessel_fastest(v))
         sanity_say(t->tell, t->to,
                    "%s.propulsion.beset_speed: the ship never makes more than %.3g m/s and counts as beset under %.3g: "
@@ -312,9 +312,10 @@ static void tell_station(const teller *t)
                    t->e->path, v->station.offset_limit, v->mooring.depth);
 }
 
-void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
+void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
+                         const void *to)
 {
-    const teller t = {s, tell, to, e, NULL, NULL};
+    const teller t = {s, tell, to, e, NULL, NULL, built.read};
     tell_positioning(&t);
     for (int32_t i = 0; i < e->keys->thrusters.count; i++)
         tell_thruster(&t, i);

@@ -5,6 +5,7 @@
 #include "sim/build_level.h"
 #include "sim/build_model.h"
 #include "sim/build_packed.h"
+#include "sim/known_flow.h"
 #include "sim/sanity_parts.h"
 
 #include <math.h>
@@ -193,19 +194,18 @@ static bool goes_against(double a_deg, double b_deg) { return sanity_degrees_apa
 static void tell_drift(const teller *t)
 {
     const scenario_environment *e = &t->s->environment;
-    const ice_drift drift = scenario_drift(t->s);
+    const known_flow drift = known_drift(t->s, t->read), current = known_current(t->s, t->read);
     double to = drift.towards_deg;
     bool blows = e->wind_file[0] || (e->wind_speed > 0 && !goes_against(to, e->wind_direction_deg));
-    bool steady = !drift.file[0] && !e->current_file[0];
-    if (!drift.own || !e->water || !steady || !(drift.speed > 0) || !(e->current_speed > 0))
+    if (!scenario_drift(t->s).own || !e->water || !known_flow_goes(&drift) || !known_flow_goes(&current))
         return;
-    if (!blows && goes_against(to, e->current_direction_deg))
+    if (!blows && goes_against(to, current.towards_deg))
         sanity_say(
             t->tell, t->to,
             "domain.drift_direction_deg: the ice goes towards %g degrees at %.4g m/s and the current under it "
             "towards %g at %.4g m/s, against it: directions are where they go to; without domain.drift_speed the "
             "ice goes with the current",
-            to, drift.speed, e->current_direction_deg, e->current_speed);
+            to, drift.fastest, current.towards_deg, current.fastest);
 }
 
 /* ---- level ice ---- */
@@ -227,11 +227,11 @@ static void narrow_time(double lo, double hi, double speed, double at, double en
 static void tell_sheet_outside(const teller *t)
 {
     const scenario_domain *d = &t->s->domain;
-    const ice_drift drift = scenario_drift(t->s);
-    if (!drift.fed || drift.file[0])
+    const known_flow drift = known_drift(t->s, t->read);
+    if (!scenario_drift(t->s).fed || !drift.steady)
         return;
     box2 sheet = build_sheet_extent(t->s);
-    vec3 goes = scenario_velocity(drift.speed, drift.towards_deg);
+    vec3 goes = scenario_velocity(drift.fastest, drift.towards_deg);
     double time[2] = {0, t->s->run.duration};
     narrow_time(sheet.lo.x, sheet.hi.x, goes.x, d->x_min, d->x_max, time);
     narrow_time(sheet.lo.y, sheet.hi.y, goes.y, d->y_min, d->y_max, time);
@@ -241,7 +241,7 @@ static void tell_sheet_outside(const teller *t)
         sanity_say(t->tell, t->to,
                    "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m towards %g degrees in "
                    "the run: there will be no ice",
-                   gap, drift.speed * t->s->run.duration, drift.towards_deg);
+                   gap, drift.fastest * t->s->run.duration, drift.towards_deg);
 }
 
 static void tell_level(const teller *t)
@@ -370,9 +370,9 @@ static void tell_floes(const teller *t)
     }
 }
 
-void sanity_tell_ice(const scenario *s, const world *made, sanity_teller tell, const void *to)
+void sanity_tell_ice(const scenario *s, sanity_built built, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, NULL, made, NULL};
+    const teller t = {s, tell, to, NULL, built.made, built.model, built.read};
     if (s->ice.source == ICE_NONE)
         return;
     tell_thresholds(&t);

@@ -10,9 +10,10 @@ typedef struct teller {
     const scenario *s;
     sanity_teller tell;
     const void *to;
-    const vessel_entry *e; /* NULL where no vessel is looked at */
-    const world *made;     /* NULL: none, or not asked */
-    const model *model;    /* the same */
+    const vessel_entry *e;     /* NULL where no vessel is looked at */
+    const world *made;         /* NULL: none, or not asked */
+    const model *model;        /* the same */
+    const media_history *read; /* what files tell of flows; NULL: not read, or not asked */
 } teller;
 
 enum { SANITY_PATTERN = 96 };

@@ -88,7 +88,7 @@ static void tell_speed(const teller *t)
 
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, e, NULL, NULL};
+    const teller t = {s, tell, to, e, NULL, NULL, NULL};
     if (!sanity_own_hull(e->keys))
         return;
     tell_scale(&t);

@@ -137,7 +137,7 @@ static void tell_times(const teller *t)
 
 void sanity_tell_times(const scenario *s, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to, NULL, NULL, NULL};
+    const teller t = {s, tell, to, NULL, NULL, NULL, NULL};
     tell_times(&t);
     tell_all_rounded(&t);
 }

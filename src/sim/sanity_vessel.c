@@ -402,7 +402,7 @@ static void tell_flows(const teller *t)
 void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to)
 {
     const vessel_entry entry = scenario_vessel_entry(s, vessel), *e = &entry;
-    const teller t = {s, tell, to, e, built.made, built.model};
+    const teller t = {s, tell, to, e, built.made, built.model, built.read};
     tell_inertia(&t);
     tell_thrusters(&t);
     tell_vessel_propulsion(&t);

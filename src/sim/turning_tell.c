@@ -249,7 +249,7 @@ static vec2 place_at(const pattern_view *v, const model *m, const world *w, int3
 }
 
 /* The speed that a period asks for, and what the ship makes at its power. */
-static void tell_period(const pattern_view *v)
+static void tell_period(const pattern_view *v, const model *m)
 {
     const scenario_propulsion *p = &v->entry->keys->propulsion;
     const propulsion_settings *set = v->set;
@@ -257,6 +257,7 @@ static void tell_period(const pattern_view *v)
     double least = propulsion_least_lack(set->open_water_speed);
     if (is_automatic(p->pattern.period))
         return;
+    double lost = vessel_speed_lost_in_ice(v->s, &m->history, set->speed);
     if (set->speed > set->open_water_speed)
         log_write(
             v->ctx, LOG_WARNING,
@@ -264,13 +265,12 @@ static void tell_period(const pattern_view *v)
             "open water at that power: take %s s or more",
             v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
             set->open_water_speed, least_text_of(length / set->open_water_speed, 4).text);
-    else if (vessel_lacks_in_ice(v->s, set->speed) < least && v->s->ice.source != ICE_NONE)
+    else if (lost < least && v->s->ice.source != ICE_NONE)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, at which %s, stopped "
                   "by ice, pushes with %.2g %% of its pull: it never counts as beset and waits; take less than %s s",
                   v->entry->path, length, p->pattern.period, set->speed, vessel_title_of(v->entry).text,
-                  100 * propulsion_push(set->open_water_speed, vessel_lacks_in_ice(v->s, set->speed)),
-                  most_text_of(length / least, 4).text);
+                  100 * propulsion_push(set->open_water_speed, lost), most_text_of(length / least, 4).text);
     else if (set->speed <= set->beset_speed)
         log_write(v->ctx, LOG_WARNING,
                   "%s.propulsion.pattern.period: a round of %.4g m in %.4g s asks for %.4g m/s, and %s counts as beset "
@@ -446,6 +446,6 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
         tell_unchecked(&v, checked);
     if (turning_is_found(t))
         tell_arcs(&v, checked);
-    tell_period(&v);
+    tell_period(&v, m);
     tell_outside(&v, m, w, p->count - 1);
 }

@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/events_tell.h"
+#include "sim/known_flow.h"
 #include "vessel/plane_motion.h"
 
 #include <math.h>
@@ -63,15 +64,12 @@ double vessel_open_water_speed(const scenario_propulsion *p)
     return p->open_water_speed * real_pow(p->power, 1.0 / 3);
 }
 
-double vessel_lacks_in_ice(const scenario *s, double wanted)
+double vessel_speed_lost_in_ice(const scenario *s, const media_history *read, double wanted)
 {
-    const scenario_domain *d = &s->domain;
-    const scenario_environment *e = &s->environment;
-    if (d->boundary != DOMAIN_FEEDING)
+    if (s->domain.boundary != DOMAIN_FEEDING)
         return wanted;
-    if (d->drift_file[0] || (is_automatic(d->drift_speed) && e->current_file[0]))
-        return HUGE_VAL;
-    return wanted + automatic_or(d->drift_speed, e->current_speed);
+    const known_flow drift = known_drift(s, read);
+    return drift.known ? wanted + drift.fastest : HUGE_VAL;
 }
 
 double vessel_fastest(const scenario_vessel *v)

@@ -26,8 +26,8 @@ double vessel_way(const scenario_vessel *v, double time);
 /* What a ship with propulsion makes in open water at its power, whatever speed is wanted [m/s]. */
 double vessel_open_water_speed(const scenario_propulsion *p);
 /* The most that such a ship lacks of a wanted speed over the ground once ice has stopped it, which rests or drifts
-   against it [m/s]; infinity where files tell the drift. */
-double vessel_lacks_in_ice(const scenario *s, double wanted);
+   against it [m/s]; infinity where files tell the drift and nobody has read them (NULL). */
+double vessel_speed_lost_in_ice(const scenario *s, const media_history *read, double wanted);
 /* Whether it goes on along its course: on a carriage, or under its own power where nothing says otherwise. */
 bool vessel_keeps_course(const scenario_vessel *v);
 

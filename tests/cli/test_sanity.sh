@@ -21,7 +21,9 @@ for scene in "$FRAM_SOURCE"/scenes/*.yaml; do
     [[ $scene == */drillship_circle.yaml ]] && sed -i '/^warning: vessel icebreaker and the ice move 0.05 m past/d' err
     # Scenes of ice management, as their results were made: the head of each tells that smaller pieces stay with others.
     grep -q "^#.* of a wedge" "$scene" && sed -i '/^warning: ice.smallest_floe_area: [48] m2 is .* of the pieces/d' err
-    [[ $scene == */turret_turning.yaml ]] && sed -i '/^warning: ice.smallest_floe_area: 2 m2 is more/d' err
+    # Its drift, by a file, makes 0.4 m/s in steps for 0.3 of that.
+    [[ $scene == */turret_turning.yaml ]] && sed -i '/^warning: ice.smallest_floe_area: 2 m2 is more/d
+        /^warning: the vessel and the ice move 0.008 m past/d' err
     grep '^warning' err && fail "$scene warns"
 done
 # shellcheck disable=SC2086  # a list of numbers

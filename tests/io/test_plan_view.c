@@ -5,7 +5,7 @@
 
 #include "base/transcendental.h"
 #include "io/scenario_file.h"
-#include "testing.h"
+#include "scratch.h"
 
 START_TEST(level_prism)
 {
@@ -191,6 +191,26 @@ START_TEST(flows_of_a_history)
     assert_absolute(before.flow[0].velocity.x, -0.3, 1e-12);
     assert_absolute(after.flow[0].velocity.x, 0.3, 1e-12);
     assert_absolute(after.flow[0].velocity.y, 0.06, 1e-12);
+}
+END_TEST
+
+/* What a profile has at the surface is on top of the rest, and is all where there is no rest. */
+START_TEST(flows_of_a_profile)
+{
+    char text[400];
+    scratch folder = scratch_make();
+    FILE *file = fopen(scratch_path(&folder, "profile.csv"), "w");
+    ck_assert_ptr_nonnull(file);
+    fputs("depth [m],x [m/s],y [m/s]\n2,-1,0.5\n50,-0.2,0\n", file);
+    ck_assert_int_eq(fclose(file), 0);
+    for (int keys = 0; keys < 2; keys++) {
+        snprintf(text, sizeof text, "environment: {current_speed: %d, current_profile_file: %s}\n", keys, folder.path);
+        plan_flows f = flows_of(text, 0);
+        ck_assert_int_eq(f.count, 1);
+        assert_absolute(f.flow[0].velocity.x, keys - 1, 1e-12);
+        assert_absolute(f.flow[0].velocity.y, 0.5, 1e-12);
+    }
+    scratch_remove(&folder, "profile.csv");
 }
 END_TEST
 
@@ -500,13 +520,13 @@ START_TEST(pictures_of_one_size)
 END_TEST
 
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
-          lines_in_the_window, flows_that_move, flows_of_a_history, pieces_on_edge_and_under_the_sheet,
-          floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn, labels_that_cover_each_other,
-          texts_beside_a_narrow_plan, pictures_of_one_size)
+          lines_in_the_window, flows_that_move, flows_of_a_history, flows_of_a_profile,
+          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
+          labels_that_cover_each_other, texts_beside_a_narrow_plan, pictures_of_one_size)
 
 #else
 
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
-          lines_in_the_window, flows_that_move, flows_of_a_history)
+          lines_in_the_window, flows_that_move, flows_of_a_history, flows_of_a_profile)
 
 #endif
