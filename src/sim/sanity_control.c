@@ -35,8 +35,10 @@ static double bandwidth_of(const teller *t, double interval)
 static double slowest_call(const teller *t)
 {
     const scenario_positioning *p = &t->e->keys->positioning;
-    double fast = SLOWEST_CALL_FAST / p->frequency + SLOWEST_CALL_OBSERVER / bandwidth_of(t, p->interval);
-    return fmin(SLOWEST_CALL / p->frequency, fast);
+    double bandwidth = bandwidth_of(t, p->interval), slowest = SLOWEST_CALL / p->frequency;
+    if (!(bandwidth > 0)) /* a filter that takes its bias for known follows none, however often it is called */
+        return slowest;
+    return fmin(slowest, SLOWEST_CALL_FAST / p->frequency + SLOWEST_CALL_OBSERVER / bandwidth);
 }
 
 static double slowest_sample(const teller *t)

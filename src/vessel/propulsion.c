@@ -107,25 +107,32 @@ static vec2 turned(vec2 v, double angle)
     return vec2_make(c * v.x - s * v.y, s * v.x + c * v.y);
 }
 
+/* In which the ship is told to turn: what is told once a step takes one at least.  A ship without helm has no lag. */
+static double lag_of(const pilot *p)
+{
+    const propulsion_settings *s = p->s;
+    double lag = autopilot_lag(&s->turning, p->length, p->through_water, s->steering_most, s->steering_rate);
+    return fmax(lag, p->now->dt);
+}
+
 static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double frame_turn, double thrust)
 {
     const wrench *drag = &p->now->drag;
     vec2 from = vec2_sub(p->place, origin), port = vec2_perp(p->bow);
-    return (autopilot_view){
-        .place = turned(from, -axis),
-        .velocity = turned(vec2_sub(p->speed, vec2_scale(vec2_perp(from), frame_turn)), -axis),
-        .current = turned(vec2_make(p->now->water.x, p->now->water.y), -axis),
-        .heading = p->heading - axis,
-        .turn = p->turn,
-        .frame_turn = frame_turn,
-        .ahead = p->through_water,
-        .aside = p->aside,
-        .drag_aside = drag->force.x * port.x + drag->force.y * port.y,
-        .drag_moment = drag->moment.z,
-        .thrust = thrust,
-        .lookahead = p->s->lookahead,
-        .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate),
-        .course_speed = p->now->course_speed};
+    return (autopilot_view){.place = turned(from, -axis),
+                            .velocity = turned(vec2_sub(p->speed, vec2_scale(vec2_perp(from), frame_turn)), -axis),
+                            .current = turned(vec2_make(p->now->water.x, p->now->water.y), -axis),
+                            .heading = p->heading - axis,
+                            .turn = p->turn,
+                            .frame_turn = frame_turn,
+                            .ahead = p->through_water,
+                            .aside = p->aside,
+                            .drag_aside = drag->force.x * port.x + drag->force.y * port.y,
+                            .drag_moment = drag->moment.z,
+                            .thrust = thrust,
+                            .lookahead = p->s->lookahead,
+                            .lag = lag_of(p),
+                            .course_speed = p->now->course_speed};
 }
 
 /* How far a place on a closed track is from where the ship joined it, as it goes. */

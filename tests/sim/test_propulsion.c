@@ -186,6 +186,26 @@ START_TEST(leans_outward_in_a_turn)
 END_TEST
 
 /* A wanted speed is kept within the band that full thrust needs. */
+/* Without helm, and with one that is over within a step, what the autopilot sees stays what the ship does. */
+START_TEST(hardly_any_helm)
+{
+    static const char *const helms[] = {"vessel.propulsion.steering_angle_deg=0",
+                                        "vessel.propulsion.steering_angle_deg=0.01"};
+    for (int i = 0; i < 2; i++) {
+        const char *const set[] = {helms[i], "vessel.propulsion.steering_rate_deg=20", "environment.wind_speed=10",
+                                   "environment.wind_direction_deg=60"};
+        scene k;
+        scene_open_with(&k, SHIP, set, 4);
+        scene_steps(&k, 600);
+        const motion_observer *seen = &k.w.propulsion.seen[0];
+        double turn = k.w.bodies.angular_velocity[k.w.vessels.body[0]].z;
+        ck_assert(isfinite(seen->moment) && isfinite(seen->drift));
+        ck_assert_msg(fabs(seen->rate - turn) < 1e-3, "%g rad/s seen, %g", seen->rate, turn);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 START_TEST(keeps_the_speed_that_is_wanted)
 {
     static const char *const wanted[] = {"vessel.propulsion.speed=3"};
@@ -570,7 +590,7 @@ END_TEST
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, without_water_no_current,
           goes_through_the_water_at_half_its_draught, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning, leans_outward_in_a_turn,
-          keeps_the_speed_that_is_wanted, water_helps_to_stop, more_helm_turns_no_ship_wider, follows_way_points,
-          starts_at_a_way_point, stands_still_before_its_way_points, past_all_its_legs_it_keeps_its_heading,
-          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
+          hardly_any_helm, keeps_the_speed_that_is_wanted, water_helps_to_stop, more_helm_turns_no_ship_wider,
+          follows_way_points, starts_at_a_way_point, stands_still_before_its_way_points,
+          past_all_its_legs_it_keeps_its_heading, goes_round_its_circle, speed_falls_with_thickness, backs_and_rams,
           ice_that_presses_against_its_way_holds_a_ship, a_wall_makes_no_ship_beset, refusals_name_their_key)
