@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Streams of random numbers of this room: of strata, and of places inside them. */
@@ -157,11 +158,19 @@ fram_status study_range(const study_source *r, const yaml_node *node, key_range 
     return status;
 }
 
+/* Values of a range are written with so many digits, which are read well, or with more where those miss its width by
+   more than a part of it: then they stay within a stratum of a Latin hypercube, and a step from level to level. */
+enum { FEWEST_DIGITS = 9, ALL_DIGITS = 17 };
+#define WIDTH_MISSED 1e-6
+
 fram_status study_add_part(const study_source *r, key_range range, double part)
 {
     char text[32];
-    /* Nine digits are read well, and stay within the stratum of a Latin hypercube. */
-    snprintf(text, sizeof text, "%.9g", range.lo + part * (range.hi - range.lo));
+    double width = range.hi - range.lo, value = range.lo + part * width;
+    int digits = FEWEST_DIGITS;
+    do
+        snprintf(text, sizeof text, "%.*g", digits, value);
+    while (digits++ < ALL_DIGITS && fabs(strtod(text, NULL) - value) > WIDTH_MISSED * width);
     return text_list_add(r->ctx, &r->out->values, text) ? FRAM_OK : error_memory(r->error);
 }
 
