@@ -19,23 +19,31 @@ enum { CHECKPOINTS_KEPT = 2 };
 
 /* ---- names ---- */
 
-/* The step in "checkpoint-000000001234.fram", or -1. */
+typedef struct checkpoint_name {
+    char text[48];
+} checkpoint_name;
+
+static checkpoint_name name_of_step(int64_t step)
+{
+    checkpoint_name name;
+    snprintf(name.text, sizeof name.text, "checkpoint-%012" PRId64 ".fram", step);
+    return name;
+}
+
+/* The step in "checkpoint-000000001234.fram", or -1: what is read leniently counts where it is written so. */
 static int64_t step_of_name(const char *name)
 {
     int64_t step = -1;
-    int end = 0;
-    if (sscanf(name, "checkpoint-%" SCNd64 ".fram%n", &step, &end) != 1 || end == 0 || name[end] != '\0')
+    if (sscanf(name, "checkpoint-%" SCNd64, &step) != 1 || step < 0)
         return -1;
-    return step;
+    return strcmp(name, name_of_step(step).text) == 0 ? step : -1;
 }
 
 bool checkpoint_is_name(const char *name) { return step_of_name(name) >= 0; }
 
 static fram_status checkpoint_path(const char *folder, int64_t step, char out[PATH_ROOM], fram_error *error)
 {
-    char name[48];
-    snprintf(name, sizeof name, "checkpoint-%012" PRId64 ".fram", step);
-    return path_join(folder, name, out, error);
+    return path_join(folder, name_of_step(step).text, out, error);
 }
 
 typedef ARRAY(int64_t) step_array;
