@@ -325,6 +325,7 @@ static fram_status sweep(context *ctx, const scenario *s, world *w, capability *
     const station_table *station = &w->stations;
     holding_case h = {.thrusters = &w->thrusters,
                       .lines = &w->lines,
+                      .vessel = VESSEL,
                       .length = w->vessels.length[VESSEL],
                       .position = w->bodies.position[body],
                       .heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z,

@@ -134,9 +134,11 @@ static void count(holding *out, double share, holding_item item, int32_t number)
 
 static double pulls_of(const holding_case *c)
 {
+    const line_table *l = c->lines;
     double pulls = 0;
-    for (int32_t i = 0; i < c->lines->count; i++)
-        pulls += c->lines->tension[i];
+    for (int32_t i = 0; i < l->count; i++)
+        if (l->vessel[i] == c->vessel)
+            pulls += l->tension[i];
     return pulls;
 }
 

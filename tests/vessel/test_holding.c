@@ -188,6 +188,30 @@ static vec3 moment_of_a_vane(const void *user, double heading)
 
 /* What holds no heading is turned from a balance that does not hold, be it near, or that of its own heading.  Thrusters
    that give the moment hold the heading. */
+/* The lines of another vessel, broken or not, have no part in what holds this one. */
+START_TEST(lines_of_its_own)
+{
+    for (int row = 0; row < 2; row++) {
+        held h;
+        double most = 4e6;
+        hold_begin(&h);
+        h.c.heading_given = true;
+        add_springs(&h, 4, 5e4, 1e6);
+        holding alone = holding_find(&h.c, moment_with_a_hollow, &most);
+        add_springs(&h, 8, 5e6, 1e12);
+        for (int i = 0; i < 12; i++) {
+            h.lines.vessel[i] = (i < 4) == (row == 0) ? 0 : 1;
+            h.lines.tension[i] *= i < 4 ? 1 : 1e3;
+        }
+        h.c.vessel = row;
+        holding beside = holding_find(&h.c, moment_with_a_hollow, &most);
+        assert_bits(beside.turn, alone.turn);
+        assert_bits(beside.offset, alone.offset);
+        hold_end(&h);
+    }
+}
+END_TEST
+
 START_TEST(no_balance_that_any_touch_ends)
 {
     static const double across[] = {40, 50, 0, 90};
@@ -395,5 +419,5 @@ START_TEST(a_moment_alone)
 END_TEST
 
 TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together, a_moment_alone, turned_by_the_load_alone,
-          no_balance_that_any_touch_ends, no_heading_without_a_moment, a_moment_comes_first,
+          lines_of_its_own, no_balance_that_any_touch_ends, no_heading_without_a_moment, a_moment_comes_first,
           a_heading_that_thrusters_hold, turned_by_what_is_missed, turned_by_the_thruster_and_its_lines)
