@@ -26,15 +26,14 @@ typedef enum force_source {
 } force_source;
 
 /* The jets of a vessel's propellers, as fluid/jet.h means them. */
-enum { WASH_THRUSTERS = 32 };
 typedef struct wash_model {
     bool active;
-    double spread;                   /* C [1] */
-    double reach;                    /* in diameters [1] */
-    double thruster[WASH_THRUSTERS]; /* diameter of each thruster, in their order [m] */
-    int32_t propellers;              /* of the propulsion */
-    double diameter, spacing;        /* of those [m] */
-    double z;                        /* of their axes, body frame about the centre of mass [m] */
+    double spread;                          /* C [1] */
+    double reach;                           /* in diameters [1] */
+    double thruster[VESSEL_THRUSTERS_MOST]; /* diameter of each thruster, in their order [m] */
+    int32_t propellers;                     /* of the propulsion */
+    double diameter, spacing;               /* of those [m] */
+    double z;                               /* of their axes, body frame about the centre of mass [m] */
 } wash_model;
 
 /* What is fixed of a vessel: its hull as it was made, and what the fluids do to it. */

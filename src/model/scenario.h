@@ -32,6 +32,8 @@ typedef enum domain_boundary { DOMAIN_WALLS = 0, DOMAIN_OPEN, DOMAIN_FEEDING } d
 
 /* Text is held in place, so that a scenario is plain data; longer text is refused. */
 enum { SCENARIO_TEXT_SIZE = 512 };
+/* Of one vessel: mooring lines, those of a count each, and thrusters. */
+enum { VESSEL_LINES_MOST = 64, VESSEL_THRUSTERS_MOST = 32 };
 typedef char scenario_text[SCENARIO_TEXT_SIZE];
 
 /* Types of the members that the rows' specs stand for. */

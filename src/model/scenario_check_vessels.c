@@ -51,9 +51,6 @@ static fram_status check_vessel_speeds(const scenario *s, const vessel_entry *e,
     return status;
 }
 
-/* Mooring lines of one vessel, those of a count each: as many as the table of results has columns for. */
-enum { MOST_LINES = 64 };
-
 static fram_status check_line_count(const scenario *s, const vessel_entry *e, fram_error *error)
 {
     const scenario_mooring *m = &e->keys->mooring;
@@ -63,10 +60,10 @@ static fram_status check_line_count(const scenario *s, const vessel_entry *e, fr
     if (m->lines.count > 0 && !(m->z > -m->depth))
         return vessel_fault(s, e, "mooring.z", error,
                             "expected fairleads above the bottom, which is at %g m, found %g m", -m->depth, m->z);
-    if (all <= MOST_LINES)
+    if (all <= VESSEL_LINES_MOST)
         return FRAM_OK;
-    return vessel_fault(s, e, "mooring.lines", error, "expected at most %d lines in all, found %d", (int)MOST_LINES,
-                        (int)all);
+    return vessel_fault(s, e, "mooring.lines", error, "expected at most %d lines in all, found %d",
+                        (int)VESSEL_LINES_MOST, (int)all);
 }
 
 /* A line of kind table has one table, others have none. */

@@ -22,7 +22,7 @@ wash_model build_wash(const scenario *s, const scenario_vessel *keys, const vess
     double size = scenario_size(s);
     const scenario_propulsion *p = &keys->propulsion;
     wash_model out = {.active = keys->wash.active, .spread = keys->wash.spread, .reach = keys->wash.reach};
-    for (int32_t i = 0; i < keys->thrusters.count && i < WASH_THRUSTERS; i++) {
+    for (int32_t i = 0; i < keys->thrusters.count && i < VESSEL_THRUSTERS_MOST; i++) {
         const scenario_thruster *t = &keys->thrusters.data[i];
         out.thruster[i] = diameter_of(t->diameter, thruster_largest_thrust(t), size);
     }

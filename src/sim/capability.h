@@ -9,6 +9,7 @@
 
 #include "ice/managed_ice.h"
 #include "io/path.h"
+#include "model/scenario.h"
 #include "model/world.h"
 #include "vessel/holding.h"
 
@@ -72,7 +73,7 @@ typedef struct capability {
     double thickness, concentration; /* of the ice, means over its area; 0 without ice */
     double side;                     /* of the window of ice that was met [m]; 0: the ice is the scenario's */
     capability_loads loads;
-    capability_failure failure[96];
+    capability_failure failure[VESSEL_LINES_MOST + VESSEL_THRUSTERS_MOST];
     int32_t failures;
     capability_limit *intact, *damaged; /* by direction; without anything that can fail damaged says nothing */
     holding *use;                       /* [direction * speeds + k], intact */
