@@ -1,6 +1,7 @@
 #include "sim/build_media.h"
 
 #include "io/velocity_file.h"
+#include "sim/sanity_parts.h"
 
 #include <math.h>
 
@@ -21,20 +22,19 @@ fram_status build_media(context *ctx, const scenario *s, media_history *out, fra
 
 /* Part of the run that a history of several rows covers at least: one in minutes covers a sixtieth. */
 #define LEAST_COVER 0.1
-/* Currents, those at a depth too, as of the constant one (sanity.c) [m/s]. */
-#define CURRENT_MOST 4.0
 
 typedef struct history_rule {
     const char *key, *file;
     const velocity_series *rows;
-    double most; /* [m/s] */
+    const char *constant; /* the key of one that is constant, which usually has the same speeds */
 } history_rule;
 
-static void warn_of_speed(context *ctx, const char *key, const char *file, double fastest, double most)
+static void warn_of_speed(context *ctx, const scenario *s, const history_rule *r, double fastest)
 {
+    double most = sanity_usual_of(s, r->constant).most;
     if (fastest > most)
         log_write(ctx, LOG_WARNING, "%s: %s goes up to %.4g m/s, more than %.3g: give m/s, not knots, km/h or cm/s",
-                  key, file, fastest, most);
+                  r->key, r->file, fastest, most);
 }
 
 static void warn_of_history(context *ctx, const scenario *s, const history_rule *r)
@@ -55,19 +55,22 @@ static void warn_of_history(context *ctx, const scenario *s, const history_rule 
             ctx, LOG_WARNING,
             "%s: the first row of %s is of %.6g s, after the end of the run at %.6g s: times count from its start",
             r->key, r->file, first, end);
-    warn_of_speed(ctx, r->key, r->file, fastest, r->most);
+    warn_of_speed(ctx, s, r, fastest);
 }
 
 void history_warnings(context *ctx, const scenario *s, const media_history *h)
 {
-    /* As of the constant ones (sanity.c). */
-    const history_rule rules[] = {{"environment.current_file", s->environment.current_file, &h->current, CURRENT_MOST},
-                                  {"environment.wind_file", s->environment.wind_file, &h->wind, 50},
-                                  {"domain.drift_file", s->domain.drift_file, &h->drift, 3}};
+    const scenario_environment *e = &s->environment;
+    const history_rule rules[] = {
+        {"environment.current_file", e->current_file, &h->current, "environment.current_speed"},
+        {"environment.wind_file", e->wind_file, &h->wind, "environment.wind_speed"},
+        {"domain.drift_file", s->domain.drift_file, &h->drift, "domain.drift_speed"}};
+    const history_rule over_depth = {"environment.current_profile_file", e->current_profile_file, NULL,
+                                     "environment.current_speed"};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         warn_of_history(ctx, s, &rules[i]);
     double fastest = 0;
     for (int32_t i = 0; i < h->profile.count; i++)
         fastest = fmax(fastest, vec3_length(h->profile.velocity[i]));
-    warn_of_speed(ctx, "environment.current_profile_file", s->environment.current_profile_file, fastest, CURRENT_MOST);
+    warn_of_speed(ctx, s, &over_depth, fastest);
 }

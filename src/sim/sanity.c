@@ -113,6 +113,14 @@ static const usual usual_values[] = {
     {"vessel.thrusters[].thrust", 2e3, 1e7, 3, "what a propeller gives", "give newtons, not kN or tonnes"},
 };
 
+sanity_range sanity_usual_of(const scenario *s, const char *key)
+{
+    const usual *u = usual_values;
+    while (strcmp(u->key, key) != 0)
+        u++;
+    return sanity_usual(s, u->least, u->most, u->power);
+}
+
 /* The keys whose value is an angle [deg], by their end. */
 static bool is_angle(const char *pattern)
 {

@@ -106,5 +106,7 @@ static inline sanity_range sanity_usual(const scenario *s, double least, double 
     double low = least * fmin(1, factor) - SANITY_SCALE_ROUNDED * fabs(least);
     return (sanity_range){least == -most ? -high : low, high};
 }
+/* That of a key of the table there, without indices. */
+sanity_range sanity_usual_of(const scenario *s, const char *key);
 
 #endif

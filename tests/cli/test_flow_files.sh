@@ -77,4 +77,21 @@ sed 's/CURRENT/wind_speed: 10, wind_direction_deg: 0/
 told wind.yaml "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180, against it"
 printf 'time [s],x [m/s],y [m/s]\n0,-1,0\n20,1,0\n' >history.csv
 warned wind.yaml | grep 'against it' && fail "a drift that turns is told to go against the wind"
+
+# Speeds that are usual at the scale of the keys are so in files.
+printf 'time [s],x [m/s],y [m/s]\n0,5,0\n10,5,0\n' >five.csv
+printf 'time [s],x [m/s],y [m/s]\n0,60,0\n10,60,0\n' >sixty.csv
+printf 'depth [m],x [m/s],y [m/s]\n0,5,0\n' >deep.csv
+cat >large.yaml <<'YAML'
+run: {duration: 10, time_step: 0.05, scale: 200}
+environment: {current_file: five.csv, wind_file: sixty.csv}
+ice: {source: none}
+vessel: {mode: towed}
+YAML
+at_scale() { grep -c 'goes up to' <(warned large.yaml) || true; }
+same "$(at_scale)" 0 "speeds at a scale of 200"
+sed -i 's/current_file: five/current_profile_file: deep/' large.yaml
+same "$(at_scale)" 0 "speeds over depth at a scale of 200"
+sed -i 's/scale: 200/scale: 45/' large.yaml
+same "$(at_scale)" 1 "speeds at a scale of 45, where 4.9 m/s of current and 61 of wind are usual"
 finish "currents of files are told as those of keys"
