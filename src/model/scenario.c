@@ -152,6 +152,16 @@ box2 domain_with_walls(const scenario_domain *d)
     return (box2){{d->x_min - t, d->y_min - t}, {d->x_max + t, d->y_max + t}};
 }
 
+bool scenario_ice_is_field(const scenario_ice *i)
+{
+    return i->source == ICE_VORONOI || i->source == ICE_PACKED || i->source == ICE_FILE;
+}
+
+bool scenario_ice_is_drawn(const scenario_ice *i)
+{
+    return scenario_ice_is_field(i) && (i->source != ICE_FILE || i->populations.count > 0);
+}
+
 ice_drift scenario_current(const scenario *s)
 {
     const scenario_environment *e = &s->environment;

@@ -110,6 +110,10 @@ void scenario_locate(const scenario *s, fram_error *error);
 box2 domain_box(const scenario_domain *d);
 /* With its walls, where it has such: what pictures show. */
 box2 domain_with_walls(const scenario_domain *d);
+/* Whether the ice is a field of floes that are drawn or read: what may have populations and open water. */
+bool scenario_ice_is_field(const scenario_ice *i);
+/* Whether floes are drawn until they cover ice.concentration: for all of a field, or for what a file leaves open. */
+bool scenario_ice_is_drawn(const scenario_ice *i);
 /* What moves the ice far from vessels: the current at the surface, or where an endless field is told its own, that. */
 typedef struct ice_drift {
     const char *file;    /* of a history, in place of the speed; empty: none */

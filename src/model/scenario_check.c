@@ -331,7 +331,7 @@ static fram_status check_populations(const scenario *s, fram_error *error)
     if (ice->source == ICE_PACKED && ice->populations.count == 0)
         return fault(s, error, "ice.populations", "expected at least one population, since ice.source is packed");
     bool managed = ice->source == ICE_VORONOI;
-    if (ice->source != ICE_PACKED && ice->source != ICE_FILE && !managed && ice->populations.count > 0)
+    if (!scenario_ice_is_field(ice) && ice->populations.count > 0)
         return fault(s, error, "ice.populations",
                      "expected none, since ice.source is not packed, file or voronoi, found %d",
                      (int)ice->populations.count);
@@ -353,8 +353,7 @@ static fram_status check_populations(const scenario *s, fram_error *error)
 static fram_status check_concentration(const scenario *s, fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
-    bool drawn = ice->source == ICE_VORONOI || ice->source == ICE_PACKED || ice->populations.count > 0;
-    if (!drawn || ice->concentration < 1)
+    if (!scenario_ice_is_drawn(ice) || ice->concentration < 1)
         return FRAM_OK;
     return fault(s, error, "ice.concentration",
                  "expected less than 1, since floes that are drawn have water between them (a whole sheet is "
@@ -386,12 +385,12 @@ static fram_status check_ice(const scenario *s, fram_error *error)
                      ice->file_scale);
     if (ice->source != ICE_FILE && ice->file[0])
         return fault(s, error, "ice.file", "expected no file, since ice.source is not file, found %.200s", ice->file);
-    bool filled = ice->source == ICE_VORONOI || ice->source == ICE_FILE || ice->source == ICE_PACKED;
-    if (!filled && ice->open_water.count > 0)
+    bool field = scenario_ice_is_field(ice);
+    if (!field && ice->open_water.count > 0)
         return fault(s, error, "ice.open_water",
                      "expected none, since ice.source is not voronoi, file or packed, found %d",
                      (int)ice->open_water.count);
-    if (!filled && ice->open_water_file[0])
+    if (!field && ice->open_water_file[0])
         return fault(s, error, "ice.open_water_file",
                      "expected no file, since ice.source is not voronoi, file or packed, found %.200s",
                      ice->open_water_file);

@@ -95,7 +95,7 @@
       "where another vessel or a wall meets it: force per depth at which it yields and stays so; auto: rigid")       \
     X(hull, SECTION(hull), "", "the form of the hull")                                                               \
     X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                               \
-    X(thrusters, LIST(thruster, VESSEL_THRUSTERS_MOST), "", "mode free: thrusters")                                                     \
+    X(thrusters, LIST(thruster, VESSEL_THRUSTERS_MOST), "", "mode free: thrusters")                                  \
     X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                       \
     X(station, SECTION(station), "", "what counts as being on station")                                              \
     X(propulsion, SECTION(propulsion), "", "mode free: a ship that drives itself through the ice")                   \

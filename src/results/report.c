@@ -218,7 +218,7 @@ static void ice_facts(report *r)
         html_fact(&r->page, "field",
                   "%g %% of the area free for ice requested: floes are cut from cells of %g m2 on average",
                   100 * i->concentration, i->mean_floe_area);
-    else if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
+    else if (scenario_ice_is_drawn(i))
         html_fact(&r->page, "field", "%g %% of the area free for ice requested", 100 * i->concentration);
     population_facts(r, i);
 }

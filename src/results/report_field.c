@@ -57,7 +57,7 @@ static void tell_cover(report *r)
 {
     const scenario *s = &r->d.s;
     const scenario_domain *d = &s->domain;
-    if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_PACKED)
+    if (!scenario_ice_is_drawn(&s->ice))
         return;
     char kept[96];
     kept_free(s, kept);

@@ -170,7 +170,7 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
 
 fram_status build_outlines(context *ctx, const scenario *s, drawn_ice *out, box2 *domain, fram_error *error)
 {
-    if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_FILE && s->ice.source != ICE_PACKED) {
+    if (!scenario_ice_is_field(&s->ice)) {
         error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.source",
                   "the scenario has no field of floes: expected source voronoi, packed or file");
         scenario_locate(s, error);

@@ -341,7 +341,7 @@ static fram_status check_crowd(context *ctx, const scenario *s, const world *w, 
 
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
-    if (s->ice.source == ICE_VORONOI || s->ice.source == ICE_FILE || s->ice.source == ICE_PACKED)
+    if (scenario_ice_is_field(&s->ice))
         return build_drawn(ctx, s, w, report, error);
     if (s->ice.source == ICE_LEVEL)
         return build_level(ctx, s, w, report, error);

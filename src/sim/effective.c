@@ -196,7 +196,8 @@ static void list_populations(const effective_list *t)
 {
     const scenario_ice *i = &t->s->ice;
     double shares = 0;
-    if (i->source != ICE_PACKED && i->source != ICE_VORONOI)
+    const char *of = i->source == ICE_FILE ? "ice between the floes of the file" : "ice area";
+    if (!scenario_ice_is_drawn(i))
         return;
     for (int32_t k = 0; k < i->populations.count; k++)
         shares += i->populations.data[k].share;
@@ -204,8 +205,8 @@ static void list_populations(const effective_list *t)
         const scenario_population *p = &i->populations.data[k];
         char sizes[PART_SIZE];
         size_words(p, sizes);
-        sanity_say(t->tell, t->to, "ice: population %d of %d: %.3g %% of the ice area, %s; %s", (int)k + 1,
-                   (int)i->populations.count, 100 * p->share / shares, sizes, ice_population_text(i, k).text);
+        sanity_say(t->tell, t->to, "ice: population %d of %d: %.3g %% of the %s, %s; %s", (int)k + 1,
+                   (int)i->populations.count, 100 * p->share / shares, of, sizes, ice_population_text(i, k).text);
     }
 }
 

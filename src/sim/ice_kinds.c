@@ -30,11 +30,6 @@ static void take_kind(const scenario_ice *i, ice_range *r, ice_kind k, bool brea
         r->stoutest = k;
 }
 
-static bool is_populated(const scenario_ice *i)
-{
-    return i->source == ICE_VORONOI || i->source == ICE_PACKED || i->source == ICE_FILE;
-}
-
 /* Of no ice. */
 static const ice_range no_range = {.thinnest = {.thickness = HUGE_VAL}, .thickest = {.thickness = -HUGE_VAL}};
 
@@ -79,7 +74,7 @@ static ice_range ice_range_of(const scenario_ice *i)
                   (ice_kind){automatic_or(i->floes.data[k].thickness, own.thickness), own.flexural_strength,
                              own.crushing_strength},
                   true);
-    for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++) {
+    for (int32_t k = 0; scenario_ice_is_field(i) && k < i->populations.count; k++) {
         const scenario_population *p = &i->populations.data[k];
         take_kind(i, &r, ice_kind_of_population(i, p), p->breakable);
     }
@@ -93,7 +88,7 @@ static ice_range ice_range_of(const scenario_ice *i)
 static int32_t count_kinds(const scenario_ice *i, bool breakable)
 {
     int32_t count = 0;
-    for (int32_t k = 0; is_populated(i) && k < i->populations.count; k++)
+    for (int32_t k = 0; scenario_ice_is_field(i) && k < i->populations.count; k++)
         count += i->populations.data[k].breakable == breakable;
     return count;
 }

@@ -21,11 +21,11 @@ static bool is_of_cells(const idle_question *q)
 }
 static bool is_no_field(const idle_question *q)
 {
-    return !is_no_list(q) || !is_no_sheet(q) || q->s->ice.source == ICE_NONE;
+    return !scenario_ice_is_field(&q->s->ice);
 }
 static bool draws_nothing(const idle_question *q)
 {
-    return is_no_field(q) || (q->s->ice.source == ICE_FILE && q->s->ice.populations.count == 0);
+    return !scenario_ice_is_drawn(&q->s->ice);
 }
 static bool is_unbreakable(const idle_question *q) { return !q->s->ice.breakable; }
 static bool has_no_breakable(const idle_question *q) { return !ice_may_break(&q->s->ice); }

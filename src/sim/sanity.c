@@ -235,11 +235,9 @@ static void tell_ice_shape(const teller *t)
             t->tell, t->to,
             "ice.mean_floe_area: floes of %.3g m2 are hardly wider than the ice is thick, %.3g m: is it the area?",
             i->mean_floe_area, i->thickness);
-    if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
-        if (i->concentration < LEAST_CONCENTRATION)
-            sanity_say(t->tell, t->to,
-                       "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
-                       i->concentration);
+    if (scenario_ice_is_drawn(i) && i->concentration < LEAST_CONCENTRATION)
+        sanity_say(t->tell, t->to, "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
+                   i->concentration);
 }
 
 /* Directions are where wind and ice go to; most drift goes within a right angle of the wind. */

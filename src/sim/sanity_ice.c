@@ -33,10 +33,9 @@ static double floe_reach(const scenario_ice *i)
 
 double sanity_least_band(const scenario *s)
 {
-    bool drawn = s->ice.source == ICE_VORONOI || s->ice.source == ICE_PACKED;
     if (s->domain.boundary != DOMAIN_FEEDING || s->ice.source == ICE_LEVEL)
         return 0;
-    return automatic_or(s->domain.band, drawn ? feeding_band(floe_reach(&s->ice)) : 0);
+    return automatic_or(s->domain.band, scenario_ice_is_field(&s->ice) ? feeding_band(floe_reach(&s->ice)) : 0);
 }
 
 /* ---- sizes under which ice is left out ---- */

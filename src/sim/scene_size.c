@@ -103,8 +103,7 @@ static scene_size size_of_floes(const scenario *s, double floes)
 static const char *uncounted_floes(const scenario *s)
 {
     const char *of = s->ice.source == ICE_FILE ? "the floes of its file" : NULL;
-    bool drawn = s->ice.source == ICE_FILE || s->ice.source == ICE_PACKED || s->ice.source == ICE_VORONOI;
-    for (int32_t i = 0; drawn && i < s->ice.populations.count; i++)
+    for (int32_t i = 0; scenario_ice_is_field(&s->ice) && i < s->ice.populations.count; i++)
         if (s->ice.populations.data[i].size == SIZE_HISTOGRAM)
             return of ? "the floes of its file and of histograms" : "the floes of histograms";
     return of;
