@@ -135,6 +135,17 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/a.c:1: ", said)
         self.assertIn("src/ice/b.c:1: ", said)
 
+    def test_headers_of_tests_and_of_further_libraries(self):
+        self.plant("tests/testing.h", "int x;\n")
+        self.plant("tests/ice/test_a.c", '#include "testing.h"\n')
+        self.assertEqual(self.rooms(), "")
+        self.plant("src/ice/a.c", '#include "testing.h"\n')
+        self.plant("src/ice/b.c", "#include <netcdf.h>\n#include <netcdf_mem.h>\n#include <microhttpd.h>\n")
+        said = self.rooms()
+        self.assertIn('src/ice/a.c:1: "testing.h" is not of the form', said)
+        for line in (1, 2, 3):
+            self.assertIn(f"src/ice/b.c:{line}: ", said)
+
     def test_long_files_and_lines_reminders_and_machine_paths(self):
         self.plant("src/ice/long.c", "int a;\n" * 801)
         self.plant("src/ice/later.c", "/* " + "TO" + "DO */\n")
