@@ -57,7 +57,7 @@ tile_grid build_tiles(const scenario *s)
     return g;
 }
 
-static void opening_corners(const scenario_opening *o, vec2 corner[4])
+void build_opening_corners(const scenario_opening *o, vec2 corner[4])
 {
     double x = o->length / 2, y = o->width / 2, angle = radians(o->angle_deg);
     const vec2 own[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
@@ -70,7 +70,7 @@ static bool push_openings(context *ctx, const scenario *s, polygon_list *out)
 {
     for (int32_t i = 0; i < s->ice.level.openings.count; i++) {
         vec2 corner[4];
-        opening_corners(&s->ice.level.openings.data[i], corner);
+        build_opening_corners(&s->ice.level.openings.data[i], corner);
         if (!polygon_list_push(ctx, out, (polygon){corner, 4}))
             return false;
     }
@@ -217,7 +217,7 @@ double build_ice_in_domain(const scenario *s)
     double area = there ? box_area(part) : fmin(box_area(domain), box_area(extent));
     for (int32_t i = 0; there && i < s->ice.level.openings.count; i++) {
         vec2 corner[4];
-        opening_corners(&s->ice.level.openings.data[i], corner);
+        build_opening_corners(&s->ice.level.openings.data[i], corner);
         area -= area_inside((polygon){corner, 4}, part);
     }
     return fmax(area, 0) * s->ice.thickness * s->ice.density;

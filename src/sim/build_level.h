@@ -14,6 +14,8 @@ tile_grid build_tiles(const scenario *s);
 fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error);
 /* Where a sheet that drifts is at the start, however far it reaches. */
 box2 build_sheet_extent(const scenario *s);
+/* The corners of an opening, counter-clockwise. */
+void build_opening_corners(const scenario_opening *o, vec2 corner[4]);
 /* Mass of a drifting sheet's ice in the domain at the start, of a domain full of it, or of all of it if that is less,
    where none is there yet [kg]; less where openings overlap one another, and never under 0. */
 double build_ice_in_domain(const scenario *s);

@@ -9,6 +9,7 @@
 #include "io/csv_read.h"
 #include "sim/build.h"
 #include "sim/build_ice.h"
+#include "sim/capability_mirror.h"
 #include "sim/ice_loads.h"
 #include "sim/step.h"
 
@@ -245,8 +246,8 @@ typedef struct measured_loads {
 
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
-    /* What a hull with equal sides meets from port is what it meets from starboard, seen from the middle. */
-    bool mirrored = s->vessel.hull.form != HULL_MESH && automatic_or(s->vessel.centre_of_gravity_y, 0) == 0;
+    /* In a scene with equal sides a vessel meets from port what it meets from starboard, seen from the middle. */
+    bool mirrored = capability_is_mirrored(s);
     c->loads.runs_done = 0;
     c->loads.runs = (mirrored ? m->directions / 2 + 1 : m->directions) * m->speeds;
     for (int32_t i = 0; i < m->directions; i++) {
