@@ -90,7 +90,7 @@ static fram_status check_line_tables(const scenario *s, const vessel_entry *e, f
 static fram_status check_propulsion(const scenario *s, const vessel_entry *e, fram_error *error)
 {
     const scenario_propulsion *p = &e->keys->propulsion;
-    bool drives = !is_automatic(p->bollard_pull), aims = p->waypoints.count > 0 || p->pattern.kind != PATTERN_NONE;
+    bool drives = vessel_drives_itself(e->keys), aims = p->waypoints.count > 0 || p->pattern.kind != PATTERN_NONE;
     if (!drives && aims)
         return vessel_fault(s, e, "propulsion.bollard_pull", error,
                             "expected a thrust, since way points or a pattern are given, found auto");
@@ -197,7 +197,7 @@ static fram_status check_wash(const scenario *s, const vessel_entry *e, fram_err
         return FRAM_OK;
     if (!s->environment.water)
         return vessel_fault(s, e, "wash.active", error, "expected false, since environment.water is false");
-    if (v->thrusters.count == 0 && is_automatic(v->propulsion.bollard_pull))
+    if (v->thrusters.count == 0 && !vessel_drives_itself(v))
         return vessel_fault(s, e, "wash.active", error,
                             "expected false, since %s has neither thrusters nor propulsion.bollard_pull", e->path);
     return FRAM_OK;

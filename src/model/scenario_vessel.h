@@ -13,6 +13,8 @@ typedef struct vessel_entry {
     char path[24]; /* of its section: "vessel", or "vessels[3]" */
 } vessel_entry;
 
+/* Whether it has propulsion of its own. */
+static inline bool vessel_drives_itself(const scenario_vessel *v) { return !is_automatic(v->propulsion.bollard_pull); }
 /* Of those that are present. */
 int32_t scenario_vessel_count(const scenario *s);
 /* index: 0 to the count - 1, also the vessel's row in a world. */

@@ -119,7 +119,7 @@ static void kept_facts(report *r, const scenario_vessel *v)
                  v->thrusters.count > 1 ? "s" : "");
     html_fact(&r->page, "station keeping", "%s, %s%s%s", lines.text[0] ? lines.text : "no mooring", thrusters,
               v->positioning.active ? ", dynamic positioning" : "",
-              is_automatic(v->propulsion.bollard_pull) ? "" : ", its own propulsion");
+              vessel_drives_itself(v) ? ", its own propulsion" : "");
 }
 
 static void vessel_facts(report *r, const vessel_entry *entry)

@@ -268,7 +268,7 @@ static double approach_speed(const report *r)
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
         most = fmax(most, v->speed);
-        if (v->path.count > 0 || !is_automatic(v->propulsion.bollard_pull))
+        if (v->path.count > 0 || vessel_drives_itself(v))
             most = fmax(most, mean_size(r, run_vessel_channel(&r->d, i, "velocity_x"),
                                         run_vessel_channel(&r->d, i, "velocity_y")));
     }

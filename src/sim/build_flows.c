@@ -146,7 +146,7 @@ static void warn_of_lift(context *ctx, const char *key, const scenario_vessel *v
         aside = aside || t->coefficient[i].y != 0;
         turns = turns || t->coefficient[i].z != 0;
     }
-    if (t->count > 0 && !(aside && turns) && v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull))
+    if (t->count > 0 && !(aside && turns) && v->mode == VESSEL_FREE && vessel_drives_itself(v))
         log_write(
             ctx, LOG_WARNING,
             "%s: on a ship with propulsion the table stands for the lift of a hull that slides, and it has no %s: "

@@ -123,7 +123,7 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
                              world *w, fram_error *error)
 {
     const scenario_propulsion *p = &entry->keys->propulsion;
-    if (is_automatic(p->bollard_pull))
+    if (!vessel_drives_itself(entry->keys))
         return FRAM_OK;
     vec3 at = w->bodies.position[w->vessels.body[vessel]];
     double length = w->vessels.length[vessel];

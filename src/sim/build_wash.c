@@ -26,7 +26,7 @@ wash_model build_wash(const scenario *s, const scenario_vessel *keys, const vess
         const scenario_thruster *t = &keys->thrusters.data[i];
         out.thruster[i] = diameter_of(t->diameter, thruster_largest_thrust(t), size);
     }
-    if (is_automatic(p->bollard_pull))
+    if (!vessel_drives_itself(keys))
         return out;
     out.propellers = (int32_t)p->propellers;
     out.diameter = diameter_of(p->propeller_diameter, p->bollard_pull / (double)p->propellers, size);

@@ -229,7 +229,7 @@ static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2
     if (v->positioning.active)
         n += (size_t)snprintf(out + n, room - n, ", dynamic positioning%s",
                               v->positioning.control == CONTROL_HEADING ? " of the heading alone" : "");
-    if (!is_automatic(v->propulsion.bollard_pull))
+    if (vessel_drives_itself(v))
         snprintf(out + n, room - n, ", own propulsion");
     else if (n == 0)
         snprintf(out, room, ", held by nothing");

@@ -19,14 +19,8 @@ static bool is_of_cells(const idle_question *q)
 {
     return q->s->ice.populations.count > 0 || (is_no_voronoi(q) && !asks_for_mean_floe(q));
 }
-static bool is_no_field(const idle_question *q)
-{
-    return !scenario_ice_is_field(&q->s->ice);
-}
-static bool draws_nothing(const idle_question *q)
-{
-    return !scenario_ice_is_drawn(&q->s->ice);
-}
+static bool is_no_field(const idle_question *q) { return !scenario_ice_is_field(&q->s->ice); }
+static bool draws_nothing(const idle_question *q) { return !scenario_ice_is_drawn(&q->s->ice); }
 static bool is_unbreakable(const idle_question *q) { return !q->s->ice.breakable; }
 static bool has_no_breakable(const idle_question *q) { return !ice_may_break(&q->s->ice); }
 static bool has_only_breakable(const idle_question *q) { return ice_all_breaks(&q->s->ice); }
@@ -137,7 +131,7 @@ static bool is_kalman(const idle_question *q) { return !is_passive(q); }
 static bool feeds_nothing(const idle_question *q) { return q->v->positioning.feed_forward == FEED_NONE; }
 static bool feeds_no_measured(const idle_question *q) { return q->v->positioning.feed_forward != FEED_MEASURED; }
 static bool keeps_heading(const idle_question *q) { return q->v->positioning.heading != HEADING_VANING; }
-static bool drives_not(const idle_question *q) { return is_automatic(q->v->propulsion.bollard_pull); }
+static bool drives_not(const idle_question *q) { return !vessel_drives_itself(q->v); }
 static bool has_no_pattern(const idle_question *q) { return q->v->propulsion.pattern.kind == PATTERN_NONE; }
 static bool goes_ahead(const idle_question *q) { return q->v->propulsion.pattern.kind == PATTERN_AHEAD; }
 static bool has_period(const idle_question *q)

@@ -109,7 +109,7 @@ static void note_ice(const note_taker *n, const scenario *s)
 static double own_speed_in_ice(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;
-    if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull))
+    if (v->mode != VESSEL_FREE || !vessel_drives_itself(v))
         return vessel_fastest(v);
     /* Where less is wanted the rest of the power goes into the ice. */
     double left = OWN_POWER_IN_ICE * vessel_open_water_speed(p);

@@ -258,7 +258,7 @@ static void tell_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_propulsion *p = &v->propulsion;
-    if (is_automatic(p->bollard_pull))
+    if (!vessel_drives_itself(v))
         return;
     if (sanity_own_hull(v)) {
         tell_in_lengths(t, "lookahead", p->lookahead, LOOKAHEAD_LEAST, LOOKAHEAD_MOST);

@@ -42,7 +42,7 @@ static inline bool sanity_is_positioned(const scenario_vessel *v)
 static inline bool sanity_vessel_moves(const scenario_vessel *v)
 {
     bool steered = sanity_is_positioned(v) && v->positioning.waypoints.count > 0;
-    bool driven = sanity_has_settings(v) || steered || !is_automatic(v->propulsion.bollard_pull);
+    bool driven = sanity_has_settings(v) || steered || vessel_drives_itself(v);
     return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
 }
 

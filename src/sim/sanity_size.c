@@ -77,7 +77,7 @@ static void tell_speed(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     double root = sqrt(t->s->environment.gravity * v->hull.length);
-    bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
+    bool own = v->mode == VESSEL_FREE && vessel_drives_itself(v);
     double speed = own ? v->propulsion.open_water_speed : v->speed;
     if (v->hull.form != HULL_CONE && speed > FASTEST_HULL * root)
         sanity_say(t->tell, t->to,

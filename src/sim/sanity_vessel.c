@@ -67,7 +67,7 @@ static void tell_vessel_propulsion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_propulsion *p = &v->propulsion;
-    if (is_automatic(p->bollard_pull))
+    if (!vessel_drives_itself(v))
         return;
     double most = vessel_open_water_speed(p);
     if (!is_automatic(p->speed) && p->speed > most)
@@ -286,8 +286,8 @@ static void tell_motion(const teller *t)
 static void tell_dry(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
-    bool pulled = v->mooring.lines.count > 0 || sanity_has_settings(v) || sanity_is_positioned(v) ||
-                  !is_automatic(v->propulsion.bollard_pull);
+    bool pulled =
+        v->mooring.lines.count > 0 || sanity_has_settings(v) || sanity_is_positioned(v) || vessel_drives_itself(v);
     if (v->mode == VESSEL_FREE && pulled && !t->s->environment.water)
         sanity_say(t->tell, t->to,
                    "%s: without water (environment.water: false) nothing holds it upright and afloat: its lines, "
@@ -375,7 +375,7 @@ static void tell_drag_of_turns(const teller *t)
     const scenario_vessel *v = t->e->keys;
     const scenario_propulsion *p = &v->propulsion;
     bool bends = p->waypoints.count > 1 || (p->pattern.kind != PATTERN_NONE && p->pattern.kind != PATTERN_AHEAD);
-    if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull) || !bends)
+    if (v->mode != VESSEL_FREE || !vessel_drives_itself(v) || !bends)
         return;
     double speed = fmin(p->open_water_speed, automatic_or(p->speed, HUGE_VAL));
     if (sanity_drags_as_ahead(t->s, v, speed))

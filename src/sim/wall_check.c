@@ -75,7 +75,7 @@ double vessel_speed_lost_in_ice(const scenario *s, const media_history *read, do
 double vessel_fastest(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;
-    if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull))
+    if (v->mode != VESSEL_FREE || !vessel_drives_itself(v))
         return fmax(v->speed, fastest_on_path(v));
     return fmax(v->speed, fmin(vessel_open_water_speed(p), automatic_or(p->speed, HUGE_VAL)));
 }
@@ -92,7 +92,7 @@ bool vessel_keeps_course(const scenario_vessel *v)
     if (v->path.count > 0)
         return false;
     return v->mode != VESSEL_FREE ||
-           (!is_automatic(p->bollard_pull) && p->waypoints.count == 0 && p->pattern.kind == PATTERN_NONE);
+           (vessel_drives_itself(v) && p->waypoints.count == 0 && p->pattern.kind == PATTERN_NONE);
 }
 
 /* For a vessel whose motion is given: what to do about it. */
@@ -230,7 +230,7 @@ static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *
     /* A ship that steers for a point turns before it stands there: the point itself lies in the basin.  Loops beyond
        one are looked at with what is told of turns (turning_tell.c). */
     const box2 none = {{0, 0}, {0, 0}};
-    for (int32_t i = 0; !is_automatic(v->propulsion.bollard_pull) && i < course.count; i++) {
+    for (int32_t i = 0; vessel_drives_itself(v) && i < course.count; i++) {
         const scenario_course_point *p = &v->propulsion.waypoints.data[i];
         if (told_of_place(ctx, s, e, &course, i, (vec2){p->x, p->y}, none))
             return;
