@@ -431,14 +431,10 @@ static fram_status look_for_file(void *user, const scenario_key *key, const void
     char path[2 * SCENARIO_TEXT_SIZE];
     fram_error reason = {0};
     if (!scenario_resolve_path(s, given, path, sizeof path))
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a shorter path");
-    else if (file_check(path, &reason) != FRAM_OK)
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a file that can be read at %.300s: %s", path,
-                  reason.message);
-    else
-        return FRAM_OK;
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
+        return scenario_fault(s, error, name, "expected a shorter path");
+    if (file_check(path, &reason) != FRAM_OK)
+        return scenario_fault(s, error, name, "expected a file that can be read at %.300s: %s", path, reason.message);
+    return FRAM_OK;
 }
 
 fram_status scenario_find_files(context *ctx, scenario *s, fram_error *error)

@@ -1,6 +1,7 @@
 /* Defaults, places and paths of a scenario. */
 #include "base/transcendental.h"
 #include "model/scenario_schema.h"
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -93,6 +94,19 @@ void scenario_locate(const scenario *s, fram_error *error)
     snprintf(error->file, sizeof error->file, "%.*s", (int)sizeof error->file - 1, file);
     error->line = place ? place->line : 0;
     error->column = place ? place->column : 0;
+}
+
+fram_status scenario_fault(const scenario *s, fram_error *error, const char *key, const char *format, ...)
+{
+    char message[sizeof error->message];
+    va_list arguments;
+    va_start(arguments, format);
+    if (vsnprintf(message, sizeof message, format, arguments) < 0)
+        message[0] = '\0';
+    va_end(arguments);
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s", message);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
 }
 
 /* Files keep their short names in messages until the program changes its working folder. */

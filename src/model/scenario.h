@@ -106,6 +106,9 @@ fram_status scenario_check(const scenario *s, fram_error *error);
 /* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section
    around it that was; otherwise only the file.  For errors found while a world is made from the scenario. */
 void scenario_locate(const scenario *s, fram_error *error);
+/* Fills an error that names a key and has its place: FRAM_ERROR_INPUT. */
+fram_status scenario_fault(const scenario *s, fram_error *error, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 /* The domain from above. */
 box2 domain_box(const scenario_domain *d);
 /* With its walls, where it has such: what pictures show. */

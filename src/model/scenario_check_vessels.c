@@ -219,26 +219,19 @@ static fram_status check_vessel(const scenario *s, const vessel_entry *e, fram_e
 
 /* ---- the list ---- */
 
-static fram_status list_fault(const scenario *s, const char *key, fram_error *error, const char *message)
-{
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s", message);
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
-}
-
 /* `vessel` is the short form of a list of one: nobody could tell what both mean together. */
 static fram_status check_forms(const scenario *s, fram_error *error)
 {
     if (scenario_given(s, "vessels") && s->vessels.count == 0)
-        return list_fault(s, "vessels", error,
-                          "expected at least one vessel, found none; vessel: {present: false} asks for ice alone");
+        return scenario_fault(s, error, "vessels",
+                              "expected at least one vessel, found none; vessel: {present: false} asks for ice alone");
     if (s->vessels.count == 0)
         return FRAM_OK;
     for (int32_t i = 0; i < s->places.count; i++) {
         const char *key = s->places.data[i].key;
         if (strcmp(key, "vessel") == 0 || strncmp(key, "vessel.", 7) == 0)
-            return list_fault(
-                s, key, error,
+            return scenario_fault(
+                s, error, key,
                 "expected either vessel, of one vessel, or vessels, a list, found both; in a list the key "
                 "is vessels.NAME.KEY");
     }

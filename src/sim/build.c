@@ -170,12 +170,9 @@ static fram_status outlines_of(context *ctx, const scenario *s, const model *m, 
 
 fram_status build_outlines(context *ctx, const scenario *s, drawn_ice *out, box2 *domain, fram_error *error)
 {
-    if (!scenario_ice_is_field(&s->ice)) {
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.source",
-                  "the scenario has no field of floes: expected source voronoi, packed or file");
-        scenario_locate(s, error);
-        return FRAM_ERROR_INPUT;
-    }
+    if (!scenario_ice_is_field(&s->ice))
+        return scenario_fault(s, error, "ice.source",
+                              "the scenario has no field of floes: expected source voronoi, packed or file");
     model m;
     fram_status status = build_model(ctx, s, &m, error);
     if (status != FRAM_OK)

@@ -297,13 +297,11 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
     if (o->met && o->formula)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "formula",
                          "expected the formula or ice from runs: the formula knows no sizes of floes");
-    if (s->environment.wind_file[0]) {
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "environment.wind_file",
-                  "expected none, since the wind of a capability plot does not change: leave the file out (an empty "
-                  "environment.wind_file) and give environment.wind_speed");
-        scenario_locate(s, error);
-        return FRAM_ERROR_INPUT;
-    }
+    if (s->environment.wind_file[0])
+        return scenario_fault(
+            s, error, "environment.wind_file",
+            "expected none, since the wind of a capability plot does not change: leave the file out (an empty "
+            "environment.wind_file) and give environment.wind_speed");
     return FRAM_OK;
 }
 

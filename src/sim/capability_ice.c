@@ -43,9 +43,7 @@ static fram_status check_formula(const scenario *s, fram_error *error)
         key = "ice.populations", rule = "expected none, since the formula knows one thickness only (ice.thickness)";
     if (!key)
         return FRAM_OK;
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s; without the formula the load is measured", rule);
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
+    return scenario_fault(s, error, key, "%s; without the formula the load is measured", rule);
 }
 
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
@@ -140,12 +138,11 @@ static bool has_come(const scenario *s, const world *w)
 
 static fram_status refuse_wait(const scenario *s, double time, fram_error *error)
 {
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
-              "no ice came to the hull in %g s, so that there is no load to measure: take openings away or make them "
-              "smaller, or measure longer",
-              time);
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
+    return scenario_fault(
+        s, error, "ice.level.openings",
+        "no ice came to the hull in %g s, so that there is no load to measure: take openings away or make them "
+        "smaller, or measure longer",
+        time);
 }
 
 static fram_status record(context *ctx, const scenario *s, const model *m, capability *c, load_history *h,
@@ -274,13 +271,11 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
 
 fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error)
 {
-    if (s->domain.boundary != DOMAIN_FEEDING) {
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain.boundary",
-                  "expected feeding, so that ice can be driven past the hull and its load measured; otherwise the load "
-                  "can be had by the formula");
-        scenario_locate(s, error);
-        return FRAM_ERROR_INPUT;
-    }
+    if (s->domain.boundary != DOMAIN_FEEDING)
+        return scenario_fault(
+            s, error, "domain.boundary",
+            "expected feeding, so that ice can be driven past the hull and its load measured; otherwise the load "
+            "can be had by the formula");
     capability_loads *l = &c->loads;
     l->measured = true;
     measured_loads m = {.directions = l->directions < MEASURED_DIRECTIONS ? l->directions : MEASURED_DIRECTIONS,

@@ -163,13 +163,14 @@ static fram_status check_tiles(const scenario *s, fram_error *error)
     if (area >= least)
         return FRAM_OK;
     if (is_automatic(s->ice.level.tile_size))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.smallest_floe_area",
-                         "expected no more than a tile of the sheet, %s m2, or nothing is left of it, found %g m2",
-                         most_text_of(area, 4).text, least);
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.tile_size",
-                     "expected tiles no smaller than ice.smallest_floe_area, %g m2, or nothing is left of the sheet, "
-                     "found %g m, %.4g m2",
-                     least, s->ice.level.tile_size, area);
+        return scenario_fault(s, error, "ice.smallest_floe_area",
+                              "expected no more than a tile of the sheet, %s m2, or nothing is left of it, found %g m2",
+                              most_text_of(area, 4).text, least);
+    return scenario_fault(
+        s, error, "ice.level.tile_size",
+        "expected tiles no smaller than ice.smallest_floe_area, %g m2, or nothing is left of the sheet, "
+        "found %g m, %.4g m2",
+        least, s->ice.level.tile_size, area);
 }
 
 fram_status scene_size_check(const scenario *s, fram_error *error)
@@ -183,15 +184,12 @@ fram_status scene_size_check(const scenario *s, fram_error *error)
         return FRAM_OK;
     const char *key = size_key(s);
     if (size.floes > MOST_FLOES)
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, key,
-                  "expected at most %.3g floes, found about %.4g: make them larger or the domain smaller", MOST_FLOES,
-                  size.floes);
-    else
-        error_set(
-            error, FRAM_ERROR_INPUT, NULL, 0, key,
-            "expected a scenario of at most run.memory_limit, %g GB, found about %.4g GB for %.4g million floes: make "
-            "them larger, the domain smaller, or raise the limit where there is so much memory",
-            s->run.memory_limit, size.bytes * 1e-9, size.floes * 1e-6);
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
+        return scenario_fault(s, error, key,
+                              "expected at most %.3g floes, found about %.4g: make them larger or the domain smaller",
+                              MOST_FLOES, size.floes);
+    return scenario_fault(
+        s, error, key,
+        "expected a scenario of at most run.memory_limit, %g GB, found about %.4g GB for %.4g million floes: make "
+        "them larger, the domain smaller, or raise the limit where there is so much memory",
+        s->run.memory_limit, size.bytes * 1e-9, size.floes * 1e-6);
 }
