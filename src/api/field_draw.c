@@ -156,7 +156,7 @@ fram_status fram_field_table(const fram_field *f, const char *path, fram_error *
         else
             text_add(ctx, &b, ",\n");
     }
-    status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    status = text_file_write(ctx, path, &b, error);
     text_free(ctx, &b);
     return status;
 }

@@ -104,7 +104,7 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, stu
     status = bench_looks(ctx, &one, made, looks_after, LOOKS, found, &build, error);
     if (status == FRAM_OK) {
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
-        double steps = (double)step_at(one.run.duration, one.run.time_step);
+        double steps = (double)scenario_step_at(one.run.duration, one.run.time_step);
         double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one, found[1].drift));
         out->run_seconds += PROGRAM_SECONDS + build + steps * late.time;
         out->run_seconds_packed += PROGRAM_SECONDS + build + steps * fmax(packed_step_time(&early, &late), breaking);

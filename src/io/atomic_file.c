@@ -143,6 +143,11 @@ fram_status atomic_file_write(context *ctx, const char *path, const void *data, 
     return write_whole(ctx, path, data, size, true, error);
 }
 
+fram_status text_file_write(context *ctx, const char *path, const text_buffer *text, fram_error *error)
+{
+    return text->failed ? error_memory(error) : atomic_file_write(ctx, path, text->data, (size_t)text->count, error);
+}
+
 fram_status atomic_file_put(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
 {
     return write_whole(ctx, path, data, size, false, error);

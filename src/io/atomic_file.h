@@ -4,6 +4,7 @@
 #define IO_ATOMIC_FILE_H
 
 #include "io/file.h"
+#include "io/text_buffer.h"
 
 typedef struct atomic_file {
     file_writer writer; /* give it to file_write */
@@ -28,6 +29,8 @@ fram_status atomic_file_check(const char *path, fram_error *error);
 
 /* Begin, write and commit. */
 fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error);
+/* Of a text, which may have failed: then its memory is what is told. */
+fram_status text_file_write(context *ctx, const char *path, const text_buffer *text, fram_error *error);
 /* The same without waiting for the disk, for what is made again at any time: whole or not there whatever becomes of the
    program, but a power cut within seconds may take it. */
 fram_status atomic_file_put(context *ctx, const char *path, const void *data, size_t size, fram_error *error);

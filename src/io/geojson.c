@@ -475,7 +475,7 @@ fram_status geojson_write_properties(context *ctx, const char *path, const polyg
         text_add(ctx, &b, i + 1 < count ? "},\n" : "}\n");
     }
     text_add(ctx, &b, "]}\n");
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    fram_status status = text_file_write(ctx, path, &b, error);
     text_free(ctx, &b);
     return status;
 }

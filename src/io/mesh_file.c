@@ -327,8 +327,7 @@ fram_status mesh_file_write_as(context *ctx, const char *path, mesh_format forma
         mesh_write_stl_text, mesh_write_stl_binary, mesh_write_obj, mesh_write_gdf};
     text_buffer text = {0};
     write[format](ctx, m, &text);
-    fram_status status =
-        text.failed ? error_memory(error) : atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
+    fram_status status = text_file_write(ctx, path, &text, error);
     text_free(ctx, &text);
     return status;
 }

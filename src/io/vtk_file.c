@@ -158,7 +158,7 @@ fram_status vtk_series_write(context *ctx, const char *path, const vtk_step *ste
         text_format(ctx, &b, "<DataSet timestep=\"%.17g\" group=\"\" part=\"%d\" file=\"%s\"/>\n", steps[i].time,
                     (int)steps[i].part, steps[i].name);
     text_add(ctx, &b, "</Collection>\n</VTKFile>\n");
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    fram_status status = text_file_write(ctx, path, &b, error);
     text_free(ctx, &b);
     return status;
 }

@@ -134,13 +134,21 @@ bool scenario_own_file(const scenario *s, char *out, size_t size)
     return s->file[0] && scenario_resolve_path(s, slash ? slash + 1 : s->file, out, size);
 }
 
+int64_t scenario_step_at(double time, double time_step) { return (int64_t)floor(time / time_step + 0.5); }
+
+int64_t scenario_steps_of(double interval, double time_step)
+{
+    int64_t steps = scenario_step_at(interval, time_step);
+    return steps < 1 ? 1 : steps;
+}
+
 /* The most steps that loads are averaged over. */
 enum { AVERAGING_STEPS_MOST = 1000000 };
 
 int64_t scenario_averaging_steps(const scenario *s)
 {
-    double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
-    return steps < 1 ? 1 : steps > AVERAGING_STEPS_MOST ? AVERAGING_STEPS_MOST : (int64_t)steps;
+    int64_t steps = scenario_steps_of(s->output.averaging_window, s->run.time_step);
+    return steps > AVERAGING_STEPS_MOST ? AVERAGING_STEPS_MOST : steps;
 }
 
 double scenario_averaging_window(const scenario *s)

@@ -131,6 +131,9 @@ ice_drift scenario_drift(const scenario *s);
 ice_drift scenario_current(const scenario *s);
 /* Whether speed and direction are all there is to it: no file has a part in it. */
 static inline bool ice_drift_is_of_keys(const ice_drift *d) { return !d->file[0] && !d->profile[0]; }
+/* The step whose time is nearest to one [s]; steps of an interval [s], one at least. */
+int64_t scenario_step_at(double time, double time_step);
+int64_t scenario_steps_of(double interval, double time_step);
 /* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
 vec3 scenario_velocity(double speed, double direction_deg);
 

@@ -358,7 +358,7 @@ fram_status compare_runs(context *ctx, const char *a, const char *b, const char 
         if (status == FRAM_OK)
             status = work_continue(ctx, "comparing", 1, 1, error);
         if (status == FRAM_OK)
-            status = atomic_file_write(ctx, output, p.page.text.data, (size_t)p.page.text.count, error);
+            status = text_file_write(ctx, output, &p.page.text, error);
     }
     html_free(&p.page);
     run_data_free(ctx, &p.d[0]);

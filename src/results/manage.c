@@ -191,8 +191,7 @@ static void moment_row(const manage_run *m, const manage_moment *at, double row[
 
 static fram_status write_table(context *ctx, const char *path, text_buffer *table, fram_error *error)
 {
-    fram_status status =
-        table->failed ? error_memory(error) : atomic_file_write(ctx, path, table->data, (size_t)table->count, error);
+    fram_status status = text_file_write(ctx, path, table, error);
     text_free(ctx, table);
     return status;
 }

@@ -370,7 +370,7 @@ fram_status manage_page(const manage_run *m, const manage_summary *s, const mana
     management_page p = {.m = m, .other = other, .s = s, .os = other_summary, .html = {.ctx = m->ctx}};
     fram_status status = compose_management(&p, error);
     if (status == FRAM_OK)
-        status = atomic_file_write(m->ctx, s->page, p.html.text.data, (size_t)p.html.text.count, error);
+        status = text_file_write(m->ctx, s->page, &p.html.text, error);
     for (size_t i = 0; i < sizeof p.column / sizeof *p.column; i++)
         array_free(m->ctx, &p.column[i]);
     html_free(&p.html);

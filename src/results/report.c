@@ -393,7 +393,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
     run_warn_change(ctx, &r.d);
     status = compose_report(&r, error);
     if (status == FRAM_OK)
-        status = atomic_file_write(ctx, path, r.page.text.data, (size_t)r.page.text.count, error);
+        status = text_file_write(ctx, path, &r.page.text, error);
     for (int32_t i = 0; i < r.kept.count; i++)
         memory_free(ctx, r.kept.data[i]);
     array_free(ctx, &r.kept);

@@ -47,7 +47,7 @@ double run_ends_after_row(const run_data *d)
 /* Steps from row to row. */
 static double steps_of_row(const run_data *d)
 {
-    return fmax(floor(d->s.output.csv_interval / d->s.run.time_step + 0.5), 1);
+    return (double)scenario_steps_of(d->s.output.csv_interval, d->s.run.time_step);
 }
 
 bool run_leaves_out_steps(const run_data *d) { return steps_of_row(d) > 1; }

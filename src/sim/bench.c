@@ -23,8 +23,6 @@ static step_times times_of(const double *value, int64_t count)
     return t;
 }
 
-int64_t bench_steps(double span, double time_step) { return (int64_t)floor(span / time_step + 0.5); }
-
 /* ---- what a step did ---- */
 
 /* A pair of bodies that was counted last: contacts of one pair follow one another. */
@@ -165,14 +163,14 @@ fram_status bench_measure(context *ctx, const model *m, world *w, int32_t ship, 
 static fram_status bench_model(context *ctx, const scenario *s, const model *m, double warm, double time,
                                bench_result *out, fram_error *error)
 {
-    int64_t steps = bench_steps(time, m->time_step);
+    int64_t steps = scenario_step_at(time, m->time_step);
     world w;
     field_report report;
     fram_status status = build_world(ctx, s, m, &w, &report, error);
     if (status != FRAM_OK)
         return status;
     int32_t ship = w.vessels.count > 0 ? w.vessels.body[0] : -1;
-    status = bench_measure(ctx, m, &w, ship, bench_steps(warm, m->time_step), steps < 1 ? 1 : steps, out, error);
+    status = bench_measure(ctx, m, &w, ship, scenario_step_at(warm, m->time_step), steps < 1 ? 1 : steps, out, error);
     for (int32_t i = 0; i < w.floes.count; i++)
         out->floes += w.floes.body[i] >= 0;
     world_free(ctx, &w);

@@ -97,7 +97,7 @@ fram_status bench_looks(context *ctx, const scenario *s, build_look made, const 
         looked_run run = {.ctx = ctx,
                           .m = &m,
                           .w = &w,
-                          .steps = step_at(s->run.duration, s->run.time_step),
+                          .steps = scenario_step_at(s->run.duration, s->run.time_step),
                           .drift = drift.steady ? drift.fastest : 0};
         status = look_at_world(&run, after, count, out, error);
         world_free(ctx, &w);

@@ -9,7 +9,5 @@
    ice load is wanted, -1: none. */
 fram_status bench_measure(context *ctx, const model *m, world *w, int32_t ship, int64_t warm_steps, int64_t steps,
                           bench_result *out, fram_error *error);
-/* Whole steps in a span of simulated time. */
-int64_t bench_steps(double span, double time_step);
 
 #endif

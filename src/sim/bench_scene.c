@@ -223,8 +223,8 @@ fram_status bench_scene(context *ctx, const scene_text *scene, const bench_scene
     if (status != FRAM_OK)
         return status;
     b.m = model_of(scene, options, &b);
-    int64_t warm = bench_steps(options->warm, options->time_step);
-    int64_t steps = bench_steps(options->time, options->time_step) - warm;
+    int64_t warm = scenario_step_at(options->warm, options->time_step);
+    int64_t steps = scenario_step_at(options->time, options->time_step) - warm;
     status = bench_measure(ctx, &b.m, &b.w, b.ship, warm, steps < 1 ? 1 : steps, out, error);
     out->floes = scene->floes.count;
     if (status == FRAM_OK && options->dump)

@@ -296,12 +296,6 @@ static vec3 noise_of(const plane_model *m, double per_mass, double length)
     return vec3_make(per_mass * mass.x, per_mass * mass.y, per_mass * mass.z / (0.25 * length));
 }
 
-static int64_t steps_of(double interval, double time_step)
-{
-    double steps = floor(interval / time_step + 0.5);
-    return steps < 1 ? 1 : (int64_t)steps;
-}
-
 /* A vessel's measurements are noisy in a way of its own, which goes by its name, not by its place in a list: in company
    it is what it is alone.  A vessel without a name has the run's seed itself. */
 static uint64_t noise_seed(const scenario *s, const scenario_vessel *v)
@@ -316,7 +310,8 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
     const scenario_station *limits = &v->station;
     const scenario_mooring *m = &v->mooring;
     double dt = s->run.time_step, length = w->vessels.length[vessel];
-    int64_t control_every = steps_of(p->interval, dt), sample_every = steps_of(p->sample_interval, dt);
+    int64_t control_every = scenario_steps_of(p->interval, dt),
+            sample_every = scenario_steps_of(p->sample_interval, dt);
     /* A measurement that falls between two calls would be missed: samples are taken at calls. */
     sample_every = (sample_every + control_every - 1) / control_every * control_every;
     double turn = radians(p->noise_heading_deg);

@@ -191,7 +191,7 @@ static fram_status write_one(context *ctx, const capability *c, writer write, co
     write(ctx, c, &b);
     fram_status status = path_join(c->options.folder, name, path, error);
     if (status == FRAM_OK)
-        status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+        status = text_file_write(ctx, path, &b, error);
     text_free(ctx, &b);
     return status;
 }

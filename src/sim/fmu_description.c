@@ -194,7 +194,7 @@ static void add_head(context *ctx, const scenario *s, const fmu_names *names, te
    that is no whole number of steps. */
 static double experiment_end(const scenario *s)
 {
-    double end = (double)step_at(s->run.duration, s->run.time_step) * s->run.time_step;
+    double end = (double)scenario_step_at(s->run.duration, s->run.time_step) * s->run.time_step;
     return fabs(end - s->run.duration) < 1e-9 * end ? s->run.duration : end; /* as it was given, but for rounding */
 }
 

@@ -69,7 +69,7 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose,
    step after its duration. */
 static int64_t last_step(const pressure_map *p)
 {
-    double dt = p->s.run.time_step, last = (double)step_at(p->end, dt);
+    double dt = p->s.run.time_step, last = (double)scenario_step_at(p->end, dt);
     return (int64_t)(p->o->to > 0 ? fmin(last, floor(p->o->to / dt + STEP_ROUNDING)) : last);
 }
 

@@ -277,7 +277,8 @@ static void note_size(const note_taker *n, const scenario *s)
 
 static void take_notes(const note_taker *n, const scenario *s)
 {
-    note_fact(n, "run: %.0f steps of %g s", (double)step_at(s->run.duration, s->run.time_step), s->run.time_step);
+    note_fact(n, "run: %.0f steps of %g s", (double)scenario_step_at(s->run.duration, s->run.time_step),
+              s->run.time_step);
     note_size(n, s);
     if (n->out)
         effective_tell(n->ctx, s, n->made, tell_fact, n);

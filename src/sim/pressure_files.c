@@ -19,9 +19,9 @@ static double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real
 static fram_status write_text(pressure_map *p, const char *name, text_buffer *text, fram_error *error)
 {
     char path[PATH_ROOM];
-    fram_status status = text->failed ? error_memory(error) : path_join(p->o->output, name, path, error);
+    fram_status status = path_join(p->o->output, name, path, error);
     if (status == FRAM_OK)
-        status = atomic_file_write(p->ctx, path, text->data, (size_t)text->count, error);
+        status = text_file_write(p->ctx, path, text, error);
     text_free(p->ctx, text);
     return status;
 }

@@ -10,10 +10,7 @@
 
 int64_t interval_steps(double interval, double time_step)
 {
-    if (interval <= 0)
-        return 0;
-    double steps = floor(interval / time_step + 0.5);
-    return steps < 1 ? 1 : (int64_t)steps;
+    return interval > 0 ? scenario_steps_of(interval, time_step) : 0;
 }
 
 /* The middle of a domain that is farther from 0 than it is long, in whole metres. */

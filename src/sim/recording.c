@@ -15,8 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-int64_t step_at(double time, double time_step) { return (int64_t)floor(time / time_step + 0.5); }
-
 static fram_status end_checkpoint(recording *r, fram_error *error)
 {
     return checkpoint_end(r->ctx, r->folder, &r->checkpoint, error);
@@ -228,7 +226,7 @@ static fram_status write_scenario(recording *r, fram_error *error)
     if (status == FRAM_OK)
         status = scenario_print(r->ctx, r->s, &options, &text, error);
     if (status == FRAM_OK)
-        status = atomic_file_write(r->ctx, path, text.data, (size_t)text.count, error);
+        status = text_file_write(r->ctx, path, &text, error);
     text_free(r->ctx, &text);
     return status;
 }
@@ -265,7 +263,7 @@ fram_status recording_init(context *ctx, const scenario *s, const char *folder, 
     *r = (recording){.ctx = ctx, .s = s, .started = clock_wall(), .stop_step = -1, .lock = -1};
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    r->end_step = step_at(s->run.duration, dt);
+    r->end_step = scenario_step_at(s->run.duration, dt);
     r->checkpoint_every = interval_steps(s->output.checkpoint_interval, dt);
     r->picture_every = interval_steps(s->output.picture_interval, dt);
     return FRAM_OK;

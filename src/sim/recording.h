@@ -55,9 +55,6 @@ typedef struct run_result {
     bool finished;
 } run_result;
 
-/* The first step whose time is not before `time`, within rounding. */
-int64_t step_at(double time, double time_step);
-
 /* The names, and the schedule that follows from the scenario; nothing is opened or allocated.  FRAM_ERROR_INPUT for a
    folder whose name is too long. */
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error);

@@ -72,8 +72,8 @@ static fram_status step_other(rerun *r, const model *m, world *w, double *wrong,
    that the run made, behind which it may have failed. */
 static int64_t last_step_to_follow(const rerun *r, const model *m, const world *w)
 {
-    int64_t end = step_at(r->time, m->time_step), last = end + load_window_length(w) / 2;
-    int64_t ran = r->ran >= 0 ? step_at(r->ran, m->time_step) : last;
+    int64_t end = scenario_step_at(r->time, m->time_step), last = end + load_window_length(w) / 2;
+    int64_t ran = r->ran >= 0 ? scenario_step_at(r->ran, m->time_step) : last;
     return ran >= last ? last : ran > end ? ran : end;
 }
 
@@ -81,7 +81,7 @@ static int64_t last_step_to_follow(const rerun *r, const model *m, const world *
 static fram_status follow(rerun *r, const model *m, world *w, bool same, rerun_method *out, fram_error *error)
 {
     fram_status status = FRAM_OK;
-    int64_t end = step_at(r->time, m->time_step), last = last_step_to_follow(r, m, w);
+    int64_t end = scenario_step_at(r->time, m->time_step), last = last_step_to_follow(r, m, w);
     /* From where the window holds nothing but the method's own steps; from the run's start on it never holds others. */
     int64_t first = w->clock.step[0] + load_window_length(w);
     if (first > end)
@@ -104,7 +104,7 @@ static fram_status explain(const rerun *r, const model *m, world *w, fram_error 
     peak_watch watch;
     peak_watch_init(r->ctx, m->time_step, 0, &watch);
     fram_status status = FRAM_OK;
-    int64_t end = step_at(r->time, m->time_step);
+    int64_t end = scenario_step_at(r->time, m->time_step);
     while (status == FRAM_OK && w->clock.step[0] < end) {
         status = step_once(r, m, w, error);
         if (status == FRAM_OK)
@@ -202,7 +202,7 @@ static fram_status go_back(rerun *r, const model *m, fram_error *error)
     if (r->vessel >= w.vessels.count)
         status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "vessel",
                            "the run has %d vessels, expected one of them", (int)w.vessels.count);
-    int64_t first = step_at(fork, m->time_step);
+    int64_t first = scenario_step_at(fork, m->time_step);
     while (status == FRAM_OK && w.clock.step[0] < first)
         status = step_same(r, m, &w, error);
     r->out->fork = w.clock.time[0];
@@ -217,7 +217,7 @@ static fram_status check_moment(rerun *r, fram_error *error)
 {
     double dt = r->s.run.time_step, end = r->s.run.duration;
     fram_status status = rerun_run_end(r->ctx, r->folder, &r->ran, error);
-    end = fmax(end, fmax((double)step_at(end, dt) * dt, r->ran));
+    end = fmax(end, fmax((double)scenario_step_at(end, dt) * dt, r->ran));
     if (status == FRAM_OK && !(r->time >= dt && r->time <= end * (1 + 1e-12)))
         status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "time", "expected a time from %g s to %g s, found %g",
                            dt, end, r->time);

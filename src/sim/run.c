@@ -36,7 +36,7 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
     r->record.stop_step = r->record.end_step;
     /* Times first: the step of one far behind the end may be no integer of 64 bits. */
     if (options->until > 0 && options->until < s->run.duration)
-        r->record.stop_step = step_at(options->until, s->run.time_step);
+        r->record.stop_step = scenario_step_at(options->until, s->run.time_step);
     else if (options->until > s->run.duration * (1 + 1e-9))
         log_write(ctx, LOG_WARNING, "until %.10g s: the run ends at run.duration, %.10g s", options->until,
                   s->run.duration);

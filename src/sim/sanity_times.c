@@ -58,7 +58,7 @@ static void tell_few_rows(const teller *t)
     double interval = t->s->output.csv_interval;
     if (!(interval > 0))
         return;
-    int64_t steps = step_at(r->duration, r->time_step), rows = steps / interval_steps(interval, r->time_step);
+    int64_t steps = scenario_step_at(r->duration, r->time_step), rows = steps / interval_steps(interval, r->time_step);
     char number[16] = "no";
     if (rows >= LEAST_ROWS || steps <= LEAST_ROWS)
         return;

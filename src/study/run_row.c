@@ -287,8 +287,7 @@ fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows,
 {
     text_buffer text = {0};
     run_rows_text(ctx, rows, &text);
-    fram_status status =
-        text.failed ? error_memory(error) : atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
+    fram_status status = text_file_write(ctx, path, &text, error);
     text_free(ctx, &text);
     return status;
 }

@@ -467,10 +467,8 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/study.html", f->path);
     fram_status status = make_page(&p, error);
-    if (status == FRAM_OK && (path.failed || p.page.text.failed))
-        status = error_memory(error);
     if (status == FRAM_OK)
-        status = atomic_file_write(f->ctx, path.data, p.page.text.data, (size_t)p.page.text.count, error);
+        status = path.failed ? error_memory(error) : text_file_write(f->ctx, path.data, &p.page.text, error);
     text_free(f->ctx, &path);
     array_free(f->ctx, &p.key_digits);
     html_free(&p.page);

@@ -89,9 +89,7 @@ fram_status study_table_write(const study_folder *f, const char *name, const tex
 {
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/%s", f->path, name);
-    fram_status status = path.failed || b->failed
-                             ? error_memory(error)
-                             : atomic_file_write(f->ctx, path.data, b->data, (size_t)b->count, error);
+    fram_status status = path.failed ? error_memory(error) : text_file_write(f->ctx, path.data, b, error);
     text_free(f->ctx, &path);
     return status;
 }

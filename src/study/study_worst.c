@@ -243,7 +243,7 @@ static fram_status judge(const worst_work *w, worst_entry *e, const char *folder
                            "command fram is not the one that made the row; give the study a new folder",
                            w->f->id[e->run.condition], (long long)w->f->s->seeds.first + e->run.index);
     if (status == FRAM_OK)
-        status = atomic_file_write(ctx, row, again.data, (size_t)again.count, error);
+        status = text_file_write(ctx, row, &again, error);
     if (status == FRAM_OK)
         e->stage = WORST_VIEW;
     array_free(ctx, &rows);
