@@ -1,7 +1,6 @@
 #include "io/chart.h"
 
 #include "base/transcendental.h"
-#include "io/atomic_file.h"
 #include "io/chart_legend.h"
 #include "io/chart_ticks.h"
 #include "io/image.h"

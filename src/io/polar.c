@@ -1,7 +1,6 @@
 #include "io/polar.h"
 
 #include "base/transcendental.h"
-#include "io/atomic_file.h"
 #include "io/image.h"
 
 #include <math.h>

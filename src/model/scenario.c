@@ -168,6 +168,16 @@ bool scenario_averages_begin_early(const scenario *s, double first, double span)
 
 box2 domain_box(const scenario_domain *d) { return (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}; }
 
+bool domain_has(const scenario_domain *d, double x, double y)
+{
+    return x >= d->x_min && x <= d->x_max && y >= d->y_min && y <= d->y_max;
+}
+
+vec2 domain_edges_from(const scenario_domain *d, vec2 at)
+{
+    return vec2_make(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
+}
+
 box2 domain_with_walls(const scenario_domain *d)
 {
     double t = d->boundary == DOMAIN_WALLS ? d->wall_thickness : 0;

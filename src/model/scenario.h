@@ -111,6 +111,10 @@ fram_status scenario_fault(const scenario *s, fram_error *error, const char *key
     __attribute__((format(printf, 4, 5)));
 /* The domain from above. */
 box2 domain_box(const scenario_domain *d);
+/* Whether a place is in it, its edges included; and how far it is from the nearer edge along X, and along Y, negative
+   outside. */
+bool domain_has(const scenario_domain *d, double x, double y);
+vec2 domain_edges_from(const scenario_domain *d, vec2 at);
 /* With its walls, where it has such: what pictures show. */
 box2 domain_with_walls(const scenario_domain *d);
 /* Whether the ice is a field of floes that are drawn or read: what may have populations and open water. */

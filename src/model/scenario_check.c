@@ -116,11 +116,6 @@ static fram_status check_domain(const scenario *s, fram_error *error)
     return status == FRAM_OK ? check_feeding(s, error) : status;
 }
 
-static bool inside_domain(const scenario *s, double x, double y)
-{
-    return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
-}
-
 /* A speed that is given must lie under the one at which a run is taken to have gone wrong. */
 static fram_status check_speed(const scenario *s, const char *key, double speed, fram_error *error)
 {
@@ -213,7 +208,7 @@ static fram_status check_floe_places(const scenario *s, fram_error *error)
 {
     for (int32_t i = 0; i < s->ice.floes.count; i++) {
         const scenario_floe *floe = &s->ice.floes.data[i];
-        if (inside_domain(s, floe->x, floe->y))
+        if (domain_has(&s->domain, floe->x, floe->y))
             continue;
         char key[32];
         snprintf(key, sizeof key, "ice.floes[%d].x", (int)i);

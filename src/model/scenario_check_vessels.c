@@ -164,8 +164,7 @@ static fram_status check_place(const scenario *s, const vessel_entry *e, fram_er
     const scenario_domain *d = &s->domain;
     bool goes = v->path.count > 0;
     double x = goes ? v->path.data[0].x : v->x, y = goes ? v->path.data[0].y : v->y;
-    bool inside = x >= d->x_min && x <= d->x_max && y >= d->y_min && y <= d->y_max;
-    if (d->boundary != DOMAIN_WALLS || inside)
+    if (d->boundary != DOMAIN_WALLS || domain_has(d, x, y))
         return FRAM_OK;
     const char *of = goes ? "path[0]." : "";
     return vessel_fault(s, e, goes ? "path[0].x" : "x", error,

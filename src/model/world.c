@@ -329,3 +329,11 @@ bool world_difference(const world *a, const world *b, char text[WORLD_DIFFERENCE
     text[0] = '\0';
     return false;
 }
+
+int32_t world_floe_count(const world *w)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->floes.count; i++)
+        count += w->floes.body[i] >= 0;
+    return count;
+}

@@ -190,4 +190,7 @@ int64_t load_window_length(const world *w);
 /* Row of the load window for a vessel at the end of a step. */
 int64_t load_window_row(const world *w, int64_t step, int32_t vessel);
 
+/* Of the table, without those that are gone. */
+int32_t world_floe_count(const world *w);
+
 #endif

@@ -6,7 +6,6 @@
 #include "results/report.h"
 #include "results/run_channels.h"
 #include "results/run_data.h"
-#include "results/station_results.h"
 
 #include <math.h>
 #include <stdio.h>

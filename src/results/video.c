@@ -2,7 +2,6 @@
 
 #include "base/load_unit.h"
 #include "base/number_text.h"
-#include "io/atomic_file.h"
 #include "io/csv_read.h"
 #include "io/folder.h"
 #include "io/image.h"

@@ -171,8 +171,7 @@ static fram_status bench_model(context *ctx, const scenario *s, const model *m, 
         return status;
     int32_t ship = w.vessels.count > 0 ? w.vessels.body[0] : -1;
     status = bench_measure(ctx, m, &w, ship, scenario_step_at(warm, m->time_step), steps < 1 ? 1 : steps, out, error);
-    for (int32_t i = 0; i < w.floes.count; i++)
-        out->floes += w.floes.body[i] >= 0;
+    out->floes = world_floe_count(&w);
     world_free(ctx, &w);
     return status;
 }

@@ -51,9 +51,7 @@ static fram_status look(looked_run *run, double pace, bench_look *out, fram_erro
     run->ctx->work = NULL;
     fram_status status = bench_measure(run->ctx, run->m, run->w, -1, 0, steps, &r, error);
     run->ctx->work = told;
-    *out = (bench_look){r.cpu_median, r.contact_points, 0, run->drift, run->done, steps};
-    for (int32_t i = 0; i < run->w->floes.count; i++)
-        out->floes += run->w->floes.body[i] >= 0;
+    *out = (bench_look){r.cpu_median, r.contact_points, world_floe_count(run->w), run->drift, run->done, steps};
     run->done += steps;
     return status;
 }

@@ -4,7 +4,6 @@
 #include "geometry/box_pairs.h"
 #include "geometry/space_curve.h"
 #include "ice/crowd.h"
-#include "sim/build_keep_out.h"
 #include "sim/build_level.h"
 #include "sim/draw_ice.h"
 #include "vessel/hull_plan.h"

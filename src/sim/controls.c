@@ -381,9 +381,8 @@ static vec3 place_now(const world *w, int32_t vessel)
 {
     int32_t body = w->vessels.body[vessel];
     double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
-    vec3 r = w->bodies.position[body], centre = w->vessels.centre[vessel];
-    vec3 back = plane_to_global(heading, vec3_make(centre.x, centre.y, 0));
-    return vec3_make(r.x - back.x, r.y - back.y, heading);
+    vec3 at = w->bodies.position[body];
+    return plane_place_of_origin(w->vessels.centre[vessel], vec3_make(at.x, at.y, heading));
 }
 
 static fram_status check_path(const world *w, const double *times, const vec3 *places, int32_t count, fram_error *error)

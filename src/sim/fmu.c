@@ -3,7 +3,6 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/file.h"
-#include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/zip_file.h"
 #include "model/scenario_schema.h"

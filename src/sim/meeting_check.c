@@ -14,14 +14,11 @@ static bool is_driven(const world *w, int32_t vessel) { return w->vessels.mode[v
 /* Centre of mass in the water plane [m] and heading [rad] of a vessel of given motion. */
 static vec3 pose_at(const world *w, int32_t vessel, double time)
 {
-    vec3 place = path_place(&w->waypoints, vessel, time), centre = w->vessels.centre[vessel];
-    if (!isnan(place.z)) {
-        vec3 off = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
-        return vec3_make(place.x + off.x, place.y + off.y, place.z);
-    }
+    vec3 place = path_place(&w->waypoints, vessel, time);
+    if (!isnan(place.z))
+        return plane_place_of_centre(w->vessels.centre[vessel], place);
     int32_t body = w->vessels.body[vessel];
-    double ramp = w->vessels.tow_ramp[vessel];
-    vec3 way = vec3_scale(w->vessels.tow_velocity[vessel], time < ramp ? time * time / (2 * ramp) : time - 0.5 * ramp);
+    vec3 way = vec3_scale(w->vessels.tow_velocity[vessel], plane_ramped(time, w->vessels.tow_ramp[vessel]));
     vec3 at = w->bodies.position[body];
     return vec3_make(at.x + way.x, at.y + way.y, quat_roll_pitch_yaw(w->bodies.orientation[body]).z);
 }

@@ -102,26 +102,16 @@ static void note_ice(const note_taker *n, const scenario *s)
 /* The smaller of the areas of contact that are shown, over the square of the thickness; the other is 1. */
 #define SMALL_CONTACT 0.1
 
-/* Of the speed that a ship makes under its own power: about what is left of it in ice that it breaks well. */
+/* Of the speed that a ship makes under its own power: about what is left of it in ice that it breaks well; where less
+   is wanted the rest of the power goes into the ice. */
 #define OWN_POWER_IN_ICE 0.5
-
-/* About how fast a vessel goes in ice by itself or as it is driven [m/s]. */
-static double own_speed_in_ice(const scenario_vessel *v)
-{
-    const scenario_propulsion *p = &v->propulsion;
-    if (v->mode != VESSEL_FREE || !vessel_drives_itself(v))
-        return vessel_fastest(v);
-    /* Where less is wanted the rest of the power goes into the ice. */
-    double left = OWN_POWER_IN_ICE * vessel_open_water_speed(p);
-    return fmax(v->speed, fmin(left, automatic_or(p->speed, HUGE_VAL)));
-}
 
 /* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files say that
    cannot be read is not known. */
 static double speed_in_ice(const note_taker *n, const scenario *s, const scenario_vessel *v)
 {
     bool drifts = scenario_drift(s).fed || s->environment.water;
-    return fmax(own_speed_in_ice(v), drifts ? known_drift(s, n->read).fastest : 0);
+    return fmax(vessel_own_speed(v, OWN_POWER_IN_ICE), drifts ? known_drift(s, n->read).fastest : 0);
 }
 
 /* How far a patch as wide as the ice is thick is crushed when it bears a load [m]: from sigma (d h)^(1 + e), which with
@@ -222,7 +212,7 @@ static double course_of(const scenario_vessel *v)
 static void note_channel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
     const scenario_domain *d = &s->domain;
-    double speed = own_speed_in_ice(entry->keys), x = d->x_max - d->x_min, y = d->y_max - d->y_min;
+    double speed = vessel_own_speed(entry->keys, OWN_POWER_IN_ICE), x = d->x_max - d->x_min, y = d->y_max - d->y_min;
     double way = fmin(speed * s->run.duration, sqrt(x * x + y * y));
     if (s->ice.source != ICE_LEVEL || !s->ice.breakable || s->ice.sleep_speed > 0 ||
         way < LONG_CHANNEL * scenario_size(s))

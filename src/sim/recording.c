@@ -179,8 +179,7 @@ void recording_result(const recording *r, run_result *out)
     out->real_time_factor = out->wall > 0 ? (out->time - r->began_at) / out->wall : 0;
     for (int32_t i = 0; i < w->bodies.count; i++)
         out->bodies += body_is_alive(&w->bodies, i);
-    for (int32_t i = 0; i < w->floes.count; i++)
-        out->floes += w->floes.body[i] >= 0;
+    out->floes = world_floe_count(w);
     out->finished = out->steps >= r->end_step;
 }
 

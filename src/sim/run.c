@@ -111,19 +111,11 @@ static void run_free(run *r)
 
 /* ---- start ---- */
 
-static int32_t count_floes(const world *w)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < w->floes.count; i++)
-        count += w->floes.body[i] >= 0;
-    return count;
-}
-
 /* What is told of an endless field is of the tile that it repeats; in the domain there are other floes. */
 static void log_ice(const run *r, const field_report *report)
 {
     bool tile = r->record.s->domain.boundary == DOMAIN_FEEDING && !r->model.sheet.drifts;
-    int32_t floes = tile ? count_floes(&r->world) : report->floes;
+    int32_t floes = tile ? world_floe_count(&r->world) : report->floes;
     char more[80] = "";
     if (report->floes <= 0)
         return;

@@ -1,7 +1,6 @@
 #include "sim/run_folder.h"
 
 #include "base/build.h"
-#include "base/hash.h"
 #include "base/number_text.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"

@@ -83,7 +83,7 @@ static const usual usual_values[] = {
     {"environment.hull_drag.water_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
     {"environment.hull_drag.air_form", 0, 3, 0, "what was measured", "it is a coefficient"},
     {"environment.hull_drag.air_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
-    {"vessel.hull.length", 4, 500, 1, "what ships and structures measure", "give metres"},
+    {"vessel.hull.length", 4, VESSEL_LONGEST, 1, "what ships and structures measure", "give metres"},
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
     {"vessel.mooring.lines[].pretension", 2e3, MOST_PULL, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
@@ -316,12 +316,6 @@ static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 st
     return vec2_make(start.x + c * x - s * y, start.y + s * x + c * y);
 }
 
-/* How far a place is from the nearer edge along X, and along Y; negative outside. */
-static vec2 edges_from(const scenario_domain *d, vec2 at)
-{
-    return vec2_make(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y));
-}
-
 /* Of a reach [m]: what is missing to it by rounding. */
 #define ROOM_ROUNDED 1e-9
 
@@ -330,7 +324,7 @@ static vec2 edges_from(const scenario_domain *d, vec2 at)
 static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
 {
     const scenario_domain *d = &t->s->domain;
-    vec2 reach, at = turns_about(t->s, e->keys, start, &reach), edge = edges_from(d, at);
+    vec2 reach, at = turns_about(t->s, e->keys, start, &reach), edge = domain_edges_from(d, at);
     double band = sanity_least_band(t->s);
     bool along_x = reach.x - edge.x > reach.y - edge.y;
     double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
@@ -350,7 +344,7 @@ static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
     if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
     tell_room(t, e, start);
-    vec2 from = edges_from(d, vec2_make(v->x, v->y));
+    vec2 from = domain_edges_from(d, vec2_make(v->x, v->y));
     double edge = fmin(from.x, from.y);
     if (edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam))
         sanity_say(t->tell, t->to,

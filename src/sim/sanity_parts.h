@@ -65,6 +65,9 @@ double sanity_least_band(const scenario *s);
 
 /* Lower over the water than any deck, full size [m]. */
 #define USUAL_LOWEST_DECK 0.2
+/* Longer than any ship, full size [m]. */
+#define VESSEL_LONGEST 500.0
+
 /* Thickness of floes and sheets of full size [m]. */
 #define USUAL_THICKNESS_LEAST 0.02
 #define USUAL_THICKNESS_MOST 6

@@ -84,7 +84,7 @@ static void tell_vessel_propulsion(const teller *t)
         /* A point far ahead gives a course. */
         if (way > vessel_fastest(v) * t->s->run.duration)
             return;
-        if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
+        if (domain_has(d, w->x, w->y))
             continue;
         sanity_say(t->tell, t->to,
                    "%s.propulsion.waypoints[%d]: (%s, %s) m lies outside of the domain, where there is no ice",
@@ -234,8 +234,7 @@ static void tell_path_outside(const teller *t)
     bool ends = d->boundary != DOMAIN_WALLS && t->s->ice.source != ICE_NONE && v->mode != VESSEL_FREE;
     for (int32_t i = 0; ends && i < v->path.count; i++) {
         const scenario_path_point *p = &v->path.data[i];
-        bool inside = p->x >= d->x_min && p->x <= d->x_max && p->y >= d->y_min && p->y <= d->y_max;
-        if (inside || p->time > t->s->run.duration)
+        if (domain_has(d, p->x, p->y) || p->time > t->s->run.duration)
             continue;
         sanity_say(t->tell, t->to,
                    "%s.path[%d]: (%s, %s) m, at t = %.4g s, lies outside of the domain, where there is no ice",
@@ -274,7 +273,7 @@ static void tell_motion(const teller *t)
     bool goes = p->active && p->control != CONTROL_HEADING && d->boundary != DOMAIN_WALLS;
     for (int32_t i = 0; goes && i < p->waypoints.count; i++) {
         const scenario_waypoint *w = &p->waypoints.data[i];
-        if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
+        if (domain_has(d, w->x, w->y))
             continue;
         sanity_say(t->tell, t->to, "%s.positioning.waypoints[%d]: (%s, %s) m lies outside of the domain", t->e->path,
                    (int)i, coordinate_text_of(w->x).text, coordinate_text_of(w->y).text);

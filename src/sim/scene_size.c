@@ -1,7 +1,6 @@
 #include "sim/scene_size.h"
 
 #include "base/number_text.h"
-#include "sim/build.h"
 #include "sim/build_feeding.h"
 #include "sim/build_level.h"
 #include "sim/build_packed.h"

@@ -117,8 +117,7 @@ static count_channels counts_of(const world *w)
     count_channels n = {0};
     for (int32_t i = 0; i < w->bodies.count; i++)
         n.bodies += body_is_alive(&w->bodies, i);
-    for (int32_t i = 0; i < w->floes.count; i++)
-        n.floes += w->floes.body[i] >= 0;
+    n.floes = world_floe_count(w);
     if (w->feeding.count > 0) {
         n.entered = w->feeding.entered[0];
         n.held_back = w->feeding.held_back[0];

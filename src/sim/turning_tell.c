@@ -285,8 +285,8 @@ static double tidy(double metres) { return fabs(metres) < 1e-6 ? 0 : metres; }
 /* Whether a place is in the domain, so far from its edges. */
 static bool is_inside(const pattern_view *v, vec2 at, double room)
 {
-    const scenario_domain *d = &v->s->domain;
-    return fmin(fmin(at.x - d->x_min, d->x_max - at.x), fmin(at.y - d->y_min, d->y_max - at.y)) >= room;
+    vec2 edges = domain_edges_from(&v->s->domain, at);
+    return fmin(edges.x, edges.y) >= room;
 }
 
 /* Whether a place is in the domain; tells if it is not. */

@@ -265,8 +265,6 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 
 /* ---- a hull from a file ---- */
 
-/* Shorter than any ship or structure, full size [m]; both ends as those of vessel.hull.length (sim/sanity.c). */
-#define SHORTEST 4.0
 /* Part of the length by which amidships may lie beside the middle of the waterline. */
 #define OFF_AMIDSHIPS 0.2
 /* Part of the beam by which the centre of buoyancy may lie beside the centre line. */
@@ -281,7 +279,7 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    const sanity_range usual = sanity_usual(s, SHORTEST, VESSEL_LONGEST, 1);
+    const sanity_range usual = sanity_usual_of(s, "vessel.hull.length");
     const range_text range = range_text_of(usual.least, usual.most, 3);
     if (p->length > usual.most)
         log_write(ctx, LOG_WARNING,

@@ -6,9 +6,6 @@
 #include "model/scenario_vessel.h"
 #include "model/world.h"
 
-/* Longer than any ship, full size [m]. */
-#define VESSEL_LONGEST 500.0
-
 /* FRAM_ERROR_INPUT with the key for a mass that sinks or is next to nothing, a centre of gravity far outside the hull,
    and radii of gyration that no mass in it has.  row: of the vessel in model and world. */
 fram_status vessel_check(const scenario *s, const vessel_entry *entry, const model *m, int32_t row, fram_error *error);

@@ -72,18 +72,20 @@ double vessel_speed_lost_in_ice(const scenario *s, const media_history *read, do
     return drift.known ? wanted + drift.fastest : HUGE_VAL;
 }
 
-double vessel_fastest(const scenario_vessel *v)
+double vessel_own_speed(const scenario_vessel *v, double part)
 {
     const scenario_propulsion *p = &v->propulsion;
     if (v->mode != VESSEL_FREE || !vessel_drives_itself(v))
         return fmax(v->speed, fastest_on_path(v));
-    return fmax(v->speed, fmin(vessel_open_water_speed(p), automatic_or(p->speed, HUGE_VAL)));
+    return fmax(v->speed, fmin(part * vessel_open_water_speed(p), automatic_or(p->speed, HUGE_VAL)));
 }
+
+double vessel_fastest(const scenario_vessel *v) { return vessel_own_speed(v, 1); }
 
 double vessel_way(const scenario_vessel *v, double time)
 {
     double ramp = v->mode == VESSEL_FREE || v->path.count > 0 ? 0 : v->ramp;
-    return vessel_fastest(v) * (time < ramp ? time * time / (2 * ramp) : time - 0.5 * ramp);
+    return vessel_fastest(v) * plane_ramped(time, ramp);
 }
 
 bool vessel_keeps_course(const scenario_vessel *v)
@@ -332,9 +334,7 @@ static void outside_remind(context *ctx, const scenario *s, const model *m, cons
     for (int32_t v = 0; v < w->vessels.count && s->ice.source != ICE_NONE && m->boundary != DOMAIN_WALLS; v++) {
         vec3 at = w->bodies.position[w->vessels.body[v]];
         const char *name = m->vessels.data[v].name;
-        bool inside =
-            at.x >= m->domain.lo.x && at.x <= m->domain.hi.x && at.y >= m->domain.lo.y && at.y <= m->domain.hi.y;
-        if (!inside)
+        if (!domain_has(&s->domain, at.x, at.y))
             log_write(ctx, LOG_WARNING,
                       "%s%s lies outside of the domain in the end, at (%s, %s) m, where there is no ice: means "
                       "hold its time there too",

@@ -18,6 +18,9 @@ bool wall_watch(context *ctx, const model *m, world *w);
 /* At the end of a run, to the log: which vessels met a wall or band, and when, or lie where the domain has no ice. */
 void wall_remind(context *ctx, const scenario *s, const model *m, const world *w);
 
+/* How fast a vessel goes by itself, on its path or on its carriage [m/s]; under its own power it makes a part of its
+   speed in open water, or what is wanted where that is less. */
+double vessel_own_speed(const scenario_vessel *v, double part);
 /* The fastest that a vessel goes by itself, on its path or on its carriage [m/s]: an upper bound for one under its own
  * power. */
 double vessel_fastest(const scenario_vessel *v);

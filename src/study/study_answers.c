@@ -4,7 +4,6 @@
 #include "study/cells.h"
 #include "study/extremes_notes.h"
 #include "study/study_extremes.h"
-#include "study/study_file.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,7 +8,6 @@
 #include "fram/version.h"
 #include "io/file.h"
 #include "io/folder.h"
-#include "io/path.h"
 #include "sim/run_inputs.h"
 #include "study/study_file.h"
 

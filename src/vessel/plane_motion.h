@@ -25,6 +25,22 @@ static inline vec3 plane_to_vessel(double heading, vec3 v)
     double c = real_cos(heading), s = real_sin(heading);
     return vec3_make(c * v.x + s * v.y, c * v.y - s * v.x, v.z);
 }
+/* Between the places of a ship's origin and its centre of mass, which is at `centre` from the origin in its frame. */
+static inline vec3 plane_place_of_centre(vec3 centre, vec3 origin)
+{
+    vec3 off = plane_to_global(origin.z, vec3_make(centre.x, centre.y, 0));
+    return vec3_make(origin.x + off.x, origin.y + off.y, origin.z);
+}
+static inline vec3 plane_place_of_origin(vec3 centre, vec3 place)
+{
+    vec3 back = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
+    return vec3_make(place.x - back.x, place.y - back.y, place.z);
+}
+/* A speed that grows evenly over a ramp is worth so much of its full time [s]. */
+static inline double plane_ramped(double time, double ramp)
+{
+    return time < ramp ? time * time / (2 * ramp) : time - 0.5 * ramp;
+}
 static inline vec3 plane_diagonal(mat3 m) { return vec3_make(m.m[0][0], m.m[1][1], m.m[2][2]); }
 static inline vec3 plane_times(vec3 a, vec3 b) { return vec3_make(a.x * b.x, a.y * b.y, a.z * b.z); }
 

@@ -17,13 +17,6 @@ static vec3 place_of(const body_table *bodies, int32_t body)
     return vec3_make(r.x, r.y, quat_roll_pitch_yaw(bodies->orientation[body]).z);
 }
 
-/* Place of the centre of mass for a place of the ship's origin. */
-static vec3 centre_place(vec3 centre, vec3 place)
-{
-    vec3 off = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
-    return vec3_make(place.x + off.x, place.y + off.y, place.z);
-}
-
 static vec3 yaw_of(vec3 v) { return vec3_make(0, 0, v.z); }
 
 static pid_gains of_heading_alone(pid_gains g)
@@ -209,7 +202,7 @@ static void control(station_table *s, int32_t row, const station_moment *now, ve
         s->vane_heading[row] = vaning_step(&s->vaning[row], s->vane_heading[row], load, dt);
         target.z = s->vane_heading[row];
     }
-    reference_step(&s->filter[row], &s->reference[row], centre_place(centre, target), dt);
+    reference_step(&s->filter[row], &s->reference[row], plane_place_of_centre(centre, target), dt);
     const motion_estimate *e = &s->estimate[row];
     vec3 feed = plane_to_vessel(e->place.z, vec3_scale(fed_load(s, row), -s->feed_gain[row]));
     const reference_state *r = &s->reference[row];
