@@ -91,13 +91,14 @@ typedef struct feeding_definition {
     double keep_out_margin;       /* the zones are grown by it all around [m] */
     double smallest_area;         /* floes cut by a zone are left out under it [m2] */
     double piece_area_limit;      /* as in shape_add_prism [m2] */
+    bool given;                   /* the floes are those that somebody gave, not drawn ones */
 } feeding_definition;
 
 /* The floes that are there become the pattern, each at its place in the tile, which lies about the middle of the
    window. They are then replaced by what the window shows of the endless field, which moves with it already.  Convex
    floes are cut by keep-out zones, others that reach into one are left out.  FRAM_ERROR_INPUT with the key tile or band
    for a tile that is not larger than the window by the diameter of the largest floe, or a band that is narrower than
-   its radius or leaves nothing inside. */
+   its radius or leaves nothing inside; with the key keep_out when the zones leave none of the floes that were given. */
 fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d, const feeding_world *w,
                           fram_error *error);
 

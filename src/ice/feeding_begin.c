@@ -115,6 +115,7 @@ typedef struct view_work {
     vec2_array outline;
     cells_scratch cells;
     int32_t left_out; /* concave floes in the way */
+    int32_t covered;  /* convex ones of which a zone leaves nothing */
 } view_work;
 
 static void view_work_free(context *ctx, view_work *v)
@@ -142,6 +143,7 @@ static fram_status cut_floe(context *ctx, overlay *o, const feeding_definition *
     if (!polygon_list_push(ctx, &v->one, p))
         return error_memory(error);
     fram_status status = cells_outside_zones(ctx, &v->one, &v->zones, &v->cells, &v->parts, error);
+    bool shown = false;
     for (int32_t i = 0; i < polygon_list_count(&v->parts) && status == FRAM_OK; i++) {
         polygon part = polygon_list_get(&v->parts, i);
         if (part.count < 3 || polygon_area(part) < least)
@@ -150,8 +152,10 @@ static fram_status cut_floe(context *ctx, overlay *o, const feeding_definition *
             return error_memory(error);
         for (int32_t k = 0; k < part.count; k++)
             v->outline.data[k] = vec2_sub(part.vertex[k], place);
+        shown = true;
         status = feeding_make_floe(ctx, o, w, row, (polygon){v->outline.data, part.count}, error);
     }
+    v->covered += !shown;
     return status;
 }
 
@@ -170,6 +174,29 @@ static fram_status show_floe(context *ctx, overlay *o, const feeding_definition 
     if (meets_zone(&v->zones, (polygon){v->outline.data, own.count}))
         return cut_floe(ctx, o, d, w, row, v, error);
     return feeding_make_floe(ctx, o, w, row, own, error);
+}
+
+/* Of floes that somebody gave those that are not there are told, as a warning where it is half of them; of a drawn
+   field a hull covers some. */
+static fram_status tell_left_out(context *ctx, const feeding_definition *d, const view_work *v, int32_t floes,
+                                 fram_error *error)
+{
+    int32_t all = v->left_out + v->covered;
+    if (d->given && all > 0 && all == floes)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
+                         "no floe is left of %d: each is in the way of a vessel or of open water; look at where these "
+                         "lie, and at ice.keep_out_margin",
+                         (int)floes);
+    if (d->given && v->covered > 0)
+        log_write(
+            ctx, 2 * all >= floes ? LOG_WARNING : LOG_INFO,
+            "%d of %d floes left out at the start, %d of them concave: they are in the way of a vessel or of open "
+            "water",
+            (int)all, (int)floes, (int)v->left_out);
+    else if (v->left_out > 0)
+        log_write(ctx, LOG_INFO, "%d concave floes left out at the start, in the way of a vessel or of open water",
+                  (int)v->left_out);
+    return FRAM_OK;
 }
 
 fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d, const feeding_world *w,
@@ -195,9 +222,8 @@ fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d,
         status = error_memory(error);
     for (int32_t row = 0; row < w->pattern->count && status == FRAM_OK; row++)
         status = show_floe(ctx, o, d, w, row, &v, error);
-    if (v.left_out > 0)
-        log_write(ctx, LOG_INFO, "%d concave floes left out at the start, in the way of a vessel or of open water",
-                  (int)v.left_out);
+    if (status == FRAM_OK)
+        status = tell_left_out(ctx, d, &v, w->pattern->count, error);
     view_work_free(ctx, &v);
     return status;
 }

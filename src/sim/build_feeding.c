@@ -32,6 +32,8 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
         snprintf(error->key, sizeof error->key, "domain.band");
     else if (strcmp(error->key, "window") == 0)
         snprintf(error->key, sizeof error->key, "domain");
+    else if (strcmp(error->key, "keep_out") == 0)
+        snprintf(error->key, sizeof error->key, "ice.file");
     scenario_locate(s, error);
     return status;
 }
@@ -72,6 +74,7 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
                             .velocity = feed_drift(m, &w->inputs, 0),
                             .keep_out = &keep_out,
                             .smallest_area = s->ice.smallest_floe_area,
+                            .given = s->ice.source == ICE_FILE && s->ice.populations.count == 0,
                             .piece_area_limit = s->ice.smallest_piece_area};
     feeding_world fed = feed_world(w);
     if (status == FRAM_OK)

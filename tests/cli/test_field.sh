@@ -374,6 +374,33 @@ echo 'POLYGON ((0 0, 5 0, 5 5, 5 0, 0 0))' >spike.wkt
 none_left "left of 1 rings: none winds round an area" spike.wkt --bad repair
 none_left "the file has no floes; 1 features of kind vessel or wall were passed over" walls.geojson
 
+# Floes of a file that are wholly in the way of a vessel are told where the field is endless too; where none is left
+# that is refused.
+cat >covered.yaml <<'YAML'
+run: {duration: 1, time_step: 0.02}
+vessel: {mode: prescribed, hull: {form: box, length: 60, beam: 20, draught: 3, freeboard: 3}}
+domain: {boundary: feeding, drift_speed: 0.5, x_min: -100, x_max: 100, y_min: -60, y_max: 60}
+ice: {source: file, file: covered.txt}
+YAML
+printf '%s\n' '0 0' '6 0' '6 6' '0 6' '' '10 0' '16 0' '16 6' '10 6' >covered.txt
+expect 2 "$FRAM" check --build covered.yaml
+says "covered.yaml:4" err
+says "ice.file: no floe is left of 2: each is in the way of a vessel or of open water; look at where these lie" err
+expect 2 "$FRAM" run covered.yaml -o covered --quiet
+[ ! -e covered/record.fram ] || fail "a run without any of its floes"
+printf '%s\n' '' '60 0' '66 0' '66 6' '60 6' >>covered.txt
+expect 0 "$FRAM" check --build covered.yaml
+says "warning: 2 of 3 floes left out at the start, 0 of them concave: they are in the way of a vessel" err
+says "built: 1 floes" err
+for x in 60 70 80; do printf '%s\n' '' "$x 20" "$((x + 6)) 20" "$((x + 6)) 26" "$x 26" >>covered.txt; done
+expect 0 "$FRAM" check --build covered.yaml
+says "2 of 6 floes left out at the start" err
+! grep -q "warning: 2 of 6" err || fail "some floes under a hull are a warning: $(cat err)"
+# Of a field that is drawn a hull covers some, which is no news.
+sed -e 's/file, file: covered.txt/voronoi, mean_floe_area: 30/' covered.yaml >drawn.yaml
+expect 0 "$FRAM" check --build drawn.yaml
+! grep -q "left out at the start" err || fail "floes of a drawn field under a hull are told: $(cat err)"
+
 # Nothing is written over the input, nor two outputs into one file.
 cp floes.geojson keep.geojson
 ln -s keep.geojson link.geojson
