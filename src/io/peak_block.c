@@ -72,6 +72,22 @@ static void link_of_chain(cursor *c, peak_link *l)
     real(c, &l->inertia);
 }
 
+static void chain_of_floe(cursor *c, peak_floe *f)
+{
+    bytes(c, &f->left_out, sizeof f->left_out);
+    bytes(c, &f->end_vessel, sizeof f->end_vessel);
+}
+
+/* Earlier blocks end before what is left out, and had at most this many links, of a longer chain the first ones. */
+enum { EARLIER_CHAIN_LINKS = 12 };
+
+static void take_earlier(peak_floe *f)
+{
+    f->end_vessel = -1;
+    if (f->links == EARLIER_CHAIN_LINKS && f->end == CHAIN_LOOP)
+        f->end = CHAIN_LONG;
+}
+
 static void detail(cursor *c, peak_detail *d)
 {
     bytes(c, &d->time, sizeof d->time);
@@ -95,6 +111,13 @@ static void detail(cursor *c, peak_detail *d)
         floe(c, &d->floe[i]);
     for (int32_t i = 0; i < d->link_count; i++)
         link_of_chain(c, &d->link[i]);
+    bool earlier = !c->out && c->at == c->size;
+    for (int32_t i = 0; i < d->floe_count && !c->bad; i++) {
+        if (earlier)
+            take_earlier(&d->floe[i]);
+        else
+            chain_of_floe(c, &d->floe[i]);
+    }
 }
 
 size_t peak_block_pack(const peak_detail *d, vec2 origin, unsigned char out[PEAK_BLOCK_ROOM])
@@ -113,7 +136,8 @@ static bool is_sound(const peak_detail *d)
     for (int32_t i = 0; i < d->floe_count; i++) {
         const peak_floe *f = &d->floe[i];
         links += f->links;
-        if (f->mechanism >= MECHANISM_COUNT || f->zone >= PEAK_ZONES || f->end >= CHAIN_END_COUNT)
+        if (f->mechanism >= MECHANISM_COUNT || f->zone >= PEAK_ZONES || f->end >= CHAIN_END_COUNT ||
+            f->links > PEAK_CHAIN_LINKS || (f->left_out > 0 && f->links < PEAK_CHAIN_LINKS))
             return false;
     }
     return links == d->link_count && d->vessel >= 0 && isfinite(d->time) && isfinite(d->load) && isfinite(d->window);

@@ -6,7 +6,9 @@
 #include "base/context.h"
 #include "model/mechanism.h"
 
-enum { PEAK_FLOES = 24, PEAK_CHAINS = 8, PEAK_CHAIN_LINKS = 12, PEAK_LINKS = PEAK_CHAINS * PEAK_CHAIN_LINKS };
+/* Of a chain of more links the first ones and the last ones are kept. */
+enum { PEAK_FLOES = 24, PEAK_CHAINS = 8, PEAK_CHAIN_LINKS = 24, PEAK_LINKS = PEAK_CHAINS * PEAK_CHAIN_LINKS };
+enum { PEAK_CHAIN_FIRST = 16 };
 enum { PEAK_ZONES = 5 };
 
 /* A body that loads the vessel: means over the averaging window. */
@@ -16,6 +18,8 @@ typedef struct peak_floe {
     uint8_t zone;                 /* where the largest part is, likewise */
     uint8_t links;                /* of its chain, in peak_detail.link: this floe first; 0: not followed */
     uint8_t end;                  /* enum chain_end, with links */
+    uint16_t left_out;            /* links of its chain that are not kept, before that of number PEAK_CHAIN_FIRST */
+    int16_t end_vessel;           /* row of the vessel at the end, -1: none, or not known */
     vec3 force, point;            /* on the vessel [N]; weighted by the sizes of the contacts' forces [m] */
     double part[MECHANISM_COUNT]; /* along the load [N] */
 } peak_floe;
@@ -39,12 +43,18 @@ typedef struct peak_detail {
     peak_link link[PEAK_LINKS]; /* chains one after another, of the floes that have one */
 } peak_detail;
 
+/* Links are left out between this one, counted from 0, and the one before it. */
+static inline bool peak_chain_jumps_to(const peak_floe *f, int32_t link)
+{
+    return f->left_out > 0 && link == PEAK_CHAIN_FIRST;
+}
+
 /* The largest size of a block. */
 enum { PEAK_BLOCK_ROOM = 16384 };
 /* Numbers in the byte order of this machine, reals of the parts as f32, places from the origin (BLOCK_ORIGIN); returns
    the size. */
 size_t peak_block_pack(const peak_detail *d, vec2 origin, unsigned char out[PEAK_BLOCK_ROOM]);
-/* false: the bytes are no such block. */
+/* Blocks of earlier layouts too.  false: the bytes are no such block. */
 bool peak_block_unpack(const void *data, size_t size, vec2 origin, peak_detail *d);
 
 #endif

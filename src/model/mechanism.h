@@ -8,14 +8,14 @@
 #include <stdint.h>
 
 /* Identifier, name in columns, what it is called in texts. */
-#define ICE_MECHANISMS(X)                                                                 \
-    X(SPLITTING, "splitting", "splitting of a floe")                                      \
-    X(BENDING, "bending", "bending of ice that has not broken")                           \
-    X(CRUSHING, "crushing", "crushing at the limit")                                      \
-    X(CHAIN, "chain", "a chain of floes against fixed or driven ice, a wall or a vessel") \
-    X(ACCUMULATION, "accumulation", "floes that other floes hold back")                   \
-    X(SUBMERSION, "submersion", "turning and submerging of floes")                        \
-    X(IMPACT, "impact", "impact of floes that give way freely")                           \
+#define ICE_MECHANISMS(X)                                                                       \
+    X(SPLITTING, "splitting", "splitting of a floe")                                            \
+    X(BENDING, "bending", "bending of ice that has not broken")                                 \
+    X(CRUSHING, "crushing", "crushing at the limit")                                            \
+    X(CHAIN, "chain", "a chain of floes against fixed or driven ice, a wall or another vessel") \
+    X(ACCUMULATION, "accumulation", "floes that other floes hold back")                         \
+    X(SUBMERSION, "submersion", "turning and submerging of floes")                              \
+    X(IMPACT, "impact", "impact of floes that give way freely")                                 \
     X(FRICTION, "friction", "sliding friction along the hull")
 
 typedef enum ice_mechanism {
@@ -25,7 +25,8 @@ typedef enum ice_mechanism {
         MECHANISM_COUNT
 } ice_mechanism;
 
-/* What holds the last body of a chain of contacts. */
+/* What holds the last body of a chain of contacts.  Records hold their order; of earlier ones VESSEL may be the vessel
+   that pushes. */
 #define CHAIN_ENDS(X)                                                                    \
     X(INERTIA, "inertia", "held by its inertia")                                         \
     X(WATER, "water", "held by water and weight")                                        \
@@ -33,7 +34,9 @@ typedef enum ice_mechanism {
     X(DRIVEN, "driven", "it is driven ice: the edge of a field, or a sheet that drifts") \
     X(WALL, "wall", "it is a wall")                                                      \
     X(VESSEL, "vessel", "it is a vessel")                                                \
-    X(LOOP, "loop", "the chain comes back to a floe of its own, or is too long")
+    X(LOOP, "loop", "the chain comes back to a floe of its own")                         \
+    X(ITSELF, "itself", "it is the vessel itself")                                       \
+    X(LONG, "long", "the chain goes on beyond what is followed")
 
 typedef enum chain_end {
 #define CHAIN_END_ENUM(id, name, text) CHAIN_##id,

@@ -19,6 +19,10 @@ const char *mechanism_name(ice_mechanism m) { return mechanism_names[m]; }
 const char *mechanism_text(ice_mechanism m) { return mechanism_texts[m]; }
 const char *chain_end_name(chain_end e) { return end_names[e]; }
 const char *chain_end_text(chain_end e) { return end_texts[e]; }
+const char *peak_end_vessel(const run_data *d, const peak_floe *f)
+{
+    return f->links > 0 && f->end == CHAIN_VESSEL ? scenario_vessel_name(&d->s, f->end_vessel) : NULL;
+}
 const char *peak_zone_name(int32_t zone) { return hull_zone_name((hull_zone)zone); }
 
 ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT])
@@ -170,7 +174,35 @@ void peak_tell_breaks(context *ctx, const peak_breaks *b, text_buffer *out)
                 (int)b->splits, b->splits == 1 ? "" : "s");
 }
 
-static void tell_floe(context *ctx, const peak_detail *d, text_buffer *out)
+/* Where a chain leads, after a count of floes; what is no floe is not counted. */
+static const struct {
+    const char *way, *what;
+    bool floe;
+} chain_leads[CHAIN_END_COUNT] = {
+    [CHAIN_INERTIA] = {"to", "one that its inertia holds", true},
+    [CHAIN_WATER] = {"to", "one that water and weight hold", true},
+    [CHAIN_SHEET] = {"to", "fixed ice", true},
+    [CHAIN_DRIVEN] = {"to", "driven ice", true},
+    [CHAIN_WALL] = {"to", "a wall", false},
+    [CHAIN_VESSEL] = {"to", "a vessel", false},
+    [CHAIN_LOOP] = {"and back to", "one of them", true},
+    [CHAIN_ITSELF] = {"and back to", "the vessel itself", false},
+    [CHAIN_LONG] = {"and on beyond", "what is followed", true},
+};
+
+static void tell_chain_behind(context *ctx, const run_data *run, const peak_floe *f, text_buffer *out)
+{
+    const char *vessel = peak_end_vessel(run, f), *what = vessel ? vessel : chain_leads[f->end].what;
+    int32_t more = f->links + f->left_out - (chain_leads[f->end].floe ? 1 : 2);
+    if (f->links <= 1)
+        return;
+    if (more > 0)
+        text_format(ctx, out, ", behind it %d more %s %s", (int)more, chain_leads[f->end].way, what);
+    else
+        text_format(ctx, out, ", behind it %s", what);
+}
+
+static void tell_floe(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out)
 {
     const peak_floe *f = &d->floe[0];
     double part = 0;
@@ -182,13 +214,7 @@ static void tell_floe(context *ctx, const peak_detail *d, text_buffer *out)
         text_format(ctx, out, "; one body that is no floe carries %.0f %%", 100 * part / d->load);
     else
         text_format(ctx, out, "; floe %d carries %.0f %%", (int)f->number, 100 * part / d->load);
-    if (f->links > 1)
-        text_format(ctx, out, ", behind it %d more to %s", f->links - 1,
-                    f->end == CHAIN_SHEET    ? "fixed ice"
-                    : f->end == CHAIN_DRIVEN ? "driven ice"
-                    : f->end == CHAIN_WALL   ? "a wall"
-                    : f->end == CHAIN_VESSEL ? "a vessel"
-                                             : "one that moves freely");
+    tell_chain_behind(ctx, run, f, out);
 }
 
 void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out)
@@ -205,7 +231,7 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     text_format(ctx, out, "%s, %.0f %% of it by %s, %.0f %% on the %s, from %d %s", load_text_of(d->load, 4).text,
                 d->mechanism[first] * share, mechanism_text(first), zones[zone] * share, peak_zone_name(zone),
                 (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
-    tell_floe(ctx, d, out);
+    tell_floe(ctx, run, d, out);
     peak_breaks b = peak_breaks_before(run, d->time);
     if (b.splits + b.bendings > 0) {
         text_add(ctx, out, "; in all of the ice ");

@@ -44,6 +44,8 @@ const char *mechanism_text(ice_mechanism m);
 const char *peak_zone_name(int32_t zone);
 const char *chain_end_name(chain_end e);
 const char *chain_end_text(chain_end e);
+/* The name of the vessel that a chain ends at; NULL: it ends at none, or at one without a name. */
+const char *peak_end_vessel(const run_data *d, const peak_floe *f);
 /* The mechanism with the largest part. */
 ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT]);
 

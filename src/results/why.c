@@ -165,28 +165,41 @@ static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_
     }
 }
 
-static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, text_buffer *out)
+/* What is no floe is known where it ends a chain. */
+static const char *name_end(const why *y, const peak_floe *f)
 {
+    const char *vessel = peak_end_vessel(&y->run, f);
+    if (vessel)
+        return vessel;
+    return f->end == CHAIN_WALL ? "wall" : f->end == CHAIN_ITSELF ? "hull" : f->end == CHAIN_VESSEL ? "vessel" : "body";
+}
+
+static void tell_chain(const why *y, const peak_floe *f, const peak_link *link, text_buffer *out)
+{
+    context *ctx = y->ctx;
     text_add(ctx, out, "  hull");
     for (int i = 0; i < f->links; i++) {
         char name[24];
         name_floe(link[i].number, name);
+        if (peak_chain_jumps_to(f, i))
+            text_format(ctx, out, " -> ... %d more ...", f->left_out);
         text_format(ctx, out, " -> %s (%s)",
-                    link[i].number >= 0                         ? name
-                    : i == f->links - 1 && f->end == CHAIN_WALL ? "wall"
-                                                                : "body",
+                    link[i].number >= 0 ? name
+                    : i == f->links - 1 ? name_end(y, f)
+                                        : "body",
                     load_text_of(vec3_length(link[i].push), 4).text);
     }
     text_format(ctx, out, "; the end: %s\n", chain_end_text((chain_end)f->end));
 }
 
-static void tell_chains(context *ctx, const peak_detail *d, text_buffer *out)
+static void tell_chains(const why *y, const peak_detail *d, text_buffer *out)
 {
+    context *ctx = y->ctx;
     int32_t at = 0;
     text_add(ctx, out, "\nForce chains behind them in the step of the peak (impulses over the step):\n");
     for (int32_t i = 0; i < d->floe_count; i++) {
         if (d->floe[i].links > 0)
-            tell_chain(ctx, &d->floe[i], &d->link[at], out);
+            tell_chain(y, &d->floe[i], &d->link[at], out);
         at += d->floe[i].links;
     }
     if (at == 0)
@@ -287,7 +300,7 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
     text_add(ctx, out, "\n");
     tell_parts(ctx, d, out);
     tell_floes(ctx, d, unit, out);
-    tell_chains(ctx, d, out);
+    tell_chains(y, d, out);
     tell_breaks(y, d, out);
     tell_check(ctx, check, unit, out);
     return out->failed ? error_memory(error) : FRAM_OK;
@@ -322,8 +335,23 @@ static void parts(context *ctx, text_buffer *out, const char *key, const double 
     text_add(ctx, out, "}");
 }
 
-static void json_chain(context *ctx, text_buffer *out, const peak_floe *f, const peak_link *link)
+static void json_end(const why *y, text_buffer *out, const peak_floe *f)
 {
+    const char *vessel = peak_end_vessel(&y->run, f);
+    text_add(y->ctx, out, ", \"left_out\": ");
+    if (f->left_out > 0)
+        text_format(y->ctx, out, "{\"links\": %d, \"after\": %d}", f->left_out, PEAK_CHAIN_FIRST);
+    else
+        text_add(y->ctx, out, "null");
+    text_format(y->ctx, out, ", \"end\": %s%s%s", f->links ? "\"" : "",
+                f->links ? chain_end_name((chain_end)f->end) : "null", f->links ? "\"" : "");
+    text_format(y->ctx, out, ", \"end_vessel\": %s%s%s", vessel ? "\"" : "", vessel ? vessel : "null",
+                vessel ? "\"" : "");
+}
+
+static void json_chain(const why *y, text_buffer *out, const peak_floe *f, const peak_link *link)
+{
+    context *ctx = y->ctx;
     text_add(ctx, out, ", \"chain\": [");
     for (int i = 0; i < f->links; i++) {
         text_format(ctx, out, "%s{\"floe\": %d, ", i > 0 ? ", " : "", (int)link[i].number);
@@ -338,12 +366,13 @@ static void json_chain(context *ctx, text_buffer *out, const peak_floe *f, const
         number(ctx, out, "inertia", link[i].inertia);
         text_add(ctx, out, "}");
     }
-    text_format(ctx, out, "], \"end\": %s%s%s", f->links ? "\"" : "",
-                f->links ? chain_end_name((chain_end)f->end) : "null", f->links ? "\"" : "");
+    text_add(ctx, out, "]");
+    json_end(y, out, f);
 }
 
-static void json_floes(context *ctx, text_buffer *out, const peak_detail *d)
+static void json_floes(const why *y, text_buffer *out, const peak_detail *d)
 {
+    context *ctx = y->ctx;
     int32_t at = 0;
     text_add(ctx, out, ", \"floes\": [");
     for (int32_t i = 0; i < d->floe_count; i++) {
@@ -355,7 +384,7 @@ static void json_floes(context *ctx, text_buffer *out, const peak_detail *d)
         vector(ctx, out, "point", f->point);
         text_add(ctx, out, ", ");
         parts(ctx, out, "parts", f->part);
-        json_chain(ctx, out, f, &d->link[at]);
+        json_chain(y, out, f, &d->link[at]);
         text_add(ctx, out, "}");
         at += f->links;
     }
@@ -416,7 +445,7 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
         parts(ctx, out, peak_zone_name(z), d->zone[z]);
     }
     text_format(ctx, out, "}, \"bodies\": %d", (int)d->bodies);
-    json_floes(ctx, out, d);
+    json_floes(y, out, d);
     text_format(ctx, out, ", \"bendings_before\": %d, \"splits_before\": %d, ", (int)b.bendings, (int)b.splits);
     number(ctx, out, "span_before", peak_span_recorded(&y->run, d->time));
     json_check(ctx, out, check);

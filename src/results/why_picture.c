@@ -79,6 +79,8 @@ static bool add_arrows(context *ctx, const peak_detail *d, double length, replay
         vec2 way = vec2_make(f->force.x * length, f->force.y * length);
         good = array_push(ctx, &plan->arrows, (plan_arrow){vec2_sub(point, way), point});
         for (int k = 1; k < f->links && good; k++) {
+            if (peak_chain_jumps_to(f, k))
+                continue;
             const peak_link *a = &d->link[at + k - 1], *b = &d->link[at + k];
             good = array_push(ctx, &plan->arrows,
                               (plan_arrow){vec2_make(a->place.x, a->place.y), vec2_make(b->place.x, b->place.y)});

@@ -97,8 +97,9 @@ static int32_t find_holders(const world *w, double per_time, int32_t from, chain
     return holder;
 }
 
-/* Of a body that is not moved by forces, or is no ice; CHAIN_LOOP for ice that moves freely. */
-static chain_end end_at(const world *w, int32_t body)
+/* Of a body that is not moved by forces, or is no ice.  moves: it is ice that moves freely, which is no end by itself.
+ */
+static chain_end end_at(const world *w, int32_t body, bool *moves)
 {
     switch ((material)w->bodies.material[body]) {
     case MATERIAL_HULL:
@@ -115,7 +116,8 @@ static chain_end end_at(const world *w, int32_t body)
     case MOTION_CARRIED:
         return CHAIN_DRIVEN;
     default: /* free, or gone since the contacts were solved */
-        return CHAIN_LOOP;
+        *moves = true;
+        return CHAIN_LONG;
     }
 }
 
@@ -131,14 +133,14 @@ static bool is_in(const force_chain *chain, int32_t body)
  */
 static void follow_chain(const world *w, double time_step, int32_t from, int32_t body, bool details, force_chain *chain)
 {
+    int32_t hull = from;
     chain->count = 0;
-    chain->end = CHAIN_LOOP;
     while (chain->count < CHAIN_MOST_LINKS && !is_in(chain, body)) {
         chain_link *l = &chain->link[chain->count++];
-        chain->end = end_at(w, body);
-        *l = details || chain->end == CHAIN_LOOP ? link_of(w, 1 / time_step, from, body, details)
-                                                 : (chain_link){.body = body};
-        if (chain->end != CHAIN_LOOP)
+        bool moves = false;
+        chain->end = body == hull ? CHAIN_ITSELF : end_at(w, body, &moves);
+        *l = details || moves ? link_of(w, 1 / time_step, from, body, details) : (chain_link){.body = body};
+        if (!moves)
             return;
         int32_t holder = find_holders(w, 1 / time_step, from, l);
         if (holder < 0 || l->water >= l->others || l->inertia > l->others) {
@@ -148,7 +150,7 @@ static void follow_chain(const world *w, double time_step, int32_t from, int32_t
         from = body;
         body = holder;
     }
-    chain->end = CHAIN_LOOP;
+    chain->end = is_in(chain, body) ? CHAIN_LOOP : CHAIN_LONG;
 }
 
 void force_chain_follow(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)

@@ -28,7 +28,7 @@ typedef struct force_chain {
 /* Makes the list of each body's contacts of this step, scratch.web_first and web_next.  false: no memory. */
 bool contact_web_make(context *ctx, world *w);
 /* The chain behind `body`, which `from` pushes, once the web is made.  A link goes on to the body that holds it most
-   while its contacts hold more of the push than water and inertia each do. */
+   while its contacts hold more of the push than water and inertia each do; back at the vessel itself it ends. */
 void force_chain_follow(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain);
 /* The same bodies and the same end, of links only the first push: for what is asked in every step. */
 void force_chain_end(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain);

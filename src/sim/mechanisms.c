@@ -46,6 +46,8 @@ static ice_mechanism by_reaction(const force_chain *chain)
     case CHAIN_VESSEL:
         return MECHANISM_CHAIN;
     case CHAIN_LOOP:
+    case CHAIN_LONG:
+    case CHAIN_ITSELF:
         return MECHANISM_ACCUMULATION;
     default:
         break;

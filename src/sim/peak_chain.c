@@ -34,6 +34,20 @@ static peak_link link_now(const world *w, const floe_trim_array *trims, const ch
     return (peak_link){slot, number, place, l->push, l->others, l->water, l->inertia};
 }
 
+static void keep_chain(const world *w, const floe_trim_array *trims, const force_chain *chain, peak_floe *f,
+                       peak_detail *d)
+{
+    int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS, last = chain->count - 1;
+    f->links = (uint8_t)count;
+    f->left_out = (uint16_t)(chain->count - count);
+    f->end = (uint8_t)chain->end;
+    if (chain->end == CHAIN_VESSEL)
+        f->end_vessel = (int16_t)w->bodies.owner[chain->link[last].body];
+    for (int32_t i = 0; i < count; i++)
+        d->link[d->link_count++] =
+            link_now(w, trims, &chain->link[i < PEAK_CHAIN_FIRST ? i : i + chain->count - count]);
+}
+
 void peak_chain_add(const world *w, double time_step, const floe_trim_array *trims, force_chain *chain, peak_floe *f,
                     peak_detail *d)
 {
@@ -48,9 +62,5 @@ void peak_chain_add(const world *w, double time_step, const floe_trim_array *tri
     end_at_trimmed(w, trims, chain);
     if (vec3_length(chain->link[0].push) == 0)
         return;
-    int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS;
-    f->links = (uint8_t)count;
-    f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
-    for (int32_t i = 0; i < count; i++)
-        d->link[d->link_count++] = link_now(w, trims, &chain->link[i]);
+    keep_chain(w, trims, chain, f, d);
 }

@@ -216,7 +216,7 @@ static body_sum *sum_of(context *ctx, body_sum_array *sums, const ice_share *s, 
             return &sums->data[i];
         }
     }
-    const body_sum fresh = {.floe = {.number = s->floe, .slot = s->body}};
+    const body_sum fresh = {.floe = {.number = s->floe, .slot = s->body, .end_vessel = -1}};
     if (!array_push(ctx, sums, fresh))
         return NULL;
     *last = sums->count - 1;

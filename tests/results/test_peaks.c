@@ -67,4 +67,37 @@ START_TEST(breaks_before_a_recording_are_not_known)
 }
 END_TEST
 
-TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks, breaks_before_a_recording_are_not_known)
+/* Each end of a chain has its words, and only floes are counted before it. */
+START_TEST(ends_of_chains)
+{
+    static const struct {
+        chain_end end;
+        int links, left_out;
+        const char *words;
+    } cases[] = {{CHAIN_INERTIA, 3, 0, "behind it 2 more to one that its inertia holds."},
+                 {CHAIN_WATER, 3, 0, "behind it 2 more to one that water and weight hold."},
+                 {CHAIN_SHEET, 2, 0, "behind it 1 more to fixed ice."},
+                 {CHAIN_DRIVEN, 24, 7, "behind it 30 more to driven ice."},
+                 {CHAIN_WALL, 3, 0, "behind it 1 more to a wall."},
+                 {CHAIN_WALL, 2, 0, "behind it a wall."},
+                 {CHAIN_VESSEL, 2, 0, "behind it a vessel."},
+                 {CHAIN_LOOP, 4, 0, "behind it 3 more and back to one of them."},
+                 {CHAIN_ITSELF, 4, 0, "behind it 2 more and back to the vessel itself."},
+                 {CHAIN_LONG, 24, 232, "behind it 255 more and on beyond what is followed."}};
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static peak_detail peak = {.time = 10, .load = 1000, .window = 0.5, .mechanism = {1000}, .floe_count = 1};
+        run_data d = {.s.run = {.scale = 30, .time_step = 0.02}, .note.recorded_from = -1};
+        text_buffer out = {0};
+        peak.floe[0] = (peak_floe){.part = {1000}, .links = (uint8_t)cases[i].links, .end = (uint8_t)cases[i].end};
+        peak.floe[0].left_out = (uint16_t)cases[i].left_out;
+        peak_sentence(&ctx, &d, &peak, &out);
+        ck_assert_msg(strstr(out.data, cases[i].words), "%s, not: %s", cases[i].words, out.data);
+        text_free(&ctx, &out);
+    }
+}
+END_TEST
+
+TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks, breaks_before_a_recording_are_not_known,
+          ends_of_chains)

@@ -66,7 +66,8 @@ SECTIONS = ("Scenario", "Ice load", "What makes the load", "Motion of the vessel
 CHARTS = ("Ice load over time", "Ice load by mechanism", "Histogram of the load",
           "Exceedance of the load", "Floe sizes", "Floes in the field", "Broken floes", "Energy", "Residual", "Overlap")
 MECHANISMS = ("splitting of a floe", "bending of ice that has not broken", "crushing at the limit",
-              "a chain of floes against fixed or driven ice, a wall or a vessel", "floes that other floes hold back",
+              "a chain of floes against fixed or driven ice, a wall or another vessel",
+              "floes that other floes hold back",
               "turning and submerging of floes", "impact of floes that give way freely",
               "sliding friction along the hull")
 

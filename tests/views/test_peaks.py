@@ -150,7 +150,7 @@ def check_words(browser):
     told = told[told.index("line_colours"):]
     palette = re.findall(r"\{(0\.\d+), (0\.\d+), (0\.\d+)\}", told[:told.index(";")])
     drawn = [[int(c[k:k + 2], 16) for k in (1, 3, 5)] for c in browser.run("fram.loads.colours")]
-    assert len(ends) == 7 and len(drawn) == 8 == len(palette), (ends, drawn, palette)
+    assert len(ends) == 9 and len(drawn) == 8 == len(palette), (ends, drawn, palette)
     for page, chart in zip(drawn, palette):
         assert all(abs(p - 255 * float(c)) < 0.51 for p, c in zip(page, chart)), (page, chart)
 

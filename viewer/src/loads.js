@@ -52,17 +52,22 @@ export function linesOf(loads, peak, length, [x, y]) {
         const colour = loads.colour(f.mechanism);
         const to = near(f.point);
         out.push({ to, from: to.map((p, i) => p - f.force[i] * length), colour });
-        for (let k = 1; k < f.chain.length; k++)
+        for (let k = 1; k < f.chain.length; k++) {
+            if (k === f.left_out?.after) continue;
             out.push({ from: near(f.chain[k - 1].place), to: near(f.chain[k].place), colour: CHAIN });
+        }
     }
     return out;
 }
 
 /** The longest chain of a peak in words: "hull, floe 3 (12 kN), floe 5 (9 kN): held by its inertia"; '' without one. */
 export function chainText(loads, peak, forceText) {
-    const longest = peak.detail.floes.reduce((a, b) => (b.chain.length > a.chain.length ? b : a), { chain: [] });
+    const length = (f) => f.chain.length + (f.left_out?.links ?? 0);
+    const longest = peak.detail.floes.reduce((a, b) => (length(b) > length(a) ? b : a), { chain: [] });
     if (longest.chain.length < 2) return '';
-    const links = longest.chain.map((l) => `${l.floe >= 0 ? `floe ${l.floe}` : 'a body'} (${
+    const other = (k) => (k + 1 === longest.chain.length && longest.end_vessel) || 'a body';
+    const links = longest.chain.map((l, k) => `${l.floe >= 0 ? `floe ${l.floe}` : other(k)} (${
         forceText(Math.hypot(...l.push) / 1000)})`);
+    if (longest.left_out) links.splice(longest.left_out.after, 0, `${longest.left_out.links} more`);
     return `Longest chain: hull, ${links.join(', ')}: ${loads.ends.get(longest.end)}.`;
 }
