@@ -85,6 +85,8 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
             checked = (why_check){.done = true,
                                   .start = again->start,
                                   .fork = again->fork,
+                                  .first = again->first,
+                                  .last = again->last,
                                   .same = again->same.load,
                                   .half_step = {again->half_step.load, again->half_step.wrong},
                                   .accurate = {again->accurate.load, again->accurate.wrong}};

@@ -10,6 +10,9 @@
 /* Differences under this part of the load matter to nobody: within what chance does from one second to the next. */
 static const double MATTERS = 0.05;
 
+/* A load that is larger by this part is another one: what is recorded is rounded. */
+static const double SAME_LOAD = 1e-5;
+
 /* Those of another Fram are no reason not to look at a moment, which is computed again. */
 static fram_status read_peaks(why *y, fram_error *error)
 {
@@ -253,17 +256,21 @@ static void tell_difference(context *ctx, const char *how, why_method by, double
                     unit.name, 100 * part, fabs(part) > MATTERS ? "  significant" : "");
 }
 
-static void tell_check(context *ctx, const why_check *c, load_unit unit, text_buffer *out)
+static void tell_check(context *ctx, const peak_detail *d, const why_check *c, load_unit unit, text_buffer *out)
 {
     if (!c->done) {
         text_add(ctx, out, "\nNot recomputed: the influence of time step and solver is unknown.\n");
         return;
     }
-    text_format(ctx, out, "\nRecomputed from %g s on, with other methods from %g s; largest averaged load:\n", c->start,
-                c->fork);
+    text_format(ctx, out,
+                "\nRecomputed from %g s on, with other methods from %g s; largest averaged load from %g s to %g s:\n",
+                c->start, c->fork, c->first, c->last);
     tell_difference(ctx, "as in the run", (why_method){c->same, 0}, c->same, unit, out);
     tell_difference(ctx, "half the time step", c->half_step, c->same, unit, out);
     tell_difference(ctx, "the accurate solver", c->accurate, c->same, unit, out);
+    if (c->same > d->load * (1 + SAME_LOAD))
+        text_format(ctx, out, "  (as in the run, that is more than the %s at %g s, which are explained above)\n",
+                    load_text_of(d->load, 4).text, d->time);
     text_format(ctx, out, "  (more than %g %% counts as significant; jams are chaotic, so compare means too)\n",
                 100 * MATTERS);
 }
@@ -302,7 +309,7 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
     tell_floes(ctx, d, unit, out);
     tell_chains(y, d, out);
     tell_breaks(y, d, out);
-    tell_check(ctx, check, unit, out);
+    tell_check(ctx, d, check, unit, out);
     return out->failed ? error_memory(error) : FRAM_OK;
 }
 
@@ -415,6 +422,10 @@ static void json_check(context *ctx, text_buffer *out, const why_check *c)
     number(ctx, out, "from", c->start);
     text_add(ctx, out, ", ");
     number(ctx, out, "other_methods_from", c->fork);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "largest_from", c->first);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "largest_to", c->last);
     text_add(ctx, out, ", ");
     number(ctx, out, "same", c->same);
     json_method(ctx, out, "half_step", c->half_step);

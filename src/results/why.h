@@ -8,13 +8,14 @@
 
 /* What a second computed again by other methods came to; sim/rerun.h. */
 typedef struct why_method {
-    double load;  /* largest averaged load from the fork on [N] */
+    double load;  /* largest averaged load of windows that begin with the fork or later [N] */
     double wrong; /* end of the step in which it went wrong by this method [s]; 0: it did not */
 } why_method;
 typedef struct why_check {
     bool done;
     double start, fork;
-    double same; /* load as the run was made [N] */
+    double first, last; /* the largest loads are looked for from the one to the other [s] */
+    double same;        /* load as the run was made [N] */
     why_method half_step, accurate;
 } why_check;
 

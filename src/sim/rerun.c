@@ -87,6 +87,10 @@ static fram_status follow(rerun *r, const model *m, world *w, bool same, rerun_m
     if (first > end)
         first = end;
     *out = (rerun_method){0};
+    if (same) {
+        r->out->first = (double)first * m->time_step;
+        r->out->last = (double)last * m->time_step;
+    }
     while (status == FRAM_OK && w->clock.step[0] < last && !(out->wrong > 0)) {
         status = same ? step_same(r, m, w, error) : step_other(r, m, w, &out->wrong, error);
         vec3 f = load_window_average(w, r->vessel).force;

@@ -8,14 +8,15 @@
 #include "model/world.h"
 
 typedef struct rerun_method {
-    double load;  /* largest averaged load from the fork on [N] */
+    double load;  /* largest averaged load of windows that begin with the fork or later [N] */
     double wrong; /* end of the step in which the simulation went wrong by this method [s]; 0: it did not */
 } rerun_method;
 
 typedef struct rerun_result {
-    peak_detail detail;               /* of the vessel at that time, as peak_watch_explain */
-    double start;                     /* of the state that was gone on from [s] */
-    double fork;                      /* from here on the others differ: a second and a window before the time [s] */
+    peak_detail detail; /* of the vessel at that time, as peak_watch_explain */
+    double start;       /* of the state that was gone on from [s] */
+    double fork;        /* from here on the others differ: a second and a window before the time [s] */
+    double first, last; /* the largest loads are those of windows that end from the one to the other [s] */
     rerun_method half_step, accurate; /* with half the time step, with the accurate solver */
     rerun_method same;                /* as the run was made */
 } rerun_result;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # fram why: chains of floes are told to what ends them, however long: a wall, another vessel by its name, the vessel
-# itself.
+# itself; and what the largest load of a moment computed again is.
 . "$FRAM_SOURCE/tests/cli/common.sh"
 printf 'time[s],x[m/s],y[m/s]\n20,0,0\n' >calm.csv
 
@@ -97,4 +97,27 @@ same "$(value "$first")" "(3, None, 'itself', None)" "a chain that comes back"
 same "$(value "(j['mechanisms']['chain'], j['mechanisms']['accumulation'] > 0.1 * j['load'])")" "(0, True)" \
     "its mechanism"
 
+# A moment behind a blow: the largest load of the span that is computed again is told as another than what is explained.
+cat >blow.yaml <<'YAML'
+run: {duration: 8, time_step: 0.02, transient: 0}
+vessel: {mode: prescribed, x: -20, speed: 1, hull: {form: box, length: 30, beam: 10, draught: 3, freeboard: 3}}
+domain: {x_min: -60, x_max: 100, y_min: -40, y_max: 40, boundary: open}
+ice:
+  source: floes
+  thickness: 0.8
+  crushing_strength: 5.0e7
+  floes: [{x: 2.25, length: 10, width: 10}]
+YAML
+expect 0 "$FRAM" run blow.yaml -o blow --quiet
+expect 0 "$FRAM" why blow --peak 1
+grep -q "explained above" out && fail "the peak is explained, and told as another load: $(cat out)"
+expect 0 "$FRAM" why blow --peak 1 --json
+at=$(value "f\"{j['time'] + 0.6:.6g}\"")
+expect 0 "$FRAM" why blow --time "$at" --json
+same "$(value "j['computed_again']['same'] > 1.2 * j['load'] > 0")" True "a larger load before"
+same "$(value "round(j['computed_again']['largest_from'] - j['time'], 6)")" -1.0 "since when it is looked for"
+same "$(value "round(j['computed_again']['largest_to'] - j['time'], 6)")" 0.24 "until when it is looked for"
+expect 0 "$FRAM" why blow --time "$at"
+holds "largest averaged load from .* s to .* s:" out
+holds "(as in the run, that is more than the .* [kM]\?N at $at s, which are explained above)" out
 finish "chains are told to their ends"
