@@ -169,7 +169,8 @@
     X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                    \
     X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")       \
     X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m",                                                                  \
-      "clear distance between the vessel, as seen from above with its deck, and the field or level ice")               \
+      "clear distance between the vessel, as seen from above with its deck, or its parts in the ice where water is "   \
+      "between them, and the field or level ice")                                                                      \
     X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                                 \
     X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                                 \
     X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                                  \

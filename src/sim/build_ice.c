@@ -27,6 +27,12 @@ double build_ice_elevation(const scenario *s, double thickness)
     return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
 }
 
+build_slab build_slab_of_ice(const scenario *s, double thickness)
+{
+    double middle = build_ice_elevation(s, thickness);
+    return (build_slab){middle - 0.5 * thickness, middle + 0.5 * thickness};
+}
+
 /* Plan points of the part of one triangle in a slab. */
 static bool add_triangle(context *ctx, const vec3 corner[3], build_slab slab, vec2_array *points)
 {

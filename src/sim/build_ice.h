@@ -30,6 +30,8 @@ typedef struct build_slab {
     double low, high;
 } build_slab;
 static inline build_slab build_slab_all(void) { return (build_slab){-HUGE_VAL, HUGE_VAL}; }
+/* Where ice of a thickness floats. */
+build_slab build_slab_of_ice(const scenario *s, double thickness);
 
 /* Outlines that do not cover each other and are hardly larger than what of the body is in a slab: those of the hull's
    convex pieces together, cut along seams where they go round a hole, where its convex outline holds open water, as of

@@ -23,12 +23,97 @@ fram_status build_footprints(context *ctx, const world *w, polygon_list *out, fr
     return status;
 }
 
+/* ---- hulls in parts ---- */
+
+static double thickest_ice(const scenario *s)
+{
+    double most = s->ice.thickness;
+    for (int32_t i = 0; i < s->ice.populations.count; i++)
+        most = real_max(most, automatic_or(s->ice.populations.data[i].thickness, 0));
+    return most;
+}
+
+/* The first two zones that have something in common; false: none. */
+static bool find_meeting(const polygon_list *zones, int32_t *a, int32_t *b)
+{
+    for (*b = 1; *b < polygon_list_count(zones); ++*b)
+        for (*a = 0; *a < *b; ++*a)
+            if (field_common_area(polygon_list_get(zones, *a), polygon_list_get(zones, *b)) > 0)
+                return true;
+    return false;
+}
+
+/* The outlines `a` and `b` give way to the convex one around both.  zones: those around the outlines, made anew. */
+static bool join_outlines(context *ctx, int32_t a, int32_t b, double margin, polygon_list *outlines,
+                          polygon_list *zones)
+{
+    polygon_list rest = {0};
+    vec2_array points = {0}, around = {0};
+    bool good = true;
+    for (int32_t i = 0; i < polygon_list_count(outlines) && good; i++) {
+        polygon p = polygon_list_get(outlines, i);
+        if (i != a && i != b)
+            good = polygon_list_push(ctx, &rest, p);
+        for (int32_t k = 0; k < p.count && good && (i == a || i == b); k++)
+            good = array_push(ctx, &points, p.vertex[k]);
+    }
+    good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, &around) &&
+           polygon_list_push(ctx, &rest, (polygon){around.data, around.count});
+    polygon_list_clear(zones);
+    good = good && zones_grow(ctx, &rest, margin, zones);
+    polygon_list had = *outlines;
+    *outlines = rest;
+    polygon_list_free(ctx, &had);
+    array_free(ctx, &points);
+    array_free(ctx, &around);
+    return good;
+}
+
+/* Convex outlines with their margin of the parts of a body in a slab; parts without water between them are one. */
+static fram_status zones_of_parts(context *ctx, const world *w, int32_t body, build_slab slab, double margin,
+                                  polygon_list *zones, fram_error *error)
+{
+    polygon_list plan = {0}, outlines = {0};
+    vec2_array around = {0};
+    int32_t a, b;
+    fram_status status = build_plan(ctx, w, body, slab, &plan, error);
+    bool good = status == FRAM_OK;
+    for (int32_t i = 0; i < polygon_list_count(&plan) && good; i++)
+        good = polygon_convex_hull(ctx, polygon_list_get(&plan, i), &around) &&
+               polygon_list_push(ctx, &outlines, (polygon){around.data, around.count});
+    good = good && zones_grow(ctx, &outlines, margin, zones);
+    while (good && find_meeting(zones, &a, &b))
+        good = join_outlines(ctx, a, b, margin, &outlines, zones);
+    polygon_list_free(ctx, &plan);
+    polygon_list_free(ctx, &outlines);
+    array_free(ctx, &around);
+    return status == FRAM_OK && !good ? error_memory(error) : status;
+}
+
+/* Of a hull in one part all that is seen from above, its deck too. */
+static fram_status add_vessel_zones(context *ctx, const scenario *s, const world *w, int32_t vessel, polygon footprint,
+                                    polygon_list *out, fram_error *error)
+{
+    polygon_list whole = {0}, parts = {0};
+    double margin = s->ice.keep_out_margin;
+    fram_status status =
+        zones_of_parts(ctx, w, w->vessels.body[vessel], build_slab_of_ice(s, thickest_ice(s)), margin, &parts, error);
+    bool apart = polygon_list_count(&parts) > 1, good = status == FRAM_OK;
+    for (int32_t i = 0; i < polygon_list_count(&parts) && good && apart; i++)
+        good = polygon_list_push(ctx, out, polygon_list_get(&parts, i));
+    if (good && !apart)
+        good = polygon_list_push(ctx, &whole, footprint) && zones_grow(ctx, &whole, margin, out);
+    polygon_list_free(ctx, &whole);
+    polygon_list_free(ctx, &parts);
+    return status == FRAM_OK && !good ? error_memory(error) : status;
+}
+
 fram_status build_wide_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
     polygon_list all = {0};
     fram_status status = build_footprints(ctx, w, &all, error);
-    if (status == FRAM_OK && !zones_grow(ctx, &all, s->ice.keep_out_margin, out))
-        status = error_memory(error);
+    for (int32_t i = 0; i < polygon_list_count(&all) && status == FRAM_OK; i++)
+        status = add_vessel_zones(ctx, s, w, i, polygon_list_get(&all, i), out, error);
     polygon_list_free(ctx, &all);
     return status;
 }

@@ -7,10 +7,12 @@
 
 /* Appends the footprints of all vessels, as they are. */
 fram_status build_footprints(context *ctx, const world *w, polygon_list *out, fram_error *error);
-/* The same with ice.keep_out_margin around them: convex zones, counter-clockwise, in the order of the vessels. */
+/* Convex zones, counter-clockwise, in the order of the vessels: the footprints with ice.keep_out_margin around them; of
+   a hull that stands in parts in the ice, as a catamaran or a semi-submersible, those of its parts there, where they
+   leave water between them. */
 fram_status build_wide_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out,
                                   fram_error *error);
-/* Appends convex zones, counter-clockwise: the footprints with their margin; the rectangles of ice.open_water; the
+/* Appends convex zones, counter-clockwise: those around the vessels; the rectangles of ice.open_water; the
    polygons of ice.open_water_file, cut into convex pieces. */
 fram_status build_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error);
 

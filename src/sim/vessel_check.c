@@ -348,10 +348,8 @@ static int32_t floe_outline(const scenario_floe *f, vec2 out[FLOE_SIDES_MOST])
 static fram_status plan_in_ice(context *ctx, const scenario *s, const world *w, int32_t row, double thickness,
                                polygon_list *out, fram_error *error)
 {
-    double middle = build_ice_elevation(s, thickness);
     polygon_list_clear(out);
-    return build_plan(ctx, w, w->vessels.body[row], (build_slab){middle - 0.5 * thickness, middle + 0.5 * thickness},
-                      out, error);
+    return build_plan(ctx, w, w->vessels.body[row], build_slab_of_ice(s, thickness), out, error);
 }
 
 static fram_status warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row,
