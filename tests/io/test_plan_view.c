@@ -519,10 +519,72 @@ START_TEST(pictures_of_one_size)
 }
 END_TEST
 
+typedef struct png_bytes {
+    const text_buffer *png;
+    int32_t read;
+} png_bytes;
+
+static cairo_status_t take_bytes(void *user, unsigned char *data, unsigned int length)
+{
+    png_bytes *b = user;
+    if (length > (unsigned int)(b->png->count - b->read))
+        return CAIRO_STATUS_READ_ERROR;
+    memcpy(data, b->png->data + b->read, length);
+    b->read += (int32_t)length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/* Pixels of a page below its title that are of water or ice, first to last of them, along x or y. */
+static int extent_of(cairo_surface_t *page, bool upright)
+{
+    const int wide = cairo_image_surface_get_width(page), high = cairo_image_surface_get_height(page);
+    int first = INT32_MAX, last = -1;
+    for (int y = 60; y < high - 40; y++) {
+        const unsigned char *row = cairo_image_surface_get_data(page) + y * cairo_image_surface_get_stride(page);
+        for (int x = 0; x < wide; x++)
+            if (row[4 * x] > row[4 * x + 2] + 10) { /* blue */
+                first = (upright ? y : x) < first ? (upright ? y : x) : first;
+                last = (upright ? y : x) > last ? (upright ? y : x) : last;
+            }
+    }
+    return last - first + 1;
+}
+
+/* Long and narrow fields fill the longer side of their pictures, though they are of a few pixels across, or of less
+   than one. */
+START_TEST(strips)
+{
+    enum { LONGEST = 1600 };
+    const double across[] = {80, 24, 12, 8, 1, 1e-5};
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 12; i++) {
+        bool upright = i % 2;
+        double w = upright ? across[i / 2] : 20000, h = upright ? 20000 : across[i / 2];
+        const vec2 ring[4] = {{0, 0}, {w, 0}, {w, h}, {0, h}};
+        const plan_shape s = {.outline = {ring, 4}, .style = PLAN_LEVEL_ICE};
+        text_buffer png = {0};
+        png_bytes bytes = {&png, 0};
+        fram_error error;
+        for (int32_t count = 0; count < 2; count++) {
+            const plan_view view = {
+                .window = {{0, 0}, {w, h}}, .title = "", .caption = "", .shapes = &s, .shape_count = count};
+            assert_ok(plan_view_png(&ctx, &view, LONGEST, &png, &error), error);
+            cairo_surface_t *page = cairo_image_surface_create_from_png_stream(take_bytes, &bytes);
+            ck_assert_int_eq(cairo_surface_status(page), CAIRO_STATUS_SUCCESS);
+            int found = extent_of(page, upright);
+            ck_assert_msg(found >= LONGEST - 1 && found <= LONGEST + 1, "%g by %g m: %d pixels", w, h, found);
+            cairo_surface_destroy(page);
+        }
+        text_free(&ctx, &png);
+    }
+}
+END_TEST
+
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
           lines_in_the_window, flows_that_move, flows_of_a_history, flows_of_a_profile,
           pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
-          labels_that_cover_each_other, texts_beside_a_narrow_plan, pictures_of_one_size)
+          labels_that_cover_each_other, texts_beside_a_narrow_plan, pictures_of_one_size, strips)
 
 #else
 
