@@ -9,6 +9,9 @@ static const double KNUCKLE_COSINE = 0.94;
 /* Where all triangles of a patch look within 60 degrees of its mean normal, panels have their size in the plane of
  * that. */
 static const double FLAT_COSINE = 0.5;
+/* Triangles narrower than this part of a panel are lines, which look along no direction: a corner on a panel line is
+   one of a facet twice, or in the middle of one of its edges. What surrounds them holds their points too. */
+static const double THIN = 1e-9;
 /* Pieces cut by lines before any is refused: a grid far too fine is told so before it fills the memory. */
 enum { FACETS_MOST = 500000 };
 
@@ -329,6 +332,21 @@ static bool number_panels(panel_work *w, hull_panels *out, int32_t *panel_of)
     return true;
 }
 
+/* A facet as triangles. */
+static bool lay_triangles(panel_work *w, hull_panels *out, const panel_facet *f)
+{
+    const vec3 *c = &w->corner.data[f->first];
+    bool good = true;
+    for (int32_t k = 1; k + 1 < f->count && good; k++) {
+        vec3 a = vec3_sub(c[k], c[0]), b = vec3_sub(c[k + 1], c[0]), d = vec3_sub(b, a);
+        double square = fmax(vec3_dot(a, a), fmax(vec3_dot(b, b), vec3_dot(d, d)));
+        if (vec3_length(vec3_cross(a, b)) > THIN * w->rules->size * sqrt(square))
+            good = mesh_add_triangle(w->ctx, &out->triangle, f->first, f->first + k, f->first + k + 1) &&
+                   array_push(w->ctx, &out->triangle_panel, f->panel);
+    }
+    return good;
+}
+
 /* Facets by panel, and as triangles. */
 static bool lay_out(panel_work *w, hull_panels *out, const int32_t *panel_of, int32_t *place)
 {
@@ -343,12 +361,8 @@ static bool lay_out(panel_work *w, hull_panels *out, const int32_t *panel_of, in
     for (int32_t i = 0; i < w->corner.count && good; i++)
         good = array_push(w->ctx, &out->corner, w->corner.data[i]) &&
                mesh_add_vertex(w->ctx, &out->triangle, w->corner.data[i]);
-    for (int32_t i = 0; i < out->facet.count && good; i++) {
-        const panel_facet *f = &out->facet.data[i];
-        for (int32_t k = 1; k + 1 < f->count && good; k++)
-            good = mesh_add_triangle(w->ctx, &out->triangle, f->first, f->first + k, f->first + k + 1) &&
-                   array_push(w->ctx, &out->triangle_panel, f->panel);
-    }
+    for (int32_t i = 0; i < out->facet.count && good; i++)
+        good = lay_triangles(w, out, &out->facet.data[i]);
     return good;
 }
 

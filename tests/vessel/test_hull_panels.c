@@ -16,6 +16,15 @@ static void make(context *ctx, const mesh *m, const panel_rules *rules, hull_pan
 {
     fram_error error = {0};
     assert_ok(hull_panels_make(ctx, m, rules, p, &error), error);
+    for (int32_t f = 0; f < p->triangle.face.count; f++) {
+        vec3 c[3];
+        mesh_face_points(&p->triangle, f, c);
+        double around =
+            vec3_length(vec3_sub(c[1], c[0])) + vec3_length(vec3_sub(c[2], c[1])) + vec3_length(vec3_sub(c[0], c[2]));
+        ck_assert_msg(vec3_length(mesh_area_vector(&p->triangle, f)) > 1e-12 * around, "triangle %d has no area",
+                      (int)f);
+    }
+    assert_relative(surface_of(&p->triangle), surface_of(m), 1e-12);
 }
 
 static double sum_of(const hull_panels *p)
@@ -68,6 +77,30 @@ START_TEST(box)
     ck_assert_int_eq(at(&p, (vec3){0.3, 9.8, -3.9}, (vec3){0, 0, -1})->side, SIDE_BOTTOM);
     hull_panels_free(&ctx, &p);
     mesh_free(&ctx, &m);
+}
+END_TEST
+
+/* A ridge along a panel line: corners that lie on it are those of facets to both sides, which have them once or twice,
+   and what has no area looks along no direction and along all of them. */
+START_TEST(corners_on_panel_lines)
+{
+    const double heights[] = {2, 1.9999999, 2 + 1e-12, 0.7};
+    for (int i = 0; i < 4; i++) {
+        context ctx;
+        context_init(&ctx);
+        mesh m = {0};
+        hull_panels p;
+        fram_error error = {0};
+        const vec2 side[] = {{-20, -4}, {14, -4}, {20, heights[i]}, {20, 4}, {-20, 4}, {-20, 0}};
+        ck_assert_int_eq(mesh_make_prism(&ctx, (polygon){side, 6}, -6, 6, &m, &error), FRAM_OK);
+        for (int32_t v = 0; v < m.vertex.count; v++) {
+            vec3 q = m.vertex.data[v];
+            m.vertex.data[v] = (vec3){q.x, -q.z, q.y};
+        }
+        make(&ctx, &m, &(panel_rules){.size = 2}, &p);
+        hull_panels_free(&ctx, &p);
+        mesh_free(&ctx, &m);
+    }
 }
 END_TEST
 
@@ -242,4 +275,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull panels", box, two_hulls, sloping_bow, icebreaker, own_lines, refusals, memory_runs_out)
+TEST_MAIN("hull panels", box, corners_on_panel_lines, two_hulls, sloping_bow, icebreaker, own_lines, refusals,
+          memory_runs_out)
