@@ -1,5 +1,6 @@
 #include "model/world_check.h"
 
+#include "model/world_invariants.h"
 #include "vessel/allocation.h"
 
 #include <math.h>
@@ -352,19 +353,39 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
 
 /* ---- places, velocities, sizes ---- */
 
-/* Columns of numbers that are finite in every row. */
+/* No place or velocity is beyond [m, m/s, rad/s]: a hundred thousand times the widest domain, where a step's products
+   are still numbers, and cells of the broad phase have their own. */
+#define FAR 1e12
+
+/* Columns of numbers that are finite, and no place beyond all, in every row. */
 static const struct finite_rule {
     const char *table, *column;
 } finite_rules[] = {
-    {"clock", "time"},           {"body", "position"},       {"body", "velocity"},    {"body", "angular_velocity"},
-    {"shape_vertex", "point"},   {"vessel", "tow_velocity"}, {"feeding", "velocity"}, {"feeding", "displacement"},
-    {"drift", "velocity"},       {"drift", "moved"},         {"drift", "rest"},       {"drift", "way"},
-    {"feeding", "lo"},           {"feeding", "hi"},          {"feeding", "tile"},     {"pattern", "place"},
-    {"pattern_vertex", "point"}, {"drift_vertex", "point"},
+    {"clock", "time"},
+    {"body", "position"},
+    {"body", "velocity"},
+    {"body", "angular_velocity"},
+    {"shape_vertex", "point"},
+    {"vessel", "tow_velocity"},
+    {"feeding", "velocity"},
+    {"feeding", "displacement"},
+    {"drift", "velocity"},
+    {"drift", "moved"},
+    {"drift", "rest"},
+    {"drift", "way"},
+    {"feeding", "lo"},
+    {"feeding", "hi"},
+    {"feeding", "tile"},
+    {"pattern", "place"},
+    {"pattern_vertex", "point"},
+    {"drift_vertex", "point"},
+    {"contact_memory", "on_lower"},
+    {"broad", "lo"},
+    {"broad", "hi"},
+    {"broad", "travel"},
+    {"broad", "stay"},
+    {"broad", "position"},
 };
-
-/* Steps normalise quaternions to rounding. */
-#define LENGTH_ROUNDING 1e-6
 
 static fram_status refuse_real(const char *table, int32_t row, const char *column, double found, fram_error *error)
 {
@@ -383,22 +404,24 @@ static fram_status check_finite(const world_table *tables, const struct finite_r
     for (int32_t row = 0; row < rows_of(t); row++) {
         for (int k = 0; k < field->components; k++) {
             double value = values[(int64_t)row * field->components + k];
-            if (!isfinite(value))
+            if (!(fabs(value) <= FAR))
                 return refuse_real(rule->table, row, rule->column, value, error);
         }
     }
     return FRAM_OK;
 }
 
-static fram_status check_turns(const body_table *b, fram_error *error)
+/* What no step leaves: quaternions of another length, bodies that move without mass, static ones that move, rows out of
+   order. */
+static fram_status check_invariants(const model *m, const world *w, fram_error *error)
 {
-    for (int32_t i = 0; i < b->count; i++) {
-        quat q = b->orientation[i];
-        double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-        if (body_is_alive(b, i) && !(fabs(length - 1) <= LENGTH_ROUNDING))
-            return refuse_real("body", i, "orientation", length, error);
-    }
-    return FRAM_OK;
+    char text[INVARIANT_TEXT];
+    if (!world_invariant_broken(m, w, text))
+        return FRAM_OK;
+    char *what = strstr(text, ": ");
+    if (what)
+        *what = '\0';
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, text, "the state cannot be: %s", what ? what + 2 : "");
 }
 
 /* Both sizes of a row are positive. */
@@ -410,7 +433,19 @@ static fram_status check_sizes(const char *table, int32_t row, double area, cons
     return height > 0 && isfinite(height) ? FRAM_OK : refuse_real(table, row, column, height, error);
 }
 
-static fram_status check_ice_sizes(const world *w, fram_error *error)
+static fram_status check_material(const char *table, int32_t row, const ice_material *m, fram_error *error)
+{
+    const double positive[] = {m->density, m->elastic_modulus, m->flexural_strength, m->crushing_strength};
+    for (size_t i = 0; i < sizeof positive / sizeof *positive; i++) {
+        if (!(positive[i] > 0 && isfinite(positive[i])))
+            return refuse_real(table, row, "material", positive[i], error);
+    }
+    if (!(m->poisson_ratio >= 0 && m->poisson_ratio < 0.5))
+        return refuse_real(table, row, "material", m->poisson_ratio, error);
+    return fabs(m->crushing_exponent) <= 1 ? FRAM_OK : refuse_real(table, row, "material", m->crushing_exponent, error);
+}
+
+static fram_status check_ice_rows(const world *w, fram_error *error)
 {
     const floe_table *f = &w->floes;
     const shape_table *s = &w->shapes.shapes;
@@ -419,17 +454,22 @@ static fram_status check_ice_sizes(const world *w, fram_error *error)
     for (int32_t i = 0; i < f->count && status == FRAM_OK; i++) {
         if (f->body[i] >= 0)
             status = check_sizes("floe", i, f->area[i], "thickness", f->thickness[i], error);
+        if (f->body[i] >= 0 && status == FRAM_OK)
+            status = check_material("floe", i, &f->material[i], error);
     }
     for (int32_t i = 0; i < s->count && status == FRAM_OK; i++) {
         if (s->kind[i] == SHAPE_PRISM)
             status = check_sizes("shape", i, s->area[i], "half_height", s->half_height[i], error);
     }
-    for (int32_t i = 0; i < p->count && status == FRAM_OK; i++)
+    for (int32_t i = 0; i < p->count && status == FRAM_OK; i++) {
         status = check_sizes("pattern", i, p->area[i], "thickness", p->thickness[i], error);
+        if (status == FRAM_OK)
+            status = check_material("pattern", i, &p->material[i], error);
+    }
     return status;
 }
 
-fram_status world_check_numbers(const world *w, fram_error *error)
+fram_status world_check_numbers(const model *m, const world *w, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -437,6 +477,6 @@ fram_status world_check_numbers(const world *w, fram_error *error)
     for (size_t i = 0; i < sizeof finite_rules / sizeof *finite_rules && status == FRAM_OK; i++)
         status = check_finite(tables, &finite_rules[i], error);
     if (status == FRAM_OK)
-        status = check_turns(&w->bodies, error);
-    return status == FRAM_OK ? check_ice_sizes(w, error) : status;
+        status = check_ice_rows(w, error);
+    return status == FRAM_OK ? check_invariants(m, w, error) : status;
 }

@@ -7,8 +7,8 @@
 
 /* FRAM_ERROR_INPUT with the table, row and field as key.  m: the model that the world shall be stepped with. */
 fram_status world_check(const model *m, const world *w, fram_error *error);
-/* The same where a place or velocity is not finite, an orientation is no unit quaternion, or ice has no area or
-   thickness.  Not for the state of a step that failed, which may have failed by that. */
-fram_status world_check_numbers(const world *w, fram_error *error);
+/* The same where a place or velocity is not finite or beyond all, ice has no area, thickness or strength, or an
+   invariant is broken (world_invariants.h).  Not for the state of a step that failed, which may have failed by that. */
+fram_status world_check_numbers(const model *m, const world *w, fram_error *error);
 
 #endif

@@ -284,7 +284,7 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     status = check_origin(ctx, path, bytes, note, data, other, error);
     bool failed = numbers[NUMBER_FAILED].value != 0;
     if (status == FRAM_OK &&
-        (world_check(m, w, &unsound) != FRAM_OK || (!failed && world_check_numbers(w, &unsound) != FRAM_OK)))
+        (world_check(m, w, &unsound) != FRAM_OK || (!failed && world_check_numbers(m, w, &unsound) != FRAM_OK)))
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     if (status == FRAM_OK && world_hash(w) != numbers[NUMBER_HASH].value)
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");

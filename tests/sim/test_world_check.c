@@ -36,7 +36,7 @@ static const char company[] =
 static fram_status check(const scene *k, fram_error *error)
 {
     fram_status status = world_check(&k->m, &k->w, error);
-    return status == FRAM_OK ? world_check_numbers(&k->w, error) : status;
+    return status == FRAM_OK ? world_check_numbers(&k->m, &k->w, error) : status;
 }
 
 static void assert_sound(const scene *k)
@@ -173,9 +173,18 @@ START_TEST(what_no_body_can_be_is_found)
     FOUND(&k, bodies.velocity[floe].x, bits(-infinite), key);
     snprintf(key, sizeof key, "body[%d].angular_velocity", (int)floe);
     FOUND(&k, bodies.angular_velocity[floe].y, bits(nan_value), key);
-    snprintf(key, sizeof key, "body[%d].orientation", (int)floe);
+    FOUND(&k, bodies.angular_velocity[floe].x, bits(-1e100), key);
+    snprintf(key, sizeof key, "body[%d]", (int)floe);
     FOUND(&k, bodies.orientation[floe].w, bits(nan_value), key);
-    FOUND(&k, bodies.orientation[floe].w, bits(k.w.bodies.orientation[floe].w + 1e-5), key);
+    FOUND(&k, bodies.orientation[floe].w, bits(k.w.bodies.orientation[floe].w + 1e-8), key); /* the solver asserts it */
+    FOUND(&k, bodies.mass[floe], bits(nan_value), key);
+    FOUND(&k, bodies.inertia[floe].zz, bits(-3.8e-280), key);
+    FOUND(&k, floes.material[0].density, bits(-2.4e-185), "floe[0].material");
+    FOUND(&k, floes.material[0].poisson_ratio, bits(0.5), "floe[0].material");
+    FOUND(&k, floes.material[0].crushing_strength, bits(-1.4e62), "floe[0].material");
+    FOUND(&k, floes.material[0].crushing_exponent, bits(nan_value), "floe[0].material");
+    FOUND(&k, boxes.lo[0].z, bits(1e270), "broad[0].lo");
+    FOUND(&k, boxes.hi[0].x, bits(nan_value), "broad[0].hi");
     FOUND(&k, floes.thickness[0], bits(0), "floe[0].thickness");
     FOUND(&k, floes.area[0], bits(-1), "floe[0].area");
     snprintf(key, sizeof key, "shape[%d].half_height", (int)shape);
@@ -199,6 +208,9 @@ START_TEST(what_names_another_thing_is_found)
     FOUND(&k, vessels.body[0], carriage, "vessel[0].body");
     FOUND(&k, vessels.carriage[0], -1, "vessel[0].carriage");
     FOUND(&k, bodies.motion[carriage], MOTION_NONE, "vessel[0].carriage");
+    ck_assert(table_resize(&k.ctx, &k.w.memory, &contact_memory_table_info, 1));
+    k.w.memory.on_lower[0] = (vec3){1, 2, 3};
+    FOUND(&k, memory.on_lower[0].y, bits((double)INFINITY), "contact_memory[0].on_lower");
     /* One of a pair may have broken after it was found: the next step sees to it. */
     k.w.bodies.generation[k.w.pairs.a[0]]++;
     assert_sound(&k);
