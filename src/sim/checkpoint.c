@@ -345,7 +345,10 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
     fram_status status = read_newest(ctx, folder, INT64_MAX, m, w, note, &found, &other, error);
     if (status != FRAM_OK || found)
         return status;
-    return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
+    return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                     "there is no checkpoint in this folder to resume from: start the run again over it (fram run "
+                     "--force, or force of a program), and with a smaller output.checkpoint_interval to have one "
+                     "sooner");
 }
 
 fram_status checkpoint_read_before(context *ctx, const char *folder, double time, const model *m, world *w,
