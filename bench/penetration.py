@@ -14,21 +14,17 @@ import json
 import math
 import sys
 
+import scene_file
+
 TOUCHING = 1e-9
 
 
 def read_scene(path):
     """Floes as (thickness, outline), and the walls."""
-    floes, walls = [], None
-    with open(path, encoding="utf-8") as lines:
-        for line in lines:
-            word = line.split()
-            if word and word[0] == "floe":
-                v = [float(x) for x in word[6:]]
-                floes.append((float(word[1]), list(zip(v[0::2], v[1::2]))))
-            elif word and word[0] == "domain":
-                walls = [float(x) for x in word[1:5]]
-    return floes, walls
+    head, floes = scene_file.read(path)
+    words = [line.split() for line in head]
+    walls = [[float(x) for x in word[1:5]] for word in words if word and word[0] == "domain"]
+    return [(float(floe.thickness), floe.outline) for floe in floes], walls[-1] if walls else None
 
 
 class Prism:

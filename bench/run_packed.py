@@ -11,6 +11,7 @@ import pathlib
 import sys
 
 import run_peers
+import scene_file
 
 FLOES, REST = 1000, 130  # seconds after which a field counts as packed
 LONG = (60, 100, 150, 200, 260)
@@ -29,12 +30,10 @@ HEAD = ("| {first} | kinetic energy J | rms velocity mm/s | loaded pairs | mean 
 def mass_of(scene):
     """Of all floes [kg]."""
     mass = 0.0
-    for line in scene.read_text(encoding="utf-8").splitlines():
-        word = line.split()
-        if word and word[0] == "floe":
-            v = [float(x) for x in word[6:]]
-            x, y = v[0::2], v[1::2]
-            mass += float(word[1]) * float(word[2]) * sum(x[i - 1] * y[i] - x[i] * y[i - 1] for i in range(len(x))) / 2
+    for floe in scene_file.read(scene)[1]:
+        p = floe.outline
+        twice = sum(p[i - 1][0] * p[i][1] - p[i][0] * p[i - 1][1] for i in range(len(p)))
+        mass += float(floe.thickness) * float(floe.density) * twice / 2
     return mass
 
 

@@ -15,6 +15,7 @@ import statistics
 import sys
 
 import run_peers
+import scene_file
 
 BOUND = 1.25
 BASE = 10000
@@ -32,19 +33,6 @@ measured; median of {repeat} rounds in turn. Bound: {bound} times the cost in 10
 """
 
 
-def floes_of(path):
-    """Lines of the scene before its floes, and of each floe its thickness, density and outline."""
-    head, floes = [], []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        word = line.split()
-        if word and word[0] == "floe":
-            v = [float(x) for x in word[6:]]
-            floes.append((word[1], word[2], list(zip(v[0::2], v[1::2]))))
-        else:
-            head.append(line)
-    return head, floes
-
-
 def packed_scene(options, cover):
     """The poses of 10,000 floes after a while in the current, as a scene, made once: floes lie level, turned about
     the vertical."""
@@ -54,7 +42,7 @@ def packed_scene(options, cover):
     start, dump = run_peers.scene_of(BASE, cover), run_peers.WORK / "packed.csv"
     run_peers.command(options.fram, "bench", "--scene", start, "--warm", PACK[cover] - 1, "--time", PACK[cover],
                       "--dump", dump, "--json", "--quiet")
-    head, floes = floes_of(start)
+    head, floes = scene_file.read(start)
     with open(dump, encoding="utf-8", newline="") as file, open(out, "w", encoding="utf-8") as scene:
         for line in head:
             word = line.split()

@@ -4,21 +4,11 @@ import math
 
 import demo_field
 import ladder
+from formulas import huang, zuev
 
 LONG = True
 SEEDS = range(1, 5)
 SPEEDS = [1.0, 2.0, 3.0]
-
-
-def zuev(v, cover=demo_field.CONCENTRATION):
-    f, b, h = v / math.sqrt(demo_field.GRAVITY * demo_field.THICKNESS), demo_field.BEAM, demo_field.THICKNESS
-    weight = demo_field.ICE_DENSITY * demo_field.GRAVITY * b * h * h
-    return weight * (0.13 * b / h + 1.3 * f + 0.5 * f * f) * (2 - cover) * cover**2
-
-
-def huang(v, cover=demo_field.CONCENTRATION):
-    fn = v / math.sqrt(demo_field.GRAVITY * demo_field.LENGTH)
-    return 0.20 * demo_field.ICE_DENSITY * demo_field.BEAM * demo_field.THICKNESS * v * v * cover**1.5 / fn
 
 
 def case(out):

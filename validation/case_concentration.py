@@ -4,23 +4,11 @@ import math
 
 import demo_field
 import ladder
+from formulas import huang, zuev
 
 LONG = True
 SEEDS = range(1, 5)
 COVERS = [0.5, 0.6, 0.7, 0.8, 0.9]
-
-
-def zuev(cover):
-    f = demo_field.SPEED / math.sqrt(demo_field.GRAVITY * demo_field.THICKNESS)
-    b, h = demo_field.BEAM, demo_field.THICKNESS
-    weight = demo_field.ICE_DENSITY * demo_field.GRAVITY * b * h * h
-    return weight * (0.13 * b / h + 1.3 * f + 0.5 * f * f) * (2 - cover) * cover**2
-
-
-def huang(cover):
-    fn = demo_field.SPEED / math.sqrt(demo_field.GRAVITY * demo_field.LENGTH)
-    return (0.20 * demo_field.ICE_DENSITY * demo_field.BEAM * demo_field.THICKNESS * demo_field.SPEED**2
-            * cover**1.5 / fn)
 
 
 def case(out):
@@ -41,21 +29,21 @@ def case(out):
                  for (a, b, x, y) in zip(found, found[1:], COVERS, COVERS[1:]) if a[0] > 0 and b[0] > 0]
     for i, (cover, (mean, error)) in enumerate(zip(COVERS, found)):
         exponent = f"{exponents[i - 1]:.2f}" if 0 < i <= len(exponents) else ""
-        c.rows.append([cover, f"{mean / 1e3:.1f}", f"{error / 1e3:.1f}", exponent, f"{zuev(cover) / 1e3:.1f}",
-                       f"{huang(cover) / 1e3:.1f}"])
+        c.rows.append([cover, f"{mean / 1e3:.1f}", f"{error / 1e3:.1f}", exponent, f"{zuev(cover=cover) / 1e3:.1f}",
+                       f"{huang(cover=cover) / 1e3:.1f}"])
     overall = math.log(found[-1][0] / found[0][0]) / math.log(COVERS[-1] / COVERS[0])
     c.check(1.3 <= overall <= 4, f"exponent over the whole range {overall:.2f}, published 1.3 to 4")
     for exponent, low, high in zip(exponents, COVERS, COVERS[1:]):
         c.check(1.3 <= exponent <= 4, f"local exponent from {low} to {high} {exponent:.2f}, published 1.3 to 4")
     for cover, (mean, _) in zip(COVERS, found):
-        near = min(abs(math.log(mean / f(cover))) for f in (zuev, huang))
+        near = min(abs(math.log(mean / f(cover=cover))) for f in (zuev, huang))
         c.check(near <= math.log(3), f"at {cover}: within a factor of {math.exp(near):.2f} of the nearer formula")
 
     def draw(axes):
         axes.errorbar(COVERS, [m / 1e3 for m, _ in found], yerr=[1.96 * e / 1e3 for _, e in found], marker="o",
                       capsize=3, label="Fram")
-        axes.plot(COVERS, [zuev(x) / 1e3 for x in COVERS], "--", label="Zuev")
-        axes.plot(COVERS, [huang(x) / 1e3 for x in COVERS], ":", label="Huang 2021")
+        axes.plot(COVERS, [zuev(cover=x) / 1e3 for x in COVERS], "--", label="Zuev")
+        axes.plot(COVERS, [huang(cover=x) / 1e3 for x in COVERS], ":", label="Huang 2021")
         axes.set(xlabel="concentration", ylabel="mean resistance [kN]", ylim=(0, None))
         axes.legend()
 

@@ -1,13 +1,13 @@
 """Resistance of an icebreaker in level ice, beside Lindqvist's formula."""
 
-import math
 import statistics
 
+import formulas
 import ladder
 
 LONG = True
-STRENGTH, MODULUS, NU, RHO, ICE, GRAVITY, FRICTION = 0.5e6, 5e9, 0.3, 1025.0, 920.0, 9.81, 0.1
-LENGTH, BEAM, DRAUGHT, ENTRANCE = 60.0, 14.0, 5.0, math.radians(32)
+ICE, FRICTION = formulas.Sheet(strength=0.5e6, modulus=5e9), 0.1
+SHIP = formulas.Bow(length=60.0, beam=14.0, draught=5.0, stem=30, entrance=32)
 THICKNESSES, SPEEDS = [0.5, 0.7, 1.0], [1.0, 2.0, 4.0]
 STEMS, FRICTIONS = [30, 45, 60], [0.05, 0.1, 0.15]  # [deg], [1]
 # Thickness [m], speed [m/s], stem angle [deg], friction, edges with inertia.
@@ -23,20 +23,7 @@ STARTS = (0.0, 1.7)
 
 
 def lindqvist(h, v, stem=30, friction=FRICTION, _=False):
-    """Resistance in level ice (Lindqvist 1989)."""
-    stem = math.radians(stem)
-    psi = math.atan(math.tan(stem) / math.sin(ENTRANCE))
-    rc = 0.5 * STRENGTH * h**2 * (math.tan(stem) + friction * math.cos(stem) / math.cos(psi)) / (
-        1 - friction * math.sin(stem) / math.cos(psi))
-    rb = (27 / 64 * STRENGTH * BEAM * h**1.5 / math.sqrt(MODULUS / (12 * (1 - NU**2) * RHO * GRAVITY))
-          * (math.tan(psi) + friction * math.cos(stem) / (math.sin(ENTRANCE) * math.cos(psi)))
-          * (1 + 1 / math.cos(psi)))
-    rs = (RHO - ICE) * GRAVITY * h * BEAM * (
-        DRAUGHT * (BEAM + DRAUGHT) / (BEAM + 2 * DRAUGHT)
-        + friction * (0.7 * LENGTH - DRAUGHT / math.tan(stem) - BEAM / (4 * math.tan(ENTRANCE))
-                      + DRAUGHT * math.cos(stem) * math.cos(psi)
-                      * math.sqrt(1 / math.sin(stem) ** 2 + 1 / math.tan(ENTRANCE) ** 2)))
-    return (rc + rb) * (1 + 1.4 * v / math.sqrt(GRAVITY * h)) + rs * (1 + 9.4 * v / math.sqrt(GRAVITY * LENGTH))
+    return formulas.lindqvist(SHIP._replace(stem=stem), ICE, h, v, friction)
 
 
 def job(case_of, back):

@@ -1,16 +1,15 @@
 """What the resistance of a ship in level ice is made of, beside the parts of Lindqvist's formula."""
 
 import dataclasses
-import math
 import statistics
 
 import case_lindqvist
+import formulas
 import ladder
 
 LONG = True
 MECHANISMS = ["splitting", "bending", "crushing", "chain", "accumulation", "submersion", "impact", "friction"]
 BREAKING = ["bending", "crushing", "splitting"]  # ice that has not broken, or breaks now
-WATER, ICE, GRAVITY, NU = 1025.0, 920.0, 9.81, 0.3
 
 
 @dataclasses.dataclass
@@ -39,21 +38,10 @@ FRICTION = 0.1
 
 
 def lindqvist(s, mu):
-    """Crushing, bending and submersion at speed (Lindqvist 1989) [N]."""
-    h, v, phi, alpha = s.thickness, s.speed, math.radians(s.stem), math.radians(s.entrance)
-    psi = math.atan(math.tan(phi) / math.sin(alpha))
-    crushing = (0.5 * s.strength * h**2 * (math.tan(phi) + mu * math.cos(phi) / math.cos(psi))
-                / (1 - mu * math.sin(phi) / math.cos(psi)))
-    bending = (27 / 64 * s.strength * s.beam * h**1.5
-               / math.sqrt(s.modulus / (12 * (1 - NU**2) * WATER * GRAVITY))
-               * (math.tan(psi) + mu * math.cos(phi) / (math.sin(alpha) * math.cos(psi))) * (1 + 1 / math.cos(psi)))
-    weight = (WATER - ICE) * GRAVITY * h * s.beam
-    submersion = weight * (
-        s.draught * (s.beam + s.draught) / (s.beam + 2 * s.draught)
-        + mu * (0.7 * s.length - s.draught / math.tan(phi) - s.beam / (4 * math.tan(alpha))
-                + s.draught * math.cos(phi) * math.cos(psi)
-                * math.sqrt(1 / math.sin(phi) ** 2 + 1 / math.tan(alpha) ** 2)))
-    slow, deep = 1 + 1.4 * v / math.sqrt(GRAVITY * h), 1 + 9.4 * v / math.sqrt(GRAVITY * s.length)
+    """Crushing, bending and submersion at speed [N]."""
+    bow = formulas.Bow(s.length, s.beam, s.draught, s.stem, s.entrance)
+    crushing, bending, submersion, slow, deep = formulas.lindqvist_parts(
+        bow, formulas.Sheet(s.strength, s.modulus), s.thickness, s.speed, mu)
     return crushing * slow, bending * slow, submersion * deep
 
 

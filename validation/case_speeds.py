@@ -1,13 +1,12 @@
 """Speed of an icebreaker at full power over the thickness of level ice, beside what is published of the ship."""
 
-import math
-
+import formulas
 import ladder
 
 LONG = True
 KNOT = 0.5144
-STRENGTH, MODULUS, NU, RHO, ICE, GRAVITY, FRICTION = 0.5e6, 5e9, 0.3, 1025.0, 920.0, 9.81, 0.1
-LENGTH, BEAM, DRAUGHT, STEM, ENTRANCE = 104.0, 24.0, 8.0, math.radians(22), math.radians(35)
+ICE, FRICTION = formulas.Sheet(strength=0.5e6, modulus=5e9), 0.1
+SHIP = formulas.Bow(length=104.0, beam=24.0, draught=8.0, stem=22, entrance=35)
 BOLLARD_PULL, OPEN_WATER = 2.10e6, 8.75
 # Thickness [m], published speed [knots], whether it was measured in ice trials or is what the ship is said to do.
 PUBLISHED = [(0.72, 12.7, "trial"), (0.81, 12.0, "trial"), (1.2, 6.0, "stated"), (1.8, 3.5, "stated")]
@@ -16,19 +15,7 @@ DURATION, LATE = 60, 20  # [s] of a run, and of its end that counts
 
 
 def lindqvist(h, v):
-    """Resistance in level ice (Lindqvist 1989)."""
-    psi = math.atan(math.tan(STEM) / math.sin(ENTRANCE))
-    rc = 0.5 * STRENGTH * h**2 * (math.tan(STEM) + FRICTION * math.cos(STEM) / math.cos(psi)) / (
-        1 - FRICTION * math.sin(STEM) / math.cos(psi))
-    rb = (27 / 64 * STRENGTH * BEAM * h**1.5 / math.sqrt(MODULUS / (12 * (1 - NU**2) * RHO * GRAVITY))
-          * (math.tan(psi) + FRICTION * math.cos(STEM) / (math.sin(ENTRANCE) * math.cos(psi)))
-          * (1 + 1 / math.cos(psi)))
-    rs = (RHO - ICE) * GRAVITY * h * BEAM * (
-        DRAUGHT * (BEAM + DRAUGHT) / (BEAM + 2 * DRAUGHT)
-        + FRICTION * (0.7 * LENGTH - DRAUGHT / math.tan(STEM) - BEAM / (4 * math.tan(ENTRANCE))
-                      + DRAUGHT * math.cos(STEM) * math.cos(psi)
-                      * math.sqrt(1 / math.sin(STEM) ** 2 + 1 / math.tan(ENTRANCE) ** 2)))
-    return (rc + rb) * (1 + 1.4 * v / math.sqrt(GRAVITY * h)) + rs * (1 + 9.4 * v / math.sqrt(GRAVITY * LENGTH))
+    return formulas.lindqvist(SHIP, ICE, h, v, FRICTION)
 
 
 def formula_speed(h):

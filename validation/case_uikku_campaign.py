@@ -5,12 +5,12 @@ import math
 import os
 import statistics
 
+import formulas
 import ladder
 
 LONG = True
 SCENE = ladder.ROOT / "scenes" / "uikku_303.yaml"  # everything that is not in ROWS was fixed there before the first run
 LENGTH, BEAM, DRAUGHT, STEM, ENTRANCE, FRICTION = 150.02, 22.22, 9.55, 30, 21, 0.1
-RHO, ICE, G, NU = 1025, 920, 9.81, 0.3
 # Test: h [m], sigma_f, sigma_c [kPa], E [MPa], v [m/s]; measured mean, standard deviation, largest, smallest [kN].
 ROWS = {103: (0.77, 724, 1748, 929, 0.2, 480, 130, 920, 100), 104: (0.76, 844, 2192, 984, 0.5, 560, 130, 990, 200),
         301: (1.04, 540, 2477, 1474, 0.2, 540, 88, 850, 290), 302: (1.04, 669, 2485, 1273, 0.5, 830, 130, 1200, 450),
@@ -35,17 +35,9 @@ OTHER_WINDOWS = (1.0, 2.0)
 
 
 def lindqvist(row, stem, entrance, mu):
-    h, sf, _, e, v = row[:5]
-    sf, e, phi, alpha = 1e3 * sf, 1e6 * e, math.radians(stem), math.radians(entrance)
-    psi = math.atan(math.tan(phi) / math.sin(alpha))
-    rc = (0.5 * sf * h * h * (math.tan(phi) + mu * math.cos(phi) / math.cos(psi))
-          / (1 - mu * math.sin(phi) / math.cos(psi)))
-    rb = (27 / 64 * sf * BEAM * h**1.5 / math.sqrt(e / (12 * (1 - NU**2) * RHO * G))
-          * (math.tan(psi) + mu * math.cos(phi) / (math.sin(alpha) * math.cos(psi))) * (1 + 1 / math.cos(psi)))
-    rs = (RHO - ICE) * G * h * BEAM * (DRAUGHT * (BEAM + DRAUGHT) / (BEAM + 2 * DRAUGHT) + mu * (
-        0.7 * LENGTH - DRAUGHT / math.tan(phi) - BEAM / (4 * math.tan(alpha))
-        + DRAUGHT * math.cos(phi) * math.cos(psi) * math.sqrt(1 / math.sin(phi) ** 2 + 1 / math.tan(alpha) ** 2)))
-    return (rc + rb) * (1 + 1.4 * v / math.sqrt(G * h)) + rs * (1 + 9.4 * v / math.sqrt(G * LENGTH))
+    h, strength, _, modulus, v = row[:5]
+    return formulas.lindqvist(formulas.Bow(LENGTH, BEAM, DRAUGHT, stem, entrance),
+                              formulas.Sheet(1e3 * strength, 1e6 * modulus), h, v, mu)
 
 
 def way_in(start):
