@@ -24,13 +24,13 @@ static fram_status refuse_no_file(const char *path, fram_error *error)
     return FRAM_OK;
 }
 
-fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
+static fram_status begin_atomic(context *ctx, const char *path, bool direct, atomic_file *a, fram_error *error)
 {
     memset(a, 0, sizeof *a);
     fram_status status = refuse_no_file(path, error);
     if (status != FRAM_OK)
         return status;
-    a->direct = is_special(path);
+    a->direct = direct;
     a->path = memory_string(ctx, path);
     if (!a->path)
         return error_memory(error);
@@ -41,6 +41,16 @@ fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fr
         a->path = NULL;
     }
     return status;
+}
+
+fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
+{
+    return begin_atomic(ctx, path, is_special(path), a, error);
+}
+
+fram_status atomic_file_begin_over(context *ctx, const char *path, atomic_file *a, fram_error *error)
+{
+    return begin_atomic(ctx, path, false, a, error);
 }
 
 /* The rename itself reaches the disk with the folder. */

@@ -14,6 +14,8 @@ typedef struct atomic_file {
 
 /* Begin the temporary file (io/temporary.h).  FRAM_ERROR_INPUT when the path is a folder. */
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error);
+/* The same where a link, device or pipe at the path is replaced: for a program's own files in its folder. */
+fram_status atomic_file_begin_over(context *ctx, const char *path, atomic_file *a, fram_error *error);
 /* Flush, sync, rename, sync the folder.  On an error the old file is untouched and the temporary one is removed. */
 fram_status atomic_file_commit(atomic_file *a, fram_error *error);
 /* Flush and rename without waiting for the disk, as atomic_file_put. */

@@ -81,27 +81,27 @@ static fram_status write_head(record_writer *w, fram_error *error)
     record_head head = {.version = RECORD_VERSION, .byte_order = FILE_BYTE_ORDER};
     memcpy(head.magic, record_magic, sizeof record_magic);
     head.crc = record_head_crc(&head);
-    return file_write(&w->file, &head, sizeof head, error);
+    return file_write(&w->file.writer, &head, sizeof head, error);
 }
 
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error)
 {
-    fram_status status = file_create(ctx, path, &w->file, error);
+    fram_status status = file_create(ctx, path, &w->file.writer, error);
     if (status != FRAM_OK)
         return status;
     status = write_head(w, error);
     if (status != FRAM_OK)
-        file_abandon(&w->file);
+        file_abandon(&w->file.writer);
     return status;
 }
 
 fram_status record_create_beside(context *ctx, const char *path, record_writer *w, fram_error *error)
 {
-    fram_status status = file_create_temporary(ctx, path, &w->file, error);
+    fram_status status = atomic_file_begin_over(ctx, path, &w->file, error);
     if (status != FRAM_OK)
         return status;
     status = write_head(w, error);
-    return status == FRAM_OK ? FRAM_OK : record_place(w, path, status, error);
+    return status == FRAM_OK ? FRAM_OK : record_place(w, status, error);
 }
 
 /* That a block ends at `length`: heads are followed from the first block on. */
@@ -131,7 +131,7 @@ static fram_status check_length(const file_writer *file, uint64_t length, fram_e
 
 fram_status record_continue(context *ctx, const char *path, uint64_t length, record_writer *w, fram_error *error)
 {
-    file_writer *file = &w->file;
+    file_writer *file = &w->file.writer;
     fram_status status = file_open(ctx, path, file, error);
     if (status != FRAM_OK)
         return status;
@@ -162,35 +162,29 @@ fram_status record_append(record_writer *w, uint32_t type, const record_part *pa
             head.payload_crc = file_crc(head.payload_crc, parts[i].data, parts[i].size);
     }
     head.crc = block_head_crc(&head);
-    fram_status status = file_write(&w->file, &head, sizeof head, error);
+    fram_status status = file_write(&w->file.writer, &head, sizeof head, error);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-        status = file_write(&w->file, parts[i].data, parts[i].size, error);
+        status = file_write(&w->file.writer, parts[i].data, parts[i].size, error);
     if (status == FRAM_OK)
-        status = file_write(&w->file, zeros, padding_of(head.length), error);
+        status = file_write(&w->file.writer, zeros, padding_of(head.length), error);
     return status;
 }
 
-fram_status record_flush(record_writer *w, bool sync, fram_error *error) { return file_flush(&w->file, sync, error); }
-
-uint64_t record_length(const record_writer *w) { return w->file.length; }
-
-fram_status record_close(record_writer *w, fram_error *error) { return file_close(&w->file, error); }
-
-fram_status record_place(record_writer *w, const char *path, fram_status written, fram_error *error)
+fram_status record_flush(record_writer *w, bool sync, fram_error *error)
 {
-    context *ctx = w->file.ctx;
-    char *temporary = w->file.temporary;
-    fram_status status = written == FRAM_OK ? file_flush(&w->file, false, error) : written;
-    w->file.temporary = NULL; /* outlives the writer */
-    fram_status closed = file_close(&w->file, status == FRAM_OK ? error : NULL);
-    if (status == FRAM_OK)
-        status = closed;
-    if (status == FRAM_OK && rename(temporary, path) != 0)
-        status = file_error(error, path, "replace", errno);
-    if (status != FRAM_OK)
-        (void)unlink(temporary);
-    memory_free(ctx, temporary);
-    return status;
+    return file_flush(&w->file.writer, sync, error);
+}
+
+uint64_t record_length(const record_writer *w) { return w->file.writer.length; }
+
+fram_status record_close(record_writer *w, fram_error *error) { return file_close(&w->file.writer, error); }
+
+fram_status record_place(record_writer *w, fram_status written, fram_error *error)
+{
+    if (written == FRAM_OK)
+        return atomic_file_place(&w->file, error);
+    atomic_file_abandon(&w->file);
+    return written;
 }
 
 /* ---- reading ---- */

@@ -10,14 +10,14 @@
 #ifndef IO_RECORD_H
 #define IO_RECORD_H
 
-#include "io/file.h"
+#include "io/atomic_file.h"
 
 /* Refused: larger files. */
 #define RECORD_BYTES_MOST ((uint64_t)1 << 40)
 enum { RECORD_VERSION = 1, RECORD_BLOCK_HEAD = 24 };
 
 typedef struct record_writer {
-    file_writer file;
+    atomic_file file; /* of one that is created beside its path; of any other the writer alone */
 } record_writer;
 
 /* A payload may be given in parts, which are written one after the other. */
@@ -27,7 +27,7 @@ typedef struct record_part {
 } record_part;
 
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error);
-/* The same in a temporary file beside `path` (io/temporary.h), for record_place. */
+/* The same as an atomic file (atomic_file_begin_over), for record_place. */
 fram_status record_create_beside(context *ctx, const char *path, record_writer *w, fram_error *error);
 /* Open a record to be continued at `length` (a record_length of before), once the caller has cut it there by file_cut;
    FRAM_ERROR_INPUT when the head is not that of a record of this version and byte order, the file is shorter, or
@@ -37,9 +37,9 @@ fram_status record_append(record_writer *w, uint32_t type, const record_part *pa
 fram_status record_flush(record_writer *w, bool sync, fram_error *error);
 uint64_t record_length(const record_writer *w);
 fram_status record_close(record_writer *w, fram_error *error);
-/* Close a record that was begun beside `path`, and rename it to that without waiting for the disk.  `written`: how
-   writing it went; where that or this fails, the temporary file is removed and what was at the path stays. */
-fram_status record_place(record_writer *w, const char *path, fram_status written, fram_error *error);
+/* Close a record that was begun beside its path, and put it there (atomic_file_place).  `written`: how writing it went;
+   where that or this fails, the temporary file is removed and what was at the path stays. */
+fram_status record_place(record_writer *w, fram_status written, fram_error *error);
 
 /* The head of a block with this payload, for blocks that go elsewhere than into a record file. */
 void record_block_head(uint32_t type, const void *payload, size_t size, unsigned char head[RECORD_BLOCK_HEAD]);

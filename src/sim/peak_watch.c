@@ -447,5 +447,5 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
         status = append_vessel(&file, room, p->origin, &p->vessels.data[v], error);
     memory_free(p->ctx, room);
-    return record_place(&file, path, status, error);
+    return record_place(&file, status, error);
 }

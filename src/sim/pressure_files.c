@@ -188,7 +188,7 @@ static fram_status write_block(pressure_map *p, const char *path, const text_buf
     if (status != FRAM_OK)
         return status;
     record_part part = {block->data, (size_t)block->count};
-    return record_place(&file, path, record_append(&file, BLOCK_PRESSURE, &part, 1, error), error);
+    return record_place(&file, record_append(&file, BLOCK_PRESSURE, &part, 1, error), error);
 }
 
 static fram_status write_for_page(pressure_map *p, fram_error *error)

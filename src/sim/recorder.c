@@ -104,7 +104,7 @@ static fram_status cut_streams(recorder *r, const recorder_lengths *lengths, fra
     fram_status status = file_cut(&r->series.file, lengths->series, error);
     if (status == FRAM_OK)
         status = file_cut(&r->fractures.file, lengths->fractures, error);
-    return status == FRAM_OK ? file_cut(&r->record.file, lengths->record, error) : status;
+    return status == FRAM_OK ? file_cut(&r->record.file.writer, lengths->record, error) : status;
 }
 
 fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
@@ -465,7 +465,7 @@ void recorder_streams(recorder *r, file_writer *out[RECORDER_STREAMS])
 {
     out[0] = &r->series.file;
     out[1] = &r->fractures.file;
-    out[2] = &r->record.file;
+    out[2] = &r->record.file.writer;
 }
 
 fram_status recorder_flush(recorder *r, fram_error *error)

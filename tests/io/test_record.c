@@ -196,7 +196,7 @@ START_TEST(a_record_is_continued_after_any_block)
     for (int keep = 0; keep <= BLOCK_COUNT; keep++) {
         write_example(scratch_path(&s, "r"), offsets);
         assert_ok(record_continue(&ctx, s.path, offsets[keep], &w, &error), error);
-        assert_ok(file_cut(&w.file, offsets[keep], &error), error);
+        assert_ok(file_cut(&w.file.writer, offsets[keep], &error), error);
         ck_assert_uint_eq(record_length(&w), offsets[keep]);
         for (int i = keep; i < BLOCK_COUNT; i++) {
             const record_part part = {payloads[i], strlen(payloads[i])};
@@ -263,7 +263,7 @@ START_TEST(a_record_is_placed_in_one_go)
         assert_ok(record_create_beside(&ctx, path, &w, &error), error);
         ck_assert_uint_eq(drawn, 2); /* the first name is taken */
         fram_status written = bad ? FRAM_ERROR_MEMORY : record_append(&w, 7, NULL, 0, &error);
-        ck_assert_int_eq(record_place(&w, path, written, &error), written);
+        ck_assert_int_eq(record_place(&w, written, &error), written);
         size_t size;
         char *data = scratch_read(path, &size);
         ck_assert_uint_eq(size, bad ? 4 : 24 + RECORD_BLOCK_HEAD);
@@ -287,7 +287,7 @@ START_TEST(memory_runs_out)
         const record_part part = {"payload", 7};
         turn.status = record_create_beside(&turn.ctx, scratch_path(&s, "r"), &w, &error);
         if (turn.status == FRAM_OK)
-            turn.status = record_place(&w, s.path, record_append(&w, 1, &part, 1, &error), &error);
+            turn.status = record_place(&w, record_append(&w, 1, &part, 1, &error), &error);
         if (turn.status == FRAM_OK)
             turn.status = record_open(&turn.ctx, s.path, &r, &error);
         if (turn.status == FRAM_OK) {
