@@ -9,6 +9,14 @@
 
 bool time_is_after(double time, double from) { return from == 0 ? time >= 0 : time - from > TIME_SLACK * fabs(time); }
 
+int32_t first_time_after(const double *time, int32_t count, double from)
+{
+    int32_t first = 0;
+    while (first < count && !time_is_after(time[first], from))
+        first++;
+    return first;
+}
+
 static int falling(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -102,9 +110,7 @@ static double significant_peak(const channel_side *c, int32_t *found)
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient)
 {
     const double none = (double)NAN;
-    int32_t first = 0, above;
-    while (first < count && !time_is_after(time[first], transient))
-        first++;
+    int32_t first = first_time_after(time, count, transient), above;
     if (first == count)
         return (channel_statistics){none, none, none, none, none, none, none, 0};
     channel_statistics s = {.least = value[first], .greatest = value[first]};

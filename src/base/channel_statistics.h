@@ -13,6 +13,8 @@
    that of `from` itself is before it, with a slack for times that a file has rounded.  Nothing is before 0: from there
    on all counts. */
 bool time_is_after(double time, double from);
+/* The first of rising times that is after `from`; count: none is. */
+int32_t first_time_after(const double *time, int32_t count, double from);
 
 /* Statistics of one channel after the transient; NaN where it has no value there.  A peak is the outermost value
    between two crossings of the mean, and the significant one the mean of the highest third of the peaks.  Both are told

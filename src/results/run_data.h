@@ -106,6 +106,8 @@ int32_t run_first_row(const run_data *d);
 double run_recorded_from(const run_data *d);
 /* The time of the last row where the run went on after it [s]; HUGE_VAL: that is its end, or there is no row. */
 double run_ends_after_row(const run_data *d);
+/* Steps from row to row of a series. */
+double scenario_steps_of_row(const scenario *s);
 /* Whether rows of the series are more than a step apart. */
 bool run_leaves_out_steps(const run_data *d);
 /* Whether it has no row of a run that made steps which have one, and what is told then, with its steps. */

@@ -19,14 +19,10 @@ enum { CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
 static double mean_after(const double_array *time, const double_array *value, double transient)
 {
     double sum = 0;
-    int32_t n = 0;
-    for (int32_t i = 0; i < value->count; i++) {
-        if (!time_is_after(time->data[i], transient))
-            continue;
+    int32_t first = first_time_after(time->data, value->count, transient);
+    for (int32_t i = first; i < value->count; i++)
         sum += value->data[i];
-        n++;
-    }
-    return n > 0 ? sum / n : (double)NAN;
+    return first < value->count ? sum / (value->count - first) : (double)NAN;
 }
 
 enum { TIMES, RAW_X, RAW_Y, MEAN_X, MEAN_Y, CHANNELS };

@@ -15,10 +15,7 @@
 int32_t run_first_row(const run_data *d)
 {
     const double *time = run_channel(d, "time");
-    int32_t first = 0;
-    while (time && first < d->series.rows && !time_is_after(time[first], d->s.run.transient))
-        first++;
-    return first;
+    return time ? first_time_after(time, d->series.rows, d->s.run.transient) : 0;
 }
 
 double run_recorded_from(const run_data *d)
@@ -44,13 +41,12 @@ double run_ends_after_row(const run_data *d)
     return d->note.time > last + 0.5 * d->s.run.time_step ? last : HUGE_VAL;
 }
 
-/* Steps from row to row. */
-static double steps_of_row(const run_data *d)
+double scenario_steps_of_row(const scenario *s)
 {
-    return (double)scenario_steps_of(d->s.output.csv_interval, d->s.run.time_step);
+    return (double)scenario_steps_of(s->output.csv_interval, s->run.time_step);
 }
 
-bool run_leaves_out_steps(const run_data *d) { return steps_of_row(d) > 1; }
+bool run_leaves_out_steps(const run_data *d) { return scenario_steps_of_row(&d->s) > 1; }
 
 /* ---- rows that were moved, doubled or lost ---- */
 
@@ -94,7 +90,7 @@ static row_gaps find_gaps(const run_data *d, const double *time)
 {
     row_gaps g = {0};
     int32_t rows = d->series.rows;
-    double steps = steps_of_row(d), interval = steps * d->s.run.time_step, most = 1.5 * interval;
+    double steps = scenario_steps_of_row(&d->s), interval = steps * d->s.run.time_step, most = 1.5 * interval;
     for (int32_t i = 1; i < rows; i++)
         if (time[i] - time[i - 1] > most)
             add_gap(&g, time[i - 1], time[i], i);
@@ -120,7 +116,7 @@ void run_warn_gaps(context *ctx, const run_data *d)
         log_write(ctx, LOG_WARNING,
                   "%s/series.csv:%d: time: there are no rows from %.9g to %.9g s%s, and one every %.6g s was written: "
                   "what is told leaves that time out; run the scenario again",
-                  d->folder, ROW_LINE(g.row), g.from, g.to, more, steps_of_row(d) * d->s.run.time_step);
+                  d->folder, ROW_LINE(g.row), g.from, g.to, more, scenario_steps_of_row(&d->s) * d->s.run.time_step);
 }
 
 /* ---- none, and no channel ---- */
@@ -130,7 +126,7 @@ bool run_is_cut_off(const run_data *d)
     const run_note *n = &d->note;
     if (d->series.rows > 0 || d->is_changed || n->recorded_from < 0)
         return false;
-    double steps = steps_of_row(d), began = n->recorded_from / d->s.run.time_step;
+    double steps = scenario_steps_of_row(&d->s), began = n->recorded_from / d->s.run.time_step;
     double made = n->steps - (strcmp(n->status, "failed") == 0); /* the step that went wrong has no row */
     return floor(made / steps) > floor(began / steps + 1e-6);
 }

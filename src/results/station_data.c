@@ -2,6 +2,7 @@
 #include "results/station_parts.h"
 
 #include "model/scenario_vessel.h"
+#include "results/run_data.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,10 +90,7 @@ channel_statistics station_statistics(const station_data *d, const double_array 
 
 int32_t station_first_row(const station_data *d, double transient)
 {
-    int32_t first = 0;
-    while (first < d->rows && !time_is_after(d->column[TIME].data[first], transient))
-        first++;
-    return first;
+    return first_time_after(d->column[TIME].data, d->rows, transient);
 }
 
 double station_exceedance(const station_data *d, const double_array *of, double limit, double transient)
@@ -106,8 +104,7 @@ double station_exceedance(const station_data *d, const double_array *of, double 
 /* What the first row of a series is of began an interval before it: a program may have begun to record late. */
 static double first_row_since(const station_data *d)
 {
-    double step = d->s->run.time_step, steps = floor(d->s->output.csv_interval / step + 0.5);
-    return d->column[TIME].data[0] - fmax(steps, 1) * step;
+    return d->column[TIME].data[0] - scenario_steps_of_row(d->s) * d->s->run.time_step;
 }
 
 double station_energy(const station_data *d, double transient)

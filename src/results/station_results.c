@@ -23,9 +23,7 @@ void offset_envelope(const double *time, const double *x, const double *y, int32
                      double out[ENVELOPE_DIRECTIONS])
 {
     memset(out, 0, ENVELOPE_DIRECTIONS * sizeof *out);
-    for (int32_t i = 0; i < count; i++) {
-        if (!time_is_after(time[i], transient))
-            continue;
+    for (int32_t i = first_time_after(time, count, transient); i < count; i++) {
         double at = real_atan2(y[i], x[i]) / (2 * PI) * ENVELOPE_DIRECTIONS;
         int32_t k = (int32_t)floor(at + 0.5);
         k = (k + ENVELOPE_DIRECTIONS) % ENVELOPE_DIRECTIONS;

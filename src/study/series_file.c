@@ -69,9 +69,7 @@ static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, 
 static bool lines_were_let_go(const run_data *d, int32_t vessel, double from)
 {
     const double *time = run_channel(d, "time"), *gone = run_vessel_channel(d, vessel, "lines_parted");
-    int32_t first = 0, last = d->series.rows - 1;
-    while (time && first <= last && !time_is_after(time[first], from))
-        first++;
+    int32_t last = d->series.rows - 1, first = time ? first_time_after(time, last + 1, from) : 0;
     if (!time || first > last)
         return false;
     double begin = time[first] - 0.5 * d->s.run.time_step;
