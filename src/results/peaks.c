@@ -35,29 +35,19 @@ ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT])
 
 /* ---- reading ---- */
 
-/* Into its place by falling load; peaks nearer than the separation to a larger one belong to it. */
-static bool insert(context *ctx, peak_list *list, const peak_detail *d)
+/* A run writes what its picker kept, which stands apart and is no more than that. */
+static fram_status add_peak(context *ctx, peak_list *list, const char *path, const peak_detail *d, fram_error *error)
 {
-    for (int32_t i = 0; i < list->count; i++) {
-        if (fabs(list->peak[i]->time - d->time) >= PEAK_SEPARATION * d->window - 1e-9 * fabs(d->time))
-            continue;
-        if (d->load > list->peak[i]->load)
-            *list->peak[i] = *d;
-        return true;
-    }
-    int32_t at = list->count;
-    if (at == PEAKS_KEPT) {
-        if (list->peak[at - 1]->load >= d->load)
-            return true;
-        at--;
-    } else {
-        list->peak[at] = memory_array(ctx, 1, sizeof **list->peak);
-        if (!list->peak[at])
-            return false;
-        list->count++;
-    }
-    *list->peak[at] = *d;
-    return true;
+    if (list->count == PEAKS_KEPT)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "expected up to %d peaks of a vessel, found more: the file is damaged; run the scenario again",
+                         (int)PEAKS_KEPT);
+    peak_detail *peak = memory_array(ctx, 1, sizeof *peak);
+    if (!peak)
+        return error_memory(error);
+    *peak = *d;
+    list->peak[list->count++] = peak;
+    return FRAM_OK;
 }
 
 static void sort(peak_list *list)
@@ -99,11 +89,10 @@ fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, pea
             status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                                "a peak in this file does not fit: another version of Fram wrote it; run the scenario "
                                "again");
-        else if (d->vessel == vessel && !insert(ctx, list, d))
-            status = error_memory(error);
-        else
-            sort(list);
+        else if (d->vessel == vessel)
+            status = add_peak(ctx, list, path, d, error);
     }
+    sort(list);
     record_tell_damage(&reader, "peaks after it are missing");
     record_reader_close(&reader);
     memory_free(ctx, d);

@@ -1,6 +1,9 @@
 /* Peaks in words. */
+#include "io/record_layout.h"
 #include "results/peaks.h"
 #include "testing.h"
+
+#include <unistd.h>
 
 START_TEST(breaks_are_one_or_many)
 {
@@ -99,5 +102,39 @@ START_TEST(ends_of_chains)
 }
 END_TEST
 
+/* By falling load, whatever the order in the file, and no more than a run keeps of a vessel. */
+START_TEST(peaks_of_a_file)
+{
+    const char *root = getenv("TMPDIR");
+    char folder[200], path[220];
+    snprintf(folder, sizeof folder, "%s/fram_peaks_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/peaks.fram", folder);
+    for (int count = PEAKS_KEPT; count <= PEAKS_KEPT + 1; count++) {
+        context ctx;
+        fram_error error = {0};
+        record_writer w;
+        peak_list list;
+        context_init(&ctx);
+        assert_ok(record_create(&ctx, path, &w, &error), error);
+        for (int i = 0; i < count; i++) {
+            const peak_detail d = {.time = 10 + i, .load = 1000 * (1 + i % 4), .window = 0.5};
+            unsigned char room[PEAK_BLOCK_ROOM];
+            const record_part part = {room, peak_block_pack(&d, (vec2){0, 0}, room)};
+            assert_ok(record_append(&w, BLOCK_PEAK, &part, 1, &error), error);
+        }
+        assert_ok(record_close(&w, &error), error);
+        fram_status status = peak_list_read(&ctx, folder, 0, &list, &error);
+        ck_assert_int_eq(status, count > PEAKS_KEPT ? FRAM_ERROR_INPUT : FRAM_OK);
+        ck_assert_int_eq(list.count, count > PEAKS_KEPT ? 0 : count);
+        for (int32_t i = 1; i < list.count; i++)
+            ck_assert_double_ge(list.peak[i - 1]->load, list.peak[i]->load);
+        peak_list_free(&ctx, &list);
+    }
+    ck_assert_int_eq(unlink(path), 0);
+    ck_assert_int_eq(rmdir(folder), 0);
+}
+END_TEST
+
 TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks, breaks_before_a_recording_are_not_known,
-          ends_of_chains)
+          ends_of_chains, peaks_of_a_file)
