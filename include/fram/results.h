@@ -155,6 +155,8 @@ FRAM_API fram_status fram_manage(fram_context *context, const char *run, const f
 
 /* ---- Pressure on the hull ---- */
 
+enum { FRAM_PRESSURE_LINES = 10000 }; /* the most frames, and the most stringers */
+
 typedef struct fram_pressure_definition {
     size_t size;                     /* of this struct, set by fram_pressure_default */
     const char *output;              /* folder for the results; must be named */

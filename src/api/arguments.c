@@ -1,5 +1,6 @@
 #include "api/arguments.h"
 
+#include <stdio.h>
 #include <string.h>
 
 fram_status arguments_check(const argument *arguments, size_t count, fram_error *error)
@@ -52,6 +53,27 @@ void result_give(void *result, size_t size, const void *full)
 }
 
 void *result_row(void *rows, size_t size, int row) { return (unsigned char *)rows + size * (size_t)row; }
+
+fram_status folder_check(const char *key, const char *folder, fram_error *error)
+{
+    if (folder && *folder)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, key, "a folder for the results must be named");
+}
+
+fram_status name_find(const char *key, const char *given, const char *const *names, int count, int *row,
+                      fram_error *error)
+{
+    char list[200] = "";
+    for (int i = 0; i < count; i++) {
+        *row = i;
+        if (given && strcmp(given, names[i]) == 0)
+            return FRAM_OK;
+        size_t end = strlen(list);
+        snprintf(list + end, sizeof list - end, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " or ", names[i]);
+    }
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, key, "expected %s", list);
+}
 
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error)
 {

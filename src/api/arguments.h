@@ -46,6 +46,11 @@ void result_give(void *result, size_t size, const void *full);
 /* Row of the program's list of such structs. */
 void *result_row(void *rows, size_t size, int row);
 
+/* FRAM_ERROR_USAGE, with the key, for no folder, or one without a name. */
+fram_status folder_check(const char *key, const char *folder, fram_error *error);
+/* The row of the name that was given; FRAM_ERROR_USAGE, with the key, tells the names for any other, and for NULL. */
+fram_status name_find(const char *key, const char *given, const char *const *names, int count, int *row,
+                      fram_error *error);
 /* FRAM_ERROR_INPUT, with the name as key, unless the number lies between the bounds, which are in. */
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error);
 /* The latest time that a caller may ask for [s], far beyond every use. */

@@ -202,14 +202,13 @@ int fram_field_outline(const fram_field *f, int floe, double *vertices, int room
 
 fram_status field_check_output(const fram_field *f, const char *path, fram_error *error)
 {
-    return list_refuse_read(&f->read, path, "path", error);
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    return status == FRAM_OK ? list_refuse_read(&f->read, path, "path", error) : status;
 }
 
 fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
-    if (status == FRAM_OK)
-        status = field_check_output(f, path, error);
+    fram_status status = field_check_output(f, path, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &f->context->inner;

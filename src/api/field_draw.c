@@ -17,9 +17,7 @@ enum { COVER_CELLS = 40, MOST_COVER_CELLS = 1000 };
 
 fram_status fram_field_draw(const fram_field *f, const char *title, const char *path, fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
-    if (status == FRAM_OK)
-        status = field_check_output(f, path, error);
+    fram_status status = field_check_output(f, path, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &f->context->inner;
@@ -69,9 +67,7 @@ static void cover_cells(box2 box, int32_t nx, int32_t ny, const double *cover, v
 fram_status fram_field_draw_cover(const fram_field *f, double cell, const char *title, const char *path,
                                   fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
-    if (status == FRAM_OK)
-        status = field_check_output(f, path, error);
+    fram_status status = field_check_output(f, path, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &f->context->inner;
@@ -129,9 +125,7 @@ static void add_real(context *ctx, text_buffer *b, double value)
 
 fram_status fram_field_table(const fram_field *f, const char *path, fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
-    if (status == FRAM_OK)
-        status = field_check_output(f, path, error);
+    fram_status status = field_check_output(f, path, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &f->context->inner;

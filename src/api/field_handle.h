@@ -25,7 +25,8 @@ struct fram_field {
 
 /* Measures the outlines: window (unless given by a scenario) and summary. */
 fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error);
-/* Nothing is written over a file that the field is made of: FRAM_ERROR_USAGE, key "path". */
+/* What is asked of every output of a field: neither is NULL, and nothing is written over a file that the field is made
+   of.  FRAM_ERROR_USAGE, key "path" for that. */
 fram_status field_check_output(const fram_field *f, const char *path, fram_error *error);
 
 #endif

@@ -8,7 +8,6 @@
 
 #define PANEL_LEAST 1e-6
 #define PANEL_LONGEST 1e4
-enum { LINES_MOST = 10000 };
 
 static void fram_pressure_fill(fram_pressure_definition *definition)
 {
@@ -18,18 +17,18 @@ DEFINITION_DEFAULT(fram_pressure, fram_pressure_definition)
 
 static fram_status check_lines(const char *name, const double *line, int count, fram_error *error)
 {
-    if (count >= 0 && count <= LINES_MOST && (count == 0 || line))
+    if (count >= 0 && count <= FRAM_PRESSURE_LINES && (count == 0 || line))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, name, "expected up to %d coordinates, found %d%s",
-                     (int)LINES_MOST, count, line ? "" : " at NULL");
+                     FRAM_PRESSURE_LINES, count, line ? "" : " at NULL");
 }
 
 static fram_status take_pressure(const fram_pressure_definition *given, fram_pressure_definition *d, fram_error *error)
 {
     fram_pressure_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_pressure", error);
-    if (status == FRAM_OK && (!d->output || !*d->output))
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "output", "a folder for the results must be named");
+    if (status == FRAM_OK)
+        status = folder_check("output", d->output, error);
     if (status == FRAM_OK)
         status = isnan(d->panel) ? FRAM_OK : number_check("panel", d->panel, PANEL_LEAST, PANEL_LONGEST, error);
     if (status == FRAM_OK)

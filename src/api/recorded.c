@@ -58,10 +58,10 @@ static fram_status record(fram_world *w, const fram_record_definition *definitio
         definition_take(&d, definition, sizeof d, offsetof(fram_record_definition, force), "fram_record", error);
     if (status == FRAM_OK)
         status = world_refuse_failed(w, error);
+    if (status == FRAM_OK)
+        status = folder_check("folder", d.folder, error);
     if (status != FRAM_OK)
         return status;
-    if (!d.folder || !*d.folder)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (w->recording)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is recorded already, into %s",
                          w->recording->folder);

@@ -197,24 +197,24 @@ DEFINITION_DEFAULT(fram_video, fram_video_definition)
 
 static fram_status find_colour(const char *name, plan_colour *colour, fram_error *error)
 {
-    for (int i = 0; i < PLAN_COLOUR_COUNT; i++) {
-        if (name && strcmp(name, plan_colour_name((plan_colour)i)) == 0) {
-            *colour = (plan_colour)i;
-            return FRAM_OK;
-        }
-    }
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "colour", "expected plain, speed, force, thickness or age");
+    const char *names[PLAN_COLOUR_COUNT];
+    int row;
+    for (int i = 0; i < PLAN_COLOUR_COUNT; i++)
+        names[i] = plan_colour_name((plan_colour)i);
+    fram_status status = name_find("colour", name, names, PLAN_COLOUR_COUNT, &row, error);
+    *colour = (plan_colour)row;
+    return status;
 }
 
 static fram_status find_camera(const char *name, video_camera *camera, fram_error *error)
 {
-    for (int i = 0; i < VIDEO_CAMERA_COUNT; i++) {
-        if (name && strcmp(name, video_camera_name((video_camera)i)) == 0) {
-            *camera = (video_camera)i;
-            return FRAM_OK;
-        }
-    }
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "camera", "expected orbit, follow or plan");
+    const char *names[VIDEO_CAMERA_COUNT];
+    int row;
+    for (int i = 0; i < VIDEO_CAMERA_COUNT; i++)
+        names[i] = video_camera_name((video_camera)i);
+    fram_status status = name_find("camera", name, names, VIDEO_CAMERA_COUNT, &row, error);
+    *camera = (video_camera)row;
+    return status;
 }
 
 fram_status(fram_video)(fram_context *c, const char *run, const fram_video_definition *definition, fram_result *result,
@@ -350,10 +350,10 @@ fram_status(fram_capability)(const fram_scenario *from, const fram_capability_de
         status = RESULT_CHECK(result, size, fram_result, error);
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_capability", error);
+    if (status == FRAM_OK)
+        status = folder_check("folder", d->folder, error);
     if (status != FRAM_OK)
         return status;
-    if (!d->folder || !*d->folder)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     capability_met_ice met;
     status = check_tables(from, d->folder, error);
     if (status == FRAM_OK)

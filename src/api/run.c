@@ -50,10 +50,10 @@ static fram_status take_run(const fram_run_definition *given, fram_run_definitio
 {
     fram_run_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, offsetof(fram_run_definition, force), "fram_run", error);
+    if (status == FRAM_OK)
+        status = folder_check("folder", d->folder, error);
     if (status != FRAM_OK)
         return status;
-    if (!d->folder || !*d->folder)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (!(d->until < 1e300))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "until", "expected a finite time");
     return FRAM_OK;
@@ -92,13 +92,12 @@ static void give_result(fram_run_result *result, size_t size, fram_status status
         result_give(result, size, &(fram_run_result[]){run_answer(from)});
 }
 
-fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
-                      fram_error *error, size_t size)
+/* s: NULL goes on with what the folder holds. */
+static fram_status run_or_resume(context *ctx, const scenario *s, const fram_run_definition *definition,
+                                 fram_run_result *result, size_t size, fram_error *error)
 {
     fram_run_definition d;
-    fram_status status = REFUSE_NULL(error, {"scenario", s});
-    if (status == FRAM_OK)
-        status = RESULT_CHECK(result, size, fram_run_result, error);
+    fram_status status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status == FRAM_OK)
         status = take_run(definition, &d, error);
     if (status != FRAM_OK)
@@ -107,39 +106,28 @@ fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definit
     run_options options = options_of(&d, &bridge);
     run_result inner = {0};
     live_view *view;
-    status = live_open(&s->context->inner, d.folder, d.live_page, d.live, d.live_user, &view, error);
+    status = live_open(ctx, d.folder, d.live_page, d.live, d.live_user, &view, error);
     if (status != FRAM_OK)
         return status;
     options.begun_user = view;
-    status = run_start(&s->context->inner, &s->inner, &options, &inner, error);
+    status = s ? run_start(ctx, s, &options, &inner, error) : run_resume(ctx, &options, &inner, error);
     live_view_end(view);
     give_result(result, size, status, &inner);
     return status;
 }
 
+fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
+                      fram_error *error, size_t size)
+{
+    fram_status status = REFUSE_NULL(error, {"scenario", s});
+    return status == FRAM_OK ? run_or_resume(&s->context->inner, &s->inner, definition, result, size, error) : status;
+}
+
 fram_status(fram_resume)(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
                          fram_error *error, size_t size)
 {
-    fram_run_definition d;
     fram_status status = REFUSE_NULL(error, {"context", c});
-    if (status == FRAM_OK)
-        status = RESULT_CHECK(result, size, fram_run_result, error);
-    if (status == FRAM_OK)
-        status = take_run(definition, &d, error);
-    if (status != FRAM_OK)
-        return status;
-    progress_bridge bridge;
-    run_options options = options_of(&d, &bridge);
-    run_result inner = {0};
-    live_view *view;
-    status = live_open(&c->inner, d.folder, d.live_page, d.live, d.live_user, &view, error);
-    if (status != FRAM_OK)
-        return status;
-    options.begun_user = view;
-    status = run_resume(&c->inner, &options, &inner, error);
-    live_view_end(view);
-    give_result(result, size, status, &inner);
-    return status;
+    return status == FRAM_OK ? run_or_resume(&c->inner, NULL, definition, result, size, error) : status;
 }
 
 /* ---- benchmarks ---- */
@@ -252,13 +240,10 @@ static fram_status scene_options(const fram_bench_scene_definition *given, bench
                                  .iterations = d->iterations,
                                  .dump = d->dump,
                                  .exact_water = d->exact_water != 0};
-    for (int i = 0; i < (int)(sizeof solvers / sizeof *solvers); i++) {
-        if (d->solver && strcmp(d->solver, solvers[i]) == 0) {
-            out->solver = (solver_kind)i;
-            return FRAM_OK;
-        }
-    }
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "solver", "expected sequential, fast or accurate");
+    int row;
+    status = name_find("solver", d->solver, solvers, (int)(sizeof solvers / sizeof *solvers), &row, error);
+    out->solver = (solver_kind)row;
+    return status;
 }
 
 fram_status(fram_bench_scene)(fram_context *c, const char *path, const fram_bench_scene_definition *definition,

@@ -311,10 +311,10 @@ static fram_status take_study(const fram_study_definition *given, fram_study_def
 {
     fram_study_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_study", error);
+    if (status == FRAM_OK)
+        status = folder_check("folder", d->folder, error);
     if (status != FRAM_OK)
         return status;
-    if (!d->folder || !*d->folder)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (!d->program || !*d->program)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "program", "the path of the command fram must be given");
     if (d->jobs < 0 || d->jobs > FRAM_STUDY_JOBS)

@@ -8,15 +8,14 @@
 #include <string.h>
 
 /* Coordinates as "-4,-2,0.5" and "FIRST:SPACING:LAST", in any mixture. */
-enum { LINES_MOST = 10000 };
 typedef struct line_list {
-    double value[LINES_MOST];
+    double value[FRAM_PRESSURE_LINES];
     int count;
 } line_list;
 
 static bool add_line(line_list *list, double value)
 {
-    if (list->count == LINES_MOST || !isfinite(value))
+    if (list->count == FRAM_PRESSURE_LINES || !isfinite(value))
         return false;
     list->value[list->count++] = value;
     return true;
@@ -36,7 +35,7 @@ static bool read_item(const char **text, line_list *list)
     if (count == 1)
         return add_line(list, value[0]);
     double steps = floor((value[2] - value[0]) / value[1] * (1 + 1e-12) + 1e-9);
-    if (!(value[1] > 0 && steps >= 0 && steps < LINES_MOST))
+    if (!(value[1] > 0 && steps >= 0 && steps < FRAM_PRESSURE_LINES))
         return false;
     bool good = true;
     for (int i = 0; i <= (int)steps && good; i++)
@@ -95,7 +94,9 @@ int command_pressure(const command_row *self, int argc, char **argv)
         return code;
     if (!d.output)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
-    static const char wanted[] = "expected coordinates like -4,-2,0.5 or FIRST:SPACING:LAST, ten thousand at most";
+    char wanted[120];
+    snprintf(wanted, sizeof wanted, "expected coordinates like -4,-2,0.5 or FIRST:SPACING:LAST, %d at most",
+             FRAM_PRESSURE_LINES);
     line_list *lines = calloc(2, sizeof *lines);
     if (!lines)
         return answer_memory(&common);

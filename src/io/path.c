@@ -17,8 +17,7 @@ fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM],
                      (int)PATH_ROOM);
 }
 
-/* One that is there, however the paths are spelt. */
-static bool is_one_file(const char *one, const char *other)
+bool path_is_same(const char *one, const char *other)
 {
     struct stat a, b;
     return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
@@ -30,7 +29,7 @@ bool path_is_own(const char *run, const char *path)
     bool found = false;
     for (int32_t i = 0; !found && (f = run_file_at(i)) != NULL; i++) {
         char own[PATH_ROOM]; /* where that is too long there is no such file */
-        found = f->source && path_join(run, f->name, own, NULL) == FRAM_OK && is_one_file(own, path);
+        found = f->source && path_join(run, f->name, own, NULL) == FRAM_OK && path_is_same(own, path);
     }
     return found;
 }
@@ -45,7 +44,7 @@ fram_status path_refuse_own(const char *run, const char *path, fram_error *error
 
 fram_status path_refuse_read(const char *read, const char *path, const char *key, fram_error *error)
 {
-    if (!is_one_file(read, path) && !path_is_own(read, path))
+    if (!path_is_same(read, path) && !path_is_own(read, path))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_USAGE, path, 0, key, "expected a file of its own, found one that is read");
 }

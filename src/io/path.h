@@ -9,6 +9,8 @@ enum { PATH_ROOM = 4096 };
 
 /* "FOLDER/NAME".  FRAM_ERROR_INPUT when that is too long. */
 fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM], fram_error *error);
+/* Whether both are the same file, which is there, however the paths are spelt. */
+bool path_is_same(const char *one, const char *other);
 /* Whether the path names one of the files that the run in the folder is made of. */
 bool path_is_own(const char *run, const char *path);
 /* FRAM_ERROR_USAGE, key "output", where it does: nothing that is made from a run is written over it. */

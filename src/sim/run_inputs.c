@@ -7,7 +7,6 @@
 #include "model/scenario_schema.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 enum { INPUT_LIMIT = 1 << 30, DIGEST_LENGTH = SHA256_TEXT_SIZE - 1, GAP_LENGTH = 2 };
 
@@ -96,14 +95,12 @@ bool run_inputs_next(const char **at, const char *end, run_input *out)
 
 bool run_inputs_has(const char *inputs, const char *path)
 {
-    struct stat one, other;
     run_input file;
     bool found = false;
     for (const char *end = inputs + strlen(inputs); !found && run_inputs_next(&inputs, end, &file);) {
         char input[PATH_ROOM];
         snprintf(input, sizeof input, "%.*s", file.path_length, file.path);
-        found = stat(input, &one) == 0 && stat(path, &other) == 0 && one.st_dev == other.st_dev &&
-                one.st_ino == other.st_ino;
+        found = path_is_same(input, path);
     }
     return found;
 }

@@ -45,18 +45,12 @@ static bool has_folder(const char *path, const char *name)
     return path_join(path, name, folder, NULL) == FRAM_OK && stat(folder, &about) == 0 && S_ISDIR(about.st_mode);
 }
 
-static bool is_same_file(const struct stat *a, const struct stat *b)
-{
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
 /* Whether the file is another one with the same text. */
 static bool is_copy(context *ctx, const char *path, const char *of)
 {
-    struct stat about[2];
     char *data[2] = {NULL, NULL};
     size_t size[2] = {0, 0};
-    bool same = stat(path, &about[0]) == 0 && stat(of, &about[1]) == 0 && !is_same_file(&about[0], &about[1]) &&
+    bool same = !path_is_same(path, of) &&
                 file_read(ctx, path, STUDY_FILE_LIMIT, &data[0], &size[0], NULL) == FRAM_OK &&
                 file_read(ctx, of, STUDY_FILE_LIMIT, &data[1], &size[1], NULL) == FRAM_OK && size[0] == size[1] &&
                 memcmp(data[0], data[1], size[0]) == 0;
@@ -107,11 +101,9 @@ enum { WRITTEN = sizeof written / sizeof *written, STUDY_ITSELF = 2 };
 /* first: the first of the names above that the file must not have. */
 static fram_status refuse_read(const char *folder, const char *path, int first, fram_error *error)
 {
-    struct stat read, output;
     char own[PATH_ROOM];
-    for (int i = first; i < WRITTEN && stat(path, &read) == 0; i++)
-        if (path_join(folder, written[i], own, NULL) == FRAM_OK && stat(own, &output) == 0 &&
-            is_same_file(&read, &output))
+    for (int i = first; i < WRITTEN; i++)
+        if (path_join(folder, written[i], own, NULL) == FRAM_OK && path_is_same(path, own))
             return error_set(error, FRAM_ERROR_USAGE, path, 0, NULL,
                              "the study reads this file and would write its own %s over it; name another folder",
                              written[i]);
