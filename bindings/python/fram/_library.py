@@ -104,8 +104,10 @@ class Interrupted(FramError):
     """A run was stopped; it wrote a checkpoint."""
 
 
-_KINDS = {1: UsageError, 2: InputError, 3: FileError, 4: OutOfMemory, 5: SimulationError, 6: UnsupportedError,
-          7: InternalError, 8: Interrupted}
+_KINDS = {lib.FRAM_ERROR_USAGE: UsageError, lib.FRAM_ERROR_INPUT: InputError, lib.FRAM_ERROR_IO: FileError,
+          lib.FRAM_ERROR_MEMORY: OutOfMemory, lib.FRAM_ERROR_SIMULATION: SimulationError,
+          lib.FRAM_ERROR_UNSUPPORTED: UnsupportedError, lib.FRAM_ERROR_INTERNAL: InternalError,
+          lib.FRAM_INTERRUPTED: Interrupted}
 
 
 def text_of(pointer) -> str:

@@ -14,7 +14,8 @@ import numpy as np
 from ._library import InputError, UsageError, absolute_of, bytes_of, ffi, is_made, lib, new_error, owned, text_of
 from .scenario import Scenario
 
-KINDS = {"floe": 0, "vessel": 1, "wall": 2, "other": 3}
+KINDS = {"floe": lib.FRAM_BODY_FLOE, "vessel": lib.FRAM_BODY_VESSEL, "wall": lib.FRAM_BODY_WALL,
+         "other": lib.FRAM_BODY_OTHER}
 """Kinds of bodies by name."""
 
 
