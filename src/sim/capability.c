@@ -4,7 +4,6 @@
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
 #include "sim/build_feeding.h"
-#include "sim/sanity.h"
 #include "sim/steady_load.h"
 
 #include <stdio.h>
@@ -12,6 +11,10 @@
 
 /* A limit is found to this part of a step of speed: 2^-10. */
 enum { SPEED_HALVINGS = 10 };
+
+/* Loads stand a degree apart or less and are linear between, 1 to 2.5: a load that goes with the sine of the direction
+   is then 4e-5 of its greatest off, at 2.5 degrees 2.4e-4. */
+enum { LOAD_ROWS = 360 };
 
 static double direction_of(const capability *c, int32_t row) { return 2 * PI * row / c->loads.directions; }
 
@@ -27,8 +30,8 @@ static void find_media_loads(const model *m, const world *w, capability *c)
 {
     if (m->forces != FORCES_FLUID)
         return; /* none, as in a run */
-    for (int32_t i = 0; i < c->loads.directions; i++) {
-        double from = direction_of(c, i);
+    for (int32_t i = 0; i < c->loads.rows; i++) {
+        double from = 2 * PI * i / c->loads.rows;
         media still = m->media;
         still.profile.count = 0;
         still.current = still.wind = vec3_make(0, 0, 0);
@@ -60,16 +63,18 @@ vec3 capability_ice_between(const vec3 *load, int32_t directions, int32_t speeds
     return vec3_mad(vec3_scale(a, 1 - (at - k)), b, at - k);
 }
 
+int32_t capability_row(const capability *c, int32_t i) { return i * (c->loads.rows / c->loads.directions); }
+
 vec3 capability_load_at(const capability *c, double from, double speed)
 {
     const capability_loads *l = &c->loads;
-    vec3 sum = between(l->wind, l->directions, 1, from);
-    sum = vec3_mad(sum, between(l->damping, l->directions, 1, from), speed);
-    sum = vec3_scale(vec3_mad(sum, between(l->drag, l->directions, 1, from), speed * speed), c->options.allowance);
+    vec3 sum = between(l->wind, l->rows, 1, from);
+    sum = vec3_mad(sum, between(l->damping, l->rows, 1, from), speed);
+    sum = vec3_scale(vec3_mad(sum, between(l->drag, l->rows, 1, from), speed * speed), c->options.allowance);
     double share = l->measured ? 1 : c->options.allowance;
     if (!(speed > 0))
         return sum;
-    vec3 ice = capability_ice_between(l->ice, l->directions, l->speeds, l->speed_step, from, speed);
+    vec3 ice = capability_ice_between(l->ice, l->rows, l->speeds, l->speed_step, from, speed);
     return vec3_mad(sum, ice, share);
 }
 
@@ -117,6 +122,8 @@ static capability_limit find_limit(const capability *c, const holding_case *h, d
         held = lost;
         lost = (k + 1) * step;
         limit.at = row ? row[k] : hold_at(c, h, from, lost);
+        if (limit.at.use <= 1)
+            limit.turn = fmax(limit.turn, limit.at.turn);
     }
     limit.beyond = limit.at.use <= 1;
     for (int i = 0; i < SPEED_HALVINGS && !limit.beyond && held < enough; i++) {
@@ -127,6 +134,7 @@ static capability_limit find_limit(const capability *c, const holding_case *h, d
             limit.at = at;
         } else {
             held = middle;
+            limit.turn = fmax(limit.turn, at.turn);
         }
     }
     limit.speed = limit.beyond ? lost : held;
@@ -231,10 +239,11 @@ static fram_status find_limits(context *ctx, world *w, holding_case *h, capabili
 static fram_status allocate(context *ctx, capability *c, fram_error *error)
 {
     size_t directions = (size_t)c->loads.directions, cells = directions * (size_t)c->loads.speeds;
-    c->loads.wind = memory_array(ctx, directions, sizeof(vec3));
-    c->loads.damping = memory_array(ctx, directions, sizeof(vec3));
-    c->loads.drag = memory_array(ctx, directions, sizeof(vec3));
-    c->loads.ice = memory_array(ctx, cells, sizeof(vec3));
+    size_t rows = (size_t)c->loads.rows;
+    c->loads.wind = memory_array(ctx, rows, sizeof(vec3));
+    c->loads.damping = memory_array(ctx, rows, sizeof(vec3));
+    c->loads.drag = memory_array(ctx, rows, sizeof(vec3));
+    c->loads.ice = memory_array(ctx, rows * (size_t)c->loads.speeds, sizeof(vec3));
     c->intact = memory_array(ctx, directions, sizeof *c->intact);
     c->damaged = memory_array(ctx, directions, sizeof *c->damaged);
     c->use = memory_array(ctx, cells, sizeof *c->use);
@@ -410,6 +419,8 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
     }
     if (status == FRAM_OK)
         status = sweep(ctx, s, &w, c, error);
+    if (status == FRAM_OK)
+        capability_tell_turns(ctx, c);
     world_free(ctx, &w);
     if (status != FRAM_OK)
         capability_free(ctx, c);
@@ -429,17 +440,6 @@ static fram_status choose_vessel(const scenario *s, const char *name, int32_t *r
     return FRAM_OK;
 }
 
-/* Currents come across the hull here whatever the scenario's own one does. */
-static void warn_of_sides(context *ctx, const scenario *s, const capability_options *o)
-{
-    double form = s->environment.hull_drag.water_form;
-    if (sanity_drags_as_ahead(s, &s->vessel, o->speed_most))
-        log_write(ctx, LOG_WARNING,
-                  "environment.hull_drag.water_form: %.3g is of a hull that goes ahead, and in this plot currents come "
-                  "from all sides: a ship's side has about 1; give that, or the vessel's current_coefficients",
-                  form);
-}
-
 /* Of the scenario's single vessel. */
 static fram_status find_alone(context *ctx, const scenario *s, const capability_options *o, capability *c,
                               fram_error *error)
@@ -447,8 +447,9 @@ static fram_status find_alone(context *ctx, const scenario *s, const capability_
     fram_status status = check(s, o, error);
     if (status != FRAM_OK)
         return status;
-    warn_of_sides(ctx, s, o);
+    capability_tell_scenario(ctx, s, o);
     c->loads.directions = o->directions;
+    c->loads.rows = (LOAD_ROWS + o->directions - 1) / o->directions * o->directions;
     c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
     c->loads.speed_step = o->speed_step;
     model m;

@@ -14,6 +14,8 @@
 #include "vessel/holding.h"
 
 enum { CAPABILITY_DIRECTIONS = 360, CAPABILITY_SPEEDS = 100 };
+/* Ice loads are measured at this many directions at most, evenly over those that are asked for. */
+enum { CAPABILITY_MEASURED = 12 };
 
 /* Ice that was measured in runs, in place of the scenario's. */
 typedef struct capability_met_ice {
@@ -44,14 +46,17 @@ typedef struct capability_options {
     const volatile int *stop;                /* non-zero: FRAM_INTERRUPTED, nothing written; may be NULL */
 } capability_options;
 
-/* A load in the ship's frame: surge, sway [N], yaw about the centre of mass [N m], by direction (row) and speed. */
+/* A load in the ship's frame: surge, sway [N], yaw about the centre of mass [N m], by direction and speed.  A ship on
+   lines turns, to headings between the directions that are asked for: loads stand in rows of their own, evenly round
+   from the bow and as many whatever is asked, so that the load on a turned ship is too. */
 typedef struct capability_loads {
-    int32_t directions, speeds;
+    int32_t directions, speeds; /* that are asked for */
+    int32_t rows;               /* of loads: a whole number of them from one direction that is asked for to the next */
     double speed_step;
-    vec3 *wind, *damping, *drag; /* by direction: all; times the speed; times its square */
-    vec3 *ice; /* [direction * speeds + k] at the speed (k + 1) speed_step; constant below the first */
-    bool measured;
-    double runs_done, runs; /* that measure the ice load, for who waits */
+    vec3 *wind, *damping, *drag; /* by row: all; times the speed; times its square */
+    vec3 *ice;                   /* [row * speeds + k] at the speed (k + 1) speed_step; constant below the first */
+    int32_t measured;            /* in so many directions, and linear between them; 0: not */
+    double runs_done, runs;      /* that measure the ice load, for who waits */
 } capability_loads;
 
 /* What is lost in a failure. */
@@ -62,6 +67,7 @@ typedef struct capability_failure {
 
 typedef struct capability_limit {
     double speed;    /* up to which the vessel is held [m/s] */
+    double turn;     /* the largest in drifts that are held, of those that were tried [rad] */
     bool beyond;     /* it is held at every speed that was tried */
     holding at;      /* just beyond it, or at the largest speed */
     int32_t failure; /* the worst one; -1: intact */
@@ -79,6 +85,8 @@ typedef struct capability {
     holding *use;                       /* [direction * speeds + k], intact */
 } capability;
 
+/* Of the loads from direction i of those that are asked for. */
+int32_t capability_row(const capability *c, int32_t i);
 /* Steady load from a direction at a speed, with the allowance, in the ship's frame. */
 vec3 capability_load_at(const capability *c, double from, double speed);
 
@@ -102,6 +110,10 @@ fram_status capability_met_scenario(const scenario *s, const capability_met_ice 
 double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,
                              double speed);
 
+/* Warnings: of what a plot of the scenario does not take from it, or takes as it is for another purpose; and of turns
+   to where measured ice loads are far apart. */
+void capability_tell_scenario(context *ctx, const scenario *s, const capability_options *o);
+void capability_tell_turns(context *ctx, const capability *c);
 /* FRAM_INTERRUPTED when the options' stop flag is set. */
 fram_status capability_go_on(const capability *c, fram_error *error);
 /* All of it, before anything is written; to be freed. */

@@ -58,8 +58,8 @@ fram_status capability_ice_formula(context *ctx, const scenario *s, const world 
     status = build_footprint(ctx, w, body, true, &waterline, error);
     double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
     capability_loads *l = &c->loads;
-    for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++) {
-        double from = 2 * PI * i / l->directions, middle;
+    for (int32_t i = 0; i < l->rows && status == FRAM_OK; i++) {
+        double from = 2 * PI * i / l->rows, middle;
         vec3 drift = plane_to_global(heading, vec3_make(-real_cos(from), real_sin(from), 0));
         vec2 along = {drift.x, drift.y};
         double breadth = breadth_across(&waterline, w->bodies.position[body], along, &middle);
@@ -231,14 +231,14 @@ static fram_status measure(context *ctx, const scenario *s, double from, double 
     return status;
 }
 
-/* Loads are measured at this many directions and speeds at most, evenly over those that are asked for, and are linear
-   between them. */
-enum { MEASURED_DIRECTIONS = 12, MEASURED_SPEEDS = 4 };
+/* Loads are measured at this many speeds at most, evenly over those that are asked for, and are linear between them, as
+   they are between directions. */
+enum { MEASURED_SPEEDS = 4 };
 
 typedef struct measured_loads {
     int32_t directions, speeds;
     double speed_step;
-    vec3 load[MEASURED_DIRECTIONS * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
+    vec3 load[CAPABILITY_MEASURED * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
 } measured_loads;
 
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
@@ -277,14 +277,14 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
             "expected feeding, so that ice can be driven past the hull and its load measured; otherwise the load "
             "can be had by the formula");
     capability_loads *l = &c->loads;
-    l->measured = true;
-    measured_loads m = {.directions = l->directions < MEASURED_DIRECTIONS ? l->directions : MEASURED_DIRECTIONS,
+    measured_loads m = {.directions = l->directions < CAPABILITY_MEASURED ? l->directions : CAPABILITY_MEASURED,
                         .speeds = l->speeds < MEASURED_SPEEDS ? l->speeds : MEASURED_SPEEDS};
     m.speed_step = l->speed_step * l->speeds / m.speeds;
+    l->measured = m.directions;
     fram_status status = measure_all(ctx, s, c, &m, error);
-    for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++)
+    for (int32_t i = 0; i < l->rows && status == FRAM_OK; i++)
         for (int32_t k = 0; k < l->speeds; k++)
             l->ice[i * l->speeds + k] = capability_ice_between(m.load, m.directions, m.speeds, m.speed_step,
-                                                               2 * PI * i / l->directions, (k + 1) * l->speed_step);
+                                                               2 * PI * i / l->rows, (k + 1) * l->speed_step);
     return status;
 }

@@ -84,7 +84,8 @@ static void use_table(context *ctx, const capability *c, text_buffer *b)
             int32_t cell = i * c->loads.speeds + k;
             const holding *h = &c->use[cell];
             double speed = (k + 1) * c->loads.speed_step, from = degrees_of(c, i);
-            vec3 ice = c->loads.ice[cell], load = capability_load_at(c, radians(from), speed);
+            vec3 ice = c->loads.ice[capability_row(c, i) * c->loads.speeds + k],
+                 load = capability_load_at(c, radians(from), speed);
             const double row[] = {from,  speed, h->use, h->thruster_use, h->line_use, h->offset, degrees(h->turn),
                                   ice.x, ice.y, ice.z,  load.x,          load.y,      load.z};
             int count = sizeof row / sizeof *row;

@@ -18,6 +18,11 @@ static const char box[] =
     "domain: {boundary: open}\n"
     "environment:\n  hull_drag: {water_form: 1, water_skin: 0, air_form: 0, air_skin: 0}\n";
 
+static vec3 ice_at(const capability *c, int32_t direction, int32_t k)
+{
+    return c->loads.ice[capability_row(c, direction) * c->loads.speeds + k];
+}
+
 static const capability_options plain = {.directions = 8,
                                          .speed_step = 0.25,
                                          .speed_most = 3,
@@ -112,7 +117,7 @@ START_TEST(loads_between_directions_and_speeds)
         ice[2 * i] = vec3_make(1000 * (1 + i), 1, 0);
         ice[2 * i + 1] = vec3_make(3000 * (1 + i), 0, 1);
     }
-    capability c = {.options = plain, .loads = {4, 2, 0.5, wind, damping, drag, ice, .measured = true}};
+    capability c = {.options = plain, .loads = {4, 2, 4, 0.5, wind, damping, drag, ice, .measured = 4}};
     vec3 sum = capability_load_at(&c, 0.25 * PI, 0.75);
     double mean = 1.25 * (1.5 + 15 * 0.75 + 150 * 0.75 * 0.75);
     assert_relative(sum.x, mean + 3000, 1e-12);
@@ -123,7 +128,7 @@ START_TEST(loads_between_directions_and_speeds)
     assert_relative(capability_load_at(&c, 1.75 * PI, 0).x, 1.25 * 2.5, 1e-12);
     assert_relative(capability_load_at(&c, 0, 0.1).x, 1.25 * (1 + 10 * 0.1 + 100 * 0.01) + 1000, 1e-12);
     assert_relative(capability_load_at(&c, 0, 2).x, 1.25 * (1 + 10 * 2 + 100 * 4) + 3000, 1e-12);
-    c.loads.measured = false;
+    c.loads.measured = 0;
     assert_relative(capability_load_at(&c, 0.25 * PI, 0.75).x, mean + 1.25 * 3000, 1e-12);
 }
 END_TEST
@@ -137,8 +142,8 @@ START_TEST(loads_of_wind_and_damping)
     capability c;
     find_in(&k, box, blown, sizeof blown / sizeof *blown, &plain, &c);
     assert_relative(c.loads.wind[0].x, -0.5 * 1.225 * 400 * 24, 1e-3);
-    assert_relative(c.loads.wind[2].y, 0.5 * 1.225 * 400 * 120, 1e-3);
-    assert_relative(c.loads.drag[2].y, 0.5 * 1025 * 240, 1e-3);
+    assert_relative(c.loads.wind[capability_row(&c, 2)].y, 0.5 * 1.225 * 400 * 120, 1e-3);
+    assert_relative(c.loads.drag[capability_row(&c, 2)].y, 0.5 * 1025 * 240, 1e-3);
     close_found(&k, &c);
 }
 END_TEST
@@ -172,10 +177,12 @@ START_TEST(no_loads_without_water)
     capability c;
     find_in(&k, box, dry, sizeof dry / sizeof *dry, &plain, &c);
     const vec3 none = {0, 0, 0};
-    for (int i = 0; i < plain.directions; i++) {
+    for (int i = 0; i < c.loads.rows; i++) {
         assert_vec3_close(c.loads.wind[i], none, 0);
         assert_vec3_close(c.loads.drag[i], none, 0);
         assert_vec3_close(c.loads.damping[i], none, 0);
+    }
+    for (int i = 0; i < plain.directions; i++) {
         ck_assert_msg(c.intact[i].beyond && c.intact[i].at.use < 1e-3, "use %g", c.intact[i].at.use);
     }
     close_found(&k, &c);
@@ -283,10 +290,9 @@ START_TEST(balances_are_those_of_a_run)
                                         "environment.current_direction_deg=135"};
     capability_options o = plain;
     o.allowance = 1;
-    o.directions = 72; /* loads are linear between them */
     o.speed_step = o.speed_most = 1.25;
     capability still = find_with(asked, 2, &o), moved = find_with(asked, 5, &o);
-    const holding *at = &still.use[9];
+    const holding *at = &still.use[1];
     scene k;
     scene_open_with(&k, sprung, asked, 5);
     int32_t body = k.w.vessels.body[0];
@@ -300,6 +306,71 @@ START_TEST(balances_are_those_of_a_run)
     scene_close(&k);
     forget(&still);
     forget(&moved);
+}
+END_TEST
+
+/* A ship that its load turns finds the load of the heading at which it lies, however many directions are asked for: in
+   ice by the formula and wind, from abeam, its mooring ahead of its middle. */
+START_TEST(turned_ships_know_loads_between_directions)
+{
+    static const char *const iced[] = {"ice.source=voronoi",        "ice.thickness=0.15",
+                                       "ice.concentration=0.4",     "vessel.mooring.x=1.5",
+                                       "environment.wind_speed=20", "environment.hull_drag.air_form=1"};
+    static const int32_t count[] = {4, 12, 28};
+    capability_options o = plain;
+    o.formula = true;
+    o.line_safety = 1;
+    o.speed_step = o.speed_most = 0.75;
+    double turn = 0;
+    for (int i = 0; i < 3; i++) {
+        o.directions = count[i];
+        capability c = find_with(iced, sizeof iced / sizeof *iced, &o);
+        const holding *abeam = &c.use[o.directions / 4];
+        if (i == 0)
+            turn = abeam->turn;
+        ck_assert_msg(turn > radians(8) && turn < radians(60), "turned by %g degrees", degrees(turn));
+        assert_relative(abeam->turn, turn, 1e-3);
+        ck_assert(abeam->use <= 1);
+        assert_relative(c.intact[o.directions / 4].turn, turn, 1e-3);
+        forget(&c);
+    }
+}
+END_TEST
+
+static void keep_turn(void *user, log_level level, const char *text)
+{
+    if (level == LOG_WARNING && strstr(text, "held turned by up to"))
+        snprintf(user, 200, "%s", text);
+}
+
+/* Half of the way between twelve, and less where fewer are measured. */
+START_TEST(turns_between_measured_directions_are_told)
+{
+    static const struct {
+        int32_t measured;
+        double turn_deg;
+        const char *told;
+    } turned[] = {{12, 14.9, NULL},
+                  {12, 15, "30 degrees apart: judge"},
+                  {12, 100, "turned by up to 100 degrees"},
+                  {4, 2.5, NULL},
+                  {4, 2.6, "90 degrees apart: ask for 12 directions"},
+                  {8, 5.5, NULL},
+                  {8, 6, "45 degrees apart: ask for 12 directions"},
+                  {0, 60, NULL}};
+    for (size_t i = 0; i < sizeof turned / sizeof *turned; i++) {
+        context ctx;
+        char told[200] = "";
+        context_init(&ctx);
+        ctx.log = keep_turn;
+        ctx.log_user = told;
+        capability_limit intact[4] = {{.turn = 0}}, damaged[4] = {{.turn = 0}};
+        (i % 2 ? intact : damaged)[3].turn = radians(turned[i].turn_deg);
+        const capability c = {
+            .intact = intact, .damaged = damaged, .loads = {.directions = 4, .measured = turned[i].measured}};
+        capability_tell_turns(&ctx, &c);
+        ck_assert_msg(turned[i].told ? strstr(told, turned[i].told) != NULL : told[0] == '\0', "%d: %s", (int)i, told);
+    }
 }
 END_TEST
 
@@ -330,7 +401,8 @@ START_TEST(use_as_it_is_written)
     for (int32_t i = 0; i < t.rows; i++) {
         const holding *h = &c.use[i];
         double from = 45 * (i / c.loads.speeds), speed = 0.25 * (1 + i % c.loads.speeds);
-        vec3 ice = c.loads.ice[i], load = capability_load_at(&c, radians(from), speed);
+        vec3 ice = ice_at(&c, i / c.loads.speeds, i % c.loads.speeds),
+             load = capability_load_at(&c, radians(from), speed);
         const struct {
             const char *name, *unit;
             double value;
@@ -381,9 +453,9 @@ START_TEST(broken_ice_by_formula)
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     double ahead = broken_ice_resistance(910, 9.81, 12, 0.5, 0.8, 0.5);
     double abeam = broken_ice_resistance(910, 9.81, 60, 0.5, 0.8, 0.5);
-    assert_relative(-c.loads.ice[1].x, ahead, 1e-6);
-    assert_relative(c.loads.ice[2 * c.loads.speeds + 1].y, abeam, 1e-6);
-    assert_absolute(c.loads.ice[2 * c.loads.speeds + 1].z, 0, 1e-3 * abeam);
+    assert_relative(-ice_at(&c, 0, 1).x, ahead, 1e-6);
+    assert_relative(ice_at(&c, 2, 1).y, abeam, 1e-6);
+    assert_absolute(ice_at(&c, 2, 1).z, 0, 1e-3 * abeam);
     /* With the allowance, and the drag. */
     vec3 sum = capability_load_at(&c, 0, 0.5);
     assert_relative(-sum.x, 1.25 * (ahead + 0.5 * 1025 * 0.25 * 48), 1e-3);
@@ -391,7 +463,7 @@ START_TEST(broken_ice_by_formula)
     /* Through the middle of the breadth, which is abaft a centre of gravity that lies ahead. */
     k.s.vessel.centre_of_gravity_x = 5;
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
-    assert_relative(c.loads.ice[2 * c.loads.speeds + 1].z, -5 * abeam, 1e-3);
+    assert_relative(ice_at(&c, 2, 1).z, -5 * abeam, 1e-3);
     capability_free(&k.ctx, &c);
     k.s.vessel.centre_of_gravity_x = 0;
     /* Measuring needs ice that is driven past. */
@@ -479,7 +551,7 @@ START_TEST(measured_ice)
     fram_error error = {0};
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     unlink(path);
-    const vec3 *load = c.loads.ice;
+    const vec3 load[4] = {ice_at(&c, 0, 0), ice_at(&c, 1, 0), ice_at(&c, 2, 0), ice_at(&c, 3, 0)};
     ck_assert(load[0].x < -1e3 && load[2].x > 1e3);
     ck_assert(load[1].y > 1e3);
     assert_absolute(load[3].y, -load[1].y, 0);
@@ -694,6 +766,7 @@ END_TEST
 
 TEST_MAIN("capability", limits_by_hand, limits_of_thrusters_that_turn, loads_between_directions_and_speeds,
           loads_of_wind_and_damping, damping_in_a_current_of_depth, no_loads_without_water, out_of_order_from_the_start,
-          what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run, use_as_it_is_written,
+          what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run,
+          turned_ships_know_loads_between_directions, turns_between_measured_directions_are_told, use_as_it_is_written,
           broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met, refusals,
           refusals_name_the_place_in_the_list, balances_are_told, a_stop_flag_is_seen)

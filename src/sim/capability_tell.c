@@ -1,0 +1,52 @@
+/* What a capability plot leaves out or does not know well, as warnings. */
+#include "sim/capability.h"
+
+#include "base/transcendental.h"
+#include "sim/sanity.h"
+
+#include <stdio.h>
+
+/* Currents come across the hull here whatever the scenario's own one does. */
+static void tell_sides(context *ctx, const scenario *s, const capability_options *o)
+{
+    double form = s->environment.hull_drag.water_form;
+    if (sanity_drags_as_ahead(s, &s->vessel, o->speed_most))
+        log_write(ctx, LOG_WARNING,
+                  "environment.hull_drag.water_form: %.3g is of a hull that goes ahead, and in this plot currents come "
+                  "from all sides: a ship's side has about 1; give that, or the vessel's current_coefficients",
+                  form);
+}
+
+void capability_tell_scenario(context *ctx, const scenario *s, const capability_options *o)
+{
+    tell_sides(ctx, s, o);
+}
+
+static double largest_turn(const capability *c)
+{
+    double turn = 0;
+    for (int32_t i = 0; i < c->loads.directions; i++)
+        turn = fmax(turn, fmax(c->intact[i].turn, c->damaged[i].turn));
+    return turn;
+}
+
+/* A load that goes with the sine of the direction, and is linear between measured ones, is off by half of this product
+   of its distances to them: told from what it is halfway between as many as are measured at most, 3.4 %. */
+void capability_tell_turns(context *ctx, const capability *c)
+{
+    if (!c->loads.measured)
+        return;
+    double spacing = 2 * PI / c->loads.measured, turn = fmin(largest_turn(c), 0.5 * spacing);
+    double halfway = PI / CAPABILITY_MEASURED;
+    if (turn * (spacing - turn) < halfway * halfway * (1 - 1e-9))
+        return;
+    bool few = c->loads.measured < CAPABILITY_MEASURED;
+    char remedy[64] = "judge such balances by runs";
+    if (few)
+        snprintf(remedy, sizeof remedy, "ask for %d directions or more", (int)CAPABILITY_MEASURED);
+    log_write(
+        ctx, LOG_WARNING,
+        "the vessel is held turned by up to %.3g degrees, where its ice load lies between loads that are measured "
+        "%.3g degrees apart: %s",
+        degrees(largest_turn(c)), degrees(spacing), remedy);
+}
