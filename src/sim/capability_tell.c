@@ -17,9 +17,20 @@ static void tell_sides(context *ctx, const scenario *s, const capability_options
                   form);
 }
 
+/* A current that goes with the drift takes the place of the scenario's: of what that has on top at a depth nothing is
+   left, and nothing could be given in place of the file. */
+static void tell_left_profile(context *ctx, const scenario *s)
+{
+    if (s->environment.current_profile_file[0] && s->environment.water)
+        log_write(ctx, LOG_WARNING,
+                  "environment.current_profile_file is left out: the current of a capability plot goes with the drift, "
+                  "at its speed, from its side and at all depths alike");
+}
+
 void capability_tell_scenario(context *ctx, const scenario *s, const capability_options *o)
 {
     tell_sides(ctx, s, o);
+    tell_left_profile(ctx, s);
 }
 
 static double largest_turn(const capability *c)

@@ -54,6 +54,11 @@ expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --speed-step 0.3
 says '--speed-step: expected a positive step that divides the largest speed' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set "environment.wind_file=$FRAM_SOURCE/scenes/drift_turning.csv"
 says 'environment.wind_file' err
+# The drift's current, at all depths, stands in place of what the scenario's has at some of them, which is told.
+printf 'depth,x,y\n0,0,1\n20,0,1\n' >profile.csv
+expect 0 "$FRAM" capability "$scene" -o left --formula --directions 4 \
+    --set "environment.current_profile_file=$PWD/profile.csv"
+says "environment.current_profile_file is left out: the current of a capability plot goes with the drift" err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --set ice.source=level --set domain.boundary=open
 says 'broken ice' err
 cat >mixed.yaml <<'END'
