@@ -53,7 +53,8 @@
     X(forbidden_width_deg, REAL(0, 0, 179), "deg",                                                              \
       "azimuth: width of the forbidden sector, which it may turn across; 0: none")                              \
     X(cost, REAL(1, 1e-9, 1e9), "1", "weight of its thrust in the allocation")                                  \
-    X(power, AUTOMATIC(0, 1e12), "W", "at the largest thrust, either way; auto: 6.25 W/N * sqrt(scale / 30)")   \
+    X(power, AUTOMATIC(0, 1e12), "W",                                                                           \
+      "at the larger of thrust and thrust_astern; auto: 6.25 W/N * sqrt(scale / 30) of that")                   \
     X(diameter, AUTOMATIC(1e-3, 100), "m",                                                                      \
       "of the propeller, for its wash; auto: 45 kPa * scale / 30 of the largest thrust on its disc")            \
     X(failure_time, AUTOMATIC(0, 1e9), "s", "it fails then; auto: never")                                       \

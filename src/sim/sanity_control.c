@@ -1,5 +1,6 @@
 #include "base/number_text.h"
 #include "base/transcendental.h"
+#include "sim/build_station.h"
 #include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
 #include "vessel/propulsion.h"
@@ -184,7 +185,7 @@ static void tell_thruster(const teller *t, int32_t i)
     const scenario_vessel *v = t->e->keys;
     const scenario_thruster *p = &v->thrusters.data[i];
     const sanity_range usual = sanity_usual(t->s, POWER_LEAST, POWER_MOST, 0.5);
-    double ratio = automatic_or(p->power, (double)NAN) / p->thrust;
+    double ratio = automatic_or(p->power, (double)NAN) / thruster_largest_thrust(p);
     if (ratio < usual.least || ratio > usual.most)
         sanity_say(t->tell, t->to,
                    "%s.thrusters[%d].power: %.4g W is %.3g W for each newton of thrust, %.3g to %.3g are usual: give "

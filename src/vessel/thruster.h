@@ -57,7 +57,7 @@ fram_status thruster_add(context *ctx, const thruster_definition *d, const vesse
 double thruster_push_angle(const thruster_table *thrusters, int32_t row);
 /* The direction nearest to `angle` that may be ordered: of a rudder, or outside of the forbidden sector [rad]. */
 double thruster_allowed_angle(const thruster_table *thrusters, int32_t row, double angle);
-/* Power drawn [W]: full power times (|T| / largest)^1.5. */
+/* Power drawn [W]: full power times (|T| / largest)^1.5, the largest of ahead and astern. */
 double thruster_power(const thruster_table *thrusters, int32_t row);
 
 /* Orders to the thrusters of a vessel for a force (surge, sway [N], yaw moment [N m] about the centre of mass, vessel

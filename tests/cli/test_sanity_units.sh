@@ -211,6 +211,9 @@ all_told ship.yaml "vessel.mooring.lines[0].release_time=0.1" "vessel.mooring.li
     "centre_of_gravity_z: 0.5 m is above the deck" "mooring.lines: the vessel capsizes unless their stiffness holds it"
 all_told ship.yaml "vessel.mooring.lines[0].weight=5000" "vessel.mooring.lines[0].breaking_load=4e6" -- \
     "lines[0].weight: a line of 5000 N/m parts under 800 m of itself" "mooring.lines: they pull the vessel down"
+# Power is that at the larger thrust of both.
+all_told ship.yaml "vessel.thrusters[1].kind=tunnel" "vessel.thrusters[1].thrust=2.0e4" \
+    "vessel.thrusters[1].thrust_astern=2.0e5" "vessel.thrusters[1].power=1.25e6" --
 # A line of a model of 1:30 carries as many metres of itself as are 30 times as long at full size.
 expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set "vessel.mooring.lines[0].weight=5000" \
     --set "vessel.mooring.lines[0].breaking_load=1e6"
