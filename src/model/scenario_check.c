@@ -138,9 +138,8 @@ static fram_status check_floe_speed(const scenario *s, int32_t number, fram_erro
 {
     const scenario_floe *f = &s->ice.floes.data[number];
     const double v[3] = {f->velocity_x, f->velocity_y, f->velocity_z};
-    double h = automatic_or(f->thickness, s->ice.thickness), speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    double square = f->shape == FLOE_REGULAR ? 4 * f->radius * f->radius : f->length * f->length + f->width * f->width;
-    double reach = 0.5 * sqrt(square + h * h);
+    double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double reach = f->shape == FLOE_REGULAR ? f->radius : 0.5 * sqrt(f->length * f->length + f->width * f->width);
     int most = fabs(v[1]) > fabs(v[0]);
     most = fabs(v[2]) > fabs(v[most]) ? 2 : most;
     char key[40];

@@ -200,6 +200,35 @@ double world_reach(const world *w, int32_t body)
     return w->bodies.shape[body] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[body]] : 0;
 }
 
+/* Of a prism whose axis is `a` in its own frame. */
+static double reach_of_prism(const shape_store *s, int32_t shape, vec3 a)
+{
+    polygon outline = shape_outline(s, shape);
+    double h = s->shapes.half_height[shape], most = 0;
+    for (int32_t i = 0; i < outline.count; i++) {
+        vec3 p = {outline.vertex[i].x, outline.vertex[i].y, h};
+        most = fmax(most, vec3_length(vec3_cross(a, p)));
+        p.z = -h;
+        most = fmax(most, vec3_length(vec3_cross(a, p)));
+    }
+    return most;
+}
+
+double world_reach_about(const world *w, int32_t body, vec3 axis)
+{
+    int32_t shape = w->bodies.shape[body];
+    if (shape < 0)
+        return 0;
+    vec3 a = mat3_tmul_vec(quat_matrix(w->bodies.orientation[body]), vec3_scale(axis, 1 / vec3_length(axis)));
+    if (w->shapes.shapes.kind[shape] == SHAPE_PRISM)
+        return reach_of_prism(&w->shapes, shape, a);
+    const mesh *surface = &shape_solid(&w->shapes, shape)->surface;
+    double most = 0;
+    for (int32_t i = 0; i < surface->vertex.count; i++)
+        most = fmax(most, vec3_length(vec3_cross(a, surface->vertex.data[i])));
+    return most;
+}
+
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
 {
     world_table to[WORLD_TABLE_COUNT], from[WORLD_TABLE_COUNT];

@@ -184,6 +184,8 @@ bool world_difference(const world *a, const world *b, char text[WORLD_DIFFERENCE
 
 /* How far a body reaches from its centre of mass [m]; 0 without a shape. */
 double world_reach(const world *w, int32_t body);
+/* How far from an axis through its centre of mass, of any length, global: what turns about it is fastest there [m]. */
+double world_reach_about(const world *w, int32_t body, vec3 axis);
 
 /* Steps of the load window; 0 without vessels. */
 int64_t load_window_length(const world *w);

@@ -87,7 +87,7 @@ static fram_status check_turns(const scenario *s, const vessel_entry *entry, con
                                fram_error *error)
 {
     const scenario_path_point_list *path = &entry->keys->path;
-    double reach = world_reach(w, w->vessels.body[row]);
+    double reach = world_reach_about(w, w->vessels.body[row], vec3_make(0, 0, 1));
     for (int32_t i = 1; i < path->count; i++) {
         const scenario_path_point *a = &path->data[i - 1], *b = &path->data[i];
         double turn = fabs(radians(b->heading_deg - a->heading_deg)) / (b->time - a->time);

@@ -409,7 +409,7 @@ static fram_status check_path(const world *w, const double *times, const vec3 *p
 static fram_status check_legs(const model *m, const world *w, int32_t vessel, vec3 from, const double *times,
                               const vec3 *places, int32_t count, fram_error *error)
 {
-    double before = w->clock.time[0], reach = world_reach(w, w->vessels.body[vessel]);
+    double before = w->clock.time[0], reach = world_reach_about(w, w->vessels.body[vessel], vec3_make(0, 0, 1));
     for (int32_t i = 0; i < count; i++) {
         vec3 way = vec3_sub(places[i], from);
         double time = times[i] - before, speed = sqrt(way.x * way.x + way.y * way.y) / time;

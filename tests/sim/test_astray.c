@@ -68,4 +68,49 @@ START_TEST(floes_that_go_astray_are_told)
 }
 END_TEST
 
-TEST_MAIN("astray", floes_that_go_astray_are_told)
+/* A beam of ice of 20 x 1 m and a hull of 60 x 12 m, both far longer than they are wide. */
+static const char beams[] = "run: {duration: 10, time_step: 0.01}\n"
+                            "vessel: {mode: free, heading_deg: 30, x: -40,\n"
+                            "         hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 2}}\n"
+                            "ice: {source: floes, thickness: 0.5, floes: [{length: 20, width: 1, x: 30}]}\n"
+                            "domain: {boundary: open}\n"
+                            "environment: {water: false}\n";
+
+/* What a step says of the floe or the hull with this turn, in its own axes. */
+static fram_status turn_with(bool hull, vec3 turn, fram_error *error)
+{
+    scene k;
+    scene_open_with(&k, beams, NULL, 0);
+    int32_t body = hull ? k.w.vessels.body[0] : k.w.floes.body[0];
+    k.w.bodies.angular_velocity[body] = mat3_mul_vec(quat_matrix(k.w.bodies.orientation[body]), turn);
+    fram_status status = world_step(&k.ctx, &k.m, &k.w, error);
+    scene_close(&k);
+    return status;
+}
+
+/* About its own length either may turn at a rate with which its ends would be too fast about any other axis. */
+START_TEST(what_turns_is_judged_by_its_rim)
+{
+    const double nan = NAN;
+    const struct {
+        bool hull;
+        vec3 turn;
+        const char *told; /* NULL: nothing */
+    } of[] = {{false, {12, 0, 0}, NULL},
+              {false, {179, 0, 0}, "turns at 179 rad/s, its rim 0.559 m off at 100.1 m/s"},
+              {false, {0, 0, 9.9}, NULL},
+              {false, {0, 0, -12}, "turns at 12 rad/s, its rim 10.01 m off at 120.1 m/s"},
+              {false, {1e200, 0, 0}, "no finite number"},
+              {false, {nan, 0, 0}, "no finite number"},
+              {true, {5, 0, 0}, NULL},
+              {true, {0, 0, 5}, "turns at 5 rad/s, its rim 30.59 m off at 153 m/s"}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        fram_error error = {0};
+        fram_status status = turn_with(of[i].hull, of[i].turn, &error);
+        ck_assert_msg(status == (of[i].told ? FRAM_ERROR_SIMULATION : FRAM_OK), "%d: %s", (int)i, error.message);
+        ck_assert_msg(!of[i].told || strstr(error.message, of[i].told), "%d: %s", (int)i, error.message);
+    }
+}
+END_TEST
+
+TEST_MAIN("astray", floes_that_go_astray_are_told, what_turns_is_judged_by_its_rim)
