@@ -223,6 +223,11 @@ static void note_channel(const note_taker *n, const scenario *s, const vessel_en
               vessel_title_of(entry).text, way, CHANNEL_SLEEP * speed);
 }
 
+static bool is_in_domain(const scenario_domain *d, double x, double y)
+{
+    return x > d->x_min && x < d->x_max && y > d->y_min && y < d->y_max;
+}
+
 static void note_vessel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
     const scenario_vessel *v = entry->keys;
@@ -240,8 +245,8 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
                      most_text_of(THICKNESS_STEP * thickness / speed, 3).text);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
-    bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
-    if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && !inside)
+    bool leaves = is_in_domain(&s->domain, v->x, v->y) && !is_in_domain(&s->domain, x, y);
+    if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && leaves)
         note_warning(n, "%s %s the domain before the end, at (%s, %s) m", title.text,
                      v->mode == VESSEL_FREE ? "can leave" : "leaves", coordinate_text_of(x).text,
                      coordinate_text_of(y).text);

@@ -330,9 +330,9 @@ static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
     double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
     if (d->boundary == DOMAIN_FEEDING && most - room > ROOM_ROUNDED * most)
         sanity_say(t->tell, t->to,
-                   "domain: its edge%s is %.4g m from %s, which reaches %.4g m%s; enlarge the domain by %s m or more "
+                   "domain: its edge%s is %.4g m %s %s, which reaches %.4g m%s; enlarge the domain by %s m or more "
                    "on that side",
-                   band > 0 ? " with the band" : "", room, e->path, most,
+                   band > 0 ? " with the band" : "", fabs(room), room < 0 ? "short of" : "from", e->path, most,
                    e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it",
                    least_text_of((most - room) * (1 - ROOM_ROUNDED), 3).text);
 }
@@ -343,10 +343,12 @@ static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
     const scenario_vessel *v = e->keys;
     if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
-    tell_room(t, e, start);
     vec2 from = domain_edges_from(d, vec2_make(v->x, v->y));
     double edge = fmin(from.x, from.y);
-    if (edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam))
+    bool outside = edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
+    if (!outside)
+        tell_room(t, e, start);
+    else
         sanity_say(t->tell, t->to,
                    "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no "
                    "ice",

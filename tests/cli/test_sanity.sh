@@ -97,6 +97,17 @@ told led.yaml "its edge with the band is 29.99 m from vessel, which reaches 39.0
     --set domain.x_min=-40 --set vessel.heading_deg=10
 expect 0 "$FRAM" check led.yaml --set domain.x_min=-49.09 --set vessel.heading_deg=10
 grep 'domain: its edge' err && fail "the metres that are told do not suffice"
+# What lies outside of the domain is told of that alone, and the metres of what lies across its edge are not negative.
+alone() {
+    expect 0 "$FRAM" check led.yaml "${@:2}"
+    same "$(grep -c 'domain' <(grep '^warning' err))" 1 "warnings of the domain with ${*:2}"
+    says "$1" err
+}
+alone "(500, 0) m lies outside of the domain" --set vessel.x=500 --set vessel.speed=2
+alone "(500, 0) m lies outside of the domain" --set vessel.x=500 --set vessel.speed=2 --set vessel.course_deg=180 \
+    --set run.duration=3600
+told led.yaml "its edge with the band is 35.01 m short of vessel, which reaches 38 m towards it|by 73.1 m or more" \
+    --set vessel.x=-120 --set domain.x_min=-95
 round=(--set vessel.hull.form=cone --set vessel.hull.length=19 --set vessel.hull.flare_angle_deg=30)
 told ship.yaml "its edge with the band is 8.987 m from vessel, which reaches 9.5 m as it turns|by 0.514 m or more" \
     --set domain.x_min=-19 "${round[@]}"

@@ -222,7 +222,7 @@ all_told towed.yaml vessel.hull.draught=0.5 vessel.speed=0.001 vessel.course_deg
     vessel.current_coefficients.frontal_area=0.01 -- "hull.draught: 0.5 m is 0.0357 of the beam" \
     "ice.thickness: 0.7 m is more than the draught" "vessel.speed: the vessel moves 0.06 m in the run" \
     "course_deg: the vessel is moved at 120 degrees to its bow" "(500, 0) m lies outside of the domain, 400 m" \
-    "the vessel leaves the domain" "current_coefficients.frontal_area: 0.01 m2" \
+    "current_coefficients.frontal_area: 0.01 m2" \
     "current_coefficients.frontal_area: without effect"
 all_told path.yaml "vessel.path[1].time=1" -- "vessel.path[1]: (60, 0) m is reached with 60 m/s" \
     "the vessel and the ice move 0.86 of its thickness past each other in a step at 60 m/s"
