@@ -493,5 +493,6 @@ void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, cons
         sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, i, built, tell, to);
         sanity_tell_control(s, &e, built, tell, to);
+        sanity_tell_vaning(s, i, built, tell, to);
     }
 }

@@ -29,6 +29,8 @@ void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller te
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
                          const void *to);
+/* Of a bow that turns against its load: asks what was built for that load.  sanity_tell asks. */
+void sanity_tell_vaning(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
 void sanity_tell_ice(const scenario *s, sanity_built built, sanity_teller tell, const void *to);
 /* Of the times of the run and of what it writes.  sanity_tell asks. */

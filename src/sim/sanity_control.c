@@ -24,19 +24,18 @@
 #define SLOWEST_SAMPLE_OBSERVER 2.0
 
 /* Of a Kalman filter that is called so often: of three poles alike, as where its bias alone is unsure. */
-static double bandwidth_of(const teller *t, double interval)
+double sanity_observer_bandwidth(const scenario *s, const scenario_positioning *p, double interval)
 {
-    const scenario_positioning *p = &t->e->keys->positioning;
-    double noise = fmax(p->noise_position, 0.01 * scenario_size(t->s));
+    double noise = fmax(p->noise_position, 0.01 * scenario_size(s));
     if (p->observer == OBSERVER_PASSIVE)
         return p->observer_bandwidth;
-    return real_cbrt(p->bias_rate / (noise * sqrt(fmax(interval, t->s->run.time_step))));
+    return real_cbrt(p->bias_rate / (noise * sqrt(fmax(interval, s->run.time_step))));
 }
 
 static double slowest_call(const teller *t)
 {
     const scenario_positioning *p = &t->e->keys->positioning;
-    double bandwidth = bandwidth_of(t, p->interval), slowest = SLOWEST_CALL / p->frequency;
+    double bandwidth = sanity_observer_bandwidth(t->s, p, p->interval), slowest = SLOWEST_CALL / p->frequency;
     if (!(bandwidth > 0)) /* a filter that takes its bias for known follows none, however often it is called */
         return slowest;
     return fmin(slowest, SLOWEST_CALL_FAST / p->frequency + SLOWEST_CALL_OBSERVER / bandwidth);
@@ -54,7 +53,8 @@ static double slowest_sample(const teller *t)
 /* More than `slowest` [s] is too seldom. */
 static void tell_interval(const teller *t, const char *key, double interval, double slowest)
 {
-    double frequency = t->e->keys->positioning.frequency, period = 2 * PI / frequency;
+    const scenario_positioning *p = &t->e->keys->positioning;
+    double frequency = p->frequency, period = 2 * PI / frequency;
     if (interval > t->s->run.duration)
         sanity_say(t->tell, t->to, "%s.positioning.%s: %.4g s is longer than the run, %.4g s: give seconds", t->e->path,
                    key, interval, t->s->run.duration);
@@ -62,7 +62,7 @@ static void tell_interval(const teller *t, const char *key, double interval, dou
         sanity_say(t->tell, t->to,
                    "%s.positioning.%s: once in %.4g s is too seldom for a controlled period of %.3g s "
                    "(positioning.frequency %.3g rad/s) and an observer of %.2g rad/s: take %.2g s or less",
-                   t->e->path, key, interval, period, frequency, bandwidth_of(t, interval),
+                   t->e->path, key, interval, period, frequency, sanity_observer_bandwidth(t->s, p, interval),
                    fmin(0.1 / frequency, 0.5 * slowest));
     else if (interval > 0 && interval < t->s->run.time_step * (1 - 1e-9))
         sanity_say(t->tell, t->to, "%s.positioning.%s: %.4g s is shorter than run.time_step, %.4g s: it is a step",

@@ -68,6 +68,9 @@ double sanity_least_band(const scenario *s);
 /* Longer than any ship, full size [m]. */
 #define VESSEL_LONGEST 500.0
 
+/* Of three poles alike, of either observer, called once in `interval` s [rad/s]. */
+double sanity_observer_bandwidth(const scenario *s, const scenario_positioning *p, double interval);
+
 /* Thickness of floes and sheets of full size [m]. */
 #define USUAL_THICKNESS_LEAST 0.02
 #define USUAL_THICKNESS_MOST 6

@@ -189,6 +189,30 @@ flow wind_coefficients -0.9 0.9 0.8
 told flow.yaml "wind_coefficients: at 0 degrees cx and cy push the vessel against the motion of the wind|from astern"
 flow current_coefficients 0.02 -0.7 -0.03
 told flow.yaml "vessel.current_coefficients: at 90 degrees cx and cy push the vessel against|cy to port"
+# A bow that turns against wind which pushes the side ten times as hard as the bow: from ahead cy grows by
+# 0.8 * 10 * 2 / pi for each radian, over cx of 0.8, so that the load turns by 5.4 more than the bow.
+cat >vane.yaml <<'YAML'
+vessel:
+  mode: free
+  hull: {form: box, length: 100, beam: 20, draught: 6, freeboard: 6}
+  hydrodynamics: {source: estimate}
+  wind_coefficients: {table: [{angle_deg: 0, cx: 0.8}, {angle_deg: 90, cy: 0.8}, {angle_deg: 180, cx: -0.8}],
+                      frontal_area: 200, lateral_area: 2000}
+  thrusters: [{x: -45, y: 5, thrust: 3e5}, {x: -45, y: -5, thrust: 3e5}, {x: 45, thrust: 3e5}]
+  positioning: {active: true, heading: vaning, vaning_load: 5e3}
+ice: {source: none}
+domain: {boundary: open}
+environment: {wind_speed: 14, wind_direction_deg: -70}
+YAML
+vaning=vessel.positioning.vaning
+told vane.yaml "$vaning""_time: as the bow turns by a degree|turns by 5.4" --build
+# shellcheck disable=SC2154
+time=$(sed -n 's/.*for ever; take \([0-9.e+]*\) s or more.*/\1/p' err)
+for enough in ${vaning}_time="$time" ${vaning}_load=5e4 vessel.wind_coefficients.lateral_area=500 \
+    vessel.positioning.feed_forward=measured vessel.positioning.heading=fixed; do
+    expect 0 "$FRAM" check vane.yaml --build --set "$enough"
+    grep 'swing for long' err && fail "told of a heading that comes to rest with $enough"
+done
 # On a ship with propulsion it stands for the lift of a hull that slides.
 drives="vessel.propulsion.bollard_pull=5e5"
 flow current_coefficients 0.02 0 -0.03
