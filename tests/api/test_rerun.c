@@ -368,25 +368,25 @@ static void run_until_it_fails(const char *const *overrides, int count)
 START_TEST(up_to_a_failure)
 {
     static const char *const sooner[] = {"run.speed_limit=1.5"};
-    static const char *const later[] = {"run.speed_limit=1.545", "output.csv_interval=5"};
+    static const char *const later[] = {"run.speed_limit=1.9", "vessel.speed=1.5", "output.csv_interval=5"};
     open_all();
     run_until_it_fails(sooner, 1);
     assert_ok(why(0, 1), e);
     assert_told("Peak 1 of 1: t = 1.92 s");
     assert_ok(why(1.9, 0), e);
     assert_fails(why(1.94, 0), e, FRAM_ERROR_INPUT, "up to 1.92 s");
-    run_until_it_fails(later, 1);
+    run_until_it_fails(later, 2);
     assert_ok(why(0, 1), e);
-    assert_told("half the time step       went wrong at t = 2.07 s\n");
+    assert_told("half the time step       went wrong at t = 1.6 s\n");
     as_json = true;
     assert_ok(why(0, 1), e);
-    assert_told("\"half_step\": null, \"half_step_went_wrong_at\": 2.07, \"accurate\": ");
+    assert_told("\"half_step\": null, \"half_step_went_wrong_at\": 1.6, \"accurate\": ");
     as_json = false;
     /* Without a row too. */
-    run_until_it_fails(later, 2);
+    run_until_it_fails(later, 3);
     assert_ok(pressure(0, 0), e);
-    assert_fails(why(2.12, 0), e, FRAM_ERROR_INPUT, "up to 2.1 s");
-    assert_fails(pressure(2.11, 0), e, FRAM_ERROR_INPUT, "no step ends after 2.11 s and up to 2.1 s");
+    assert_fails(why(1.62, 0), e, FRAM_ERROR_INPUT, "up to 1.6 s");
+    assert_fails(pressure(1.61, 0), e, FRAM_ERROR_INPUT, "no step ends after 1.61 s and up to 1.6 s");
     close_all();
 }
 END_TEST

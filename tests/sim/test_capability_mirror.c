@@ -129,7 +129,8 @@ START_TEST(an_opening_to_one_side_is_measured)
         assert_ok(capability_find(&ctx, &s, &o, &c, &error), error);
         ck_assert_double_eq(c.loads.runs, 4);
         /* Ice from starboard pushes to port, that from port back, and where there is none next to nothing does. */
-        double starboard = fabs(c.loads.ice[1].y), port = fabs(c.loads.ice[3].y);
+        double starboard = fabs(c.loads.ice[capability_row(&c, 1) * c.loads.speeds].y),
+               port = fabs(c.loads.ice[capability_row(&c, 3) * c.loads.speeds].y);
         ck_assert_msg(side < 0 ? starboard < 0.2 * port : port < 0.2 * starboard, "%g N, %g N", starboard, port);
         capability_free(&ctx, &c);
         scenario_free(&ctx, &s);
