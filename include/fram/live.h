@@ -28,6 +28,10 @@
    the C library's can.  The context's threads then work for one of them at a time, and the others' work is done by the
    threads that called.
 
+   A child of fork() has the worlds of its parent as they were, and none of the threads: a context's, a task system's
+   too, do nothing there, and the child's one thread does all, to the same bits; a context that the child makes has
+   threads of its own.  A world that another thread of the parent was changing stays refused in the child.
+
    After a step that went wrong (any status but FRAM_ERROR_USAGE) the world can be read, copied, saved and destroyed; to
    step it again is FRAM_ERROR_USAGE until a good state was loaded.  What it saves, as a run's failed.fram, leaves the
    world that loads it as failed.  A step that was made and could not be recorded is an error too, FRAM_ERROR_IO where a

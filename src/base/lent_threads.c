@@ -4,6 +4,8 @@
 #include "base/lent_threads.h"
 #include <sched.h>
 #include <stdatomic.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 typedef enum breach {
     BREACH_NONE,
@@ -19,6 +21,7 @@ struct lent_threads {
     lent_function run;
     void *user;
     int threads;
+    pid_t process; /* that has them: a child of fork() has none */
     /* The job: written while it is closed. */
     block_function fn;
     void *arg;
@@ -45,6 +48,7 @@ lent_threads *lent_threads_create(context *ctx, int threads, lent_function run, 
     lent->run = run;
     lent->user = user;
     lent->threads = threads;
+    lent->process = getpid();
     lent->working = working;
     for (int i = 0; i < threads; i++)
         atomic_init(&working[i], false);
@@ -149,7 +153,7 @@ static void run_job(lent_threads *lent, block_function fn, void *arg, int32_t bl
 void lent_threads_run(context *ctx, block_function fn, void *arg, int32_t blocks)
 {
     lent_threads *lent = ctx->lent;
-    bool has_threads = blocks > 1 && !atomic_exchange(&lent->busy, true);
+    bool has_threads = blocks > 1 && lent->process == getpid() && !atomic_exchange(&lent->busy, true);
     if (has_threads && make_room(ctx, lent, blocks)) {
         run_job(lent, fn, arg, blocks);
     } else {

@@ -49,6 +49,7 @@ struct pool {
     pthread_mutex_t mutex;
     pthread_cond_t work, done;
     worker *workers; /* threads - 1 */
+    pid_t process;   /* that has them */
 };
 
 static inline void look_pause(void)
@@ -134,6 +135,21 @@ static void workers_start(pool *p, int threads)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
+/* In a child of fork() nothing of this can be done: there is nobody to join, and the variables are waited for by
+   workers that are not there. */
+static void workers_end(pool *p)
+{
+    pthread_mutex_lock(&p->mutex);
+    atomic_store(&p->stop, true);
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->mutex);
+    for (int i = 0; i < p->threads - 1; i++)
+        pthread_join(p->workers[i].handle, NULL);
+    pthread_cond_destroy(&p->done);
+    pthread_cond_destroy(&p->work);
+    pthread_mutex_destroy(&p->mutex);
+}
+
 pool *pool_create(context *ctx, int threads)
 {
     if (threads < 1)
@@ -146,6 +162,7 @@ pool *pool_create(context *ctx, int threads)
         return NULL;
     }
     p->workers = workers;
+    p->process = getpid();
     p->looks = threads <= cores_online() ? LOOKS : 0;
     atomic_init(&p->ticket, 0);
     atomic_init(&p->unfinished, 0);
@@ -168,15 +185,8 @@ void pool_free(context *ctx, pool *p)
 {
     if (!p)
         return;
-    pthread_mutex_lock(&p->mutex);
-    atomic_store(&p->stop, true);
-    pthread_cond_broadcast(&p->work);
-    pthread_mutex_unlock(&p->mutex);
-    for (int i = 0; i < p->threads - 1; i++)
-        pthread_join(p->workers[i].handle, NULL);
-    pthread_cond_destroy(&p->done);
-    pthread_cond_destroy(&p->work);
-    pthread_mutex_destroy(&p->mutex);
+    if (p->process == getpid())
+        workers_end(p);
     memory_free(ctx, p->workers);
     memory_free(ctx, p);
 }
@@ -228,6 +238,9 @@ int32_t pool_block(int32_t count, int32_t least, int32_t most)
     return block < most ? block : most;
 }
 
+/* Not in a child of fork(): there are no workers there, and what they held when it came to be stays held. */
+static bool has_workers(const pool *p) { return p && p->threads > 1 && p->process == getpid(); }
+
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
 {
     if (ctx->lent) {
@@ -235,7 +248,7 @@ void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
         return;
     }
     pool *p = ctx->threads;
-    if (!p || p->threads == 1 || blocks <= 1 || atomic_exchange(&p->busy, true)) {
+    if (blocks <= 1 || !has_workers(p) || atomic_exchange(&p->busy, true)) {
         for (int32_t block = 0; block < blocks; block++)
             fn(arg, block, 0);
         return;

@@ -11,12 +11,12 @@ typedef void (*block_function)(void *arg, int32_t block, int32_t thread);
 /* threads >= 1 counts the caller.  Fewer when the system gives no more (see pool_threads); NULL when there is no memory
    or no thread could be started.  Idle threads sleep; signals are left to the threads of the host program. */
 pool *pool_create(context *ctx, int threads);
-/* No job may be running; p may be NULL. */
+/* No job may be running; p may be NULL.  In a child of fork() its memory alone is freed. */
 void pool_free(context *ctx, pool *p);
 int pool_threads(const pool *p);
 /* Run fn for block 0..blocks-1 and wait.  thread is 0..context_threads-1 (for per-thread scratch).  On the program's
-   threads where it lent some; with neither these nor ctx->threads, a single block, or while another thread has a job
-   of the same context, on the caller, as thread 0.  Not re-entrant. */
+   threads where it lent some; with neither these nor ctx->threads, a single block, while another thread has a job of
+   the same context, or in a child of fork(), on the caller, as thread 0.  Not re-entrant. */
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
 /* How many of `count` things make a block: `most`, or so few in a small job that there are about sixteen blocks, but a
    multiple of `least`.  By the count alone. */

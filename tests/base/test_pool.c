@@ -167,6 +167,61 @@ START_TEST(several_threads_may_have_jobs_at_a_time)
 }
 END_TEST
 
+typedef struct jobs_of_another {
+    context *ctx;
+    atomic_bool stop;
+} jobs_of_another;
+
+/* Without the assertions of libcheck, which have a lock of their own. */
+static bool every_block_ran(context *ctx)
+{
+    job j = {.threads = context_threads(ctx), .slow = -1};
+    bool good = true;
+    pool_run(ctx, count_block, &j, BLOCKS);
+    for (int32_t i = 0; i < BLOCKS; i++)
+        good = good && j.times[i] == 1;
+    return good;
+}
+
+static void *run_jobs_until_told(void *arg)
+{
+    jobs_of_another *other = arg;
+    while (!atomic_load(&other->stop) && every_block_ran(other->ctx))
+        ;
+    return NULL;
+}
+
+/* A child of fork() has none of the workers, and the pool as they and others left it at that moment: held, perhaps. */
+START_TEST(a_child_runs_its_blocks_and_frees_the_pool)
+{
+    enum { CHILDREN = 30 };
+    context ctx = pool_context(4);
+    jobs_of_another other = {&ctx, false};
+    pthread_t thread;
+    for (int i = 0; i < CHILDREN; i++) {
+        if (i == CHILDREN / 2)
+            ck_assert_int_eq(pthread_create(&thread, NULL, run_jobs_until_told, &other), 0);
+        pause_for(i % 2 * 1000); /* the workers sleep, or look for work */
+        pid_t child = fork();
+        ck_assert_int_ge(child, 0);
+        if (child == 0) {
+            signal(SIGALRM, SIG_DFL); /* not libcheck's, which ends the whole test */
+            alarm(60);
+            bool good = every_block_ran(&ctx) && every_block_ran(&ctx);
+            pool_free(&ctx, ctx.threads);
+            _exit(good ? 0 : 1);
+        }
+        int state = 0;
+        ck_assert_int_eq(waitpid(child, &state, 0), child);
+        ck_assert_msg(state == 0, "child %d ended with %d", i, state);
+        run_and_check(&ctx, 40, -1);
+    }
+    atomic_store(&other.stop, true);
+    pthread_join(thread, NULL);
+    pool_free(&ctx, ctx.threads);
+}
+END_TEST
+
 START_TEST(a_pool_without_memory_is_null)
 {
     for (failing_turn turn = {0}; failing_next(&turn);) {
@@ -302,5 +357,5 @@ END_TEST
 TEST_MAIN("pool", what_is_picked_is_ascending_on_any_threads, the_least_is_found_on_any_threads, every_block_runs_once,
           many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits, results_do_not_depend_on_threads,
           small_jobs_have_blocks_for_several_threads, a_single_block_runs_on_the_caller,
-          several_threads_may_have_jobs_at_a_time, a_pool_without_memory_is_null,
-          a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)
+          several_threads_may_have_jobs_at_a_time, a_child_runs_its_blocks_and_frees_the_pool,
+          a_pool_without_memory_is_null, a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)
