@@ -22,29 +22,34 @@ typedef struct looked_run {
     double began, end;   /* processor time of the first step; what all steps may take [s] */
 } looked_run;
 
-/* Until steps have taken so much processor time [s], or the last look of the run is due; the mean time of these steps
-   in *pace, which stays where there are none. */
+/* Steps of a look where one takes so long [s]; 0: nobody knows yet. */
+static int64_t look_steps(double pace)
+{
+    return pace > 0 ? (int64_t)fmin(fmax(LOOK_SECONDS / pace, LOOK_LEAST), LOOK_MOST) : LOOK_LEAST;
+}
+
+/* Until steps have taken so much processor time [s], or those that are left make the last look of the run; the mean
+   time of these steps in *pace, which stays where there are none. */
 static fram_status step_on(looked_run *run, double until, double *pace, fram_error *error)
 {
     double start = clock_processor() - run->began, now = start;
     int64_t before = run->done;
     fram_status status = FRAM_OK;
-    while (status == FRAM_OK && run->done < run->steps - LOOK_MOST &&
+    while (status == FRAM_OK && run->done < run->steps - look_steps(*pace) &&
            (now < until || (run->done < SETTLES && now < LOOK_SECONDS))) {
         status = work_continue(run->ctx, "measuring", fmin(now, run->end), run->end, error);
         if (status == FRAM_OK)
             status = world_step(run->ctx, run->m, run->w, error);
         run->done++;
         now = clock_processor() - run->began;
-    }
-    if (run->done > before)
         *pace = (now - start) / (double)(run->done - before);
+    }
     return status;
 }
 
 static fram_status look(looked_run *run, double pace, bench_look *out, fram_error *error)
 {
-    int64_t steps = (int64_t)fmin(fmax(LOOK_SECONDS / fmax(pace, 1e-9), LOOK_LEAST), LOOK_MOST);
+    int64_t most = look_steps(pace), left = run->steps - run->done, steps = left > 0 && left < most ? left : most;
     bench_result r;
     /* How far it is was told by time, not by the steps of this look. */
     work_function told = run->ctx->work;
@@ -63,9 +68,8 @@ static fram_status look_at_world(looked_run *run, const double *after, int count
     run->began = clock_processor();
     run->end = after[count - 1];
     for (int i = 0; i < count && status == FRAM_OK; i++) {
-        int64_t before = run->done;
         status = step_on(run, after[i], &pace, error);
-        if (status == FRAM_OK && (i == 0 || run->done > before))
+        if (status == FRAM_OK && (i == 0 || run->done < run->steps))
             status = look(run, pace, &out[i], error);
         else if (i > 0)
             out[i] = out[i - 1];

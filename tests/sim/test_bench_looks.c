@@ -53,4 +53,27 @@ START_TEST(a_run_that_ends_before_has_its_last_look_again)
 }
 END_TEST
 
-TEST_MAIN("looks at a run", time_bounds_the_way, a_run_that_ends_before_has_its_last_look_again)
+/* What is left behind the first look is looked at, however little. */
+START_TEST(a_short_run_is_seen_to_its_end)
+{
+    static const struct {
+        const char *duration;
+        int64_t steps;
+    } runs[] = {{"run.duration=0.05", 5},
+                {"run.duration=0.6", 60},
+                {"run.duration=0.8", 80},
+                {"run.duration=1.2", 120},
+                {"run.duration=1.5", 150}};
+    const double after[3] = {0, 20, 40};
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+        bench_look found[3];
+        double build = 0;
+        look_at(runs[i].duration, after, found, &build);
+        ck_assert_int_eq(found[2].at + found[2].steps, runs[i].steps);
+        ck_assert(found[0].steps > 0 && found[0].steps <= 60 && found[2].time > 0);
+    }
+}
+END_TEST
+
+TEST_MAIN("looks at a run", time_bounds_the_way, a_run_that_ends_before_has_its_last_look_again,
+          a_short_run_is_seen_to_its_end)
