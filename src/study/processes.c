@@ -111,6 +111,8 @@ bool processes_ended(process_pool *all, int32_t *task, int *exit_code)
     return false;
 }
 
+bool process_not_started(int exit_code) { return exit_code == 126 || exit_code == 127; }
+
 void processes_pause(void)
 {
     const struct timespec pause = {0, 5000000};

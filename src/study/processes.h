@@ -28,6 +28,9 @@ fram_status processes_start(context *ctx, process_pool *all, const char *const *
 bool processes_ended(process_pool *all, int32_t *task, int *exit_code);
 /* Exit code of a run that was interrupted, which is none of its own. */
 enum { PROCESS_INTERRUPTED = 130 };
+/* Whether it is the exit code of a program that did not start, as shells and the system's loader tell it: it is not
+   there, may not be run, or lacks a library. */
+bool process_not_started(int exit_code);
 /* Waits until the next look at them: far less than a run, far more than a look.  While none ends, progress is told
    after so many seconds. */
 void processes_pause(void);

@@ -256,6 +256,17 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
     return NULL;
 }
 
+bool run_rows_alike(const run_row *rows, int32_t count)
+{
+    bool alike = count > 1;
+    for (int32_t i = 0; i < count && alike; i++) {
+        const double *f = rows[i].figure;
+        bool acted = f[ROW_load_mean] > 0 || f[ROW_offset_largest] > 0 || f[ROW_line_tension_largest] > 0;
+        alike = !rows[i].failed && acted && memcmp(f, rows[0].figure, sizeof rows[0].figure) == 0;
+    }
+    return alike;
+}
+
 /* ---- as a file ---- */
 
 static const char mark[] = "fram study row 7";

@@ -75,6 +75,9 @@ fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run
  */
 const run_row *run_rows_find(const run_rows *rows, const char *vessel);
 
+/* Whether two runs and more, with seeds of their own, came out the same: chance had no part in what acted on them. */
+bool run_rows_alike(const run_row *rows, int32_t count);
+
 /* To and from a small file, so that a run is judged once; what it holds, and its most bytes.  found is false when there
    is none, or one that was not written whole by this version; nothing is to be freed then.  FRAM_ERROR_INPUT where
    there is something else than a file. */

@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "study/capture.h"
+#include "study/no_answer.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -37,11 +38,12 @@ static char *array_path(const slurm_pool *all, int32_t array, const char *ending
     return path;
 }
 
-static char *exit_path(const slurm_pool *all, const slurm_run *run)
+/* "FOLDER/runs/ID/SEED.ENDING", to be freed; in the folder of the worst of one that is made again with a record. */
+static char *run_path(const slurm_pool *all, const slurm_run *run, const char *ending)
 {
     text_buffer b = {0};
-    text_format(all->ctx, &b, run->frames > 0 ? "%s/worst/%s-%lld.exit" : "%s/runs/%s/%lld.exit", all->folder, run->id,
-                (long long)run->seed);
+    text_format(all->ctx, &b, run->frames > 0 ? "%s/worst/%s-%lld.%s" : "%s/runs/%s/%lld.%s", all->folder, run->id,
+                (long long)run->seed, ending);
     char *path = b.failed ? NULL : memory_string(all->ctx, b.data);
     text_free(all->ctx, &b);
     return path;
@@ -188,16 +190,24 @@ void slurm_free(slurm_pool *all)
     all->folder = NULL;
     array_free(all->ctx, &all->runs);
     array_free(all->ctx, &all->jobs);
+    text_free(all->ctx, &all->without);
 }
 
-static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
+/* "CODE NODE", as the script writes it. */
+static bool read_exit(slurm_pool *all, const slurm_run *run, int *code)
 {
-    char *path = exit_path(all, run), *text = NULL;
+    enum { EXIT_MOST = 2 * SLURM_NODE };
+    char *path = run_path(all, run, "exit"), *text = NULL;
     size_t size = 0;
-    bool found =
-        path && access(path, F_OK) == 0 && file_read(all->ctx, path, 64, &text, &size, NULL) == FRAM_OK && size > 1;
-    if (found)
-        *code = (int)strtol(text, NULL, 10);
+    bool found = path && access(path, F_OK) == 0 &&
+                 file_read(all->ctx, path, EXIT_MOST, &text, &size, NULL) == FRAM_OK && size > 1;
+    all->node[0] = '\0';
+    if (found) {
+        char *rest = NULL;
+        *code = (int)strtol(text, &rest, 10);
+        rest += strspn(rest, " ");
+        snprintf(all->node, sizeof all->node, "%.*s", (int)strcspn(rest, " \n"), rest);
+    }
     memory_free(all->ctx, text);
     memory_free(all->ctx, path);
     return found;
@@ -205,7 +215,7 @@ static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
 
 static void remove_exit(const slurm_pool *all, const slurm_run *run)
 {
-    char *path = exit_path(all, run);
+    char *path = run_path(all, run, "exit");
     if (path)
         (void)unlink(path);
     memory_free(all->ctx, path);
@@ -288,7 +298,7 @@ static int32_t waiting(const slurm_pool *all)
 /* The next runs that wait, as one array of at most ARRAY_MOST tasks. */
 static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error)
 {
-    text_buffer list = {0}, script = {0};
+    text_buffer list = {0}, script = {0}, exclude = {0};
     int32_t n = 0;
     all->arrays++;
     for (int32_t i = 0; i < all->runs.count && n < (int64_t)ARRAY_MOST * each; i++) {
@@ -309,9 +319,11 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
         run->missed = 0;
         run->excused = false;
     }
-    const slurm_script_facts facts = {all->options, all->folder, all->program, all->arrays, n, each};
+    if (all->without.count > 0)
+        slurm_script_exclusion(all->ctx, all->options, all->without.data, &exclude);
+    const slurm_script_facts facts = {all->options, all->folder, all->program, exclude.data, all->arrays, n, each};
     slurm_script(all->ctx, &facts, &script);
-    fram_status status = script.failed || list.failed ? error_memory(error) : FRAM_OK;
+    fram_status status = script.failed || list.failed || exclude.failed ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK && all->options->dry_run) {
         fputs(script.data, stdout);
     } else if (status == FRAM_OK) {
@@ -323,16 +335,13 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
     }
     text_free(all->ctx, &list);
     text_free(all->ctx, &script);
+    text_free(all->ctx, &exclude);
     return status;
 }
 
-/* Whether the refusal of an array, the newest, is waited for: one of a scheduler that has taken others of this call may
-   be that of one which starts anew, or has its fill.  Its runs wait then, and no try of theirs is lost. */
-static bool may_wait(slurm_pool *all, const fram_error *error)
+/* The runs of the newest array, which was refused, wait as before, and no try of theirs is lost. */
+static void take_back(slurm_pool *all)
 {
-    double now = clock_wall();
-    if (all->jobs.count == 0 || (all->refused > 0 && now - all->refused > REFUSED_MOST))
-        return false;
     for (int32_t i = 0; i < all->runs.count; i++) {
         slurm_run *run = &all->runs.data[i];
         if (run->array != all->jobs.count)
@@ -340,6 +349,16 @@ static bool may_wait(slurm_pool *all, const fram_error *error)
         run->array = -1;
         run->tries--;
     }
+}
+
+/* Whether the refusal of an array, the newest, is waited for: one of a scheduler that has taken others of this call may
+   be that of one which starts anew, or has its fill. */
+static bool may_wait(slurm_pool *all, const fram_error *error)
+{
+    double now = clock_wall();
+    if (all->jobs.count == 0 || (all->refused > 0 && now - all->refused > REFUSED_MOST))
+        return false;
+    take_back(all);
     if (all->refused <= 0) {
         all->refused = now;
         log_write(all->ctx, LOG_WARNING, "%s; it is tried again for an hour", error->message);
@@ -358,6 +377,12 @@ fram_status slurm_submit(slurm_pool *all, fram_error *error)
         each = (n + TASKS_USUAL - 1) / TASKS_USUAL;
     while (waiting(all) > 0) {
         fram_status status = submit_array(all, each, &own);
+        /* Perhaps for want of other nodes than those that are left out. */
+        if (status == FRAM_ERROR_USAGE && all->without.count > 0) {
+            take_back(all);
+            text_free(all->ctx, &all->without);
+            continue;
+        }
         if (status == FRAM_ERROR_USAGE && may_wait(all, &own))
             return FRAM_OK;
         if (status != FRAM_OK && error)
@@ -380,6 +405,34 @@ static void excuse_others(slurm_pool *all, const slurm_run *ended)
     }
 }
 
+/* Whether a run of this exit code has not had its answer. */
+static bool is_lost(int exit_code) { return exit_code > SIGNAL_CODES || process_not_started(exit_code); }
+
+/* Whether the node is among those that are left out. */
+static bool is_left_out(const slurm_pool *all, const char *node)
+{
+    size_t length = strlen(node);
+    for (const char *c = all->without.count > 0 ? all->without.data : NULL; c; c = strchr(c, ','), c = c ? c + 1 : NULL)
+        if (strncmp(c, node, length) == 0 && (c[length] == ',' || c[length] == '\0'))
+            return true;
+    return false;
+}
+
+/* A node that cannot start the program ends its tasks at once, and so gets more of them than the others do. */
+static void leave_out_node(slurm_pool *all, const slurm_run *run)
+{
+    if (!*all->node || is_left_out(all, all->node))
+        return;
+    char *log = run_path(all, run, "log"), why[NO_START_REASON];
+    if (log) {
+        study_run_why_not_started(all->ctx, log, why);
+        log_write(all->ctx, LOG_WARNING, "the node %s cannot start %.200s: %s; its runs are submitted for other nodes",
+                  all->node, all->program, why);
+    }
+    text_format(all->ctx, &all->without, "%s%s", all->without.count > 0 ? "," : "", all->node);
+    memory_free(all->ctx, log);
+}
+
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
 {
     for (; all->looked < all->runs.count; all->looked++) {
@@ -388,8 +441,10 @@ bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
         if (ended)
             remove_exit(all, run);
         all->again = all->again || (ended && *exit_code == MET_ANOTHER);
+        if (ended && process_not_started(*exit_code))
+            leave_out_node(all, run);
         /* A signal is no answer of the run: the node was short of memory, or the task of time. */
-        if (ended && *exit_code > SIGNAL_CODES && run->tries < TRIES_MOST) {
+        if (ended && is_lost(*exit_code) && run->tries < TRIES_MOST) {
             run->array = -1;
             continue;
         }

@@ -3,11 +3,12 @@
      DIR/slurm/N.sh     script of the N-th array, N.list its runs, "ID SEED" a line; each task takes the same number
      DIR/slurm/N.job    number that Slurm gave it
      DIR/slurm/exit-JOB-TASK  exit code of a run that a task has just ended, until it has its name below
-     DIR/runs/ID/SEED.exit    exit code of a run, put there by its task when it ended; DIR/worst/ID-SEED.exit of one
-                              that is made again with a record
+     DIR/runs/ID/SEED.exit    exit code of a run and the node that it was on, put there by its task when it ended;
+                              DIR/worst/ID-SEED.exit of one that is made again with a record
 
    What ended is seen by these files; the scheduler is asked every half minute at most, which tasks it still has.  Runs
-   whose task is gone without an exit code are submitted again. */
+   whose task is gone without an exit code are submitted again, and so are those of a node that cannot start the
+   program, for other nodes. */
 #ifndef STUDY_SLURM_H
 #define STUDY_SLURM_H
 
@@ -23,23 +24,26 @@ typedef struct slurm_run {
     bool excused;         /* another run of its task has ended since it was submitted */
 } slurm_run;
 
+enum { SLURM_NODE = 256 };
 typedef struct slurm_pool {
     context *ctx;
     const slurm_options *options;
     const char *program;
     char *folder; /* absolute */
     ARRAY(slurm_run) runs;
-    ARRAY(int64_t) jobs; /* Slurm's numbers of the arrays of this call */
-    int32_t arrays;      /* number of the last script in the folder */
-    int32_t earlier;     /* number of the last one of earlier calls */
-    int32_t looked;      /* runs that slurm_ended has looked at since it last said that none ended */
-    double asked;        /* when the scheduler was asked last [s] */
-    double refused;      /* since when sbatch refuses [s]; 0: it does not */
-    double offered;      /* when it refused last [s] */
-    int silent;          /* questions in a row that it did not answer */
-    char waits[96];      /* what it said of tasks that wait; "" */
-    bool again;          /* a run may be made twice: submitted again, or met by another */
-    bool unstopped;      /* the scheduler did not take that one of them is cancelled */
+    ARRAY(int64_t) jobs;   /* Slurm's numbers of the arrays of this call */
+    int32_t arrays;        /* number of the last script in the folder */
+    int32_t earlier;       /* number of the last one of earlier calls */
+    int32_t looked;        /* runs that slurm_ended has looked at since it last said that none ended */
+    double asked;          /* when the scheduler was asked last [s] */
+    double refused;        /* since when sbatch refuses [s]; 0: it does not */
+    double offered;        /* when it refused last [s] */
+    int silent;            /* questions in a row that it did not answer */
+    char waits[96];        /* what it said of tasks that wait; "" */
+    char node[SLURM_NODE]; /* of the run that ended last; "": not told */
+    text_buffer without;   /* nodes that cannot start the program, divided by commas */
+    bool again;            /* a run may be made twice: submitted again, or met by another */
+    bool unstopped;        /* the scheduler did not take that one of them is cancelled */
 } slurm_pool;
 
 /* FRAM_ERROR_USAGE when sbatch is not there.  Arrays that an earlier call left in the queue are cancelled. */

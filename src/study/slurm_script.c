@@ -38,12 +38,41 @@ static bool is_word(const char *option)
     return end != ' ' && end != '\t' && !strpbrk(option, "\"'\\");
 }
 
+/* Whether it is the option by which sbatch leaves out nodes, by as few letters as it takes. */
+static bool is_exclusion(const char *option)
+{
+    static const char name[] = "--exclude", least[] = "--exclud";
+    size_t length = strcspn(option, " \t=");
+    return length >= sizeof least - 1 && length < sizeof name && strncmp(option, name, length) == 0;
+}
+
+/* What stands in place of an option in an array that has nodes of its own to leave out. */
+static bool is_replaced(const slurm_script_facts *f, int option)
+{
+    return f->exclude && is_exclusion(f->options->options[option]);
+}
+
+void slurm_script_exclusion(context *ctx, const slurm_options *options, const char *nodes, text_buffer *out)
+{
+    text_add(ctx, out, "--exclude=");
+    for (int i = 0; i < options->option_count; i++) {
+        const char *c = options->options[i];
+        if (!is_exclusion(c))
+            continue;
+        for (c += strcspn(c, " \t="); *c; c++)
+            if (!strchr(" \t=\"'\\", *c))
+                text_add_bytes(ctx, out, c, 1);
+        text_add(ctx, out, ",");
+    }
+    text_add(ctx, out, nodes);
+}
+
 /* Variables of the environment (SBATCH_PARTITION, SBATCH_TIMELIMIT, ...) go before what a script says, and options of
    the command before both: what was asked for stands in the script, for whoever reads it, and here. */
 const char **slurm_submission(context *ctx, const slurm_script_facts *f, const char *array, const char *path)
 {
     const slurm_options *o = f->options;
-    const char **words = memory_array(ctx, (size_t)o->option_count + 10, sizeof *words);
+    const char **words = memory_array(ctx, (size_t)o->option_count + 11, sizeof *words);
     int count = 0;
     if (!words)
         return NULL;
@@ -60,8 +89,10 @@ const char **slurm_submission(context *ctx, const slurm_script_facts *f, const c
         words[count++] = o->time;
     }
     for (int i = 0; i < o->option_count; i++)
-        if (is_word(o->options[i]))
+        if (is_word(o->options[i]) && !is_replaced(f, i))
             words[count++] = o->options[i];
+    if (f->exclude)
+        words[count++] = f->exclude;
     words[count++] = path;
     words[count] = NULL;
     return words;
@@ -79,7 +110,10 @@ static void directives(context *ctx, const slurm_script_facts *f, text_buffer *o
     if (f->options->time)
         text_format(ctx, out, "#SBATCH --time=%s\n", f->options->time);
     for (int i = 0; i < f->options->option_count; i++)
-        add_option(ctx, out, f->options->options[i]);
+        if (!is_replaced(f, i))
+            add_option(ctx, out, f->options->options[i]);
+    if (f->exclude)
+        add_option(ctx, out, f->exclude);
 }
 
 void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out)
@@ -115,8 +149,10 @@ void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out)
              "        [ \"$code\" = 2 ] && [ \"$try\" != 5 ] || break\n"
              "        sleep 2\n"
              "    done\n"
+             "    # As the system's loader ends where a library of the node is too old: 127 where it lacks one.\n"
+             "    [ \"$code\" != 1 ] || ! grep -qsF '(required by ' \"$run.log\" || code=127\n"
              "    # Beside the scripts: a task that is killed before it is renamed leaves nothing among the runs.\n"
              "    mark=$folder/slurm/exit-$SLURM_ARRAY_JOB_ID-$SLURM_ARRAY_TASK_ID\n"
-             "    echo \"$code\" >\"$mark\" && mv -f \"$mark\" \"$run.exit\"\n"
+             "    echo \"$code${SLURMD_NODENAME:+ $SLURMD_NODENAME}\" >\"$mark\" && mv -f \"$mark\" \"$run.exit\"\n"
              "done\n");
 }

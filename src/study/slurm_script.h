@@ -19,6 +19,7 @@ typedef struct slurm_options {
 typedef struct slurm_script_facts {
     const slurm_options *options;
     const char *folder, *program; /* absolute */
+    const char *exclude;          /* nodes that it is not for, an option of sbatch; NULL: none but those of `options` */
     int32_t number, runs, each;   /* of the array; its runs; runs of a task */
 } slurm_script_facts;
 
@@ -27,6 +28,10 @@ void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out);
 /* The tasks of the array as sbatch takes them: "0-LAST", or "0-LAST%JOBS". */
 enum { SLURM_ARRAY_SIZE = 32 };
 void slurm_script_array(const slurm_script_facts *f, char out[SLURM_ARRAY_SIZE]);
+
+/* The option by which sbatch leaves out these nodes, divided by commas, and those that `options` name, in place of what
+   they say of it. */
+void slurm_script_exclusion(context *ctx, const slurm_options *options, const char *nodes, text_buffer *out);
 
 /* The command that submits the script `path`, to be freed; NULL without memory.  array: its tasks. */
 const char **slurm_submission(context *ctx, const slurm_script_facts *f, const char *array, const char *path);

@@ -16,7 +16,6 @@
 #include "study/study_warnings.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -422,52 +421,5 @@ fram_status study_run_met_another(context *ctx, const char *folder, const char *
     if (status == FRAM_OK && !*met && file_read(ctx, log, RUN_LOG_MOST, &text, &size, NULL) == FRAM_OK)
         *met = strstr(text, RUN_FOLDER_TAKEN) != NULL;
     memory_free(ctx, text);
-    return status;
-}
-
-/* What the command fram, which keeps the locale "C", calls an error, whatever the language of this program. */
-static void name_fault(int number, char out[128])
-{
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    snprintf(out, 128, "%s", plain ? strerror_l(number, plain) : strerror(number));
-    if (plain)
-        freelocale(plain);
-}
-
-/* A fault of the disk that a text names, or of what may be written there, as a cluster limits it; false: none. */
-static bool find_fault(const char *text, char name[128])
-{
-    static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO, EFBIG, ESTALE};
-    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
-        name_fault(faults[i], name);
-        if (strstr(text, name))
-            return true;
-    }
-    return false;
-}
-
-static fram_status check_disk_in(context *ctx, const char *path, uint64_t limit, fram_error *error)
-{
-    char *text = NULL, name[128];
-    size_t size = 0;
-    fram_status status = FRAM_OK;
-    if (file_read(ctx, path, limit, &text, &size, NULL) == FRAM_OK && find_fault(text, name))
-        status = error_set(error, FRAM_ERROR_IO, path, 0, NULL,
-                           "a run could not write: %s; what ended is kept: mend that, and give the same command again",
-                           name);
-    memory_free(ctx, text);
-    return status;
-}
-
-fram_status study_run_check_disk(context *ctx, const char *folder, const char *log, fram_error *error)
-{
-    fram_status status = check_disk_in(ctx, log, RUN_LOG_MOST, error);
-    if (status != FRAM_OK)
-        return status;
-    /* The log lies on the same disk: where that was full the run may have told its own record alone. */
-    text_buffer note = {0};
-    text_format(ctx, &note, "%s/run.json", folder);
-    status = note.failed ? error_memory(error) : check_disk_in(ctx, note.data, RUN_NOTE_MOST, error);
-    text_free(ctx, &note);
     return status;
 }

@@ -58,9 +58,6 @@ fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
 void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
 /* Whether there is of a run that ended well what `keep` keeps. */
 bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
-/* FRAM_ERROR_IO when the log of a run that failed, or its run.json, says that the disk did: that is no answer of the
-   scenario. */
-fram_status study_run_check_disk(context *ctx, const char *folder, const char *log, fram_error *error);
 /* FRAM_ERROR_INPUT, naming the file, when a run was made of other files than the condition is named after: somebody
    changed one while the study ran.  What failed before it had a run.json is not told of. */
 fram_status study_run_check_files(const study_folder *f, int32_t condition, const char *folder, fram_error *error);

@@ -1,6 +1,7 @@
 #include "study/study_run.h"
 
 #include "base/clock.h"
+#include "study/no_answer.h"
 #include "study/processes.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
@@ -39,6 +40,7 @@ typedef struct study_work {
     double *block;     /* of each condition: how long its runs are after the transient [s]; NULL: not asked */
     int32_t *first_of; /* of each condition: the first one that is the same scenario, whose runs are its own */
     process_pool pool;
+    const char *node;    /* of a cluster, where the run was that ended last; NULL: here */
     ARRAY(int64_t) task; /* condition and seed of each that was started */
     int jobs;
     int32_t busy; /* runs that another program still makes */
@@ -226,8 +228,9 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     char *row = study_run_path(&w->folder, condition, seed, ".row");
     char *log = study_run_path(&w->folder, condition, seed, ".log");
     fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
+    const ended_run ended = {folder, log, w->options->program, w->node, exit_code};
     if (status == FRAM_OK && exit_code != 0)
-        status = study_run_check_disk(w->ctx, folder, log, error);
+        status = study_run_check_answer(w->ctx, &ended, error);
     /* Made when the other one has ended: a program of a study that was killed, here or on a node. */
     bool again = false;
     if (status == FRAM_OK && exit_code != 0)
@@ -353,6 +356,7 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
     fram_status status = slurm_begin(w->ctx, w->options->slurm, w->options->folder, w->options->program, &queue, error);
     if (status != FRAM_OK)
         return status;
+    w->node = queue.node;
     status = submit_missing(w, &queue, error);
     show_progress(w, NULL);
     while (status == FRAM_OK && !is_dry(w) && queue.runs.count > 0 && !asked_to_stop(w)) {
@@ -367,6 +371,7 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
     }
     slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
     slurm_free(&queue);
+    w->node = NULL;
     if (status == FRAM_OK && asked_to_stop(w))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
                          "interrupted; what ended is kept, continue with the same command");
@@ -375,24 +380,11 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
 
 /* ---- all ---- */
 
-/* Whether two runs and more, with seeds of their own, came out the same: chance had no part in what acted on them. */
-static bool all_alike(const condition_rows *of)
-{
-    const run_row *row = of->rows.data;
-    bool alike = of->rows.count > 1;
-    for (int32_t i = 0; i < of->rows.count && alike; i++) {
-        const double *f = row[i].figure;
-        bool acted = f[ROW_load_mean] > 0 || f[ROW_offset_largest] > 0 || f[ROW_line_tension_largest] > 0;
-        alike = !row[i].failed && acted && memcmp(f, row[0].figure, sizeof row[0].figure) == 0;
-    }
-    return alike;
-}
-
 static void tell_alike(const study_work *w, const condition_rows *rows)
 {
     int32_t alike = 0;
     for (int32_t c = 0; c < w->s->conditions; c++)
-        alike += all_alike(&rows[c]);
+        alike += run_rows_alike(rows[c].rows.data, rows[c].rows.count);
     if (alike > 0)
         log_write(w->ctx, LOG_WARNING,
                   "%d of %d conditions: all runs came out the same, since nothing that run.seed draws acted in them: "

@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/temporary.h"
+#include "study/no_answer.h"
 #include "study/processes.h"
 #include "study/study_file.h"
 
@@ -106,6 +107,7 @@ typedef struct worst_work {
     int32_t count;
     int64_t runs; /* of the study */
     process_pool pool;
+    const char *node; /* as in study_run.c */
     double started;
     bool changed;
 } worst_work;
@@ -266,7 +268,8 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
     if (stopped || met) {
         /* It is made when the study goes on, or when the other program has ended. */
     } else if (status == FRAM_OK && exit_code != 0) {
-        status = study_run_check_disk(ctx, folder, log, error);
+        const ended_run ended = {folder, log, w->options->program, w->node, exit_code};
+        status = study_run_check_answer(ctx, &ended, error);
         if (status == FRAM_OK && e->stage == WORST_RUN)
             status = error_set(error, FRAM_ERROR_IO, log, 0, "record_of_worst",
                                "made again for its record, a run ended with exit code %d; the tables are whole, and "
@@ -377,6 +380,7 @@ static fram_status record_by_slurm(worst_work *w, fram_error *error)
     fram_status status = slurm_begin(w->f->ctx, w->options->slurm, w->f->path, w->options->program, &queue, error);
     if (status != FRAM_OK)
         return status;
+    w->node = queue.node;
     for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
         double frames = 0;
         bool own;
@@ -404,6 +408,7 @@ static fram_status record_by_slurm(worst_work *w, fram_error *error)
     }
     slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
     slurm_free(&queue);
+    w->node = NULL;
     return status;
 }
 

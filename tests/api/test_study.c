@@ -167,6 +167,41 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
 }
 END_TEST
 
+/* A program without one of its libraries, or that may not be run, says so as the system's loader and shells do. */
+START_TEST(a_program_that_does_not_start_fails_the_study_and_not_its_runs)
+{
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], path[300], out[300], program[300];
+    write_study(folder, path);
+    snprintf(out, sizeof out, "%s/out", folder);
+    snprintf(program, sizeof program, "%s/bare", folder);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = program;
+    for (int code = 126; code <= 127; code++) {
+        char script[160];
+        snprintf(script, sizeof script, "echo first >&2\necho \"$0: error while loading: libbare.so.1\" >&2\nexit %d\n",
+                 code);
+        write_program(program, script);
+        ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_INPUT);
+        snprintf(script, sizeof script, "/bare did not start (exit code %d): ", code);
+        ck_assert_msg(strstr(error.message, script) &&
+                          strstr(error.message, "/bare: error while loading: libbare.so.1;"),
+                      "%s", error.message);
+        ck_assert_ptr_nonnull(strstr(error.file, ".log"));
+    }
+    standing_sum sum = {0};
+    ck_assert_msg(fram_study_list(c, out, add_standing, &sum, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(sum.runs, 0);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
 /* A study that was killed as it had started its programs leaves them: the same study, given again, meets them in
    folders that were free a moment before.  Each run meets one here, once, and the run that is made again for its
    record. */
@@ -382,6 +417,6 @@ START_TEST(a_file_that_is_changed_while_the_study_runs_is_told)
 END_TEST
 
 TEST_MAIN("study", a_file_that_is_changed_while_the_study_runs_is_told, misuse_is_refused,
-          a_full_disk_fails_the_study_and_not_its_runs, a_program_of_a_killed_study_is_waited_for,
-          conditions_are_counted_and_a_stop_is_heard_between_them,
+          a_full_disk_fails_the_study_and_not_its_runs, a_program_that_does_not_start_fails_the_study_and_not_its_runs,
+          a_program_of_a_killed_study_is_waited_for, conditions_are_counted_and_a_stop_is_heard_between_them,
           the_files_of_a_kept_run_count_as_fram_check_counts_them, a_study_runs_by_the_command)

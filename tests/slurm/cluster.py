@@ -120,6 +120,13 @@ class Cluster:
             except OSError:
                 pass
 
+    def hide_from_node(self, node, folder, empty):
+        """The node sees an empty folder in place of another."""
+        self.kill_node(node)
+        self.call("unshare", "-m", "sh", "-c",
+                  f'mount --make-rprivate / && mount --bind "{empty}" "{folder}" && exec slurmd -c -N {node}')
+        self.wait_for_nodes()
+
     def stop(self):
         for node in self.nodes:
             self.kill_node(node)

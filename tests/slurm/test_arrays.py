@@ -164,6 +164,71 @@ class Arrays(unittest.TestCase):
         subprocess.run(["bash", "-c", "mv() { :; }\n" + script], check=True, env=task)
         self.assertEqual(list(run.parent.glob("*.exit*")), [])
 
+    def test_nodes_that_cannot_start_the_command(self):
+        """A fault of nodes is no answer of a scenario: other nodes take the runs, and where there are none it ends."""
+        self.study.write_text(STUDY.format(seeds=2))
+        self.fram("here")
+        environment = self.scheduler()
+        faults = {"missing": "fram=/nowhere/fram", "library": "fram=" + str(self.at / "library"),
+                  "version": "fram=" + str(self.at / "version")}
+        for name, said, code in (("library", "error while loading shared libraries: libice.so.1", 127),
+                                 ("version", "version 'GLIBC_9' not found (required by fram)", 1)):
+            (self.at / name).write_text(f"#!/bin/sh\necho \"$0: {said}\" >&2\nexit {code}\n")
+            (self.at / name).chmod(0o755)
+        # Tasks go to n0 and n1 in turn, to n1 alone where n0 is left out; n0 has the fault, or both.
+        sbatch = """#!/bin/bash
+[ "$1" != --version ] || exit 0
+echo "$*" >>"{at}/words"
+script=${{!#}}
+last=$(sed -n 's/^#SBATCH --array=0-//p' "$script")
+sed 's|^fram=.*|{fault}|' "$script" >"$script.bad"
+for task in $(seq 0 "$last"); do
+    node=n$((task % 2)) file=$script.bad
+    case $* in *--exclude=n0*) node=n1 ;; esac
+    [ $node = n0 ] || file="$script{everywhere}"
+    SLURMD_NODENAME=$node SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=$task bash "$file"
+done >/dev/null 2>&1 &
+echo 7
+"""
+        for name, everywhere in (("missing", False), *((name, True) for name in faults)):
+            with self.subTest(fault=name, everywhere=everywhere):
+                (self.at / "bin" / "sbatch").write_text(
+                    sbatch.format(at=self.at, fault=faults[name], everywhere=".bad" if everywhere else ""))
+                out = f"out-{name}-{everywhere}"
+                words = self.words(out, "--on", "slurm", "--poll", "20", "--json")
+                done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=300)
+                self.assertEqual(done.returncode, 2 if everywhere else 0, done.stderr)
+                if everywhere:
+                    self.assertRegex(json.loads(done.stdout)["error"]["message"],
+                                     r"did not start on the node n[01] \(exit code 127\): .*"
+                                     r"(No such file|libice\.so\.1|GLIBC_9)")
+                    self.assertEqual(list((self.at / out).glob("runs/*/*.row")), [])
+                else:
+                    self.assertIn("the node n0 cannot start", done.stderr)
+                    self.assertIn("--exclude=n0 ", (self.at / "words").read_text())
+                    self.assertEqual(self.tables(out), self.tables("here"))
+
+    def test_the_same_bytes_though_a_node_has_no_command(self):
+        why = cluster.missing()
+        if why:
+            self.skipTest(why)
+        self.study.write_text("scenario: base.yaml\nseeds: 12\n")
+        self.fram("here")
+        programs, empty = self.at / "programs", self.at / "empty"
+        programs.mkdir()
+        empty.mkdir()
+        shutil.copy(FRAM, programs / "fram")
+        slurm = cluster.Cluster(4)
+        self.addCleanup(slurm.stop)
+        slurm.hide_from_node("n3", programs, empty)
+        words = [str(programs / "fram"), *self.words("there", "--on", "slurm", "--runs-per-task", "1", "--poll", "2",
+                                                     "--json")[1:]]
+        done = subprocess.run(words, env=slurm.environment, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the node n3 cannot start", done.stderr)
+        self.assertEqual(json.loads(done.stdout)["failed"], 0)
+        self.assertEqual(self.tables("there"), self.tables("here"))
+
     def test_the_same_bytes_though_a_node_is_lost(self):
         why = cluster.missing()
         if why:

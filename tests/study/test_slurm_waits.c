@@ -380,6 +380,65 @@ START_TEST(failures_of_another_call_are_tried_again)
 }
 END_TEST
 
+/* Whether the last array was submitted with these words among its options, and its script says so. */
+static bool was_submitted_with(const scheduler *s, int array, const char *words)
+{
+    char path[128], text[4096] = "", line[300] = "";
+    snprintf(path, sizeof path, "%s/slurm/%d.sh", s->folder, array);
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_uint_gt(fread(text, 1, sizeof text - 1, file), 0);
+    fclose(file);
+    snprintf(path, sizeof path, "%s/words", s->folder);
+    file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    while (fgets(line, sizeof line, file))
+        ;
+    fclose(file);
+    return strstr(text, words) && strstr(line, words);
+}
+
+/* A node without the program ends its tasks at once, and gets more and more of them: it is left out, with those that
+   the user leaves out, in what is submitted again.  What cannot start anywhere ends with its code, after as many tries
+   as of a node that was lost. */
+START_TEST(a_node_that_cannot_start_the_program_is_left_out)
+{
+    context ctx;
+    scheduler s;
+    slurm_pool queue;
+    fram_error error;
+    const char *const own[] = {"--account=ice", "--exclude='n8, n9'"};
+    const slurm_options options = {.runs_per_task = 1, .options = own, .option_count = 2};
+    begin_queue(&ctx, &s, &options, &queue);
+    write_script(&s, "sbatch", "#!/bin/sh\necho $* >>${0%/*}/words\necho 7\n");
+    make_runs(&s);
+    int32_t task = -1;
+    int code = -1;
+    write_exit(&s, 1, "127 n3\n");
+    ck_assert(!slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    ck_assert(was_submitted_with(&s, 2, "--exclude=n8,n9,n3"));
+    write_exit(&s, 1, "126 n30\n");
+    ck_assert(!slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    ck_assert(was_submitted_with(&s, 3, "--exclude=n8,n9,n3,n30"));
+    /* There are no other nodes: it is tried on all again. */
+    write_script(&s, "sbatch", "#!/bin/sh\ncase $* in *n3*) exit 1 ;; esac\necho $* >>${0%/*}/words\necho 7\n");
+    write_exit(&s, 1, "127 n3\n");
+    ck_assert(!slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(slurm_submit(&queue, &error), FRAM_OK);
+    ck_assert_int_eq(queue.arrays, 5);
+    ck_assert(!was_submitted_with(&s, 5, "n3"));
+    write_exit(&s, 1, "127 n3\n");
+    ck_assert(slurm_ended(&queue, &task, &code));
+    ck_assert_int_eq(task, 5);
+    ck_assert_int_eq(code, 127);
+    ck_assert_str_eq(queue.node, "n3");
+    slurm_free(&queue);
+    end(&s);
+}
+END_TEST
+
 /* Six runs of one task whose limit of time lets it make one of them each time: none of the others has failed. */
 START_TEST(what_a_task_did_not_come_to_has_not_failed)
 {
@@ -448,9 +507,10 @@ START_TEST(a_scheduler_that_starts_anew_is_waited_for)
 }
 END_TEST
 
-TEST_MAIN("slurm_waits", tasks_that_wait_are_told_with_their_reasons, what_is_lost_again_and_again_has_failed,
-          tasks_are_known_by_their_number, the_number_of_an_array_is_found_among_words,
-          an_array_without_a_number_ends_the_study, what_is_asked_for_stands_in_the_command_too,
-          tasks_are_known_in_hidden_partitions, what_is_not_cancelled_is_cancelled_by_the_next_call,
-          failures_of_another_call_are_tried_again, what_a_task_did_not_come_to_has_not_failed,
-          a_scheduler_that_starts_anew_is_waited_for, a_scheduler_that_does_not_answer_is_told)
+TEST_MAIN("slurm_waits", a_node_that_cannot_start_the_program_is_left_out, tasks_that_wait_are_told_with_their_reasons,
+          what_is_lost_again_and_again_has_failed, tasks_are_known_by_their_number,
+          the_number_of_an_array_is_found_among_words, an_array_without_a_number_ends_the_study,
+          what_is_asked_for_stands_in_the_command_too, tasks_are_known_in_hidden_partitions,
+          what_is_not_cancelled_is_cancelled_by_the_next_call, failures_of_another_call_are_tried_again,
+          what_a_task_did_not_come_to_has_not_failed, a_scheduler_that_starts_anew_is_waited_for,
+          a_scheduler_that_does_not_answer_is_told)
