@@ -2,7 +2,9 @@
 
 #include "base/number_text.h"
 #include "base/random.h"
+#include "io/file.h"
 #include "study/condition_table.h"
+#include "study/key_names.h"
 #include "study/words.h"
 
 #include <math.h>
@@ -65,6 +67,17 @@ void study_beside(const study_source *r, const char *name, text_buffer *path)
     if (name[0] != '/' && slash)
         text_add_bytes(r->ctx, path, r->out->file, (size_t)(slash + 1 - r->out->file));
     text_add(r->ctx, path, name);
+}
+
+fram_status study_find_file(const study_source *r, const yaml_node *node, const char *path)
+{
+    fram_error own = {0};
+    fram_status status = file_check(path, &own);
+    if (status == FRAM_ERROR_INPUT)
+        return study_refuse(r, node, "%s: %s", path, own.message);
+    if (status != FRAM_OK && r->error)
+        *r->error = own;
+    return status;
 }
 
 const yaml_node *study_child(const study_source *r, const yaml_node *node)
@@ -145,17 +158,50 @@ static fram_status add_value(const study_source *r, const yaml_node *node)
     return text_list_add(r->ctx, &r->out->values, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
 }
 
+/* Of keys between whose values there are no others, by the kind of key; an unknown one is told with the conditions. */
+static fram_status check_rangeable(const study_source *r, const yaml_node *node, const scenario_key *key)
+{
+    static const char *const is[] = {
+        [KEY_BOOLEAN] = "true or false", [KEY_CHOICE] = "a word",     [KEY_TEXT] = "a text",
+        [KEY_PATH] = "a file",           [KEY_SECTION] = "a section", [KEY_LIST] = "a list"};
+    if (!key || key->kind == KEY_REAL || key->kind == KEY_INTEGER)
+        return FRAM_OK;
+    return study_refuse(r, node, "is %s and has no range: grid, list and table take values of it", is[key->kind]);
+}
+
+/* The whole numbers of a range. */
+static fram_status keep_whole(const study_source *r, const yaml_node *node, key_range *range)
+{
+    const key_range given = *range;
+    *range = (key_range){ceil(given.lo), floor(given.hi), true};
+    if (range->hi < range->lo)
+        return study_refuse(r, node, "expected a range that holds a whole number, found [%.10g, %.10g]", given.lo,
+                            given.hi);
+    return FRAM_OK;
+}
+
 fram_status study_range(const study_source *r, const yaml_node *node, key_range *out)
 {
+    const scenario_key *key = key_of_path(study_key(r, node));
+    fram_status status = check_rangeable(r, node, key);
+    *out = (key_range){0};
+    if (status != FRAM_OK)
+        return status;
     if (node->kind != YAML_SEQUENCE || node->count != 2)
         return study_refuse_kind(r, node, "the ends of a range, as [0.5, 1.5]");
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
-    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
+    status = study_number(r, lo, -1e300, 1e300, &out->lo);
     if (status == FRAM_OK)
         status = study_number(r, hi, -1e300, 1e300, &out->hi);
     if (status == FRAM_OK && out->hi < out->lo)
         status = study_refuse(r, node, "expected the smaller end first, as [%.10g, %.10g]", out->hi, out->lo);
-    return status;
+    return status == FRAM_OK && key && key->kind == KEY_INTEGER ? keep_whole(r, node, out) : status;
+}
+
+/* Whole numbers have an equal share of the way each. */
+static double whole_part(key_range range, double part)
+{
+    return fmin(range.lo + floor(part * (range.hi - range.lo + 1)), range.hi);
 }
 
 /* Values of a range are written with so many digits, which are read well, or with more where those miss its width by
@@ -171,6 +217,8 @@ fram_status study_add_part(const study_source *r, key_range range, double part)
     do
         snprintf(text, sizeof text, "%.*g", digits, value);
     while (digits++ < ALL_DIGITS && fabs(strtod(text, NULL) - value) > WIDTH_MISSED * width);
+    if (range.whole)
+        snprintf(text, sizeof text, "%.0f", whole_part(range, part));
     return text_list_add(r->ctx, &r->out->values, text) ? FRAM_OK : error_memory(r->error);
 }
 
@@ -305,7 +353,9 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
     text_buffer path = {0};
     study_beside(r, name, &path);
     condition_table t = {0};
-    fram_status status = path.failed ? error_memory(r->error) : condition_table_read(r->ctx, path.data, &t, r->error);
+    fram_status status = path.failed ? error_memory(r->error) : study_find_file(r, node, path.data);
+    if (status == FRAM_OK)
+        status = condition_table_read(r->ctx, path.data, &t, r->error);
     if (status == FRAM_OK)
         status = add_condition_table(r, node, &t);
     if (status == FRAM_OK && !(r->out->table = memory_string(r->ctx, path.data)))
@@ -342,7 +392,7 @@ static fram_status draw_latin(const study_source *r, const latin_key *keys, rand
 
 static fram_status fill_latin(const study_source *r, const yaml_node *node, int64_t seed)
 {
-    latin_key keys[LATIN_KEYS_MOST] = {{.range = {0, 0}}};
+    latin_key keys[LATIN_KEYS_MOST] = {{.range = {.lo = 0}}};
     random_stream places[LATIN_KEYS_MOST];
     fram_status status = expect(r, node, YAML_MAPPING, "keys with a range each");
     if (status == FRAM_OK && node->count > LATIN_KEYS_MOST)

@@ -30,6 +30,8 @@ study_found_text study_found(const study_source *r, const yaml_node *node);
 const char *study_key(const study_source *r, const yaml_node *node);
 /* The path of a file that the study names, which is relative to the study's own folder; path.failed: no memory. */
 void study_beside(const study_source *r, const char *name, text_buffer *path);
+/* FRAM_ERROR_INPUT, at the node, when there is no such file. */
+fram_status study_find_file(const study_source *r, const yaml_node *node, const char *path);
 /* A scalar as a number within a range. */
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The same, whole. */
@@ -44,7 +46,8 @@ const yaml_node *study_next(const study_source *r, const yaml_node *node);
 
 /* A key that conditions vary, at whose values or range the node is; run.seed is refused. */
 fram_status study_add_key(const study_source *r, const yaml_node *node);
-/* Two numbers, the second no less than the first. */
+/* Two numbers, the second no less than the first, for a key that has a range: of one that is whole the whole numbers
+   between them. */
 fram_status study_range(const study_source *r, const yaml_node *node, key_range *out);
 /* The next value of the conditions: that part of the way, 0 to 1, from the lower end of a range to the upper one. */
 fram_status study_add_part(const study_source *r, key_range range, double part);

@@ -43,9 +43,10 @@ typedef struct study_worst {
     int line;      /* in the study file */
 } study_worst;
 
-/* The ends of a range of a key, [0.5, 1.5]. */
+/* The ends of a range of a key, [0.5, 1.5]; whole: of whole numbers, both of which are of it. */
 typedef struct key_range {
     double lo, hi;
+    bool whole;
 } key_range;
 
 /* Conditions that are points of a design of sensitivity (study/sensitivity.h). */

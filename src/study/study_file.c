@@ -1,9 +1,8 @@
 #include "study/study_file.h"
 
+#include "base/number_text.h"
 #include "io/file.h"
 #include "io/scenario_file.h"
-#include "model/scenario_vessel.h"
-#include "results/station_results.h"
 #include "study/conditions.h"
 #include "study/run_row.h"
 #include "study/study_extremes.h"
@@ -29,7 +28,8 @@ static fram_status read_scenario(const study_source *r, const yaml_node *node)
     study_beside(r, yaml_text(r->tree, node->value), &path);
     bool good = !path.failed && set_text(r->ctx, &r->out->scenario, path.data);
     text_free(r->ctx, &path);
-    return good ? FRAM_OK : error_memory(r->error);
+    /* What a study that ran was made of may be gone by now. */
+    return !good ? error_memory(r->error) : r->recorded ? FRAM_OK : study_find_file(r, node, r->out->scenario);
 }
 
 /* That there is such a vessel is seen to with the conditions. */
@@ -64,11 +64,16 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
 /* Half an interval over its mean: what is over 1 was meant as per cent. */
 static fram_status read_within(const study_source *r, const yaml_node *k, double *out)
 {
-    fram_status status = study_number(r, k, 1e-6, 1e9, out);
-    if (status == FRAM_OK && *out > 1 && !r->recorded)
-        return study_refuse(r, k, "expected a part of the mean, 1 at most, found %g: %g per cent are %g", *out, *out,
-                            *out / 100);
-    return status;
+    const char *text = k->kind == YAML_SCALAR ? yaml_text(r->tree, k->value) : "";
+    size_t length = strcspn(text, " %");
+    char number[32];
+    double value = 0;
+    snprintf(number, sizeof number, "%.*s", (int)length, text);
+    bool per_cent = strchr(text + length, '%') != NULL;
+    if (!r->recorded && real_from_text(number, &value) == NUMBER_GOOD && (value > 1 || (per_cent && value > 0)))
+        return study_refuse(r, k, "expected a part of the mean, 1 at most, found %s: %g per cent are %g",
+                            study_found(r, k).text, value, value / 100);
+    return study_number(r, k, 1e-6, r->recorded ? 1e9 : 1, out);
 }
 
 static fram_status read_seeds_member(const study_source *r, const yaml_node *k, bool *most_given)
@@ -333,124 +338,6 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
     return status;
 }
 
-/* The vessel whose figures are told must be there under every condition. */
-static fram_status check_vessel(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error)
-{
-    if (!s->vessel || scenario_find_vessel(one, s->vessel) >= 0)
-        return FRAM_OK;
-    text_buffer there = {0};
-    for (int32_t v = 0; v < scenario_vessel_count(one); v++) {
-        const char *name = scenario_vessel_entry(one, v).keys->name;
-        text_format(ctx, &there, "%s%s", v > 0 ? ", " : "", name[0] ? name : "one without a name");
-    }
-    fram_status status = error_set(error, FRAM_ERROR_INPUT, s->file, s->vessel_line, "vessel",
-                                   "expected the name of a vessel that is present (%.200s), found \"%.40s\"",
-                                   there.data ? there.data : "there is none", s->vessel);
-    study_place_error(s, condition, error);
-    text_free(ctx, &there);
-    return status;
-}
-
-/* Who is told of where the study names nobody: the first vessel that is present, the same one under all conditions, or
-   a condition without a vessel would be compared with one that has another. */
-typedef struct first_vessel {
-    char *name; /* NULL before the first condition */
-    bool everywhere;
-} first_vessel;
-
-static fram_status take_first(context *ctx, const study *s, int32_t condition, const scenario *one, first_vessel *first,
-                              fram_error *error)
-{
-    if (s->vessel || scenario_vessel_count(one) == 0) {
-        first->everywhere = false;
-        return FRAM_OK;
-    }
-    const char *name = scenario_vessel_entry(one, 0).keys->name;
-    if (!first->name)
-        return set_text(ctx, &first->name, name) ? FRAM_OK : error_memory(error);
-    if (strcmp(name, first->name) == 0)
-        return FRAM_OK;
-    fram_status status = error_set(error, FRAM_ERROR_INPUT, s->file, s->keys_line, "vessel",
-                                   "the first vessel that is present is \"%.40s\", and \"%.40s\" in condition 1: name "
-                                   "the one whose figures are told, as vessel: %.40s",
-                                   name, first->name, name);
-    study_place_error(s, condition, error);
-    return status;
-}
-
-/* Whether runs of the scenario have the figure by which the worst are chosen. */
-static bool has_worst(const study *s, const scenario *one)
-{
-    int32_t vessel = s->vessel ? scenario_find_vessel(one, s->vessel) : 0;
-    const int figure = s->worst.figure;
-    bool of_station = figure >= ROW_offset_mean && figure <= ROW_thruster_power_mean;
-    bool of_lines = (figure >= ROW_line_tension_significant && figure <= ROW_lines_broken) ||
-                    figure == ROW_line_tension_range_equivalent;
-    if (!of_station && !of_lines)
-        return true;
-    if (!station_has_results(one, vessel))
-        return false;
-    const scenario_vessel *v = scenario_vessel_entry(one, vessel).keys;
-    return of_lines ? v->mooring.lines.count > 0 : figure != ROW_thruster_power_mean || v->thrusters.count > 0;
-}
-
-/* Keys of the study in their order: `set`, then what conditions vary. */
-static const char *key_at(const study *s, int32_t i)
-{
-    return i < s->set.count ? s->set.data[i].key : s->keys.data[i - s->set.count];
-}
-
-/* Of vessels.a.speed and vessels[0].speed the later one alone would count.  Each value over those of the file has left
-   its place in the scenario, as the file would call it, behind those of the file; the seed's is the last. */
-static fram_status check_spellings(const study *s, const scenario *one, fram_error *error)
-{
-    int32_t count = s->set.count + s->keys.count;
-    const scenario_place *place = one->places.data + one->places.count - 1 - count;
-    for (int32_t i = 0; i < count; i++) {
-        for (int32_t k = i + 1; k < count; k++) {
-            if (strcmp(place[i].key, place[k].key) != 0)
-                continue;
-            bool set = k < s->set.count, table = !set && s->table;
-            return error_set(error, FRAM_ERROR_INPUT, table ? s->table : s->file,
-                             set     ? s->set.data[k].line
-                             : table ? 0
-                                     : s->keys_line,
-                             key_at(s, k), "is the same key as %s: give it once", key_at(s, i));
-        }
-    }
-    return FRAM_OK;
-}
-
-static fram_status check_conditions(context *ctx, study *s, fram_error *error)
-{
-    fram_status status = FRAM_OK;
-    first_vessel first = {.everywhere = true};
-    bool worst = false;
-    for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++) {
-        scenario one = {0};
-        status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
-        if (status == FRAM_OK) {
-            status = c == 0 ? check_spellings(s, &one, error) : FRAM_OK;
-            if (status == FRAM_OK)
-                status = check_vessel(ctx, s, c, &one, error);
-            if (status == FRAM_OK)
-                status = take_first(ctx, s, c, &one, &first, error);
-            worst = worst || has_worst(s, &one);
-            scenario_free(ctx, &one);
-        }
-    }
-    if (status == FRAM_OK && first.everywhere && first.name && *first.name && !set_text(ctx, &s->vessel, first.name))
-        status = error_memory(error);
-    memory_free(ctx, first.name);
-    if (status == FRAM_OK && !worst)
-        status =
-            error_set(error, FRAM_ERROR_INPUT, s->file, s->worst.line, "by",
-                      "no run of this study has %s: its vessel keeps no station, or has no mooring or thrusters for "
-                      "that; take load_largest",
-                      run_figure_name((run_figure)s->worst.figure));
-    return status;
-}
-
 static fram_status parse(context *ctx, const char *name, const char *data, size_t size, bool recorded, study *s,
                          fram_error *error)
 {
@@ -485,7 +372,7 @@ fram_status study_read(context *ctx, const char *path, study *s, fram_error *err
     memory_free(ctx, data);
     if (status != FRAM_OK)
         return status;
-    status = check_conditions(ctx, s, error);
+    status = study_conditions_check(ctx, s, error);
     if (status != FRAM_OK)
         study_free(ctx, s);
     return status;

@@ -32,6 +32,9 @@ fram_status study_read(context *ctx, const char *path, study *s, fram_error *err
    means (seeds.mean_within over 1), which older versions took, are taken.  `name` stands for the file in errors and for
    relative paths. */
 fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error);
+/* Looks at the scenarios of all conditions, in study_conditions_check.c; where all of them have one first vessel, it
+   becomes the study's. */
+fram_status study_conditions_check(context *ctx, study *s, fram_error *error);
 /* The scenario of one run; on success free with scenario_free. */
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
                            fram_error *error);
