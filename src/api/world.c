@@ -355,7 +355,7 @@ static fram_status add_wrench(fram_world *w, fram_body_id id, const double force
     wrench load = {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};
     bool is_force = is_of_use(load.force);
     if (!is_force || !is_of_use(load.moment))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, is_force ? "moment" : "force",
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, is_force ? "moment" : "force",
                          "a %s is not finite, or beyond all use", is_force ? "moment" : "force");
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
 }

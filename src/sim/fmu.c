@@ -123,6 +123,20 @@ static fram_status list_variables(packer *p, fram_error *error)
 
 /* ---- names ---- */
 
+/* Whether the language C has the word for itself, as no name of a model may be. */
+static bool is_word_of_c(const char *name, size_t length)
+{
+    static const char *const words[] = {"auto",    "break",  "case",     "char",   "const",    "continue", "default",
+                                        "do",      "double", "else",     "enum",   "extern",   "float",    "for",
+                                        "goto",    "if",     "inline",   "int",    "long",     "register", "restrict",
+                                        "return",  "short",  "signed",   "sizeof", "static",   "struct",   "switch",
+                                        "typedef", "union",  "unsigned", "void",   "volatile", "while"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == length && strncmp(words[i], name, length) == 0)
+            return true;
+    return false;
+}
+
 /* Letters, digits and _ of the output's stem, as the binary's name must be. */
 static fram_status name_of(packer *p, fram_error *error)
 {
@@ -138,6 +152,11 @@ static fram_status name_of(packer *p, fram_error *error)
             "expected NAME.fmu, where NAME, which names the model, is a letter and then letters, digits and _, "
             "at most %d in all",
             (int)sizeof p->names.identifier - 1);
+    if (is_word_of_c(stem, length))
+        return error_set(error, FRAM_ERROR_USAGE, p->o->output, 0, "output",
+                         "expected NAME.fmu, where NAME, which names the model, is no word of the language C, as "
+                         "\"%.*s\" is: take my_%.*s.fmu",
+                         (int)length, stem, (int)length, stem);
     memcpy(p->names.identifier, stem, length);
     return FRAM_OK;
 }

@@ -98,7 +98,8 @@ START_TEST(units_are_written_and_mistakes_refused)
     d.binary = output;
     assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "found one that is read");
     d.binary = binary;
-    static const char *const bad[] = {"", "ship", "1ship.fmu", "ship.zip", "a ship.fmu", "s.h.fmu", ".fmu"};
+    static const char *const bad[] = {"",        "ship", "1ship.fmu", "ship.zip", "a ship.fmu",
+                                      "s.h.fmu", ".fmu", "int.fmu",   "while.fmu"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         d.output = bad[i];
         ck_assert_msg(fram_fmu(s, &d, NULL, &e) == FRAM_ERROR_USAGE, "%s", bad[i]);

@@ -199,6 +199,7 @@ START_TEST(worlds)
             force[i] = i == 0 ? nan_value : i == 1 ? infinite : -infinite;
             REFUSED_KEY(fram_body_apply_wrench(w, id, force, zero, &e), "force");
             REFUSED_KEY(fram_body_apply_wrench(w, id, zero, force, &e), "moment");
+            ck_assert_int_eq(e.status, FRAM_ERROR_INPUT); /* as of inputs by name */
         }
         const double opposite[3] = {1e300, -1e300, 0};
         REFUSED(fram_body_apply_wrench(w, id, opposite, zero, &e));

@@ -275,8 +275,14 @@ class Worlds(unittest.TestCase):
             with self.assertRaisesRegex(fram.InputError, "three numbers") as caught:
                 world.apply_wrench(world.vessel, force)
             self.assertEqual(caught.exception.key, "force")
-        with self.assertRaises(fram.InputError):
-            world.apply_wrench(world.vessel, (0, 0, 0), moment=(1,))
+        for moment in ((1,), None, "123", ("a", 2, 3), (1j, 2, 3), (2**1100, 0, 0), (float("nan"), 0, 0)):
+            with self.assertRaises(fram.InputError) as caught:
+                world.apply_wrench(world.vessel, (0, 0, 0), moment=moment)
+            self.assertEqual(caught.exception.key, "moment")
+        for body in (None, 1, (1,), (1, 2, 3), ("a", 1), (1.5, 1), (0, -1), (-1, 0), (2**40, 1), (0, 2**32)):
+            with self.assertRaises(fram.UsageError) as caught:
+                world.apply_wrench(body, (0, 0, 0))
+            self.assertEqual(caught.exception.key, "body")
         for places in (np.zeros((2, 2)), np.zeros((3, 2)), np.zeros(6)):  # x, y and heading are the columns
             with self.assertRaisesRegex(fram.InputError, r"shape \("):
                 world.set_path([1, 2], places)

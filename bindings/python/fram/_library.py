@@ -77,11 +77,14 @@ class UsageError(FramError, ValueError):
 
 
 class InputError(FramError, ValueError):
-    """A file or a value that was given is wrong."""
+    """A file or a value that was given is wrong.
+
+    So is the name of a file or folder that is not there, or not for this user.
+    """
 
 
 class FileError(FramError, OSError):
-    """The operating system refused to read or write."""
+    """The operating system refused to read or write what is there, as where a disk is full."""
 
 
 class OutOfMemory(FramError, MemoryError):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import operator
 import os
 import sys
 import weakref
@@ -313,6 +314,27 @@ def _load_again(scenario: Scenario, state: bytes) -> "World":
     return world
 
 
+def _three_numbers(name: str, vector) -> list[float]:
+    """A vector for C; what C's numbers do not hold is told as what they hold and the library refuses."""
+    try:
+        if np.shape(vector) == (3,):
+            return [float(x) for x in vector]
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InputError("input", f"expected three numbers, found {vector}", key=name)
+
+
+def _body_id(body) -> dict[str, int]:
+    """(slot, generation) for C; numbers that C does not hold are those of no body."""
+    try:
+        slot, generation = (operator.index(x) for x in body)
+    except (TypeError, ValueError):
+        raise UsageError("usage", f"expected (slot, generation) of a body, found {body}", key="body") from None
+    if not (0 <= slot < 2**31 and 0 <= generation < 2**32):
+        raise UsageError("usage", f"there is no living body {slot} of generation {generation}", key="body")
+    return {"slot": slot, "generation": generation}
+
+
 class World:
     """A world.  ``world["ice_force_x"]`` reads a channel or an input, ``world["wind_x"] = 10`` tells an input."""
 
@@ -516,11 +538,8 @@ class World:
 
         body: (slot, generation), as `bodies` and `vessel` tell them; calls add up.
         """
-        for name, vector in (("force", force), ("moment", moment)):
-            if np.shape(vector) != (3,):
-                raise InputError("input", f"expected three numbers, found {vector}", key=name)
-        f, m = (ffi.new("double[3]", [float(x) for x in v]) for v in (force, moment))
-        self._call(lib.fram_body_apply_wrench, {"slot": int(body[0]), "generation": int(body[1])}, f, m)
+        f, m = (ffi.new("double[3]", _three_numbers(name, v)) for name, v in (("force", force), ("moment", moment)))
+        self._call(lib.fram_body_apply_wrench, _body_id(body), f, m)
 
     # ---- arrays ----
 
