@@ -70,11 +70,10 @@ def commands(build):
     found = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
         # What clang does not know; and shadowing is looked at here, where each file stands alone.
-        command = entry["command"].replace(" -fno-ipa-modref ", " ")
+        command = entry["command"].replace(" -fno-ipa-modref ", " ").replace(" -Wno-shadow ", " ")
         path = pathlib.Path(entry["file"])
         together = re.findall(r'^#include "(.*)"', path.read_text(), re.M) if path.parent.name == "Unity" else []
-        alone = command.replace(" -Wno-shadow ", " ")
-        found += [entry | {"file": file, "command": alone.rpartition(" -c ")[0] + f" -c {shlex.quote(file)}"}
+        found += [entry | {"file": file, "command": command.rpartition(" -c ")[0] + f" -c {shlex.quote(file)}"}
                   for file in together] or [entry | {"command": command}]
     return found
 

@@ -50,10 +50,10 @@ static void find_extent(video *v)
     vec2 lo = {HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < v->r.frame.poses.count; i++) {
         const replay_pose *p = &v->r.frame.poses.data[i];
-        int material = v->r.bodies.data[p->body].material;
-        if (material == MATERIAL_WALL)
+        int kind = v->r.bodies.data[p->body].material;
+        if (kind == MATERIAL_WALL)
             continue;
-        ice = ice || material == MATERIAL_ICE;
+        ice = ice || kind == MATERIAL_ICE;
         lo = vec2_make(fmin(lo.x, p->position.x), fmin(lo.y, p->position.y));
         hi = vec2_make(fmax(hi.x, p->position.x), fmax(hi.y, p->position.y));
     }

@@ -4,11 +4,11 @@
 #include "sim/ice_loads.h"
 #include "sim/media_now.h"
 
-vec3 propulsion_damping(const vessel_model *hull, vec3 motion)
+vec3 propulsion_damping(const vessel_model *hull, vec3 velocity)
 {
     if (!hull->has_hydrodynamics)
         return vec3_make(0, 0, 0);
-    pair6 push = matrix6_mul(&hull->hydrodynamics.damping, (pair6){{motion.x, motion.y, 0}, {0, 0, motion.z}});
+    pair6 push = matrix6_mul(&hull->hydrodynamics.damping, (pair6){{velocity.x, velocity.y, 0}, {0, 0, velocity.z}});
     return vec3_make(-push.linear.x, -push.linear.y, -push.angular.z);
 }
 

@@ -10,9 +10,9 @@ vec2 propulsion_water(const model *m, const media *now, int32_t vessel);
 /* What the water takes of a vessel's thrust along its bow [N], `water` being the velocity of the one that it goes
    through: drag on the hull, and linear damping. */
 double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water);
-/* What the linear damping does to a hull that goes through the water in its plane, `motion` being surge, sway and rate
-   of turn [m/s, m/s, rad/s]: forces along these and moment about the centre of mass [N, N, N m]. */
-vec3 propulsion_damping(const vessel_model *hull, vec3 motion);
+/* What the linear damping does to a hull that goes through the water in its plane, `velocity` being surge, sway and
+   rate of turn [m/s, m/s, rad/s]: forces along these and moment about the centre of mass [N, N, N m]. */
+vec3 propulsion_damping(const vessel_model *hull, vec3 velocity);
 /* From the place of a row's pattern to the ice that comes there, at the distance of the pattern, or of the ship, that
    is so far `away` [m], from a pattern that goes ahead: against the drift, or with a forecast where it is going to come
    from; and its way, outward.  At (0, 0): no drift. */

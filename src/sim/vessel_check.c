@@ -174,9 +174,9 @@ static void warn_of_couplings(context *ctx, const vessel_entry *e, const matrix6
 }
 
 /* A carriage leaves heave alone to the water. */
-static bool moves_freely(vessel_mode mode, int motion)
+static bool moves_freely(vessel_mode mode, int axis)
 {
-    return mode == VESSEL_FREE || (mode == VESSEL_TOWED && motion == 2);
+    return mode == VESSEL_FREE || (mode == VESSEL_TOWED && axis == 2);
 }
 
 /* Of a given matrix: a negative number on its diagonal drives the motion that it should damp. */

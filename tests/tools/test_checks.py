@@ -247,6 +247,16 @@ class House(unittest.TestCase):
         done = self.together(one + other.format(0), (one + other.format(1)).replace("next", "after"))
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
+    def test_names_that_hide_others_where_a_file_is_compiled_alone(self):
+        kind = "typedef int kind;\n"
+        done = self.together(kind + "int of(int x) { int own = x; return own; }\n",
+                             "int other(int x) { int own = x; return own; }\nint own(void) { return 0; }\n")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        done = self.together(kind + "int of(int x) { int kind = x; return kind; }\n", "int last;\n")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("src/base/file0.c:2", done.stderr)
+        self.assertIn("shadow", done.stderr)
+
     def test_files_that_are_compiled_together_are_analysed_alone(self):
         self.together("int first;\n", "int second;\n")
         sys.path.insert(0, str(TOOLS))
