@@ -79,7 +79,7 @@ wasm: build/viewer/playback.html | $(STAMPS)/core $(STAMPS)/wasm ## one page tha
 	@tools/wasm.sh
 
 bench-python: build | $(STAMPS)/python ## what reading poses and outlines from Python costs, against its bound
-	@$(PYTHON) bench/run_python.py
+	@$(PYTHON) bench/run_python.py $(BENCH_FLAGS)
 
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)

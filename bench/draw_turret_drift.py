@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""Picture and columns of docs/turret-study.md from tables in bench/results:  bench/draw_turret_drift.py  (matplotlib).
+"""Picture and columns of docs/turret-study.md from tables in bench/results.
 
 Writes docs/pictures/turret_study.png and prints mean and largest load of each condition with the digits that their
-uncertainty leaves."""
+uncertainty leaves.  Needs matplotlib."""
 import csv
 import math
 import pathlib
+import sys
 
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plot  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from words import words_of  # noqa: E402  (tools)
 COLOURS = {"0.5": "#004488", "1": "#d65f00", "1.5": "#009e73"}
 
 
@@ -27,6 +30,7 @@ def with_uncertainty(mean, half):
 
 
 def main():
+    words_of(__doc__).parse_args()
     means = rows("turret_drift_conditions.csv")
     rare = {r["condition"]: r for r in rows("turret_drift_extremes.csv") if r["figure"] == "line_tension_largest"}
     figure, panels = plot.subplots(1, 3, figsize=(12, 4), dpi=100, layout="constrained")

@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
-"""How deep floes overlap, from a scene and the final poses of any program.
-
-  bench/penetration.py SCENE POSES.csv       one JSON line: pairs, mean_m, p99_m, max_m, sum_per_floe_m
+"""How deep floes overlap, from a scene and the final poses of any program: one JSON line
+with pairs, mean_m, p99_m, max_m and sum_per_floe_m.
 
 Depth of a pair: the least overlap over the sides, tops and bottoms of both prisms (separating axis test), so that a
 floe pushed under another is not taken for one inside it; of level floes it is the overlap of their outlines.  Of a
 floe and a wall: how far it reaches beyond it.  Only overlaps count; touching within 1e-9 m is none.
 """
 
+import argparse
 import collections
 import csv
 import json
 import math
-import sys
 
 import scene_file
 
@@ -114,6 +113,8 @@ def measure(scene, poses):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    print(json.dumps(measure(sys.argv[1], sys.argv[2])))
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("scene", help="a text scene (bench/peers/README.md)")
+    words.add_argument("poses", help="a table of the final poses, CSV")
+    given = words.parse_args()
+    print(json.dumps(measure(given.scene, given.poses)))

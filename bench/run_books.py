@@ -110,12 +110,20 @@ def order(names):
     return sorted(names, key=lambda n: (LONG.index(n) + 1 if n in LONG else 0, n))
 
 
+def name_of(word):
+    """A ready scene's name, by it or its file."""
+    name = pathlib.Path(word).stem
+    if word not in (name, f"scenes/{name}.yaml") or not (ROOT / "scenes" / f"{name}.yaml").exists():
+        raise argparse.ArgumentTypeError(f"there is no scenes/{name}.yaml")
+    return name
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--bench", default=ROOT / "build" / "release" / "bench" / "books_bench")
     parser.add_argument("--most", type=float, default=300, help="processor time of a scene at most [s]")
     parser.add_argument("--now", action="store_true", help="not in the idle class, for short scenes")
-    parser.add_argument("scenes", nargs="*", help="names of scenes, default all")
+    parser.add_argument("scenes", nargs="*", type=name_of, help="names of scenes, as demo, default all")
     options = parser.parse_args()
     if not options.now:
         os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))

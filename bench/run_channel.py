@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """What a step costs with more and more channel behind the ship: level ice of 5 km whose broken pieces sleep.
 
-  bench/run_channel.py [--old LIBRARY] [--rounds R] [--steps N] [--states FOLDER] [--out FILE]
-
 A bow breaks its way through scenes/level_ice.yaml, made longer; the state at each length of channel is kept in FOLDER
 (build/channel), where later calls find it: the first call takes an hour of one core.  Then N steps are taken from each
 state in turn, R times over, with this library and, after it in each round, with that of an older build (its
 libfram.so).  Times are CPU time of one thread; a row's ratios are medians of what they were inside each round, so that
-other work on the machine changes both sides of them.
+other work on the machine changes both sides of them.  Give --write to put the table into the results.
 """
 
 import argparse
@@ -19,6 +17,8 @@ import statistics
 import subprocess
 import sys
 import time
+
+import kept_page
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
@@ -123,11 +123,13 @@ def page(new, old, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--old", type=pathlib.Path)
-    parser.add_argument("--rounds", type=int, default=20)
-    parser.add_argument("--steps", type=int, default=25)
-    parser.add_argument("--states", type=pathlib.Path, default=ROOT / "build" / "channel")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "bench" / "results" / "channel.md")
+    parser.add_argument("--old", type=pathlib.Path, help="libfram.so of an older build")
+    parser.add_argument("--rounds", type=int, default=20, help="%(default)s")
+    parser.add_argument("--steps", type=int, default=25, help="of a round (%(default)s)")
+    parser.add_argument("--states", type=pathlib.Path, default=ROOT / "build" / "channel",
+                        help="folder that keeps the channels")
+    parser.add_argument("--write", action="store_true",
+                        help="write bench/results/channel.md; what stands there by hand is kept")
     parser.add_argument("--work", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.rounds < 1 or options.steps < 1:
@@ -146,8 +148,10 @@ def main():
         new.round()
         if old:
             old.round()
-    options.out.write_text(page(new, old, options))
-    print(options.out.read_text())
+    text = page(new, old, options)
+    if options.write:
+        kept_page.write(ROOT / "bench" / "results" / "channel.md", text)
+    print(text)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,9 @@
 
 In a field nearly without contact, whose steps are the shortest there are, and in one that a ship breaks.
 
-Writes bench/results/python.md; FRAM_LIBRARY names the library (default: that of build/release)."""
+FRAM_LIBRARY names the library (default: that of build/release).  Give --write to put the tables into the results."""
 
+import argparse
 import os
 import pathlib
 import platform
@@ -13,10 +14,11 @@ import sys
 import textwrap
 import time
 
+import kept_page
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 os.environ.setdefault("FRAM_LIBRARY", str(ROOT / "build/release/libfram.so"))
 sys.path.insert(0, str(ROOT / "bindings/python"))
-import fram  # noqa: E402
 
 SCENE = """
 run: {time_step: 0.02, duration: 100}
@@ -48,6 +50,7 @@ def median_of(calls, rounds=STEPS):
 
 def measure(name, scene, warm):
     """A section of the page: the calls in turn, and steps with and without reading in turn."""
+    import fram
     world = fram.Scenario.from_text(scene).world()
     world.step(warm)
     broken, shapes, renewals = 0, world.shapes(), []
@@ -94,6 +97,10 @@ def measure(name, scene, warm):
 
 
 def main():
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--write", action="store_true",
+                       help="write bench/results/python.md; what stands there by hand is kept")
+    options = words.parse_args()
     head = (f"One thread, medians of computing time over {STEPS} steps ({platform.machine()}, "
             f"Python {platform.python_version()}), by `bench/run_python.py`. Outlines in the axes of their bodies are "
             "made when a floe breaks, comes or goes, and are the same arrays until then; poses are the world's own "
@@ -102,9 +109,11 @@ def main():
     text = "\n\n".join(["# Reading a world from Python", textwrap.fill(head, 119),
                          measure("Nearly without contact", SCENE, 20) + "\n" +
                          measure("Pushed and broken by a ship", PUSHED, 150)])
-    (ROOT / "bench/results/python.md").write_text(text)
+    if options.write:
+        kept_page.write(ROOT / "bench/results/python.md", text)
     print(text)
     return 0  # what falls short stands in docs/limits.md
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

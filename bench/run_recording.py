@@ -73,12 +73,20 @@ def kept_rows():
     return {line.split("|")[1].strip(): line for line in whole}
 
 
+def scene_of(word):
+    """A scene with a row, by its file or its name."""
+    for scene, *_ in SCENES:
+        if word in (scene, pathlib.Path(scene).stem):
+            return scene
+    raise argparse.ArgumentTypeError(f"{word} is none of {', '.join(pathlib.Path(s).stem for s, *_ in SCENES)}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fram", default=HERE.parent / "build" / "release" / "fram")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--write", action="store_true", help="put the rows into bench/results/recording.md")
-    parser.add_argument("scenes", nargs="*", help="of those with a row; default all")
+    parser.add_argument("scenes", nargs="*", type=scene_of, help="of those with a row, as demo; default all")
     options = parser.parse_args()
     broken, rows = [], kept_rows()
     for scene, seconds, most_bytes in SCENES:

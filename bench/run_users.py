@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """Scenes of users: what a step costs, beside an older build of Fram.
 
-  bench/run_users.py [--old FRAM] [--repeat R] [--only NAME ...] [--warm S] [--time S] [--out FILE]
-
 Every scene in turn, the older program and this one after each other in each round, with one and with two threads.
 --old names the command of an older version, built elsewhere; without it, or where it refuses a scene, there is no
 ratio.  Times are process CPU time of one thread and the least of the rounds, since other work on a machine only adds to
 it; real-time factors are the best of the rounds, by wall time, and are less than the machine could do where it was
-shared.
+shared.  Give --write to put the table into the results.
 """
 
 import argparse
@@ -18,11 +16,14 @@ import subprocess
 import sys
 import tempfile
 
+import kept_page
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 import machine  # noqa: E402  (tools)
 
 NEW = ROOT / "build" / "release" / "fram"
+RESULTS = ROOT / "bench" / "results" / "users.md"
 
 FIELD = """
 title: A field of floes and an icebreaking hull
@@ -130,13 +131,18 @@ def page(rows, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--old", type=pathlib.Path)
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--only", nargs="+", choices=sorted(SCENES))
-    parser.add_argument("--warm", type=float, default=2)
-    parser.add_argument("--time", type=float, default=4)
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "bench" / "results" / "users.md")
+    parser.add_argument("--old", type=pathlib.Path, help="the command of an older build")
+    parser.add_argument("--repeat", type=int, default=3, help="rounds (%(default)s)")
+    parser.add_argument("--only", nargs="+", choices=sorted(SCENES), help="scenes, default all")
+    parser.add_argument("--warm", type=float, default=2, help="before the measuring (%(default)s) [s]")
+    parser.add_argument("--time", type=float, default=4, help="measured (%(default)s) [s]")
+    parser.add_argument("--write", action="store_true",
+                        help="write the page of all scenes, bench/results/users.md; what stands there by hand is kept")
+    parser.add_argument("--out", type=pathlib.Path, help="write the page of these scenes to another file")
     options = parser.parse_args()
+    if options.write and options.only:
+        parser.error("--write is of all scenes, whose page has one date and one machine: leave out --only, or give "
+                     "--out FILE")
     for program in (NEW, options.old):
         if program is not None and not program.exists():
             sys.exit(f"run_users: there is no {program}: build it first")
@@ -153,7 +159,8 @@ def main():
                 path.write_text(scene)
             rows.append(measure(name, path, options))
             print(line(rows[-1]), flush=True)
-            options.out.write_text(page(rows, options))
+    for path in ([RESULTS] if options.write else []) + ([options.out] if options.out else []):
+        kept_page.write(path, page(rows, options))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""What scheduling costs a study on Slurm:  bench/slurm_overhead.py [RUNS [SECONDS]]     (root; make slurm-overhead)
+"""What scheduling costs a study on Slurm (root; make slurm-overhead).
 
-A Slurm of one node is started here, and makes a study of RUNS (20) runs of about SECONDS (12) s of processor time each,
+A Slurm of one node is started here, and makes a study of so many runs of so many seconds of processor time each,
 one run a task, one at a time.  What the study took beyond its runs, from the command's start to its end, is told as a
 part of the time of the runs (by their own clocks, so that other programs of the machine lengthen both), beside the same
 study made here by one process at a time.  Exit code 1 when the tables differ, or when Slurm took more than 5 % of runs
 that take 10 s or more."""
+import argparse
 import json
 import os
 import pathlib
@@ -54,7 +55,11 @@ def duration_for(at, seconds):
 
 
 def main():
-    runs, seconds = (int(sys.argv[1]) if len(sys.argv) > 1 else 20), (float(sys.argv[2]) if len(sys.argv) > 2 else 12)
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("runs", nargs="?", type=int, default=20, help="%(default)s")
+    words.add_argument("seconds", nargs="?", type=float, default=12, help="of a run (%(default)s)")
+    options = words.parse_args()
+    runs, seconds = options.runs, options.seconds
     why = cluster.missing()
     if why:
         sys.exit(why)

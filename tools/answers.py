@@ -1,11 +1,7 @@
 #!/usr/bin/env python3
 """Numbers that the pages for users give of ready scenes, beside what these scenes give now:  make answers
 
-  tools/answers.py            runs what the README and docs/tutorials.md run, compares; exit code 1 where they differ
-  tools/answers.py --long     drillships of tutorial 8 and the scenes of docs/station.md, too (ten minutes)
-  tools/answers.py --write    writes the numbers of now into the pages, whose dates are for you to change
-  tools/answers.py --keep     takes runs that are there as they are (out/)
-
+Runs what the README and docs/tutorials.md run, and compares; exit code 1 where they differ.
 A sentence stands here as it does in its page; it is found there by its words, whatever numbers it has.
 """
 
@@ -17,6 +13,8 @@ import re
 import statistics
 import subprocess
 import sys
+
+from words import words_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "out"
@@ -272,18 +270,25 @@ def compare(page, sentence, write):
     return False
 
 
-def main(arguments):
-    if "--keep" not in arguments:
+def main():
+    words = words_of(__doc__)
+    words.add_argument("--long", action="store_true",
+                       help="drillships of tutorial 8 and the scenes of docs/station.md, too (ten minutes)")
+    words.add_argument("--write", action="store_true",
+                       help="write the numbers of now into the pages, whose dates are for you to change")
+    words.add_argument("--keep", action="store_true", help="take runs that are there as they are (out/)")
+    options = words.parse_args()
+    if not options.keep:
         OUT.mkdir(exist_ok=True)
-        for command in commands("--long" in arguments):
+        for command in commands(options.long):
             print(command, flush=True)
             subprocess.run(["bash", "-c", command], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL)
-    sections = SHORT + (LONG if "--long" in arguments else ())
-    same = [compare(page, sentence, "--write" in arguments) for section in sections for page, sentence in section()]
+    sections = SHORT + (LONG if options.long else ())
+    same = [compare(page, sentence, options.write) for section in sections for page, sentence in section()]
     print(f"{sum(same)} of {len(same)} sentences are those of now")
     return 0 if all(same) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -20,6 +20,8 @@ import re
 import subprocess
 import sys
 
+from words import words_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TEXT_SUFFIXES = {".c", ".h", ".py", ".sh", ".cmake", ".txt", ".yaml", ".js", ".mjs", ".ipynb", ".html"}
 FOLDERS = r"(?:src|tests|docs|scenes|tools|bench|fuzz|examples|bindings|include|viewer|validation|cmake|packaging)"
@@ -151,6 +153,7 @@ def breaches(page):
 
 
 def main():
+    words_of(__doc__).parse_args()
     bad = 0
     for page in own_files():
         # Tests name files that they plant, or that must be missing.

@@ -9,6 +9,8 @@ import pathlib
 import re
 import sys
 
+from words import words_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SUFFIXES = {".c", ".h", ".py", ".sh", ".yaml"}
 
@@ -33,6 +35,7 @@ def written():
 
 
 def main():
+    words_of(__doc__).parse_args()
     words, every = written(), list(keys())
     for section, key in every:
         if key not in words:

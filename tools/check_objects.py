@@ -16,6 +16,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from libm import TRANSCENDENTAL  # noqa: E402
+from words import words_of  # noqa: E402
 
 FUSED = re.compile(r"\bv?f[n]?m(add|sub|addsub|subadd)[0-9]*[ps][sdh]\b")
 LOCAL = re.compile(r"^(_*(v?sn?|f|v|vf|d|vd|as|vas)?printf(_chk)?|strto(d|f|ld)|atof)$")
@@ -64,9 +65,12 @@ def command_of(build):
 
 
 def main():
-    archives = sorted(set(pathlib.Path(sys.argv[1], "rooms").glob("libroom_*.a")) - {command_of(sys.argv[1])})
+    words = words_of(__doc__)
+    words.add_argument("build", help="a build that is done")
+    build = words.parse_args().build
+    archives = sorted(set(pathlib.Path(build, "rooms").glob("libroom_*.a")) - {command_of(build)})
     if not archives:
-        print(f"no archives in {sys.argv[1]}/rooms: build first")
+        print(f"no archives in {build}/rooms: build first")
         return 1
     count = 0
     for archive in archives:

@@ -22,6 +22,8 @@ import re
 import subprocess
 import sys
 
+from words import words_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from libm import TRANSCENDENTAL  # noqa: E402
@@ -207,6 +209,7 @@ def page_breaches():
 
 
 def main():
+    words_of(__doc__).parse_args()
     count = 0
     for path, message in circle_breaches(modules_of_source()):
         print(f"{path}:1: {message}")

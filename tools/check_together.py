@@ -7,7 +7,6 @@ own must therefore be its room's only thing of that name.  Other builds compile 
 clang does not tell of it where the other is a type.  Prints the compiler's errors; exit code 1 when there is one.
 """
 
-import argparse
 import collections
 import concurrent.futures
 import json
@@ -18,6 +17,7 @@ import subprocess
 import sys
 
 import tidy
+from words import words_of
 
 
 def units(build):
@@ -45,7 +45,7 @@ def alone(build):
 
 
 def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words = words_of(__doc__)
     words.add_argument("build", type=pathlib.Path, help="a build that was configured")
     build = words.parse_args().build.resolve()
     bad = 0

@@ -16,6 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from check_rooms import without_comments  # noqa: E402
+from words import words_of  # noqa: E402
 
 # Used by tests only, and why it stays.
 KEPT = {
@@ -75,6 +76,7 @@ def own(code, places, elsewhere):
 
 
 def main():
+    words_of(__doc__).parse_args()
     code = code_of("src/*/*.[ch]", "include/fram/*.h")
     used = collections.Counter(word for text in code.values() for word in WORD.findall(text))
     programs = code_of("tests/**/*.[ch]", "fuzz/*.[ch]", "bench/*.[ch]", "bindings/**/*.[ch]")

@@ -15,6 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 from check_rooms import FLOOR  # noqa: E402
+from words import words_of  # noqa: E402
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(\w+)/', re.M)
 KNOWS = {
@@ -133,11 +134,13 @@ def draw_step():
 
 
 def main():
-    stale = 0
+    words = words_of(__doc__)
+    words.add_argument("--check", action="store_true", help="draw nothing; exit code 1 where a picture is another")
+    check, stale = words.parse_args().check, 0
     for name, draw in (("house.svg", draw_house), ("step.svg", draw_step)):
         path = ROOT / "docs" / "pictures" / name
         drawn = draw()
-        if "--check" in sys.argv[1:]:
+        if check:
             if not path.exists() or path.read_text() != drawn:
                 print(f"{path.relative_to(ROOT)} is not what the code draws now: run tools/draw_architecture.py")
                 stale = 1

@@ -9,6 +9,8 @@ import pathlib
 import re
 import sys
 
+from words import words_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/api.md"
 MARK = "<!-- written by tools/list_api.py from here on -->\n"
@@ -74,6 +76,9 @@ def table():
 
 
 def main():
+    words = words_of(__doc__)
+    words.add_argument("--check", action="store_true", help="write nothing; exit code 1 where the table is another")
+    check = words.parse_args().check
     text, missing, count = table()
     head = PAGE.read_text().split(MARK)[0]
     page = head + MARK + "\n" + text
@@ -82,7 +87,7 @@ def main():
     late = list(unsized())
     for name in late:
         print(f"FAILED: {name} fills a struct and is not told its size")
-    if "--check" in sys.argv:
+    if check:
         if PAGE.read_text() != page:
             print("FAILED: docs/api.md is not what tools/list_api.py writes; run it")
             return 1

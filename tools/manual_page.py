@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The manual page fram(1), made of what the command says of itself.
-
-    tools/manual_page.py FRAM OUTPUT"""
+"""The manual page fram(1), made of what the command says of itself."""
 
 import pathlib
 import re
 import subprocess
-import sys
+
+from words import words_of
 
 HEAD = r""".TH FRAM 1 "" "fram {version}" "Simulator of vessels in sea ice"
 .SH NAME
@@ -33,14 +32,18 @@ def verbatim(text):
 
 
 def main():
-    fram, output = sys.argv[1:]
+    words = words_of(__doc__)
+    words.add_argument("fram", help="the command")
+    words.add_argument("output", help="file for the page, as build/release/fram.1")
+    options = words.parse_args()
+    fram = options.fram
     overview = said(fram, "--help")
     # Commands stand indented by two under their heading, one a line, until the next empty line.
     commands = re.findall(r"^  (\w+) ", overview.split("Commands:\n")[1].split("\n\n")[0], re.M)
     page = HEAD.format(version=said(fram, "--version").split()[1]) + verbatim(overview) + ".SH COMMANDS\n"
     for command in commands:
         page += f'.SS "fram {command}"\n' + verbatim(said(fram, command, "--help"))
-    pathlib.Path(output).write_text(page)
+    pathlib.Path(options.output).write_text(page)
 
 
 main()

@@ -14,6 +14,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "views"))
 import chromium  # noqa: E402
+from words import words_of  # noqa: E402
 
 FRAM = ROOT / "build" / "release" / "fram"
 OUT = ROOT / "docs" / "pictures" / "pages"
@@ -89,6 +90,7 @@ def pages_of_several(made):
 
 
 def main():
+    words_of(__doc__).parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     made = ROOT / "out" / "pictures"
     with chromium.Browser(1400, 1000) as browser:

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""docs/python.md from the docstrings of the package; with --check says whether it is up to date.
+"""docs/python.md from the docstrings of the package.
 
 FRAM_LIBRARY names libfram where the package does not carry it."""
 
 import inspect
 import pathlib
 import sys
+
+from words import words_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "bindings/python"))
@@ -72,11 +74,14 @@ def described(thing):
 
 
 def main():
+    words = words_of(__doc__)
+    words.add_argument("--check", action="store_true", help="write nothing; exit code 1 where the page is another")
+    check = words.parse_args().check
     import fram
     names = [name for name in fram.__all__ if name != "open"]
     text = "\n".join(described(getattr(fram, name)) for name in sorted(names, key=str.lower))
     page = PAGE.read_text().split(MARK)[0] + MARK + "\n" + text
-    if "--check" in sys.argv:
+    if check:
         if PAGE.read_text() != page:
             print("FAILED: docs/python.md is not what tools/python_reference.py writes; run it")
             return 1

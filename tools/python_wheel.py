@@ -1,19 +1,16 @@
 #!/usr/bin/env python3
 """The wheel of the Python package: the package, the public headers, libfram and the libraries that it needs beside the
-C library and the C++ one.
-
-    tools/python_wheel.py BUILD OUTPUT
-
-BUILD is a build by the preset `python`, OUTPUT the folder for fram-VERSION-py3-none-PLATFORM.whl."""
+C library and the C++ one."""
 
 import base64
 import hashlib
 import pathlib
 import re
 import subprocess
-import sys
 import sysconfig
 import zipfile
+
+from words import words_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Of every system that runs Python; carrying them would mix two of a kind in one process.
@@ -51,7 +48,11 @@ def content(build):
 
 
 def main():
-    build, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    words = words_of(__doc__)
+    words.add_argument("build", type=pathlib.Path, help="a build by the preset `python`")
+    words.add_argument("output", type=pathlib.Path, help="folder for fram-VERSION-py3-none-PLATFORM.whl")
+    options = words.parse_args()
+    build, output = options.build, options.output
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     info = f"fram-{version()}.dist-info"
     files = dict(content(build))

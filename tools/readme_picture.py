@@ -14,6 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "views"))
 import chromium  # noqa: E402
+from words import words_of  # noqa: E402
 
 FRAM = ROOT / "build" / "release" / "fram"
 RUN = ROOT / "out" / "readme"
@@ -72,6 +73,7 @@ def take(browser):
 
 
 def main():
+    words_of(__doc__).parse_args()
     subprocess.run([FRAM, "run", ROOT / "scenes" / "demo.yaml", "-o", RUN, "--force", "--quiet"], check=True)
     subprocess.run([FRAM, "view", RUN, "--quiet"], check=True)
     with chromium.Browser(1000, 800) as browser:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Analyse C files with clang-tidy, each once as it stands:  tools/tidy.py BUILD JOBS [FILE...]
+"""Analyse C files with clang-tidy, each once as it stands.
 
 A file that was found clean is looked at again when anything that clang-tidy reads has changed: the file, every header
 that it includes (as the compiler told ninja), its flags, .clang-tidy, how deep it is to look, or clang-tidy itself.
@@ -19,6 +19,8 @@ import re
 import shlex
 import subprocess
 import sys
+
+from words import words_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -127,7 +129,12 @@ def batches(files):
 
 
 def main():
-    build, jobs, files = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), sys.argv[3:]
+    words = words_of(__doc__)
+    words.add_argument("build", type=pathlib.Path, help="a build that was configured, by ninja")
+    words.add_argument("jobs", type=int, help="how many files are looked at side by side")
+    words.add_argument("files", nargs="*", help="those to look at, default all")
+    options = words.parse_args()
+    build, jobs, files = options.build.resolve(), options.jobs, options.files
     clean = build / "tidy"
     clean.mkdir(exist_ok=True)
     flags = once_each(build, build / "tidy-flags")

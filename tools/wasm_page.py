@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
-"""Put the browser's simulator, its worker, the playback page and a scenario into one page that works from disk.
+"""Put the browser's simulator, its worker, the playback page and a scenario into one page that works from disk."""
 
-usage: tools/wasm_page.py SIMULATOR.js PLAYBACK.html OUTPUT.html
-"""
 import gzip
 import json
 import os
 import pathlib
-import sys
+
+from words import words_of
 
 HERE = pathlib.Path(__file__).resolve().parent.parent / "bindings" / "wasm"
 
 
 def main():
-    simulator, playback, output = map(pathlib.Path, sys.argv[1:])
+    words = words_of(__doc__)
+    words.add_argument("simulator", type=pathlib.Path, help="simulator.js of the build for browsers")
+    words.add_argument("playback", type=pathlib.Path, help="playback.html of make viewer")
+    words.add_argument("output", type=pathlib.Path, help="the page")
+    options = words.parse_args()
+    simulator, playback, output = options.simulator, options.playback, options.output
     parts = {
         "worker": simulator.read_text() + "\n" + (HERE / "worker.js").read_text(),
         # A playback without a record waits for one.

@@ -2,14 +2,13 @@
 """Which pages of the validation book were made on other solver, contact, fracture, water or geometry code than there is
 now.
 
-  validation/status.py            names them; exit code 0 whatever it finds: a page may wait, but not in silence
-  validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
-
+Names them; exit code 0 whatever it finds: a page may wait, but not in silence.
 Told by content, not by date: the code of a part is the hash of its files without comments and white space, with numbers
 for names that a .c file has for itself, and without assertions, which the build that makes the book leaves out: so a
 page does not age by a better comment, name or assertion.
 """
 
+import argparse
 import fnmatch
 import hashlib
 import json
@@ -102,7 +101,10 @@ def changed(verdict, now):
 
 
 def main():
-    if sys.argv[1:] == ["--adopt"]:
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--adopt", action="store_true",
+                       help="for pages without a record of their code: take that of the revision they name")
+    if words.parse_args().adopt:
         adopt()
         return 0
     now, cases = of_checkout(), json.loads(BOOK.read_text())["cases"]

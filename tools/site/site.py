@@ -1,7 +1,5 @@
 #!/usr/bin/env python3
-"""The documents as a site of plain files, with search and figures, that opens from disk:
-
-    tools/site/site.py [OUTPUT]          (build/site; then open build/site/index.html)
+"""The documents as a site of plain files, with search and figures, that opens from disk.
 
 Every Markdown file of the repository becomes a page at its own place; what pages link to (scenes, sources, pictures) is
 copied beside them.  The order of the menu is that of the links in docs/README.md.  Needs python3-markdown."""
@@ -23,6 +21,8 @@ except ImportError:
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from words import words_of  # noqa: E402
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s#]+\.md)[^)]*\)")
 HREF = re.compile(r'(<(?:a|img)\b[^>]*?\b(?:href|src)=")([^"]+)(")')
 # Pages of a reader; those of faults, corpora and the like stay in the repository.
@@ -149,4 +149,6 @@ class Site:
         print(f"site: {len(self.pages)} pages; open {self.output}/index.html")
 
 
-Site(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/site")).build()
+words = words_of(__doc__)
+words.add_argument("output", nargs="?", type=pathlib.Path, default="build/site", help="folder (%(default)s)")
+Site(words.parse_args().output).build()
