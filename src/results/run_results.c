@@ -4,6 +4,7 @@
 #include "base/load_unit.h"
 #include "io/chart.h"
 #include "io/csv_read.h"
+#include "io/file.h"
 #include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/load_statistics.h"
@@ -57,6 +58,14 @@ static bool may_have_peak(context *ctx, const char *folder, int32_t vessel)
     return may;
 }
 
+/* What shows ship and ice: a build without cairo drew no picture. */
+static const char *where_seen(const char *folder)
+{
+    char path[PATH_ROOM];
+    bool there = path_join(folder, "plan.png", path, NULL) == FRAM_OK && file_is_readable(path);
+    return there ? "plan.png" : "`fram view`";
+}
+
 /* Loads that stay 0 are told where somebody may look for them. */
 static void tell_without_ice(context *ctx, const scenario *s, int32_t vessel, const char *folder,
                              const double_array column[CHANNELS])
@@ -68,8 +77,8 @@ static void tell_without_ice(context *ctx, const scenario *s, int32_t vessel, co
             if (column[k].data[i] != 0)
                 return;
     if (rows > 0 && s->ice.source != ICE_NONE && !may_have_peak(ctx, folder, vessel))
-        log_write(ctx, LOG_WARNING, "%s met no ice until t = %.10g s: plan.png shows where both are",
-                  vessel_title_of(&entry).text, column[TIMES].data[rows - 1]);
+        log_write(ctx, LOG_WARNING, "%s met no ice until t = %.10g s: %s shows where both are",
+                  vessel_title_of(&entry).text, column[TIMES].data[rows - 1], where_seen(folder));
 }
 
 /* All of them, in the unit of the largest one, which is returned. */
