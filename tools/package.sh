@@ -62,21 +62,6 @@ END
     ls -s --human-readable -1 $packages/*.deb
 }
 
-# Of every system that runs glibc; the archive carries what else the command needs.
-of_the_system='^(ld-linux.*|linux-vdso|libc|libm|libpthread|libdl|librt|libgcc_s|libstdc\+\+)\.so'
-
-# The libraries beside FILE that it needs: copies under FOLDER/lib/bundled, their licences under share/doc.
-carry_libraries() { # FILE FOLDER
-    mkdir -p "$2/lib/bundled" "$2/share/doc/fram/licences"
-    ldd "$1" | sed -n 's/^[[:space:]]*\([^ ]*\) => \(\/[^ ]*\) .*/\1 \2/p' | while read -r name path; do
-        [[ ! $name =~ $of_the_system ]] || continue
-        cp -L "$path" "$2/lib/bundled/$name"
-        # Files of the system may be known to dpkg under their place before /usr was merged.
-        owner=$(dpkg-query -S "$path" "${path#/usr}" "/usr$path" 2>/dev/null | head -n 1 | cut -d: -f1) || true
-        [ -z "$owner" ] || cp "/usr/share/doc/$owner/copyright" "$2/share/doc/fram/licences/$owner.txt"
-    done
-}
-
 # Letters for pictures where the system has none.
 carry_font() { # FOLDER
     mkdir -p "$1/share/fram/fonts"
@@ -100,7 +85,7 @@ archive() {
     cp packaging/archive/README.md CHANGELOG.md "$folder"
     cp -r scenes "$folder"
     cp tests/data/cracked_panels.gdf tests/data/floes.geojson "$folder/tests/data"
-    carry_libraries "$folder/libexec/fram" "$folder"
+    tools/carried.py "$folder/libexec/fram" "$folder"
     carry_font "$folder"
     tar -c -z -C build/archive_tree --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" \
         -f "$packages/$name.tar.gz" "$name"

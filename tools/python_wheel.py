@@ -1,20 +1,18 @@
 #!/usr/bin/env python3
-"""The wheel of the Python package: the package, the public headers, libfram and the libraries that it needs beside the
-C library and the C++ one."""
+"""The wheel of the Python package: the package, the public headers, libfram, the libraries that it needs beside the
+C library and the C++ one, and the licences of all."""
 
 import base64
 import hashlib
 import pathlib
 import re
-import subprocess
 import sysconfig
 import zipfile
 
+import carried
 from words import words_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Of every system that runs Python; carrying them would mix two of a kind in one process.
-OF_THE_SYSTEM = re.compile(r"^(ld-linux.*|linux-vdso|libc|libm|libpthread|libdl|librt|libgcc_s|libstdc\+\+)\.so")
 WHEN = (2026, 1, 1, 0, 0, 0)  # one time for all files: the same wheel from the same build
 
 
@@ -27,12 +25,7 @@ def libraries(build):
     """libfram under its soname, and what it needs, by name."""
     library = (build / "libfram.so").resolve()
     found = {f"libfram.so.{version().split('.')[0]}": library}
-    told = subprocess.run(["ldd", library], check=True, capture_output=True, text=True).stdout
-    for name, path in re.findall(r"^\s*(\S+) => (\S+)", told, re.M):
-        if path == "not":
-            raise SystemExit(f"{name}, which libfram needs, was not found")
-        if not OF_THE_SYSTEM.match(name):
-            found[name] = pathlib.Path(path)
+    found.update(carried.needed(library))
     return found
 
 
@@ -57,11 +50,16 @@ def main():
     info = f"fram-{version()}.dist-info"
     files = dict(content(build))
     files[f"{info}/METADATA"] = (f"Metadata-Version: 2.1\nName: fram\nVersion: {version()}\n"
-                                 "Summary: Simulator of vessels in sea ice\nRequires-Python: >=3.9\n"
+                                 "Summary: Simulator of vessels in sea ice\n"
+                                 "License: MIT; of the libraries in fram/lib see the files in licenses\n"
+                                 "Requires-Python: >=3.9\n"
                                  "Requires-Dist: numpy\nRequires-Dist: cffi\n").encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: fram\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{platform}\n").encode()
-    files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    files[f"{info}/licenses/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    notices, unknown = carried.licences(carried.needed((build / "libfram.so").resolve()).values())
+    files.update({f"{info}/licenses/{name}": text for name, text in sorted(notices.items())})
+    carried.tell_unknown(unknown)
     rows = []
     for name, data in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()

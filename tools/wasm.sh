@@ -22,4 +22,5 @@ if [ ! -e build/wasm/build.ninja ]; then
         { tail -n 20 build/wasm/configure.log >&2; rm -f build/wasm/build.ninja; exit 1; }
 fi
 nice -n 10 cmake --build build/wasm -j"${JOBS:-2}" --target simulator
-python3 tools/wasm_page.py build/wasm/simulator.js build/viewer/playback.html build/wasm/fram.html
+python3 tools/wasm_page.py build/wasm/simulator.js build/viewer/playback.html build/wasm/fram.html \
+    "$libraries"/prefix/licences/*.txt

@@ -20,10 +20,6 @@ export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}" EMSDK_PYTHON="${EMSDK_PYTHON:
 flags="-O2 -ffp-contract=off"
 release=bookworm
 
-if [ -e "$prefix/complete" ]; then
-    exit 0
-fi
-
 fetch() {
     mkdir -p "$top/apt/lists/partial" "$top/sources"
     printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s %s main\n' \
@@ -41,6 +37,17 @@ source_of() {
     done
     echo "wasm_libraries: the source of $1 was not unpacked under $top/sources" >&2
     return 1
+}
+
+# What is said of those who made what goes into the page, for who hands it on: prefix/licences/NAME.txt.
+carry_licences() {
+    mkdir -p "$prefix/licences"
+    for name in geos libfyaml zlib libpng1.6 nettle; do
+        [ -e "$prefix/licences/$name.txt" ] || cp "$(source_of "$name")/debian/copyright" "$prefix/licences/$name.txt"
+    done
+    # Its C and C++ library.
+    [ -e "$prefix/licences/emscripten.txt" ] ||
+        cp /usr/share/doc/emscripten/copyright "$prefix/licences/emscripten.txt"
 }
 
 # pkg-config's description: NAME VERSION LIBRARIES
@@ -151,6 +158,10 @@ if [ $# -eq 2 ]; then
     "build_$2"
     exit
 fi
+if [ -e "$prefix/complete" ]; then
+    carry_licences
+    exit
+fi
 if [ ! -e "$top/sources/complete" ]; then
     echo "wasm_libraries: fetching Debian's sources"
     fetch >"$top/fetch.log" 2>&1 || { tail -n 5 "$top/fetch.log" >&2; exit 1; }
@@ -159,4 +170,5 @@ fi
 for name in zlib png nettle fyaml geos; do
     library "$name"
 done
+carry_licences
 touch "$prefix/complete"

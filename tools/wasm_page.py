@@ -2,13 +2,30 @@
 """Put the browser's simulator, its worker, the playback page and a scenario into one page that works from disk."""
 
 import gzip
+import html
 import json
 import os
 import pathlib
 
+import carried
 from words import words_of
 
-HERE = pathlib.Path(__file__).resolve().parent.parent / "bindings" / "wasm"
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HERE = ROOT / "bindings" / "wasm"
+ABOUT = """\
+This page holds Fram, under the MIT licence; GEOS (LGPL-2.1), nettle (LGPL-3 or GPL-2), libfyaml, libpng and zlib, which
+its simulator is linked with, and emscripten's C and C++ library; and, in the playback, three.js (MIT, the Three.js
+Authors).  The sources of these libraries are Debian's; tools/wasm_libraries.sh in the sources of Fram fetches them and
+builds them, changed ones too, and `make wasm` links the simulator with what it built.
+"""
+
+
+def licences(paths):
+    """Fram's own, what the files say of the libraries, and the licences that they refer to."""
+    notices = {path.name: path.read_bytes() for path in paths}
+    found = {"Fram": (ROOT / "LICENSE").read_bytes(), **carried.texts(notices)}
+    return ABOUT + "".join(f"\n======== {name.removesuffix('.txt')} ========\n\n{text.decode()}"
+                           for name, text in found.items())
 
 
 def main():
@@ -16,6 +33,7 @@ def main():
     words.add_argument("simulator", type=pathlib.Path, help="simulator.js of the build for browsers")
     words.add_argument("playback", type=pathlib.Path, help="playback.html of make viewer")
     words.add_argument("output", type=pathlib.Path, help="the page")
+    words.add_argument("licences", nargs="+", type=pathlib.Path, help="NAME.txt of each library in the simulator")
     options = words.parse_args()
     simulator, playback, output = options.simulator, options.playback, options.output
     parts = {
@@ -28,6 +46,7 @@ def main():
     # "</" would end the element that holds it.
     page = page.replace("<!--PARTS-->", json.dumps(parts).replace("</", "<\\/").replace("<!--", "<\\u0021--"))
     page = page.replace("/*SCRIPT*/", (HERE / "page.js").read_text())
+    page = page.replace("<!--LICENCES-->", html.escape(licences(options.licences), quote=False))
     new = output.with_suffix(".new")
     new.write_text(page)
     os.replace(new, output)

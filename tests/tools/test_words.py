@@ -44,7 +44,7 @@ class Words(unittest.TestCase):
     def test_words_that_are_not_known(self):
         for script, words, told in (("tools/answers.py", ["--wirte"], "unrecognized arguments: --wirte"),
                                     ("tools/check_rooms.py", ["src"], "unrecognized arguments: src"),
-                                    ("tools/wasm_page.py", ["a.js"], "required: playback, output"),
+                                    ("tools/wasm_page.py", ["a.js"], "required: playback, output, licences"),
                                     ("bench/run_recording.py", ["demos"], "demos is none of managed_ice,"),
                                     ("bench/run_books.py", ["demos"], "there is no scenes/demos.yaml"),
                                     ("bench/run_books.py", ["other/demo.yaml"], "there is no scenes/demo.yaml"),
@@ -69,10 +69,11 @@ class Words(unittest.TestCase):
             page = pathlib.Path(folder) / "page.md"
             kept_page.write(page, "# A\n")
             self.assertEqual(page.read_text(), "# A\n")
-            page.write_text("# A\n\n| old |\n\n" + kept_page.MARK + "Told by people.\n\n## More\n")
+            below = kept_page.MARK + "Told by people.\n\n## More\n"
+            page.write_text("# A\n\n| old |\n\n" + below)
             for _ in range(2):
                 kept_page.write(page, "# A\n\n| new |\n")
-                self.assertEqual(page.read_text(), "# A\n\n| new |\n\n" + kept_page.MARK + "Told by people.\n\n## More\n")
+                self.assertEqual(page.read_text(), "# A\n\n| new |\n\n" + below)
         self.assertIn(kept_page.MARK, (ROOT / "bench/results/users.md").read_text())
 
 
