@@ -206,7 +206,7 @@ coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by t
 
 install: build ## install under DESTDIR and PREFIX (/usr/local)
 	@$(PYTHON) tools/manual_page.py build/release/fram build/release/fram.1
-	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
+	@umask 022 && DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
 	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ] && command -v ldconfig >/dev/null; then ldconfig; fi
 
 deb: | $(STAMPS)/core $(STAMPS)/deb ## Debian packages of this machine's kind under build/packages, checked by lintian

@@ -2,7 +2,8 @@
 """Check the documents: what they cite is in the repository.
 
 Rules:
-  - a link of a Markdown file leads to a file of the repository, and its #part to a heading there;
+  - a link of a Markdown file leads to a file of the repository, and its #part to a heading there (with --installed, to
+    one that is installed, or to one of the repository of which packages are made without, as their page says);
   - a path in a Markdown file that begins with a folder of the repository (`src/ice/floe.h`, tests/cli/common.sh) is
     there; * stands for any letters, <words> and upper-case names for what the reader fills in;
   - `fram WORD` in a Markdown file names a command of the table in src/cli/main.c;
@@ -15,6 +16,7 @@ Rules:
 What a build makes (build/, out/, node_modules/) is not looked for.  Prints file:line: message for each breach; exit
 code 1 when there is one."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -37,6 +39,8 @@ COMMAND_ROW = re.compile(r'^    \{"([a-z]+)",', re.M)
 TEST = re.compile(r"`([a-z]+)/([a-z0-9_]+)`((?:,? [a-z0-9]+(?:_[a-z0-9]+)+)*)")
 REPLACES = re.compile(r"^\*\*Replaces\*\*(?:[^\n]|\n(?!\n))*", re.M)
 CASE = re.compile(r"START_TEST\((\w+)\)")
+# What packages leave to the sources, as docs/packages.md says.
+SOURCES = ("src/", "tests/", "include/", "bindings/", "bench/peers/", "tools/", "validation/", "CONTRIBUTING.md/")
 # Patterns and places that a reader fills in are no files.
 OPEN = re.compile(r"[<>{}|,]|NNNN|\bNAME\b|[A-Z]{4,}\b(?!\.md)")
 
@@ -72,14 +76,14 @@ def is_there(name):
     return any((ROOT / (name + end)).exists() for end in ("", ".c", ".h", ".py", ".sh"))
 
 
-def link_breach(page, target):
-    """Why a link of page leads nowhere, or None."""
+def link_breach(page, target, root=ROOT):
+    """Why a link of page, which lies under root, leads nowhere, or None."""
     if re.match(r"[a-z]+:", target):
         return None
     name, _, part = target.partition("#")
-    path = (ROOT / page.parent / name).resolve() if name else ROOT / page
-    if not path.exists() or ROOT not in (path, *path.parents):
-        return f"the link {target} leads to nothing in the repository"
+    path = (root / page.parent / name).resolve() if name else root / page
+    if not path.exists() or root not in (path, *path.parents):
+        return f"the link {target} leads to nothing in {'the repository' if root == ROOT else root}"
     if part and path.suffix == ".md" and part not in anchors(path):
         return f"the link {target} leads to no heading of its page"
     return None
@@ -152,8 +156,34 @@ def breaches(page):
                 yield number, f"{source[0]} is not in the repository"
 
 
+def in_the_sources(page, target, without):
+    """Whether a link leads to what packages are made without."""
+    place = os.path.normpath(page.parent / target.partition("#")[0])
+    return f"{place}/".startswith(without) and (ROOT / place).exists()
+
+
+def check_installed(folder, without):
+    """How many links of the Markdown files in a folder lead nowhere; they stand as they do in the repository."""
+    bad = 0
+    for path in sorted(folder.rglob("*.md")):
+        page = path.relative_to(folder)
+        for target in LINK.findall(path.read_text(encoding="utf-8")):
+            said = link_breach(page, target, folder)
+            if said and not in_the_sources(page, target, without):
+                print(f"{page}: {said}")
+                bad += 1
+    return bad
+
+
 def main():
-    words_of(__doc__).parse_args()
+    words = words_of(__doc__)
+    words.add_argument("--installed", type=pathlib.Path, metavar="FOLDER",
+                       help="the documents of a package instead of those of the repository: their links")
+    words.add_argument("--without", metavar="FOLDER/", action="append", default=[],
+                       help="what this package leaves to the sources beside the folders that all leave to them")
+    options = words.parse_args()
+    if options.installed:
+        return 1 if check_installed(options.installed.resolve(), (*SOURCES, *options.without)) else 0
     bad = 0
     for page in own_files():
         # Tests name files that they plant, or that must be missing.

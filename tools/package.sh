@@ -6,6 +6,8 @@
 # Both carry the page that plays a run in a browser if npm is here to build it or it was built before (make viewer).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+# What others unpack is theirs to read.
+umask 022
 jobs=${JOBS:-2}
 version=$(sed -n 's/.*FRAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)/\2/p' include/fram/version.h | paste -sd.)
 packages=build/packages
@@ -56,6 +58,7 @@ END
     echo "package: building in $tree (log: build/deb/build.log)"
     (cd "$tree" && DEB_BUILD_OPTIONS="noautodbgsym parallel=$jobs" dpkg-buildpackage -us -uc -b) \
         >build/deb/build.log 2>&1 || { tail -n 30 build/deb/build.log >&2; exit 1; }
+    tools/check_documents.py --installed "$tree/debian/fram/usr/share/doc/fram"
     rm -f $packages/*.deb
     mv build/deb/*.deb $packages
     lintian --allow-root --fail-on warning $packages/*.deb
@@ -87,6 +90,7 @@ archive() {
     cp tests/data/cracked_panels.gdf tests/data/floes.geojson "$folder/tests/data"
     tools/carried.py "$folder/libexec/fram" "$folder"
     carry_font "$folder"
+    tools/check_documents.py --installed "$folder" --without docs/
     tar -c -z -C build/archive_tree --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" \
         -f "$packages/$name.tar.gz" "$name"
     ls -s --human-readable -1 "$packages/$name.tar.gz"

@@ -121,6 +121,21 @@ if cmake -S "$scratch/parent" -B "$scratch/parent/build" >"$scratch/cmake.log" 2
 fi
 grep -qF 'find_package(Fram)' "$scratch/cmake.log" || fail "it is not told what to do: $(cat "$scratch/cmake.log")"
 
+echo "folders of others, whatever the umask"
+private=$scratch/private/prefix
+line=$(cd "$FRAM_SOURCE" && make -n install PREFIX="$private" | grep -e '--install build/release')
+line=${line/--install build\/release/--install \"$FRAM_BUILD\"}
+(umask 077 && cd "$FRAM_SOURCE" && sh -c "$line" >"$scratch/install.log")
+closed=$(find "$private" -type d ! -perm -755)
+[ -z "$closed" ] || fail "nobody else may look into: $closed"
+
+echo "removed again, as docs/packages.md says"
+line=$(sed -n 's/^    \(xargs .*install_manifest.*\)/\1/p' "$FRAM_SOURCE/docs/packages.md")
+[ -n "$line" ] || fail "docs/packages.md does not say how"
+sh -c "${line/build\/release/\"$FRAM_BUILD\"}"
+left=$(find "$private" ! -type d)
+[ -z "$left" ] || fail "left behind: $left"
+
 echo "DESTDIR"
 DESTDIR=$scratch/stage cmake --install "$FRAM_BUILD" --prefix /usr >"$scratch/install.log"
 [ -x "$scratch/stage/usr/bin/fram" ] || [ -z "${FRAM:-}" ] || fail "no command in the staged package"

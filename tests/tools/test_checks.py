@@ -184,6 +184,29 @@ class House(unittest.TestCase):
             self.assertIn(line, said)
         self.assertEqual(said.count("scene.js"), 1)
 
+    def test_links_of_what_is_installed(self):
+        self.plant("src/ice/floe.c", "int a;\n")
+        self.plant("docs/theory.md", "# Ice\n")
+        self.plant("bench/results/users.md", "# Users\n")
+        self.plant("package/README.md", "[a](scenes/demo.yaml) [b](docs/theory.md#ice) [c](https://a.example/)\n")
+        self.plant("package/docs/theory.md", "# Ice\n[a](../src/ice/floe.c)\n[b](../README.md)\n")
+        self.plant("package/examples/scenes/demo.yaml", "run: {}\n")
+
+        def said(*words):
+            done = subprocess.run([sys.executable, self.root / "tools/check_documents.py", "--installed",
+                                   self.root / "package", *words], capture_output=True, text=True)
+            self.assertEqual((done.stderr, done.returncode), ("", 1 if done.stdout else 0))
+            return done.stdout.replace(f" in {self.root.resolve()}/package", "")
+
+        self.assertEqual(said(), "README.md: the link scenes/demo.yaml leads to nothing\n")
+        (self.root / "package/scenes").symlink_to("examples/scenes")
+        self.assertEqual(said(), "")
+        self.plant("package/docs/theory.md", "# Water\n[a](../src/ice/gone.c)\n[b](../bench/results/users.md)\n")
+        self.assertEqual(said(), "README.md: the link docs/theory.md#ice leads to no heading of its page\n"
+                         "docs/theory.md: the link ../src/ice/gone.c leads to nothing\n"
+                         "docs/theory.md: the link ../bench/results/users.md leads to nothing\n")
+        self.assertEqual(said("--without", "bench/").count("\n"), 2)
+
     def test_decisions_that_were_replaced_say_so(self):
         old = "docs/decisions/0001-old.md"
         self.plant("docs/decisions/0002-new.md", "# New\n\n**Replaces** [0001](0001-old.md) in\nwhat it does.\n")
