@@ -3,6 +3,7 @@
 #include "model/world_invariants.h"
 #include "vessel/allocation.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -386,6 +387,13 @@ static const struct finite_rule {
     {"broad", "stay"},
     {"broad", "position"},
 };
+/* Those that are finite, however large. */
+static const struct finite_rule mass_rules[] = {
+    {"body", "mass"},
+    {"body", "inertia"},
+    {"body", "added_mass"},
+    {"body", "added_inertia"},
+};
 
 static fram_status refuse_real(const char *table, int32_t row, const char *column, double found, fram_error *error)
 {
@@ -394,7 +402,8 @@ static fram_status refuse_real(const char *table, int32_t row, const char *colum
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "the state cannot be: found %g", found);
 }
 
-static fram_status check_finite(const world_table *tables, const struct finite_rule *rule, fram_error *error)
+static fram_status check_finite(const world_table *tables, const struct finite_rule *rule, double most,
+                                fram_error *error)
 {
     const world_table *t = find_table(tables, rule->table);
     const field_info *field = t ? find_field(t->info, rule->column) : NULL;
@@ -404,7 +413,7 @@ static fram_status check_finite(const world_table *tables, const struct finite_r
     for (int32_t row = 0; row < rows_of(t); row++) {
         for (int k = 0; k < field->components; k++) {
             double value = values[(int64_t)row * field->components + k];
-            if (!(fabs(value) <= FAR))
+            if (!(fabs(value) <= most))
                 return refuse_real(rule->table, row, rule->column, value, error);
         }
     }
@@ -475,7 +484,9 @@ fram_status world_check_numbers(const model *m, const world *w, fram_error *erro
     world_tables(w, tables);
     fram_status status = FRAM_OK;
     for (size_t i = 0; i < sizeof finite_rules / sizeof *finite_rules && status == FRAM_OK; i++)
-        status = check_finite(tables, &finite_rules[i], error);
+        status = check_finite(tables, &finite_rules[i], FAR, error);
+    for (size_t i = 0; i < sizeof mass_rules / sizeof *mass_rules && status == FRAM_OK; i++)
+        status = check_finite(tables, &mass_rules[i], DBL_MAX, error);
     if (status == FRAM_OK)
         status = check_ice_rows(w, error);
     return status == FRAM_OK ? check_invariants(m, w, error) : status;

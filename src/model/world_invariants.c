@@ -27,9 +27,8 @@ static bool body_broken(const world *w, int32_t i, char text[INVARIANT_TEXT])
     if (b->motion[i] == MOTION_DYNAMIC && !(b->mass[i] > 0))
         return broken(text, "body", i, "it moves freely without mass", b->mass[i]);
     sym3 j = b->inertia[i];
-    double least = fmin(j.xx, fmin(j.yy, j.zz));
-    if (b->motion[i] == MOTION_DYNAMIC && !(least > 0))
-        return broken(text, "body", i, "it turns freely without inertia", least);
+    if (b->motion[i] == MOTION_DYNAMIC && !(j.xx > 0 && j.yy > 0 && j.zz > 0))
+        return broken(text, "body", i, "it turns freely without inertia", fmin(j.xx, fmin(j.yy, j.zz)));
     int32_t shape = b->shape[i];
     if (shape >= 0 && (shape >= w->shapes.shapes.count || w->shapes.shapes.kind[shape] == SHAPE_NONE))
         return broken(text, "body", i, "its shape is not there", shape);

@@ -1,5 +1,5 @@
-/* What holds of a world whatever happens in it: checked in each step of builds with asserts.  Unlike world_check.h it
-   looks at numbers, and tells of faults of Fram, not of a file. */
+/* What holds of a world whatever happens in it, as far as numbers tell: checked in each step of builds with asserts,
+   where a breach is a fault of Fram, and of states that are read, by world_check_numbers, where it is one of the file. */
 #ifndef MODEL_WORLD_INVARIANTS_H
 #define MODEL_WORLD_INVARIANTS_H
 

@@ -346,9 +346,9 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
     if (status != FRAM_OK || found)
         return status;
     return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
-                     "there is no checkpoint in this folder to resume from: start the run again over it (fram run "
-                     "--force, or force of a program), and with a smaller output.checkpoint_interval to have one "
-                     "sooner");
+                     "there is no checkpoint in this folder to resume from: run its scenario again (that of the "
+                     "folder into another one), with output.checkpoint_interval over 0 and under the time that it "
+                     "reached to have one sooner");
 }
 
 fram_status checkpoint_read_before(context *ctx, const char *folder, double time, const model *m, world *w,

@@ -198,7 +198,7 @@ def main():
             name.unlink()
         code, told = resume(run)
         assert code == 2 and "no checkpoint" in told, (code, told)
-        assert "--force" in told and "output.checkpoint_interval" in told, told
+        assert "run its scenario again" in told and "output.checkpoint_interval" in told, told
         # One of another version of Fram is told as that, and nothing older is taken in its place.
         run = folder / "version"
         shutil.copytree(folder / "run", run)

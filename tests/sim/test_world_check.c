@@ -177,8 +177,16 @@ START_TEST(what_no_body_can_be_is_found)
     snprintf(key, sizeof key, "body[%d]", (int)floe);
     FOUND(&k, bodies.orientation[floe].w, bits(nan_value), key);
     FOUND(&k, bodies.orientation[floe].w, bits(k.w.bodies.orientation[floe].w + 1e-8), key); /* the solver asserts it */
-    FOUND(&k, bodies.mass[floe], bits(nan_value), key);
+    FOUND(&k, bodies.mass[floe], bits(0), key);
     FOUND(&k, bodies.inertia[floe].zz, bits(-3.8e-280), key);
+    snprintf(key, sizeof key, "body[%d].inertia", (int)floe);
+    FOUND(&k, bodies.inertia[floe].xx, bits(nan_value), key);
+    FOUND(&k, bodies.inertia[floe].xy, bits(nan_value), key);
+    snprintf(key, sizeof key, "body[%d].mass", (int)floe);
+    FOUND(&k, bodies.mass[floe], bits(infinite), key);
+    FOUND(&k, bodies.mass[floe], bits(nan_value), key);
+    snprintf(key, sizeof key, "body[%d].added_mass", (int)floe);
+    FOUND(&k, bodies.added_mass[floe].x, bits(nan_value), key);
     FOUND(&k, floes.material[0].density, bits(-2.4e-185), "floe[0].material");
     FOUND(&k, floes.material[0].poisson_ratio, bits(0.5), "floe[0].material");
     FOUND(&k, floes.material[0].crushing_strength, bits(-1.4e62), "floe[0].material");
