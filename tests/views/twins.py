@@ -21,11 +21,20 @@ def check_units(legend):
     ends = [float(re.search(rf"{name} (\S+?)\)?\n", unit)[1]) for name in ("TOLD_PLAIN", "newton >=")]
     page = re.findall(r"kilonewton < (\S+)", legend[legend.index("function forceUnit"):].split("\n}")[0])
     assert [1000 * float(end) for end in page] == ends == [1e4, 1e7], (page, ends)
-    wanted = {0: "0.00 N", 0.0335: "33.5 N", 0.9996: "1000 N", 9.641: "9641 N", 9.996: "10.0 kN", 999.6: "1000 kN",
+    wanted = {0: "0 kN", -2.9: "-2900 N", 0.0335: "33.5 N", 0.9996: "1000 N",
+              9.641: "9641 N", 9.996: "10.0 kN", 999.6: "1000 kN",
               2500: "2500 kN", 9994: "9994 kN", 9996: "10.0 MN", 26134: "26.1 MN"}
     if shutil.which("node"):
         script = (f"import {{ forceText }} from '{SOURCE}/viewer/src/legend.js';"
                   f"console.log({list(wanted)}.map(forceText).join());")
+        told = subprocess.run(["node", "--input-type=module", "-e", script], check=True, capture_output=True,
+                              text=True).stdout.strip()
+        assert told == ",".join(wanted.values()), told
+        # Beside the largest of them: in its unit, but for what would have one digit left.
+        wanted = {(3, 26100): "3000 N", (-0.29, 37000): "-290 N", (1500, 26100): "1.5 MN", (0, 26100): "0.0 MN",
+                  (0, 0): "0 kN", (5, 9996): "5000 N", (0.005, 9): "5 N", (9999, 9999): "10.0 MN"}
+        script = (f"import {{ forceTextBeside }} from '{SOURCE}/viewer/src/legend.js';"
+                  f"console.log({[list(pair) for pair in wanted]}.map((pair) => forceTextBeside(...pair)).join());")
         told = subprocess.run(["node", "--input-type=module", "-e", script], check=True, capture_output=True,
                               text=True).stdout.strip()
         assert told == ",".join(wanted.values()), told

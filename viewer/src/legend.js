@@ -16,15 +16,30 @@ export const CHAIN = '#111111', BEHIND = '#7a7f3a';
 export const GONE = '#d62728';
 
 /** The unit in which a force is told, and how many of it a kilonewton has: the rule of src/base/load_unit.c, which
- *  texts and pictures of the library follow; no second one stands in these files. */
-export function forceUnit(kilonewton) {
+ *  texts and pictures of the library follow; no second one stands in these files.  What is rounded up to the next unit
+ *  has that, and nothing is in kN. */
+export function forceUnit(force) {
+    const kilonewton = Number(Math.abs(force).toPrecision(3));
+    if (!(kilonewton > 0)) return ['kN', 1];
     return kilonewton < 10 ? ['N', 1000] : kilonewton < 1e4 ? ['kN', 1] : ['MN', 0.001];
 }
 
-/** A number with its unit, to three digits and whole from 1000 on; what is rounded up to the next unit has that. */
+/** A number with its unit, to three digits and whole from 1000 on. */
 export function forceText(kilonewton) {
-    const [name, per] = forceUnit(Number(kilonewton.toPrecision(3))), value = kilonewton * per;
-    return `${value < 999.5 ? value.toPrecision(3) : value.toFixed(0)} ${name}`;
+    const [name, per] = forceUnit(kilonewton), value = kilonewton * per;
+    if (value === 0) return `0 ${name}`;
+    return `${Math.abs(value) < 999.5 ? value.toPrecision(3) : value.toFixed(0)} ${name}`;
+}
+
+/** One of several forces [kN] that are told by turns: in the unit of the largest of them, with as many digits as that
+ *  asks for to have three, so that they can be compared; of those that would have but one digit left so, in its own.
+ *  Never "-0". */
+export function forceTextBeside(kilonewton, most) {
+    const [name, per] = forceUnit(most), size = Math.abs(kilonewton * per);
+    const places = most > 0 ? 2 - Math.floor(Math.log10(Number((most * per).toPrecision(3)))) : 0;
+    const digits = Math.min(20, Math.max(0, places));
+    if (size > 0 && size < 10 ** (1 - digits) && forceUnit(kilonewton)[0] !== name) return forceText(kilonewton);
+    return `${(Number((kilonewton * per).toFixed(digits)) || 0).toFixed(digits)} ${name}`;
 }
 
 /** As many digits as it needs, two after the point at most. */

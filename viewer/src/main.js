@@ -3,7 +3,7 @@ import { Camera, goesAlong } from './camera.js';
 import { Colours, RAMP, ramp } from './colours.js';
 import { Film } from './film.js';
 import { History } from './history.js';
-import { forceUnit, Legend, secondsText } from './legend.js';
+import { forceTextBeside, Legend, secondsText } from './legend.js';
 import { follow } from './live.js';
 import { Loads } from './loads.js';
 import { $, tell } from './page.js';
@@ -421,14 +421,8 @@ class Player {
         return true;
     }
 
-    /** In the unit of the largest load at the frames, kilonewtons without any, with as many digits as that asks for to
-     *  have three; never "-0". */
-    loadText(newton) {
-        const { most } = this.timeline, [name, per] = most > 0 ? forceUnit(most) : ['kN', 1];
-        const places = most > 0 ? 2 - Math.floor(Math.log10(most * per)) : 0;
-        const digits = Math.min(20, Math.max(0, places));
-        return `${(Number((newton / 1000 * per).toFixed(digits)) || 0).toFixed(digits)} ${name}`;
-    }
+    /** Beside the largest load at the frames. */
+    loadText(newton) { return forceTextBeside(newton / 1000, this.timeline.most); }
 
     tell(state) {
         const { floes, tiles } = this.poses, count = `${floes} ${floes === 1 ? 'floe' : 'floes'}`;
