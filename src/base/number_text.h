@@ -43,7 +43,7 @@ typedef struct plain_text {
 } plain_text;
 plain_text plain_text_of(double value, int digits);
 
-/* A duration for people, to a hundredth of it or better: "0.123 s", "85.7 s", "2 min 05 s", "3 h", "3 h 12 min", from
+/* A duration for people, to about a hundredth of it: "0.123 s", "85.7 s", "2 min 05 s", "3 h", "3 h 12 min", from
    two days on "4 days 07 h"; what is no number as by %g, in s. */
 typedef struct duration_text {
     char text[2 * NUMBER_TEXT_SIZE];

@@ -68,8 +68,9 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
                       int argc, char **argv, const char **positional, int least, int most);
 
 /* A decimal number up to one of the characters `ends` or the text's end, where *at is left: the numbers of all options,
-   by the rule of scenarios and tables (fram_number_read).  false: no such number. */
-bool take_number(const char **at, const char *ends, double *out);
+   by the rule of scenarios (fram_number_read); those of lists, which have such characters between them, may have blanks
+   about them.  false: no such number, and `error` (NULL: not wanted) says what is wrong. */
+bool take_number(const char **at, const char *ends, double *out, fram_error *error);
 
 /* Whether --json is among the words, before a -- that ends the options. */
 bool words_ask_for_json(int count, char **words);
@@ -165,8 +166,8 @@ int session_open_reading(const common_options *common, work_view *view, fram_con
 int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context);
 /* Of no beginning in particular, never turned back [s]. */
 double wall_clock(void);
-/* "3 min 20 s" to standard error, "not known yet" for a NaN. */
 enum { DURATION_ROOM = 64 }; /* of fram_duration_text */
+/* An estimate in whole seconds to standard error, "3 min 20 s", "less than 1 s", "not known yet" for a NaN. */
 void print_duration(double seconds);
 /* The s of a plural: 1 run, 2 runs. */
 const char *plural(int64_t count);

@@ -41,7 +41,7 @@ static bool read_window(const char *text, double lo[2], double hi[2])
     double value[4];
     const char *at = text;
     for (int k = 0; k < 4; k++) {
-        if (!take_number(&at, ",", &value[k]) || *at != (k < 3 ? ',' : '\0'))
+        if (!take_number(&at, ",", &value[k], NULL) || *at != (k < 3 ? ',' : '\0'))
             return false;
         at++;
     }

@@ -27,7 +27,7 @@ static bool read_item(const char **text, line_list *list)
     double value[3];
     int count = 0;
     do {
-        if (count == 3 || !take_number(text, ":,", &value[count++]))
+        if (count == 3 || !take_number(text, ":,", &value[count++], NULL))
             return false;
     } while (*(*text) == ':' && (*text)++);
     if (count == 2)

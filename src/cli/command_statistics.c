@@ -34,8 +34,8 @@ static int take_numbers(const common_options *common, const char *option, const 
             *count = 0;
         for (const char *c = list->value[i];; c++) {
             double value;
-            if (!take_number(&c, ",", &value))
-                return answer_usage(common, option, "expected numbers, separated by commas alone: 0.5,1e3");
+            if (!take_number(&c, ",", &value, NULL))
+                return answer_usage(common, option, "expected numbers, separated by commas: 0.5,1e3");
             if (*count == room)
                 return answer_usage(common, option, "has too many numbers");
             out[(*count)++] = value;

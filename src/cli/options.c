@@ -63,21 +63,19 @@ static void print_command_help(const command_row *command, const option_row *row
     print_options(common, COMMON_ROWS, rows, row_count);
 }
 
-bool take_number(const char **at, const char *ends, double *out)
+bool take_number(const char **at, const char *ends, double *out, fram_error *error)
 {
-    enum { LONGEST = 400 }; /* that is read */
-    char text[LONGEST + 1];
-    fram_error error = {0};
-    size_t length = strcspn(*at, ends);
-    if (length > LONGEST)
-        return false;
-    memcpy(text, *at, length);
-    text[length] = '\0';
-    *at += length;
-    return fram_number_read(text, out, &error) == FRAM_OK;
+    enum { LONGEST = 400 }; /* that is read; what is longer is none */
+    static const char blanks[] = " \t";
+    char text[LONGEST + 2];
+    const char *first = *at + (*ends ? strspn(*at, blanks) : 0);
+    size_t length = strcspn(first, ends);
+    *at = first + length;
+    while (*ends && length > 0 && strchr(blanks, first[length - 1]))
+        length--;
+    snprintf(text, sizeof text, "%.*s", (int)(length > LONGEST ? LONGEST + 1 : length), first);
+    return fram_number_read(text, out, error) == FRAM_OK;
 }
-
-static bool store_real(const char *text, double *out) { return take_number(&text, "", out); }
 
 static bool store_integer(const char *text, int *out)
 {
@@ -90,24 +88,30 @@ static bool store_integer(const char *text, int *out)
     return true;
 }
 
-/* NULL when stored, otherwise what is wrong. */
-static const char *store_value(const option_row *row, const char *text)
+static const char *store_real(const char *text, double *out, fram_error *error)
 {
+    return take_number(&text, "", out, error) ? NULL : error->message;
+}
+
+/* NULL when stored, otherwise what is wrong: a text of its own or that of the error. */
+static const char *store_value(const option_row *row, const char *text, fram_error *error)
+{
+    const char *wrong;
     switch (row->kind) {
     case OPTION_TEXT:
         *(const char **)row->value = text;
         return NULL;
     case OPTION_REAL:
-        return store_real(text, row->value) ? NULL : "needs a number, as 0.5 or 1e3";
+        return store_real(text, row->value, error);
     case OPTION_SIZE:
-        return store_real(text, row->value) && *(double *)row->value > 0 ? NULL
-                                                                         : "needs a number above zero, as 0.5 or 1e3";
+        wrong = store_real(text, row->value, error);
+        return wrong || *(double *)row->value > 0 ? wrong : "needs a number above zero, as 0.5 or 1e3";
     case OPTION_INTEGER:
-        return store_integer(text, row->value) ? NULL : "needs a whole number, of digits alone";
+        return store_integer(text, row->value) ? NULL : "needs a whole number, as 1000, not 1e3";
     case OPTION_COUNT:
         return store_integer(text, row->value) && *(int *)row->value > 0
                    ? NULL
-                   : "needs a whole number above zero, of digits alone";
+                   : "needs a whole number above zero, as 1000, not 1e3";
     case OPTION_LIST: {
         option_list *list = row->value;
         if (list->count == OPTION_LIST_ROOM)
@@ -165,7 +169,8 @@ static int read_option(word_list *list)
     if (!equals && find_option(list, text, strlen(text)))
         return answer_usage(list->common, row->name,
                             "needs a value, found an option; a file of that name is ./--name, a value --option=--name");
-    const char *wrong = store_value(row, text);
+    fram_error error = {0};
+    const char *wrong = store_value(row, text, &error);
     return wrong ? answer_usage(list->common, row->name, wrong) : -1;
 }
 

@@ -148,8 +148,9 @@ const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
 void print_duration(double seconds)
 {
     char text[DURATION_ROOM];
-    fram_duration_text(seconds, text, sizeof text);
-    fputs(isnan(seconds) ? "not known yet" : text, stderr);
+    double whole = floor(seconds + 0.5);
+    fram_duration_text(whole, text, sizeof text);
+    fputs(isnan(seconds) ? "not known yet" : seconds > 0 && whole < 1 ? "less than 1 s" : text, stderr);
 }
 
 void progress_show(void *user, const fram_progress *p)

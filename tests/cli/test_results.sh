@@ -260,29 +260,40 @@ refuse_zero --unbroken-as capability scene.yaml -o none
 refuse_zero --cell field --cover run
 refuse_zero --separation extremes run
 refuse_zero --block extremes run
-# Numbers of options are those of scenarios and tables: decimal, finite, and nothing before or behind them.
+# Numbers of options are those of scenarios: decimal, finite, and nothing before or behind them.
 for text in 0x1 0x1p3 inf -infinity nan "1 " " 1" 1s 1e999; do
-    for words in "run scene.yaml -o none --until" "field run --cover" \
-        "capability scene.yaml -o none --window"; do
-        option=${words##* }
-        [ "$option" != --cover ] || option=--cell
+    for words in "run scene.yaml -o none --until" "field run --cell" "capability scene.yaml -o none --window"; do
         # shellcheck disable=SC2086
-        expect 2 "$FRAM" ${words% *} "$option" "$text"
-        says "$option: needs a number" err
-        says ", as 0.5 or 1e3" err
+        expect 2 "$FRAM" $words "$text"
+        says "${words##* }: expected a decimal number, as 0.5 or 1e3, found " err
+        says "\"$text\"" err
     done
+    [[ $text != *" "* ]] || continue
     expect 2 "$FRAM" field run --window "0,0,$text,5"
     says "--window: expected X0,Y0,X1,Y1" err
     expect 2 "$FRAM" extremes run --level "0.5,$text"
-    says "--level: expected numbers, separated by commas alone" err
+    says "--level: expected numbers, separated by commas" err
     expect 2 "$FRAM" pressure run -o none --frames "$text:2:20"
     says "--frames: expected coordinates like" err
+done
+expect 2 "$FRAM" run scene.yaml -o none --until 1e999
+says "--until: expected a decimal number, as 0.5 or 1e3, found one that is too large, \"1e999\"" err
+# Blanks about the commas and colons of a list are none of its numbers.
+printf '{"type": "Polygon", "coordinates": [[[1, 1], [4, 1], [4, 4], [1, 4], [1, 1]]]}' >square.geojson
+expect 0 "$FRAM" field square.geojson --window "0, 0 ,	10, 10 " --json
+says '"concentration":0.09' out
+for text in "0, 0, 1 0, 10" "0, 0, 10," "0, 0,, 10" "0, 0, 10, 1 0"; do
+    expect 2 "$FRAM" field square.geojson --window "$text"
 done
 for text in 0x1 "1 " " 1" 1.0 1e3 ""; do
     expect 2 "$FRAM" export run --vtk --every "$text"
     says "--every: needs a" err
 done
 [ ! -e none ] || fail "a refused number leaves a folder"
+# What is left of a run is an estimate: of whole seconds.
+expect 0 "$FRAM" run scene.yaml -o estimated --set run.time_step=0.004
+says "  left " err
+grep -E 'left [0-9.]*[.e]' err && fail "hundredths of an estimate"
 # What a command would not look at is refused, not passed over.
 expect 2 "$FRAM" bench scene.yaml --iterations 5
 says "--iterations: is for scenes" err
