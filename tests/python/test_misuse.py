@@ -464,6 +464,8 @@ class Runs(unittest.TestCase):
         run = self.broken("station.json", b"{")
         self.assert_refused(lambda: run.station, "station.json", 1)
         self.assert_refused(lambda: run.events, "station.json", 1)
+        events = b'{"events": [{"kind": "b", "time_s": null}, {"kind": "a", "time_s": 1}]}'
+        self.assertEqual([event["kind"] for event in self.broken("station.json", events).events], ["a", "b"])
 
     def test_series(self):
         for content, line, key in ((b"", 1, ""), (b"time[s],b[m]\n1,x\n2,3\n", 2, ""),

@@ -6,6 +6,7 @@ import array
 import csv
 import html
 import json
+import math
 import os
 import pathlib
 import tempfile
@@ -237,7 +238,8 @@ class Run:
                  for name, station in stations.items() for event in station.get("events", [])]
         # Vessels that nothing keeps on station have theirs in run.json alone.
         found += [event for event in self.info.get("events", []) if event.get("vessel", "") not in stations]
-        return sorted(found, key=lambda event: event.get("time_s", 0))
+        # What befell at no known time comes last.
+        return sorted(found, key=lambda event: math.inf if event.get("time_s") is None else event["time_s"])
 
     def floes(self, time: float) -> list[Floe]:
         """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation (what breaks
