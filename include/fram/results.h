@@ -1,11 +1,10 @@
 /* Results of a run in the formats of other programs, as pictures, pages and video.  They read the run's folder, of a
    run that ended or goes on, do not change what it is made of, and write files that are whole or not there.  Two
-   compute as well: fram_why with `rerun` a second or so of the run and fram_pressure the run from a checkpoint on, both
-   from its scenario and the files that this names; fram_capability is of a scenario and reads runs only for their ice.
-   Where `output` may be NULL the result goes into the run's folder, and fram_result.path says where, but for
-   fram_compare, which writes no page then.  A file that is there is replaced; one that the run is made of (series.csv,
-   record.fram,
-   ...) is FRAM_ERROR_USAGE. */
+   compute as well, from the run's scenario and the files that this names: fram_why with `rerun` the run from the
+   nearest checkpoint, or its start, up to the moment, and a short way to it twice more; fram_pressure the run from a
+   checkpoint on.  fram_capability is of a scenario and reads runs only for their ice.  Where `output` may be NULL the
+   result goes into the run's folder, and fram_result.path says where, but for fram_compare, which writes no page then.
+   A file that is there is replaced; one that the run is made of (series.csv, record.fram, ...) is FRAM_ERROR_USAGE. */
 #ifndef FRAM_RESULTS_H
 #define FRAM_RESULTS_H
 

@@ -215,7 +215,7 @@ static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
         else if (strcmp(key, "time_s") == 0)
             status = json_walk_number_or_null(w, &e->time, error);
         else if (strcmp(key, "steps") == 0)
-            status = json_walk_number_or_null(w, &e->steps, error);
+            status = json_walk_number(w, &e->steps, error);
         else if (strcmp(key, "good_until_s") == 0)
             status = json_walk_number_or_null(w, &e->good_until, error);
         else
