@@ -14,14 +14,15 @@ extern "C" {
    d, or a or y (a year of 365.25 days): "10800", "90min", "3h".  FRAM_ERROR_INPUT, with the key "text", for any other;
    seconds is then as it was. */
 FRAM_API fram_status fram_time_read(const char *text, double *seconds, fram_error *error);
-/* A decimal number that fills the text, as scenarios and tables take it: "1e3", "-0.5", not "0x10", "inf", "nan", "1 ".
+/* A decimal number that fills the text, as scenarios take it: "1e3", "-0.5", not "0x10", "inf", "nan", "1 ".
    FRAM_ERROR_INPUT, with the key "text", for any other; value is then as it was. */
 FRAM_API fram_status fram_number_read(const char *text, double *value, fram_error *error);
 /* As the library's pages tell them, cut to `size` bytes with the NUL; without a text or room nothing is done.
    A duration [s]: "0.123 s", "85.7 s", "2 min 05 s", "3 h 12 min", "4 days 07 h". */
 FRAM_API void fram_duration_text(double seconds, char *text, size_t size);
-/* A load [N] in N, kN or MN by its size, and half its interval (NaN: none): "9.64 N", "739 +- 169 kN", "26.1 MN". */
-FRAM_API void fram_load_text(double newton, double half, char *text, size_t size);
+/* A load [N] in N, kN or MN by its size, and half its interval (NaN: none): "9.64 N", "739 +- 169 kN", "26.1 MN".
+   largest: of the loads of its column, whose unit it is to have: "0.003 MN"; NaN: it stands alone. */
+FRAM_API void fram_load_text(double newton, double half, double largest, char *text, size_t size);
 
 enum { FRAM_SERIES_FILES = 4096 }; /* the most files of a series */
 

@@ -57,12 +57,12 @@ void fram_duration_text(double seconds, char *text, size_t size)
         snprintf(text, size, "%s", duration_text_of(seconds).text);
 }
 
-enum { LOAD_DIGITS = 4 };
+enum { LOAD_TOLD = 4 }; /* digits */
 
-void fram_load_text(double newton, double half, char *text, size_t size)
+void fram_load_text(double newton, double half, double largest, char *text, size_t size)
 {
     if (text && size > 0)
-        snprintf(text, size, "%s", load_range_text_of(newton, half, LOAD_DIGITS).text);
+        snprintf(text, size, "%s", load_range_text_of(newton, half, largest, LOAD_TOLD).text);
 }
 
 /* ---- the series ---- */

@@ -7,7 +7,8 @@ typedef struct load_unit {
     double factor; /* of the number in N, W or J */
 } load_unit;
 
-/* N, kN or MN: the rule of every load that is told, by its size. */
+/* N, kN or MN: the rule of every load that is told, by its size, rounded as it is told to four digits; nothing is in
+   kN.  Columns, tables and axes are in that of their largest. */
 load_unit load_unit_for(double newton);
 
 /* A load with its unit, "9.64 N", "-739 kN", "26.1 MN", to so many significant digits and without an exponent
@@ -17,14 +18,16 @@ typedef struct load_text {
     char text[LOAD_TEXT_SIZE];
 } load_text;
 load_text load_text_of(double newton, int digits);
-/* The same of a load and half its interval, in one unit: "739 +- 169 kN"; half: NaN without an interval. */
+/* The same of a load and half its interval, in one unit: "739 +- 169 kN"; half: NaN without an interval.  largest: of
+   the loads of its column, whose unit it has ("0.003 MN"); NaN: it has that of the larger one of its own. */
 typedef struct load_range_text {
     char text[2 * LOAD_TEXT_SIZE];
 } load_range_text;
-load_range_text load_range_text_of(double newton, double half, int digits);
+load_range_text load_range_text_of(double newton, double half, double largest, int digits);
 
-/* Of columns and axes that are to keep to one unit at full size, whatever the size: kN, kJ, MW and GJ, and N, J, W and
-   J (or kJ) of what is under 1e4 N, J or W, but for nothing.  An energy in GJ goes with the power that it is of. */
+/* Of columns and axes that are to keep to one unit at full size, whatever the size, as programs read them: kN, kJ, MW
+   and GJ, and N, J, W and J (or kJ) of what is under 1e4 N, J or W, but for nothing.  An energy in GJ goes with the
+   power that it is of. */
 load_unit kilonewtons_or_less(double newton);
 load_unit kilojoules_or_less(double joule);
 load_unit megawatts_or_less(double watt);

@@ -6,6 +6,8 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -115,19 +117,69 @@ static int answer_extent(const common_options *common, const fram_study *study, 
 
 /* ---- fram study list ---- */
 
+/* A row is told when the largest load of all of them is known, whose unit their columns have. */
+typedef struct list_row {
+    fram_study_standing of; /* with copies of its texts */
+    struct list_row *next;
+} list_row;
+
 typedef struct list_view {
-    bool json;
+    bool json, failed_memory;
     json out;
+    list_row *first, **end;
+    double largest; /* [N] */
     int64_t conditions, runs, failed, wanted;
 } list_view;
 
 enum { LOAD_ROOM = 64 };
 /* half: NaN without an interval. */
-static void tell_load(double newton, double half, char out[LOAD_ROOM])
+static void tell_load(double newton, double half, double largest, char out[LOAD_ROOM])
 {
     snprintf(out, LOAD_ROOM, "-");
     if (isfinite(newton))
-        fram_load_text(newton, half, out, LOAD_ROOM);
+        fram_load_text(newton, half, largest, out, LOAD_ROOM);
+}
+
+static void keep_row(list_view *view, const fram_study_standing *c)
+{
+    list_row *row = calloc(1, sizeof *row);
+    char *keys = strdup(c->keys), *id = strdup(c->id);
+    if (!row || !keys || !id) {
+        free(row), free(keys), free(id);
+        view->failed_memory = true;
+        return;
+    }
+    row->of = *c;
+    row->of.keys = keys, row->of.id = id;
+    *view->end = row;
+    view->end = &row->next;
+    view->largest = fmax(view->largest, fmax(fabs(c->load_largest), fabs(c->load_mean)));
+}
+
+static void free_rows(list_view *view)
+{
+    while (view->first) {
+        list_row *row = view->first;
+        view->first = row->next;
+        free((char *)(uintptr_t)row->of.keys);
+        free((char *)(uintptr_t)row->of.id);
+        free(row);
+    }
+}
+
+static void print_rows(const list_view *view)
+{
+    if (view->first)
+        printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load", "largest", "id and keys");
+    for (const list_row *row = view->first; row; row = row->next) {
+        const fram_study_standing *c = &row->of;
+        char runs[48], mean[LOAD_ROOM], largest[LOAD_ROOM];
+        snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
+        tell_load(c->load_mean, c->load_mean_half, view->largest, mean);
+        tell_load(c->load_largest, (double)NAN, view->largest, largest);
+        printf("%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest, c->id,
+               c->keys);
+    }
 }
 
 static void list_condition(void *user, const fram_study_standing *c)
@@ -155,19 +207,13 @@ static void list_condition(void *user, const fram_study_standing *c)
         json_close(&view->out);
         return;
     }
-    if (first)
-        printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load", "largest", "id and keys");
-    char runs[48], mean[LOAD_ROOM], largest[LOAD_ROOM];
-    snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
-    tell_load(c->load_mean, c->load_mean_half, mean);
-    tell_load(c->load_largest, (double)NAN, largest);
-    printf("%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest, c->id,
-           c->keys);
+    keep_row(view, c);
 }
 
 static int answer_list(const common_options *common, fram_context *context, const char *folder)
 {
     list_view view = {.json = common->json};
+    view.end = &view.first;
     fram_error error = {0};
     fram_status status = fram_study_list(context, folder, list_condition, &view, &error);
     if (view.json && view.conditions > 0) {
@@ -178,8 +224,13 @@ static int answer_list(const common_options *common, fram_context *context, cons
         json_integer(&view.out, "failed", view.failed);
         json_end(&view.out);
     }
+    if (status == FRAM_OK && !view.failed_memory)
+        print_rows(&view);
+    free_rows(&view);
     if (status != FRAM_OK)
         return answer_error(common, &error);
+    if (view.failed_memory)
+        return answer_memory(common);
     if (!view.json)
         printf("%lld of %lld runs of %lld condition%s, %lld failed\n", (long long)view.runs, (long long)view.wanted,
                (long long)view.conditions, plural(view.conditions), (long long)view.failed);

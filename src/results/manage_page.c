@@ -167,8 +167,8 @@ static void load_comparison(management_page *p)
     const char *const heads[] = {"after the transient", "this run", "comparison run", "this / comparison"};
     const manage_summary none = {.limit = 0}, *a = p->s, *b = p->os ? p->os : &none;
     html_table_begin(&p->html, heads, p->os ? 4 : 2);
-    const load_unit load = kilonewtons_or_less(fmax(a->load_most, b->load_most)), metres = {"m", 1};
-    const load_unit tension = kilonewtons_or_less(fmax(a->tension_most, b->tension_most));
+    const load_unit load = load_unit_for(fmax(a->load_most, b->load_most)), metres = {"m", 1};
+    const load_unit tension = load_unit_for(fmax(a->tension_most, b->tension_most));
     load_row(p, "mean horizontal ice load", load, a->load_mean, b->load_mean);
     load_row(p, "largest horizontal ice load, averaged", load, a->load_most, b->load_most);
     load_row(p, "largest offset", metres, a->offset_most, b->offset_most);

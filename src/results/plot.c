@@ -130,7 +130,7 @@ enum { PREFIX_ROOM = 4 };
 /* The prefix of the panel's unit; its lines are given values to go with it. */
 static fram_status take_prefix(context *ctx, plot *p, panel *at, char prefix[PREFIX_ROOM], fram_error *error)
 {
-    const load_unit unit = load_unit_for(takes_prefix(at->unit) ? greatest(at) : 0);
+    const load_unit unit = takes_prefix(at->unit) ? load_unit_for(greatest(at)) : (load_unit){"N", 1};
     snprintf(prefix, PREFIX_ROOM, "%.*s", (int)strlen(unit.name) - 1, unit.name); /* the N is one of many units here */
     if (!*prefix)
         return FRAM_OK;

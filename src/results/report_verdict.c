@@ -34,15 +34,6 @@ const char *verdict_whose(const report *r, char out[48])
     return out;
 }
 
-const char *verdict_force(double newton, char out[40])
-{
-    load_unit unit = load_unit_for(fabs(newton));
-    char number[32];
-    report_number(newton * unit.factor, number);
-    snprintf(out, 40, "%s %s", number, unit.name);
-    return out;
-}
-
 /* ---- the run's folder ---- */
 
 static void judge_folder(verdict *v)
@@ -120,11 +111,11 @@ static void judge_hulls(verdict *v)
         at = size > largest ? time[i] : at;
         largest = fmax(largest, size);
     }
-    char name[48], load[40];
+    char name[48];
     if (largest > 0)
         verdict_find(v, VERDICT_NOTE, "It is no part of the ice load: hull_contact_force_* of the series.",
                      "%sanother hull or a wall touched it, first at %.6g s: largest horizontal force %s, at %.6g s.",
-                     verdict_whose(r, name), first, verdict_force(largest, load), at);
+                     verdict_whose(r, name), first, load_text_of(largest, VERDICT_DIGITS).text, at);
 }
 
 /* ---- loads, and how sure they are ---- */
@@ -171,11 +162,9 @@ static fram_status judge_no_load(verdict *v, const char *name, fram_error *error
         return status;
     if (list.count > 0) {
         const peak_detail *most = list.peak[0];
-        char load[40];
-        verdict_force(most->load, load);
         verdict_find(v, VERDICT_CAUTION, "Make output.csv_interval shorter: figures here are those of the series.",
-                     "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name, load,
-                     most->time);
+                     "%sno row of the series has an ice load, but one of %s came between them, at %.10g s.", name,
+                     load_text_of(most->load, VERDICT_DIGITS).text, most->time);
     } else if (r->peaks_unread && run_leaves_out_steps(&r->d))
         verdict_find(v, VERDICT_CAUTION, "Run the scenario again, or read the run with the Fram that made it.",
                      "%sno row of the series has an ice load; whether one came between them is not known, since "
@@ -209,12 +198,11 @@ static fram_status judge_load(verdict *v, fram_error *error)
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     /* Each value stands for a step. */
     double step = (time[first + rows - 1] - time[first]) / (rows - 1), span = step * rows;
-    char name[48], mean[40], most[40], remedy[VERDICT_TEXT_SIZE], needed[32];
+    char name[48], remedy[VERDICT_TEXT_SIZE], needed[32];
     verdict_whose(r, name);
-    verdict_force(s.mean, mean);
-    verdict_force(s.greatest, most);
+    const load_text mean = load_text_of(s.mean, VERDICT_DIGITS), most = load_text_of(s.greatest, VERDICT_DIGITS);
     if (!scenario_names_vessels(&r->d.s))
-        snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean, most);
+        snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean.text, most.text);
     if (!(s.greatest > 0))
         return judge_no_load(v, name, error);
     load_distribution d;
@@ -232,7 +220,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
     snprintf(remedy, sizeof remedy,
              "About %s s after the transient, or as much over several seeds (fram study), would give %s.", needed, aim);
     verdict_find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
-                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %s in %.4g s): %s.", name, mean,
+                 "%smean ice load %s, known within %.0f %% (95 %% confidence, %s in %.4g s): %s.", name, mean.text,
                  fmin(100 * part, 999), worth, span,
                  enough           ? "enough for a mean"
                  : part <= ENOUGH ? "too few values to trust that"
@@ -241,8 +229,8 @@ static fram_status judge_load(verdict *v, fram_error *error)
     verdict_find(
         v, VERDICT_NOTE,
         "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
-        "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, scenario_averaging_window(&r->d.s),
-        r->d.s.run.transient);
+        "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most.text,
+        scenario_averaging_window(&r->d.s), r->d.s.run.transient);
     load_distribution_free(r->ctx, &d);
     return FRAM_OK;
 }

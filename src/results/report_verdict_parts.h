@@ -27,8 +27,8 @@ void verdict_find(verdict *v, verdict_grade grade, const char *remedy, const cha
     __attribute__((format(printf, 4, 5)));
 /* "vessel tanker: " before what is said of one of several. */
 const char *verdict_whose(const report *r, char out[48]);
-/* A force with its unit, "278 kN". */
-const char *verdict_force(double newton, char out[40]);
+/* Of a force that is told: "278 kN". */
+enum { VERDICT_DIGITS = 3 };
 
 /* How the vessel that is reported kept its station. */
 void verdict_station(verdict *v);

@@ -103,24 +103,24 @@ static void use_line(const report *r, double breaking_load, bool gone, lines_use
 static void judge_use(verdict *v, const lines_use *u, bool beyond)
 {
     bool near = u->use > LINE_USE;
-    char name[48], text[40], largest[96] = "", unjudged[96] = "";
+    char name[48], largest[96] = "", unjudged[96] = "";
     verdict_whose(v->r, name);
     if (u->unjudged == u->number) {
         verdict_find(v, VERDICT_NOTE, "",
                      "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
-                     verdict_force(u->largest, text), (int)u->tightest, (int)u->number);
+                     load_text_of(u->largest, VERDICT_DIGITS).text, (int)u->tightest, (int)u->number);
         return;
     }
     if (u->largest > u->tension)
-        snprintf(largest, sizeof largest, "; largest tension %s in line %d", verdict_force(u->largest, text),
-                 (int)u->tightest);
+        snprintf(largest, sizeof largest, "; largest tension %s in line %d",
+                 load_text_of(u->largest, VERDICT_DIGITS).text, (int)u->tightest);
     if (u->unjudged > 0)
         snprintf(unjudged, sizeof unjudged, "; %d line%s without a breaking load %s not judged", (int)u->unjudged,
                  u->unjudged == 1 ? "" : "s", u->unjudged == 1 ? "is" : "are");
     verdict_find(v, near ? VERDICT_CAUTION : VERDICT_GOOD,
                  near ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %." : "",
                  "%smost used line %d: %s, %.0f %% of its breaking load; %d line%s%s%s%s.", name, (int)u->used,
-                 verdict_force(u->tension, text), 100 * u->use, (int)u->number, u->number == 1 ? "" : "s",
+                 load_text_of(u->tension, VERDICT_DIGITS).text, 100 * u->use, (int)u->number, u->number == 1 ? "" : "s",
                  beyond ? ", of which those that parted went beyond" : "", unjudged, largest);
 }
 

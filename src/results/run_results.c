@@ -88,7 +88,7 @@ static load_unit scale_loads(double_array column[CHANNELS])
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < column[k].count; i++)
             most = fmax(most, fabs(column[k].data[i]));
-    load_unit unit = most > 0 ? load_unit_for(most) : kilonewtons_or_less(most);
+    const load_unit unit = load_unit_for(most);
     for (int k = RAW_X; k < CHANNELS; k++)
         for (int32_t i = 0; i < column[k].count; i++)
             column[k].data[i] *= unit.factor;

@@ -50,8 +50,8 @@ static double largest_of(const double_array *values)
 static station_units find_units(const station_data *d)
 {
     double power = largest_of(&d->column[POWER]);
-    return (station_units){kilonewtons_or_less(largest_of(&d->load)),
-                           kilonewtons_or_less(largest_of(&d->column[TENSION])), megawatts_or_less(power), power};
+    return (station_units){load_unit_for(largest_of(&d->load)), load_unit_for(largest_of(&d->column[TENSION])),
+                           megawatts_or_less(power), power};
 }
 
 static void describe_loads(context *ctx, const station_data *d, const station_units *u, text_buffer *b)

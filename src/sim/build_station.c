@@ -86,12 +86,11 @@ static void warn_of_curve(context *ctx, const scenario *s, const vessel_entry *e
 {
     double least = TENSION_LEAST * real_pow(scenario_size(s), 3);
     if (d->kind == LINE_TABLE && d->curve.tension[d->points - 1] < least)
-        log_write(
-            ctx, LOG_WARNING,
-            "%s.mooring.lines[%d].table%s: the tension goes up to %.4g N, less than %.4g: give newtons, not kN or "
-            "tonnes",
-            entry->path, (int)item, entry->keys->mooring.lines.data[item].table_file[0] ? "_file" : "",
-            d->curve.tension[d->points - 1], least);
+        log_write(ctx, LOG_WARNING,
+                  "%s.mooring.lines[%d].table%s: the tension goes up to %s, less than %s: give newtons, not kN or "
+                  "tonnes",
+                  entry->path, (int)item, entry->keys->mooring.lines.data[item].table_file[0] ? "_file" : "",
+                  load_text_of(d->curve.tension[d->points - 1], 4).text, load_text_of(least, 4).text);
 }
 
 /* The k-th line of an item of the list. */

@@ -1,5 +1,6 @@
 #include "sim/rest_tell.h"
 
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "base/transcendental.h"
 #include "vessel/mooring.h"
@@ -94,11 +95,11 @@ static void warn_of_height(const rest_view *v, const char *which, double gm, dou
 {
     double over = -moored * v->mass * v->s->environment.gravity / v->lines.force;
     log_write(v->ctx, LOG_WARNING,
-              "%s.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with %.4g N, "
+              "%s.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with %s, "
               "which takes its %s metacentric height from %.4g m to %.4g m; lower %s.mooring.z, %.4g m, by more than "
               "%s m, or let the lines pull less",
-              v->entry->path, v->lines.force, which, gm, moored, v->entry->path, v->lines.moment.z / v->lines.force,
-              least_text_of(over, 3).text);
+              v->entry->path, load_text_of(v->lines.force, 4).text, which, gm, moored, v->entry->path,
+              v->lines.moment.z / v->lines.force, least_text_of(over, 3).text);
 }
 
 /* false: the vessel capsizes, and has no list or trim. */
@@ -197,9 +198,9 @@ static void warn_of_pull(const rest_view *v, unrest sink, unrest trim, unrest he
                  fabs(heel.both));
     advise_rest(v, leans_by_lines(trim), leans_by_lines(heel), advice, sizeof advice);
     log_write(v->ctx, LOG_WARNING,
-              "%s.mooring.lines: they pull the vessel down with %.4g N, %.3g of what it displaces: it begins by%s%s%s; "
+              "%s.mooring.lines: they pull the vessel down with %s, %.3g of what it displaces: it begins by%s%s%s; "
               "%s",
-              v->entry->path, v->lines.force, sink.lines, sinking, trimming, heeling, advice);
+              v->entry->path, load_text_of(v->lines.force, 4).text, sink.lines, sinking, trimming, heeling, advice);
 }
 
 void rest_tell(context *ctx, const scenario *s, const vessel_entry *entry, const vessel_model *hull,

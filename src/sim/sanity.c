@@ -1,3 +1,4 @@
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "sim/ice_kinds.h"
 #include "sim/known_flow.h"
@@ -409,15 +410,16 @@ static void tell_spring(const teller *t, const vessel_entry *e, int32_t line, do
     if (pull > 0.5 * most)
         sanity_say(
             t->tell, t->to,
-            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %.4g N from the start, "
-            "%s the breaking load of %.4g N",
-            e->path, (int)line, l->length, straight, pull, pull >= most ? "over" : "more than half of", most);
+            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %s from the start, %s the "
+            "breaking load of %s",
+            e->path, (int)line, l->length, straight, load_text_of(pull, 4).text,
+            pull >= most ? "over" : "more than half of", load_text_of(most, 4).text);
     else if (isinf(most) && pull > MOST_PULL * fmax(1, sanity_at_scale(t->s, 3)))
         sanity_say(
             t->tell, t->to,
-            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %.4g N from the start: "
-            "it is the length without tension",
-            e->path, (int)line, l->length, straight, pull);
+            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m pulls with %s from the start: it is the "
+            "length without tension",
+            e->path, (int)line, l->length, straight, load_text_of(pull, 4).text);
 }
 
 /* A line whose length is given: too long to pull, or stretched from the start. */
@@ -440,17 +442,16 @@ static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
     else if (l->kind == LINE_SPRING)
         tell_spring(t, e, line, straight);
     else if (l->kind == LINE_CATENARY && strain * l->stiffness > 0.5 * most)
-        sanity_say(
-            t->tell, t->to,
-            "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %.3g N from the "
-            "start, %s its breaking load",
-            e->path, (int)line, l->length, straight, strain * l->stiffness,
-            strain * l->stiffness >= most ? "over" : "more than half of");
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %s from the "
+                   "start, %s its breaking load",
+                   e->path, (int)line, l->length, straight, load_text_of(strain * l->stiffness, 3).text,
+                   strain * l->stiffness >= most ? "over" : "more than half of");
     else if (l->kind == LINE_CATENARY && isinf(most) && strain > TAUT)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m is stretched by %.3g %% from the "
-                   "start, to about %.3g N: it pulls the vessel down, and no breaking_load lets it part",
-                   e->path, (int)line, l->length, straight, 100 * strain, strain * l->stiffness);
+                   "start, to about %s: it pulls the vessel down, and no breaking_load lets it part",
+                   e->path, (int)line, l->length, straight, 100 * strain, load_text_of(strain * l->stiffness, 3).text);
 }
 
 static void tell_vessel_station(const teller *t, const vessel_entry *e)
@@ -460,8 +461,9 @@ static void tell_vessel_station(const teller *t, const vessel_entry *e)
         const scenario_mooring_line *l = &v->mooring.lines.data[i];
         double most = automatic_or(l->breaking_load, HUGE_VAL);
         if (is_automatic(l->length) && l->kind != LINE_TABLE && l->pretension > 0.5 * most)
-            sanity_say(t->tell, t->to, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N",
-                       e->path, (int)i, l->pretension, l->pretension >= most ? "over" : "more than half of", most);
+            sanity_say(t->tell, t->to, "%s.mooring.lines[%d].pretension: %s is %s the breaking load of %s", e->path,
+                       (int)i, load_text_of(l->pretension, 4).text,
+                       l->pretension >= most ? "over" : "more than half of", load_text_of(most, 4).text);
         tell_length(t, e, i);
     }
     if (v->positioning.active && v->thrusters.count == 0)

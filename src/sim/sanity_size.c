@@ -1,5 +1,6 @@
 /* A hull of one size, and numbers or a scale of another: what is left at its default of full size beside a model, or
    the scale of a tank beside a ship.  See sim/sanity.h. */
+#include "base/load_unit.h"
 #include "sim/sanity_parts.h"
 #include "sim/vessel_check.h"
 
@@ -52,9 +53,10 @@ static void tell_force(const teller *t, const char *key, double force)
     double weight = sanity_about_mass(t->s, t->e->keys) * t->s->environment.gravity;
     if (force > MOST_OF_WEIGHT * weight)
         sanity_say(t->tell, t->to,
-                   "%s.%s: %.4g N is %.3g of the vessel's weight, about %.3g N, %g at most is usual: give newtons, of "
+                   "%s.%s: %s is %.3g of the vessel's weight, about %s, %g at most is usual: give newtons, of "
                    "a model too",
-                   t->e->path, key, force, force / weight, weight, MOST_OF_WEIGHT);
+                   t->e->path, key, load_text_of(force, 4).text, force / weight, load_text_of(weight, 3).text,
+                   MOST_OF_WEIGHT);
 }
 
 static void tell_forces(const teller *t)

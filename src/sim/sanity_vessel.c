@@ -1,3 +1,4 @@
+#include "base/load_unit.h"
 #include "base/number_text.h"
 #include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
@@ -116,11 +117,10 @@ static void tell_line(const teller *t, int32_t i)
     const scenario_run *r = &t->s->run;
     double ratio = l->stiffness / automatic_or(l->breaking_load, (double)NAN);
     if (l->kind == LINE_CATENARY && (ratio < STIFFNESS_LEAST || ratio > STIFFNESS_MOST))
-        sanity_say(
-            t->tell, t->to,
-            "%s.mooring.lines[%d].stiffness: EA of %.4g N is %.3g breaking loads, chain and wire have 60 to 130, "
-            "ropes 3 to 30: give newtons",
-            t->e->path, (int)i, l->stiffness, ratio);
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].stiffness: EA of %s is %.3g breaking loads, chain and wire have 60 to 130, "
+                   "ropes 3 to 30: give newtons",
+                   t->e->path, (int)i, load_text_of(l->stiffness, 4).text, ratio);
     if (l->kind == LINE_CATENARY && l->distance < SCOPE_LEAST * v->mooring.depth)
         sanity_say(
             t->tell, t->to,

@@ -24,11 +24,11 @@ static double largest_of(const study_page *p, run_figure figure)
 
 void page_choose_units(study_page *p)
 {
-    load_unit load = kilonewtons_or_less(largest_of(p, ROW_load_largest)),
-              tension = kilonewtons_or_less(
+    load_unit load = load_unit_for(largest_of(p, ROW_load_largest)),
+              tension = load_unit_for(
                   fmax(largest_of(p, ROW_line_tension_largest), largest_of(p, ROW_line_tension_range_equivalent))),
-              power = kilonewtons_or_less(largest_of(p, ROW_thruster_power_mean));
-    power.name = power.factor < 1 ? "kW" : "W"; /* by the same rule */
+              power = load_unit_for(largest_of(p, ROW_thruster_power_mean));
+    power.name = power.factor < 1e-3 ? "MW" : power.factor < 1 ? "kW" : "W"; /* by the same rule */
     for (int i = 0; i < PAGE_FIGURES; i++) {
         page_figure *f = &p->figures[i];
         *f = page_figures[i];

@@ -76,17 +76,19 @@ START_TEST(numbers_are_read_strictly_and_told)
     char text[64] = "as it was";
     fram_duration_text(125, NULL, sizeof text);
     fram_duration_text(125, text, 0);
-    fram_load_text(125, 1, NULL, sizeof text);
-    fram_load_text(125, 1, text, 0);
+    fram_load_text(125, 1, (double)NAN, NULL, sizeof text);
+    fram_load_text(125, 1, (double)NAN, text, 0);
     ck_assert_str_eq(text, "as it was");
     fram_duration_text(125, text, sizeof text);
     ck_assert_str_eq(text, "2 min 05 s");
     fram_duration_text(125, text, 6);
     ck_assert_str_eq(text, "2 min");
-    fram_load_text(2.61e7, (double)NAN, text, sizeof text);
+    fram_load_text(2.61e7, (double)NAN, (double)NAN, text, sizeof text);
     ck_assert_str_eq(text, "26.1 MN");
-    fram_load_text(739100, 169000, text, sizeof text);
+    fram_load_text(739100, 169000, (double)NAN, text, sizeof text);
     ck_assert_str_eq(text, "739.1 +- 169 kN");
+    fram_load_text(3000, (double)NAN, 2.61e7, text, sizeof text);
+    ck_assert_str_eq(text, "0.003 MN");
 }
 END_TEST
 

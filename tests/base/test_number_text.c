@@ -93,12 +93,22 @@ START_TEST(units_go_with_the_size)
         load_unit unit;
         const char *name;
         double factor;
-    } cases[] = {{load_unit_for(9.9e3), "N", 1},           {load_unit_for(1e4), "kN", 1e-3},
-                 {load_unit_for(1e7), "MN", 1e-6},         {kilonewtons_or_less(3.351), "N", 1},
-                 {kilonewtons_or_less(1e4), "kN", 1e-3},   {kilonewtons_or_less(1e8), "kN", 1e-3},
-                 {kilonewtons_or_less(0), "kN", 1e-3},     {kilonewtons_or_less((double)NAN), "kN", 1e-3},
-                 {megawatts_or_less(5.982), "W", 1},       {megawatts_or_less(2e4), "MW", 1e-6},
-                 {gigajoules_or_less(60, 5.982), "J", 1},  {gigajoules_or_less(6e4, 5.982), "kJ", 1e-3},
+    } cases[] = {{load_unit_for(9.9e3), "N", 1},
+                 {load_unit_for(1e4), "kN", 1e-3},
+                 {load_unit_for(1e7), "MN", 1e-6},
+                 {load_unit_for(-3.351), "N", 1},
+                 {load_unit_for(9999.6), "kN", 1e-3},
+                 {load_unit_for(-9.9996e6), "MN", 1e-6},
+                 {kilonewtons_or_less(9999.6), "kN", 1e-3},
+                 {kilonewtons_or_less(1e8), "kN", 1e-3},
+                 {kilonewtons_or_less(3.351), "N", 1},
+                 {kilonewtons_or_less(0), "kN", 1e-3},
+                 {load_unit_for(0), "kN", 1e-3},
+                 {load_unit_for((double)NAN), "kN", 1e-3},
+                 {megawatts_or_less(5.982), "W", 1},
+                 {megawatts_or_less(2e4), "MW", 1e-6},
+                 {gigajoules_or_less(60, 5.982), "J", 1},
+                 {gigajoules_or_less(6e4, 5.982), "kJ", 1e-3},
                  {gigajoules_or_less(60, 1e6), "GJ", 1e-9}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ck_assert_str_eq(cases[i].unit.name, cases[i].name);
@@ -137,9 +147,21 @@ START_TEST(loads_are_told_without_exponents)
                  {(double)NAN, 4, "nan kN"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         ck_assert_str_eq(load_text_of(cases[i].newton, cases[i].digits).text, cases[i].text);
-    ck_assert_str_eq(load_range_text_of(7.391e5, 1.69e5, 4).text, "739.1 +- 169 kN");
-    ck_assert_str_eq(load_range_text_of(2.613e7, 9.996e9, 4).text, "26.13 +- 9996 MN");
-    ck_assert_str_eq(load_range_text_of(1.2, (double)NAN, 4).text, "1.2 N");
+    static const struct {
+        double newton, half, largest;
+        const char *text;
+    } ranges[] = {{7.391e5, 1.69e5, (double)NAN, "739.1 +- 169 kN"},
+                  {2.613e7, 9.996e9, (double)NAN, "26.13 +- 9996 MN"},
+                  {1.2, (double)NAN, (double)NAN, "1.2 N"},
+                  {5, 1e6, (double)NAN, "0.005 +- 1000 kN"},
+                  {5, 1e7, (double)NAN, "0.000005 +- 10 MN"},
+                  {0, (double)NAN, 2.6e7, "0 MN"},
+                  {3000, 12, 2.6e7, "0.003 +- 0.000012 MN"},
+                  {-2.6e7, 1.2e6, 2.6e7, "-26 +- 1.2 MN"},
+                  {0, 0, 0, "0 +- 0 kN"}};
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        ck_assert_str_eq(load_range_text_of(ranges[i].newton, ranges[i].half, ranges[i].largest, 4).text,
+                         ranges[i].text);
     for (double newton = 1e-3; newton < 1e14; newton *= 1.0173)
         for (int digits = 1; digits < 7; digits++) {
             load_text told = load_text_of(newton, digits);

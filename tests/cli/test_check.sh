@@ -117,7 +117,7 @@ pulled() {
 }
 steep=(--set "vessel.mooring.lines[0].distance=80" --set "vessel.mooring.lines[0].pretension=2e6"
     --set "vessel.mooring.lines[0].stiffness=1e5")
-down="vessel.mooring.lines: they pull the vessel down with 2.4e+06 N, 0.149 of what it displaces: it begins by"
+down="vessel.mooring.lines: they pull the vessel down with 2400 kN, 0.149 of what it displaces: it begins by"
 for begun in true false; do
     pulled "$down sinking by up to about 0.6 m; with vessel.mass 1.39535e+06 kg it begins at rest" \
         --set vessel.mooring.equilibrium=$begun
@@ -131,7 +131,7 @@ pulled "" --set vessel.mooring.x=12 --set vessel.mooring.y=2 --set vessel.centre
     --set vessel.mass=1.39535e6 --set vessel.centre_of_gravity_x=-2.104 --set vessel.centre_of_gravity_y=-0.3507
 # A fifth of that heels it where GM is 0.5833 m; lines that are let go pull on nothing.
 heel=(--set vessel.mooring.y=2 --set "vessel.mooring.lines[0].pretension=4e5" --set vessel.centre_of_gravity_z=-0.5)
-pulled "vessel.mooring.lines: they pull the vessel down with 4.8e+05 N, 0.0298 of what it displaces: it begins by \
+pulled "vessel.mooring.lines: they pull the vessel down with 480 kN, 0.0298 of what it displaces: it begins by \
 heeling by up to about 5.8 degrees; with vessel.mass 1.59107e+06 kg, centre_of_gravity_y -0.06151 m it begins at rest" \
     "${heel[@]}"
 pulled "" "${heel[@]}" --set "vessel.mooring.lines[0].release_time=0"
@@ -146,10 +146,10 @@ done
 # GM is 0.1833 m; from 2 m over the waterline 2.45 MN, which make it sink by 0.61 m, take (2 - 0.305) * 2.45 / 16.09 m
 # of that. From 1.5 m they leave 2 mm, and nothing of a vessel that is lighter by them, for its weight lies low.
 low=(--set vessel.centre_of_gravity_z=-0.1)
-pulled "vessel.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with 2.45e+06 N, \
+pulled "vessel.mooring.lines: the vessel capsizes unless their stiffness holds it: they pull it down with 2450 kN, \
 which takes its transverse metacentric height from 0.1833 m to -0.07488 m; lower vessel.mooring.z, 2 m, by more than \
 0.492 m, or let the lines pull less" "${low[@]}" --set vessel.mooring.z=2
-pulled "${down/2.4e+06 N, 0.149/2.438e+06 N, 0.152} sinking by up to about 0.61 m; it needs lines that pull less" \
+pulled "${down/2400 kN, 0.149/2438 kN, 0.152} sinking by up to about 0.61 m; it needs lines that pull less" \
     "${low[@]}" --set vessel.mooring.z=1.5
 # The mass that lines balance is not told as wrong, and the one that they do not is.
 pulled "vessel.mass is 0.6 of what the hull displaces at its draught: it begins by moving up or down to its own \

@@ -51,6 +51,18 @@ printf 'scenario: scene.yaml\nset: {run.duration: 0.2}\nseeds: 2\nvary: {grid: {
 object 0 study check study.yaml --json
 object 0 study study.yaml -o studied --json -q
 object 0 study list studied --json
+# People are told the loads of all conditions in one unit, that of the largest, and without exponents.
+printf 'scenario: scene.yaml\nset: {run.duration: 4, vessel.speed: 5}\nseeds: 2\n' >wide.yaml
+echo 'vary: {grid: {ice.crushing_strength: [1, 1e10]}}' >>wide.yaml
+expect 0 "$FRAM" study wide.yaml -o wide -q
+expect 0 "$FRAM" study list wide
+python3 - <<'PY' || fail "loads of a list: $(cat out)"
+import re
+found = re.findall(r" ([0-9.]+) \+- ([0-9.]+) ([kM]?N) +([0-9.]+) ([kM]?N)  ", open("out").read())
+loads = [float(f[3]) for f in found]
+assert len(found) == 2 and len({f[2] for f in found} | {f[4] for f in found}) == 1, found
+assert max(loads) > 1e3 * min(loads), found
+PY
 object 0 extremes run --json
 object 0 fatigue run --json
 object 0 why run --time 0.5 --json -q

@@ -64,8 +64,8 @@ told ship.yaml "vessel.hull.length: 760 m|give metres" --set vessel.hull.length=
 
 # Two that do not belong together.
 told ship.yaml "run.time_step: 0.5 s is too long|heaves" --set run.time_step=0.5 --set ice.thickness=0.3
-told ship.yaml "pretension: 7e+06 N is more than half" --set "vessel.mooring.lines[0].pretension=7e6"
-told ship.yaml "pretension: 9e+06 N is over the breaking load" --set "vessel.mooring.lines[0].pretension=9e6"
+told ship.yaml "pretension: 7000 kN is more than half" --set "vessel.mooring.lines[0].pretension=7e6"
+told ship.yaml "pretension: 9000 kN is over the breaking load" --set "vessel.mooring.lines[0].pretension=9e6"
 told ship.yaml "length: 1100 m reaches down|does not pull until the vessel is 80 m farther" \
     --set "vessel.mooring.lines[0].length=1100"
 # From a fairlead 6 m up it is 1026 m down and along the bottom, from one 6 m under water 1014 m.

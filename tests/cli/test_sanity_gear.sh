@@ -32,7 +32,7 @@ told drive.yaml "propulsion.speed: 12 m/s is more than the ship makes|7 m/s" --s
 told drive.yaml "propulsion.steering_x: -600 m is outside of a hull of 60 m" --set vessel.propulsion.steering_x=-600
 told drive.yaml "propeller_diameter: 6 m|draught, 4 m" --set vessel.propulsion.propeller_diameter=6
 told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "vessel.propulsion.waypoints[0].x=150"
-told ship.yaml "lines[0].stiffness: EA of 8e+05 N is 0.1 breaking loads|newtons" \
+told ship.yaml "lines[0].stiffness: EA of 800 kN is 0.1 breaking loads|newtons" \
     --set "vessel.mooring.lines[0].stiffness=8e5"
 told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.mooring.lines[0].distance=0.9"
 no_end="vessel.mooring.lines[0].breaking_load=auto"
@@ -42,7 +42,7 @@ printf 'offset[m],tension[N]\n-10,300\n0,800\n10,1900\n' >kilo.csv
 printf 'offset[m],tension[N]\n-10,300000\n0,800000\n10,1900000\n' >newtons.csv
 table="vessel.mooring.lines[0].kind=table"
 file="vessel.mooring.lines[0].table_file"
-told ship.yaml "lines[0].table_file: the tension goes up to 1900 N, less than 1e+04|not kN" --set "$table" \
+told ship.yaml "lines[0].table_file: the tension goes up to 1900 N, less than 10 kN|not kN" --set "$table" \
     --set "$file=kilo.csv"
 expect 0 "$FRAM" check ship.yaml --set "$table" --set "$file=newtons.csv"
 grep 'the tension goes up' err && fail "told of a table in newtons"
@@ -71,10 +71,10 @@ refused pair_turned.yaml "vessels[1].mooring.lines: where they balance current a
 says "the hull stands in another vessel" err
 refused pair.yaml "vessels[1].x: the hull lies in that of vessel ship" --set vessels.barge.x=35
 spring="vessel.mooring.lines[0].kind=spring"
-told ship.yaml "lines[0].pretension: 8e+05 N is over the breaking load of 7e+05 N" --set "$spring" \
+told ship.yaml "lines[0].pretension: 800 kN is over the breaking load of 700 kN" --set "$spring" \
     --set "vessel.mooring.lines[0].stiffness=5e4" --set "vessel.mooring.lines[0].breaking_load=7e5"
 # 908 m from fairlead to anchor: 8 m longer than the spring.
-told ship.yaml "lines[0].length: 900 m|pulls with 3.982e+05 N from the start, more than half of the breaking load" \
+told ship.yaml "lines[0].length: 900 m|pulls with 398.2 kN from the start, more than half of the breaking load" \
     --set "$spring" --set "vessel.mooring.lines[0].length=900" --set "vessel.mooring.lines[0].stiffness=5e4" \
     --set "vessel.mooring.lines[0].breaking_load=7e5"
 told ship.yaml "lines[0].length: 8 m|from the start: it is the length without tension" --set "$no_end" \

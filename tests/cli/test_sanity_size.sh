@@ -35,11 +35,11 @@ done
 # Defaults and numbers of full size beside a model.
 sed 's/, freeboard: 0.12//' moored.yaml >deck.yaml
 told deck.yaml "vessel.hull.freeboard: the deck is 4 m above the water, more than the beam of 0.63 m|of a model too"
-told moored.yaml "vessel.thrusters: 1e+05 N is 40.5 of the vessel's weight, about 2.47e+03 N|give newtons" \
+told moored.yaml "vessel.thrusters: 100 kN is 40.5 of the vessel's weight, about 2468 N|give newtons" \
     --set "vessel.thrusters[0].thrust=1e5"
-told moored.yaml "vessel.mooring.lines: 1e+06 N is 405 of the vessel's weight" \
+told moored.yaml "vessel.mooring.lines: 1000 kN is 405 of the vessel's weight" \
     --set "vessel.mooring.lines[0].pretension=1e6" --set "vessel.mooring.lines[0].stiffness=1e6"
-told drive.yaml "vessel.propulsion.bollard_pull: 1e+06 N is 405 of the vessel's weight" \
+told drive.yaml "vessel.propulsion.bollard_pull: 1000 kN is 405 of the vessel's weight" \
     --set vessel.propulsion.bollard_pull=1e6
 told drive.yaml "vessel.propulsion.open_water_speed: 8 m/s is 1.61 times the root of gravity and length|2.53 m" \
     --set vessel.propulsion.open_water_speed=8
