@@ -365,7 +365,7 @@ def check_tank(browser, folder):
         }
         colours.ranges.force = force;
         return out; })()""")
-    assert told[:7] == ["0 kN", "-290.00 N", "-290 N", "-290 N", "-290 N", "-290 N", "-290 N"], told
+    assert told[:7] == ["-290 N", "-290.00 N", "-290 N", "-290 N", "-290 N", "-290 N", "-290 N"], told
     assert told[7:] == ["contact force [N],0,9000", "contact force [kN],0,10", "contact force [kN],0,999",
                         "contact force [MN],0,37000"], told
     assert browser.run("fram.colours.ranges.force[1]") < 0.1, "no floe takes a colour"
