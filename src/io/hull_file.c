@@ -17,9 +17,8 @@
    none, and the rounding of 4-byte floats and of six printed digits. */
 static const double narrow_seals[] = {0, 1e-6};
 enum { NARROW_SEALS = sizeof narrow_seals / sizeof *narrow_seals };
-/* Seals that are tried for a remedy, as multiples of the default one: up to a
-   hundredth of the length.  What is wider is no crack. */
-static const double wide_seals[] = {2, 5, 10, 20};
+/* Seals that are tried for a remedy, as multiples of the default one. */
+static const double wide_seals[] = {2, 5, 10, HULL_WIDEST_SEAL / DEFAULT_SEAL};
 enum { WIDE_SEALS = sizeof wide_seals / sizeof *wide_seals };
 /* Freeboard that is tried for a remedy, as a part of the longest side. */
 #define REMEDY_FREEBOARD (1.0 / 20)
@@ -172,8 +171,10 @@ static fram_status try_remedy(const hull_request *q, const remedy *with, hull_ou
     if (status == FRAM_OK)
         status = attempt_all(&other, trial);
     /* Whatever closes half a hull makes half a ship of it, and a hull that is closed in its water plane is awash. */
-    if (status == FRAM_OK && trial->ends_there)
+    if (status == FRAM_OK && trial->end)
         status = FRAM_ERROR_INPUT;
+    else
+        trial->end = HULL_ENDS_NOWHERE;
     mesh_free(q->ctx, &trial->surface);
     mesh_file_free(q->ctx, &file);
     return status;
@@ -196,11 +197,31 @@ static fram_status add_repair(const hull_request *q, const hull_outcome *raised,
     return status == FRAM_ERROR_MEMORY ? status : FRAM_OK;
 }
 
+static void put_advice(fram_error *error, const char *words)
+{
+    const char *advice = strrchr(error->message, ';');
+    size_t length = advice ? (size_t)(advice - error->message) : strlen(error->message);
+    snprintf(error->message + length, sizeof error->message - length, "; %s", words);
+}
+
+/* What to do elsewhere where repair would close the end of a hull. */
+static const char *const end_words[] = {
+    [HULL_ENDS_AT_X] =
+        "it ends in x = 0, or near it: lay its corners there into that plane and mirror it in the program "
+        "that made the file, or have it repaired (repair) if that is its end",
+    [HULL_ENDS_AT_Y] =
+        "it ends in its centre plane y = 0, or near it: lay its corners there into that plane and mirror "
+        "it in the program that made the file",
+    [HULL_ENDS_AT_WATER] = "it ends in the water plane z = 0, or near it: draw it up to its deck, or lay its open top "
+                           "into one plane, in the program that made the file",
+};
+
 /* Put the first remedy that makes the file sound in the place of the advice
  * what to do elsewhere. */
 static fram_status name_remedy(const hull_request *q, fram_error *error)
 {
     remedy list[MOST_REMEDIES] = {{.unmirrored = HULL_WHOLE}};
+    hull_ending end = HULL_ENDS_NOWHERE;
     hull_outcome trial = {.defect = MESH_EMPTY};
     int count = list_remedies(q, list);
     for (int i = 0; i < count; i++) {
@@ -209,13 +230,14 @@ static fram_status name_remedy(const hull_request *q, fram_error *error)
             status = add_repair(q, &trial, list[i].words);
         if (status == FRAM_ERROR_MEMORY)
             return error_memory(error);
-        if (status != FRAM_OK)
-            continue;
-        char *advice = strrchr(error->message, ';');
-        size_t length = advice ? (size_t)(advice - error->message) : strlen(error->message);
-        snprintf(error->message + length, sizeof error->message - length, "; %s", list[i].words);
-        break;
+        if (status == FRAM_OK) {
+            put_advice(error, list[i].words);
+            return FRAM_ERROR_INPUT;
+        }
+        end = end ? end : trial.end;
     }
+    if (end)
+        put_advice(error, end_words[end]);
     return FRAM_ERROR_INPUT;
 }
 

@@ -27,7 +27,7 @@ typedef struct hull_reading {
     hull_outcome *out;
     int32_array source; /* face of the file that each face was cut from */
     mesh_rims rims;
-    double longest, top, reach; /* [m] */
+    double longest, top, reach, widest; /* [m] */
 } hull_reading;
 
 /* ---- errors ---- */
@@ -333,7 +333,8 @@ static fram_status fill_holes(hull_reading *r)
     for (int32_t i = 0; r->fill && i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
         const int32_t *ring = r->rims.vertex.data + r->rims.start.data[i];
         int32_t count = r->rims.start.data[i + 1] - r->rims.start.data[i];
-        r->out->ends_there = r->out->ends_there || hull_ends_in(m, ring, count, r->reach);
+        if (!r->out->end)
+            r->out->end = hull_ends_in(m, ring, count, r->widest);
         status = mesh_add_polygon(r->ctx, m, ring, count);
         if (status == FRAM_OK) {
             r->out->report.holes++;
@@ -361,6 +362,7 @@ static fram_status finish_hull(hull_reading *r)
     scale_surface(r);
     r->longest = hull_longest_side(&r->file->surface);
     r->reach = HULL_REACH * r->longest;
+    r->widest = HULL_WIDEST_SEAL * r->longest;
     fram_status status = drop_triangles(r);
     if (status == FRAM_OK)
         status = seal(r);

@@ -5,6 +5,10 @@
 #define IO_HULL_MEND_H
 
 #include "io/hull_file.h"
+#include "io/hull_top.h"
+
+/* The widest seal that is tried for a remedy, as a part of the longest side: what is wider is no crack. */
+#define HULL_WIDEST_SEAL (1.0 / 100)
 
 /* A file, and what is asked of it. */
 typedef struct hull_request {
@@ -23,8 +27,8 @@ typedef struct hull_outcome {
                            other reason */
     bool one_sided;     /* it was refused because it has one side only */
     hull_half half;     /* half a hull, or a quarter */
-    bool ends_there;    /* a hole that was filled lies in the water plane, or in a centre plane that the hull does not
-                           cross: what is missing there are topsides, or its other half */
+    hull_ending end;    /* where a hole that was filled is no hole but the end of the hull, about the water plane or a
+                        centre plane that it does not cross: what is missing there are topsides, or its other half */
 } hull_outcome;
 
 /* Seal cracks up to seal_width [m], take corners that are off the plane of an open top by `level` [m] for level, fill

@@ -52,6 +52,14 @@ static bool is_within(const mesh *m, const int32_t *ring, int32_t count, double 
     return true;
 }
 
+static box3 ring_bounds(const mesh *m, const int32_t *ring, int32_t count)
+{
+    box3 box = box3_empty();
+    for (int32_t k = 0; k < count; k++)
+        box = box3_add(box, m->vertex.data[ring[k]]);
+    return box;
+}
+
 /* A ring no wider than the tolerance is a crack. */
 static bool is_crack(const mesh *m, const int32_t *ring, int32_t count, double tolerance)
 {
@@ -94,9 +102,10 @@ static bool goes_on_level(const mesh *m, const int32_t *v, int k, double toleran
 static bool is_hole_of_deck(const mesh *m, const int32_t *ring, int32_t count, double low, double high,
                             double tolerance)
 {
+    const box3 about = ring_bounds(m, ring, count);
     for (int32_t f = 0; f < m->face.count; f++) {
         const int32_t *v = m->face.data[f].v;
-        if (!is_within(m, v, 3, low, high))
+        if (!is_within(m, v, 3, low, high) || !box3_meet(about, mesh_face_bounds(m, f)))
             continue;
         for (int k = 0; k < 3; k++)
             if (goes_on_level(m, v, k, tolerance) && is_in_ring(ring, count, v[k], v[(k + 1) % 3]))
@@ -188,18 +197,32 @@ void hull_top_free(context *ctx, hull_top *top) { mesh_rims_free(ctx, &top->rims
 
 /* ---- where hulls end ---- */
 
-static bool is_end(double lo, double hi, double ring_lo, double ring_hi, double tolerance)
+/* Part of its area that a ring which is where a hull ends above shows from there: one in a side shows hardly any. */
+#define LEAST_SEEN 0.9
+
+static bool is_end(double lo, double hi, double ring_lo, double ring_hi, double most)
 {
-    return fmax(fabs(ring_lo), fabs(ring_hi)) <= tolerance && (lo >= -tolerance || hi <= tolerance);
+    return fmax(fabs(ring_lo), fabs(ring_hi)) <= most && (lo >= -most || hi <= most);
 }
 
-bool hull_ends_in(const mesh *m, const int32_t *ring, int32_t count, double tolerance)
+/* A rim that is higher than the reach all round is that of a low deck. */
+static bool ends_at_water(const mesh *m, const int32_t *ring, int32_t count, box3 rim, double most)
 {
-    box3 box = mesh_bounds(m), rim = box3_empty();
-    for (int32_t k = 0; k < count; k++)
-        rim = box3_add(rim, m->vertex.data[ring[k]]);
-    bool at_water = box.lo.z < -tolerance && fmax(fabs(rim.lo.z), fabs(rim.hi.z)) <= tolerance;
-    return is_end(box.lo.x, box.hi.x, rim.lo.x, rim.hi.x, tolerance) ||
-           is_end(box.lo.y, box.hi.y, rim.lo.y, rim.hi.y, tolerance) ||
-           (at_water && !is_hole_of_deck(m, ring, count, -tolerance, tolerance, tolerance));
+    box3 box = mesh_bounds(m);
+    const double reach = HULL_REACH * hull_longest_side(m);
+    vec3 area = mesh_ring_area(m, ring, count);
+    if (box.lo.z >= -most || fmax(fabs(rim.lo.z), fabs(rim.hi.z)) > most || rim.lo.z > reach ||
+        fabs(area.z) < LEAST_SEEN * vec3_length(area))
+        return false;
+    return box.hi.z <= reach || !is_hole_of_deck(m, ring, count, -most, most, reach);
+}
+
+hull_ending hull_ends_in(const mesh *m, const int32_t *ring, int32_t count, double most)
+{
+    box3 box = mesh_bounds(m), rim = ring_bounds(m, ring, count);
+    if (is_end(box.lo.x, box.hi.x, rim.lo.x, rim.hi.x, most))
+        return HULL_ENDS_AT_X;
+    if (is_end(box.lo.y, box.hi.y, rim.lo.y, rim.hi.y, most))
+        return HULL_ENDS_AT_Y;
+    return ends_at_water(m, ring, count, rim, most) ? HULL_ENDS_AT_WATER : HULL_ENDS_NOWHERE;
 }

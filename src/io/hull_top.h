@@ -23,10 +23,11 @@ typedef struct hull_lids {
 hull_lids hull_lids_of(const mesh *m);
 bool hull_is_lid(const hull_lids *lids, const mesh *m, int32_t face);
 
-/* How low a top may be that is level to `tolerance` where the highest point is at `top` [m]: off that, or off z = 0. */
+/* How low a top may be that is level to `tolerance` where the highest point is at `top` [m]: off z = 0 where that is as
+   near, off a plane half way down otherwise. */
 static inline double hull_top_low(double top, double tolerance)
 {
-    return fabs(top) <= tolerance ? fmin(top - tolerance, -tolerance) : top - tolerance;
+    return fabs(top) <= tolerance ? fmin(top - tolerance, -tolerance) : top - 2 * tolerance;
 }
 
 /* A level open top. */
@@ -48,8 +49,10 @@ void hull_turn_top(hull_top *top);
 fram_status hull_close_top(context *ctx, mesh *m, const hull_top *top, double height, fram_error *error);
 void hull_top_free(context *ctx, hull_top *top);
 
-/* The ring goes round no hole but where a hull ends: within `tolerance` [m] of a plane x = 0 or y = 0 that the hull
-   does not cross, or of z = 0, and then is no hole of a deck. */
-bool hull_ends_in(const mesh *m, const int32_t *ring, int32_t count, double tolerance);
+/* Where a hull ends whose other half, or topsides, are missing. */
+typedef enum hull_ending { HULL_ENDS_NOWHERE, HULL_ENDS_AT_X, HULL_ENDS_AT_Y, HULL_ENDS_AT_WATER } hull_ending;
+/* Whether the ring goes round no hole but where the hull ends: within `most` [m] of a plane x = 0 or y = 0 that the
+   hull does not cross, or of z = 0, where it is level and nothing stands higher or it is no hole of a deck. */
+hull_ending hull_ends_in(const mesh *m, const int32_t *ring, int32_t count, double most);
 
 #endif

@@ -219,7 +219,8 @@ static void write_box(char text[1024], double top, double off, const char *faces
             n += snprintf(text + n, 1024 - (size_t)n, "%s", face[i].line);
 }
 
-/* Half a hull that has a hole elsewhere too is not told as half; repair, which would close it there, is not named. */
+/* Half a hull that has a hole elsewhere too is not told as half, nor one that is farther off its plane than the reach;
+   repair, which would close either there, is not named. */
 START_TEST(half_with_a_hole)
 {
     context ctx;
@@ -232,7 +233,7 @@ START_TEST(half_with_a_hole)
                         "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
                         "f 4 3 2 1\nf 2 3 7 6\nf 4 1 5 8\nf 5 6 7 8\nf 3 8 7\n",
                         &options, &m, &report, &error),
-                 error, FRAM_ERROR_INPUT, "close the gap in the program that made the file");
+                 error, FRAM_ERROR_INPUT, "one of 7 open edges); it ends in its centre plane y = 0, or near it");
     options.repair = true;
     assert_ok(finish(&ctx, "half.obj",
                      "v 0 0 -1\nv 9 0 -1\nv 9 2 -1\nv 0 2 -1\nv 0 0 1\nv 9 0 1\nv 9 2 1\nv 0 2 1\n"
@@ -241,13 +242,25 @@ START_TEST(half_with_a_hole)
               error);
     ck_assert_int_eq(report.holes, 2);
     mesh_free(&ctx, &m);
+    const struct {
+        const char *text, *words;
+    } off[] = {{"v -9 0.03 -1\nv 9 0.03 -1\nv 9 2 -1\nv -9 2 -1\nv -9 0.03 1\nv 9 0.03 1\nv 9 2 1\nv -9 2 1\n"
+                "f 4 3 2 1\nf 2 3 7 6\nf 4 1 5 8\nf 3 4 8 7\nf 5 6 7 8\n",
+                "; it ends in its centre plane y = 0, or near it: lay its corners there into that plane"},
+               {"v 0.03 -2 -1\nv 9 -2 -1\nv 9 2 -1\nv 0.03 2 -1\nv 0.03 -2 1\nv 9 -2 1\nv 9 2 1\nv 0.03 2 1\n"
+                "f 4 3 2 1\nf 2 3 7 6\nf 1 2 6 5\nf 3 4 8 7\nf 5 6 7 8\n",
+                "; it ends in x = 0, or near it"}};
+    options.repair = false;
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++)
+        assert_fails(finish(&ctx, "off.obj", off[i].text, &options, &m, &report, &error), error, FRAM_ERROR_INPUT,
+                     off[i].words);
 }
 END_TEST
 
 #define OPEN_BOX "bfaps"
 
 /* Corners of an open top that are off its plane, as far as cracks are sealed (20 mm here), are laid into it: topsides
-   stand on z = 0, whether holes are to be filled or not; farther off it is not level. */
+   stand on z = 0, whether holes are to be filled or not; farther off it is not level, and repair is not named. */
 START_TEST(tops_within_reach)
 {
     context ctx;
@@ -268,6 +281,7 @@ START_TEST(tops_within_reach)
         const double freeboard = i % 3 == 2 ? 2 : 4;
         if (off > 0.02) {
             ck_assert(i % 3 == 1 ? report.holes == 1 : status == FRAM_ERROR_INPUT);
+            ck_assert(i % 3 == 1 || strstr(error.message, "; it ends in the water plane z = 0, or near it: "));
         } else {
             assert_ok(status, error);
             check_sound(&ctx, &m, 0);
@@ -275,6 +289,35 @@ START_TEST(tops_within_reach)
             assert_absolute(mesh_bounds(&m).hi.z, freeboard, 1e-5);
             ck_assert_int_eq(report.holes, 0);
             assert_absolute(report.freeboard, freeboard, 0);
+        }
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
+/* Above the water they are as far off a plane between the highest and the lowest. */
+START_TEST(tops_within_reach_above)
+{
+    context ctx;
+    context_init(&ctx);
+    const double offs[] = {1e-4, 0.0199, 0.021};
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        write_box(text, 2, offs[i], OPEN_BOX);
+        hull_file_options options = hull_file_defaults();
+        options.usual_freeboard = 4;
+        mesh m = {0};
+        hull_file_report report = {0};
+        fram_error error = {0};
+        fram_status status = finish(&ctx, "noise.obj", text, &options, &m, &report, &error);
+        if (offs[i] > 0.02) {
+            ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+            ck_assert_msg(strstr(error.message, "; have it repaired (repair)"), "%s", error.message);
+        } else {
+            assert_ok(status, error);
+            assert_relative(mesh_solid_properties(&m).volume, 2000, 1e-12);
+            assert_absolute(mesh_bounds(&m).hi.z, 2, 1e-12);
+            assert_absolute(report.decked, 400, 1e-9);
         }
         mesh_free(&ctx, &m);
     }
@@ -310,7 +353,8 @@ START_TEST(lids_within_reach)
 }
 END_TEST
 
-/* A hole of a deck is none of its top: it is filled on request, and no tower is built on it. */
+/* A hole of a deck is none of its top: it is filled on request, and no tower is built on it.  In the water plane that
+   leaves a hull awash, and is not named. */
 START_TEST(holes_of_decks)
 {
     context ctx;
@@ -326,7 +370,9 @@ START_TEST(holes_of_decks)
         hull_file_report report;
         fram_error error = {0};
         ck_assert_int_eq(finish(&ctx, "hole.obj", text, &options, &m, &report, &error), FRAM_ERROR_INPUT);
-        ck_assert_msg(strstr(error.message, "have it repaired (repair): it is sound then"), "%s", error.message);
+        const char *words =
+            i / 2 ? "; it ends in the water plane z = 0" : "; have it repaired (repair): it is sound then";
+        ck_assert_msg(strstr(error.message, words), "%s", error.message);
         options.repair = true;
         assert_ok(finish(&ctx, "hole.obj", text, &options, &m, &report, &error), error);
         assert_relative(mesh_solid_properties(&m).volume, 400 * (3 + tops[i / 2]), 1e-3);
@@ -423,4 +469,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, half_with_a_hole, tops_within_reach,
-          lids_within_reach, holes_of_decks, freeboards_left_to_fram, options_are_checked, memory_runs_out)
+          tops_within_reach_above, lids_within_reach, holes_of_decks, freeboards_left_to_fram, options_are_checked,
+          memory_runs_out)
