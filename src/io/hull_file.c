@@ -286,12 +286,14 @@ fram_status hull_file_write(context *ctx, const char *path, const mesh *surface,
     if (status != FRAM_OK || !mesh_file_ends_with(path, ".gdf"))
         return status;
     double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(surface);
-    int32_t lids = hull_count_lids(surface), above = count_panels_above(surface, tolerance);
+    int32_t lids = 0, above = count_panels_above(surface, tolerance);
+    if (!hull_count_lids(ctx, surface, &lids))
+        return error_memory(error);
     if (lids > 0)
         log_write(
             ctx, LOG_WARNING,
-            "%.200s: %d triangles lie in z = 0, where panels are lids of the water plane, which are left out when "
-            "the file is read: move the hull, or write .stl or .obj",
+            "%.200s: %d triangles lie in z = 0, or are level near to it, where panels are lids of the water plane, "
+            "which are left out when the file is read: move the hull, or write .stl or .obj",
             path, (int)lids);
     if (mesh_bounds(surface).lo.z >= -tolerance)
         log_write(

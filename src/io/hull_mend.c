@@ -2,6 +2,7 @@
 #include "io/hull_mend.h"
 
 #include "io/hull_digits.h"
+#include "io/hull_lids.h"
 #include "io/hull_mirror.h"
 #include "io/hull_skin.h"
 #include "io/hull_top.h"
@@ -24,6 +25,7 @@ typedef struct hull_reading {
     double seal_width; /* [m] */
     double level;      /* by which corners of a top may be off its plane [m] */
     bool fill;         /* holes */
+    bool lids_off;     /* lids off z = 0 are left out */
     hull_outcome *out;
     int32_array source; /* face of the file that each face was cut from */
     mesh_rims rims;
@@ -165,16 +167,20 @@ static void scale_surface(const hull_reading *r)
         m->vertex.data[i] = vec3_scale(m->vertex.data[i], r->options->scale);
 }
 
-int32_t hull_count_lids(const mesh *m)
+bool hull_count_lids(context *ctx, const mesh *m, int32_t *count)
 {
     const hull_lids lids = hull_lids_of(m);
-    int32_t count = 0;
+    int32_array off = {0};
+    int32_t in_plane = 0;
     for (int32_t f = 0; f < m->face.count; f++)
-        count += hull_is_lid(&lids, m, f);
-    return count;
+        in_plane += hull_is_lid(&lids, m, f);
+    bool done = hull_find_lids_off(ctx, m, &off, count);
+    *count = in_plane > 0 ? in_plane : *count;
+    array_free(ctx, &off);
+    return done;
 }
 
-/* Leave out lids and, where repair is asked for, triangles without area;
+/* Leave out lids in z = 0 and, where repair is asked for, triangles without area;
  * sealing closes the gaps, which have no width.
  */
 static fram_status drop_triangles(hull_reading *r)
@@ -225,6 +231,31 @@ static fram_status orient(hull_reading *r)
         return refuse_face(r, face, "the surface has only one side (a Moebius band) where this triangle is",
                            "rebuild it in the program that made the file");
     return status == FRAM_ERROR_MEMORY ? error_memory(&r->out->error) : status;
+}
+
+/* Of a surface that is closed as it is: lids a little off the water plane.  What is open under them is level within
+   reach then. */
+static fram_status drop_lids_off(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    int32_array lid = {0};
+    int32_t count = 0, kept = 0;
+    bool done = hull_find_lids_off(r->ctx, m, &lid, &count);
+    for (int32_t f = 0; f < m->face.count && done && count > 0; f++) {
+        if (lid.data[f] >= 0)
+            continue;
+        m->face.data[kept] = m->face.data[f];
+        r->source.data[kept++] = r->source.data[f];
+    }
+    if (done && count > 0) {
+        m->face.count = r->source.count = kept;
+        r->out->report.lids += count;
+        r->level = r->reach;
+        done = mesh_drop_unused_vertices(r->ctx, m);
+    }
+    array_free(r->ctx, &lid);
+    r->lids_off = count > 0;
+    return done ? FRAM_OK : error_memory(&r->out->error);
 }
 
 static void turn_all(hull_reading *r)
@@ -285,6 +316,8 @@ static fram_status raise_top(hull_reading *r)
     const double freeboard = any ? freeboard_of(r, &top) : (double)NAN;
     r->out->report.top = any && top.above ? top.z : 0;
     fram_status status = isnan(freeboard) ? FRAM_OK : close_top(r, &top, freeboard);
+    if (status == FRAM_OK && r->lids_off && mesh_rims_count(&top.rims) < mesh_rims_count(&r->rims))
+        status = refuse_face(r, 0, "the surface under its lids has no level top", work_for(MESH_OPEN));
     hull_top_free(r->ctx, &top);
     return status;
 }
@@ -363,13 +396,18 @@ static fram_status finish_hull(hull_reading *r)
     r->longest = hull_longest_side(&r->file->surface);
     r->reach = HULL_REACH * r->longest;
     r->widest = HULL_WIDEST_SEAL * r->longest;
+    const bool may_drop = r->lids_off;
+    r->lids_off = false;
     fram_status status = drop_triangles(r);
     if (status == FRAM_OK)
         status = seal(r);
     if (status == FRAM_OK)
         status = orient(r);
+    const bool open = r->out->report.seal.open_after > 0;
+    if (status == FRAM_OK && may_drop && !open)
+        status = drop_lids_off(r);
     r->top = mesh_bounds(&r->file->surface).hi.z;
-    if (status == FRAM_OK && r->out->report.seal.open_after > 0) {
+    if (status == FRAM_OK && (open || r->lids_off)) {
         status = find_half(r);
         if (status == FRAM_OK)
             status = find_rims(r);
@@ -383,7 +421,9 @@ static fram_status finish_hull(hull_reading *r)
     return status == FRAM_OK ? check(r) : status;
 }
 
-fram_status hull_mend(const hull_request *q, double seal_width, double level, bool fill, hull_outcome *out)
+/* With or without lids off z = 0; *lids_off gets whether there were any. */
+static fram_status mend_once(const hull_request *q, double seal_width, double level, bool fill, bool *lids_off,
+                             hull_outcome *out)
 {
     mesh_file file;
     mesh_free(q->ctx, &out->surface);
@@ -401,14 +441,26 @@ fram_status hull_mend(const hull_request *q, double seal_width, double level, bo
                       .seal_width = seal_width,
                       .level = level,
                       .fill = fill,
+                      .lids_off = *lids_off,
                       .out = out};
     fram_status status = hull_copy_file(q->ctx, q->file, &file) ? finish_hull(&r) : error_memory(&out->error);
     if (status == FRAM_OK) {
         out->surface = file.surface;
         file.surface = (mesh){0};
     }
+    *lids_off = r.lids_off;
     array_free(q->ctx, &r.source);
     mesh_rims_free(q->ctx, &r.rims);
     mesh_file_free(q->ctx, &file);
     return status;
+}
+
+fram_status hull_mend(const hull_request *q, double seal_width, double level, bool fill, hull_outcome *out)
+{
+    bool lids_off = q->file->format == MESH_GDF;
+    fram_status status = mend_once(q, seal_width, level, fill, &lids_off, out);
+    if (status != FRAM_ERROR_INPUT || !lids_off)
+        return status;
+    lids_off = false;
+    return mend_once(q, seal_width, level, fill, &lids_off, out);
 }

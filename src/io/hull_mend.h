@@ -36,7 +36,7 @@ typedef struct hull_outcome {
    it is.  FRAM_ERROR_INPUT without advice, FRAM_ERROR_MEMORY. */
 fram_status hull_mend(const hull_request *q, double seal_width, double level, bool fill, hull_outcome *out);
 
-/* Triangles that whoever reads a GDF takes for lids of the water plane, and leaves out. */
-int32_t hull_count_lids(const mesh *m);
+/* How many triangles whoever reads a GDF takes for lids of the water plane, and leaves out.  false: no memory. */
+bool hull_count_lids(context *ctx, const mesh *m, int32_t *count);
 
 #endif

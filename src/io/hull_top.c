@@ -1,4 +1,4 @@
-/* Lids and open tops of hulls; see hull_top.h. */
+/* Open tops of hulls; see hull_top.h. */
 #include "io/hull_top.h"
 
 #include <math.h>
@@ -8,33 +8,6 @@ double hull_longest_side(const mesh *m)
     box3 box = mesh_bounds(m);
     vec3 size = vec3_sub(box.hi, box.lo);
     return fmax(size.x, fmax(size.y, size.z));
-}
-
-/* ---- lids ---- */
-
-/* Least part of its area that a lid which is not quite level shows from above: the upper strip of a hull's sides, which
-   may be as low as the reach is wide, shows hardly any. */
-#define LEAST_SEEN 0.9
-
-/* Of a hull whose keel is its z = 0 triangles there are the flat of its bottom; what is higher than the reach is a hull
-   with topsides, which may have level parts near the water. */
-hull_lids hull_lids_of(const mesh *m)
-{
-    box3 box = mesh_bounds(m);
-    double tolerance = HULL_LEVEL_TOLERANCE * hull_longest_side(m), reach = HULL_REACH * hull_longest_side(m);
-    bool ends_at_water = box.lo.z < -reach && box.hi.z <= reach;
-    return (hull_lids){box.lo.z < -tolerance, tolerance, ends_at_water ? reach : tolerance};
-}
-
-bool hull_is_lid(const hull_lids *lids, const mesh *m, int32_t face)
-{
-    vec3 p[3];
-    mesh_face_points(m, face, p);
-    double off = fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z)));
-    if (!lids->any || off > lids->reach)
-        return false;
-    vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
-    return off <= lids->tolerance || fabs(normal.z) > LEAST_SEEN * vec3_length(normal);
 }
 
 /* ---- open tops ---- */
@@ -86,15 +59,12 @@ static double distance_in_plan(vec3 corner, vec3 a, vec3 b)
     return length > 0 ? fabs(vec3_cross(along, to).z) / length : 0;
 }
 
-/* Slope up to which a triangle is level: sides that flare are steeper, and flat sterns. */
-#define LEVEL_SLOPE (1.0 / 20)
-
 /* The triangle goes on level from its edge k, by more than the tolerance is wide. */
 static bool goes_on_level(const mesh *m, const int32_t *v, int k, double tolerance)
 {
     const vec3 *at = m->vertex.data, a = at[v[k]], b = at[v[(k + 1) % 3]], c = at[v[(k + 2) % 3]];
     double aside = distance_in_plan(c, a, b);
-    return aside > 2 * tolerance && fabs(c.z - 0.5 * (a.z + b.z)) <= LEVEL_SLOPE * aside;
+    return aside > 2 * tolerance && fabs(c.z - 0.5 * (a.z + b.z)) <= HULL_LEVEL_SLOPE * aside;
 }
 
 /* Triangles between two heights go on level from the ring: they are what is there of a deck, and the ring is a hole of

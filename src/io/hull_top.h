@@ -1,5 +1,5 @@
-/* Where a hull ends above, inside io: the lids of a water plane, and open tops, which are raised or decked where they
-   are.  Knows the surface alone, not how it came about nor what is said about it. */
+/* Where a hull ends above, inside io: open tops, which are raised or decked where they are.  Knows the surface alone,
+ * not how it came about nor what is said about it. */
 #ifndef IO_HULL_TOP_H
 #define IO_HULL_TOP_H
 
@@ -15,13 +15,8 @@ double hull_longest_side(const mesh *m);
    as far as cracks are sealed, 10 cm on a ship of 200 m. */
 #define HULL_REACH (1.0 / 2000)
 
-/* Which triangles are lids: those in z = 0, which suppress irregular frequencies and are no part of the wetted hull. */
-typedef struct hull_lids {
-    bool any;
-    double tolerance, reach; /* [m] */
-} hull_lids;
-hull_lids hull_lids_of(const mesh *m);
-bool hull_is_lid(const hull_lids *lids, const mesh *m, int32_t face);
+/* Slope up to which a triangle is level: sides that flare are steeper, and flat sterns. */
+#define HULL_LEVEL_SLOPE (1.0 / 20)
 
 /* How low a top may be that is level to `tolerance` where the highest point is at `top` [m]: off z = 0 where that is as
    near, off a plane half way down otherwise. */

@@ -353,6 +353,99 @@ START_TEST(lids_within_reach)
 }
 END_TEST
 
+/* A quarter of a hull between levels, each a rectangle of half a length and half a breadth; `lid` closes it at the
+   last, whose corners are off by `off`. */
+typedef struct level {
+    double z, x, y;
+} level;
+enum { MOST_LEVELS = 6, PANELS_ROOM = 4096 };
+
+static void write_levels(char text[PANELS_ROOM], const level *at, int count, bool lid, double off)
+{
+    const double x = at[0].x, y = at[0].y, z = at[0].z;
+    int n = snprintf(text, PANELS_ROOM, GDF_HEAD("1", "1", "%d"), 1 + lid + 2 * (count - 1));
+    n += snprintf(text + n, PANELS_ROOM - (size_t)n, "0 0 %.17g  0 %.17g %.17g  %.17g %.17g %.17g  %.17g 0 %.17g\n", z,
+                  y, z, x, y, z, x, z);
+    for (int i = 0; i + 1 < count; i++) {
+        level a = at[i], b = at[i + 1];
+        double d = i + 2 == count ? off : 0;
+        n += snprintf(text + n, PANELS_ROOM - (size_t)n,
+                      "%.17g 0 %.17g  %.17g %.17g %.17g  %.17g %.17g %.17g  %.17g 0 %.17g\n", a.x, a.z, a.x, a.y, a.z,
+                      b.x, b.y, b.z, b.x, b.z + d);
+        n += snprintf(text + n, PANELS_ROOM - (size_t)n,
+                      "%.17g %.17g %.17g  0 %.17g %.17g  0 %.17g %.17g  %.17g %.17g %.17g\n", a.x, a.y, a.z, a.y, a.z,
+                      b.y, b.z - d, b.x, b.y, b.z);
+    }
+    level top = at[count - 1];
+    if (lid)
+        snprintf(text + n, PANELS_ROOM - (size_t)n, "0 0 %.17g  %.17g 0 %.17g  %.17g %.17g %.17g  0 %.17g %.17g\n",
+                 top.z, top.x, top.z + off, top.x, top.y, top.z, top.y, top.z - off);
+}
+
+static double volume_of_levels(const level *at, int count)
+{
+    double volume = 0;
+    for (int i = 0; i + 1 < count; i++) {
+        double x = at[i].x, y = at[i].y, dx = at[i + 1].x - x, dy = at[i + 1].y - y;
+        volume += 4 * (at[i + 1].z - at[i].z) * (x * y + 0.5 * (x * dy + y * dx) + dx * dy / 3);
+    }
+    return volume;
+}
+
+/* Level parts of the wetted hull near the water plane (within 20 mm here) are no lids: all of it is where it is open
+   there, and where there is doubt.  Lids off the plane close the hull, are level and at one height. */
+START_TEST(wetted_parts_near_the_water)
+{
+    const struct {
+        const char *what;
+        level at[MOST_LEVELS];
+        double off;
+        int levels;
+        bool closed, lid;
+    } cases[] = {
+        {"sponson", {{-3, 18, 4}, {-0.005, 18, 4}, {-0.005, 20, 5}, {0, 20, 5}}, 0, 4, false, false},
+        {"low sponson", {{-3, 18, 4}, {-0.015, 18, 4}, {-0.015, 20, 5}, {0, 20, 5}}, 0, 4, false, false},
+        {"ledge", {{-3, 20, 5}, {-0.005, 20, 5}, {-0.005, 18, 4}, {0, 18, 4}}, 0, 4, false, false},
+        {"dish",
+         {{-3, 3, 2}, {-0.4, 17.6, 9.3}, {-0.1, 19.4, 10.4}, {-0.02, 19.9, 10.7}, {0, 20, 10.8}},
+         0,
+         5,
+         false,
+         false},
+        {"flat rim", {{-3, 18, 3}, {-0.019, 18, 3}, {-0.01, 19, 4}, {0, 20, 5}}, 0, 4, false, false},
+        {"lid", {{-3, 20, 5}, {0, 20, 5}}, 0, 2, true, true},
+        {"lid on a ledge", {{-3, 20, 5}, {-0.005, 20, 5}, {-0.005, 18, 4}, {0, 18, 4}}, 0, 4, true, true},
+        {"high lid", {{-3, 20, 5}, {0.001, 20, 5}}, 0, 2, true, true},
+        {"uneven lid", {{-3, 20, 5}, {-1, 20, 5}, {0, 20, 5}}, 0.002, 3, true, true},
+        {"high lid on an overhang", {{-3, 10, 2}, {-1, 10, 2}, {0.001, 20, 5}}, 0, 3, true, true},
+        {"high lid and ledge", {{-3, 20, 5}, {-0.005, 20, 5}, {-0.005, 18, 4}, {0.001, 18, 4}}, 0, 4, true, false},
+        {"camber", {{-3, 20, 5}, {-0.1, 20, 5}, {-0.01, 19, 4}, {0.001, 10, 1}}, 0, 4, true, false},
+        {"deck with rounded edges", {{-3, 20, 5}, {-0.015, 20, 5}, {0.01, 19.9, 4.9}}, 0, 3, true, false},
+    };
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[PANELS_ROOM];
+        const level *at = cases[i].at, top = at[cases[i].levels - 1];
+        write_levels(text, at, cases[i].levels, cases[i].closed, cases[i].off);
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = 2;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        fram_status status = finish(&ctx, cases[i].what, text, &options, &m, &report, &error);
+        ck_assert_msg(status == FRAM_OK, "%s: %s", cases[i].what, error.message);
+        ck_assert_msg(report.lids == (cases[i].lid ? 8 : 0), "%s: %d lids", cases[i].what, report.lids);
+        check_sound(&ctx, &m, 0);
+        const bool raised = !cases[i].closed || cases[i].lid;
+        assert_relative(mesh_solid_properties(&m).volume,
+                        volume_of_levels(at, cases[i].levels) + (raised ? 8 * top.x * top.y : 0), 1e-12);
+        assert_absolute(mesh_bounds(&m).hi.z, top.z + (raised ? 2 : 0), 1e-12);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
 /* A hole of a deck is none of its top: it is filled on request, and no tower is built on it.  In the water plane that
    leaves a hull awash, and is not named. */
 START_TEST(holes_of_decks)
@@ -469,5 +562,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, half_with_a_hole, tops_within_reach,
-          tops_within_reach_above, lids_within_reach, holes_of_decks, freeboards_left_to_fram, options_are_checked,
-          memory_runs_out)
+          tops_within_reach_above, wetted_parts_near_the_water, lids_within_reach, holes_of_decks,
+          freeboards_left_to_fram, options_are_checked, memory_runs_out)
