@@ -88,7 +88,7 @@ static const usual usual_values[] = {
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
     {"vessel.mooring.lines[].pretension", 2e3, MOST_PULL, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
-    {"vessel.hull.freeboard", USUAL_LOWEST_DECK, 60, 1, "what ships have", "give metres"},
+    {"vessel.hull.freeboard", 0.2, 60, 1, "what ships have", "give metres"},
     {"vessel.hydrodynamics.heave_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
     {"vessel.hydrodynamics.roll_damping", 0, 1, 0, "what ships have", "give a part of the critical damping"},
     {"vessel.hydrodynamics.pitch_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},

@@ -63,8 +63,6 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
    floe, of which something is known before it is drawn (sanity_ice.c). */
 double sanity_least_band(const scenario *s);
 
-/* Lower over the water than any deck, full size [m]. */
-#define USUAL_LOWEST_DECK 0.2
 /* Longer than any ship, full size [m]. */
 #define VESSEL_LONGEST 500.0
 

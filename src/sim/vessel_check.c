@@ -313,12 +313,18 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
                   "move it down by the draught",
                   e->path, p->draught, p->beam);
-    const sanity_range deck = sanity_usual(s, USUAL_LOWEST_DECK, HUGE_VAL, 1);
+    const sanity_range deck = sanity_usual_of(s, "vessel.hull.freeboard");
     if (p->freeboard < deck.least)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull ends %.3g m above its z = 0, the design waterline, and no deck is lower than "
                   "%.3g m: move the mesh up or give it topsides; hull.freeboard raises an open top",
                   e->path, p->freeboard, deck.least);
+    /* A file in millimetres is told as that. */
+    if (p->freeboard > deck.most && p->length <= usual.most)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the hull ends %.4g m above its z = 0, the design waterline, and decks are no higher "
+                  "than %.3g m: give hull.freeboard in metres, or move the mesh down",
+                  e->path, p->freeboard, deck.most);
 }
 
 /* ---- floes that are listed ---- */

@@ -315,7 +315,9 @@ box keel -30 30 -7 7 0 7
 box awash -30 30 -7 7 -4 0.1
 box open -30 30 -7 7 -4 3
 sed -i '/f 5 6 7 8/d' open.obj
-for hull in good large athwart stern aside shallow awash open; do
+box cut -30 30 -7 7 -4 0
+sed -i '/f 5 6 7 8/d' cut.obj
+for hull in good large athwart stern aside shallow awash open cut; do
     sed "s/hull: {.*}}/hull: {form: file, file: $hull.obj}}/" towed.yaml >"$hull.yaml"
 done
 all_told good.yaml --
@@ -325,6 +327,9 @@ all_told stern.yaml -- "the waterline of 60 m lies about x = 30 m, not about x =
 all_told aside.yaml -- "the hull lies about y = 13 m, not about y = 0, the centre line"
 all_told shallow.yaml -- "the mesh reaches 0.1 m under its z = 0|move it down by the draught"
 all_told awash.yaml -- "vessel.hull.file: the hull ends 0.1 m above its z = 0|no deck is lower than 0.2 m"
+all_told cut.yaml --
+all_told cut.yaml vessel.hull.freeboard=400 -- "the hull ends 400 m above its z = 0|no higher than 60 m"
+all_told cut.yaml vessel.hull.freeboard=0.1 -- "vessel.hull.file: the hull ends 0.1 m above its z = 0|no deck is lower"
 # It is the deck's height that is judged, not what is added to it; what is added to a hull with topsides is told.
 all_told open.yaml --
 all_told open.yaml vessel.hull.freeboard=0.1 -- "is 3 m above the water already, and is raised by 0.1 m|leave freeboard"
