@@ -185,15 +185,26 @@ static fram_status place_panel(const mesh_reading *r, const vec3 corner[4], int3
     return FRAM_OK;
 }
 
-/* More panels; a remark after the last one is for people. */
+/* More panels, numbers that begin a line or go on over lines; anything else after the last panel is for people.  The
+   reader is at the first of the numbers then. */
 static bool goes_on(gdf_words *w)
 {
-    if (!next_number(w, word_next))
-        return false;
-    size_t sign = 0;
-    while (sign < w->reader.length && strchr("+-.", w->reader.word[sign]))
-        sign++;
-    return sign < w->reader.length && w->reader.word[sign] >= '0' && w->reader.word[sign] <= '9';
+    enum { POINT = 3 };
+    mesh_file none = {.format = MESH_GDF};
+    const mesh_reading r = {.out = &none};
+    gdf_words first = *w;
+    int numbers = 0;
+    while (numbers < POINT && next_number(w, word_next)) {
+        double value;
+        if (mesh_read_number(&r, &w->reader, 0, "a number", &value) != FRAM_OK) {
+            skip_words(w);
+            numbers = 0;
+        } else if (numbers++ == 0) {
+            first = *w;
+        }
+    }
+    *w = first;
+    return numbers == POINT;
 }
 
 fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
