@@ -19,9 +19,13 @@ const char *mechanism_name(ice_mechanism m) { return mechanism_names[m]; }
 const char *mechanism_text(ice_mechanism m) { return mechanism_texts[m]; }
 const char *chain_end_name(chain_end e) { return end_names[e]; }
 const char *chain_end_text(chain_end e) { return end_texts[e]; }
+chain_end peak_end(const run_data *d, const peak_floe *f)
+{
+    return f->end == CHAIN_VESSEL && scenario_vessel_count(&d->s) == 1 ? CHAIN_ITSELF : (chain_end)f->end;
+}
 const char *peak_end_vessel(const run_data *d, const peak_floe *f)
 {
-    return f->links > 0 && f->end == CHAIN_VESSEL ? scenario_vessel_name(&d->s, f->end_vessel) : NULL;
+    return f->links > 0 && peak_end(d, f) == CHAIN_VESSEL ? scenario_vessel_name(&d->s, f->end_vessel) : NULL;
 }
 const char *peak_zone_name(int32_t zone) { return hull_zone_name((hull_zone)zone); }
 
@@ -181,12 +185,13 @@ static const struct {
 
 static void tell_chain_behind(context *ctx, const run_data *run, const peak_floe *f, text_buffer *out)
 {
-    const char *vessel = peak_end_vessel(run, f), *what = vessel ? vessel : chain_leads[f->end].what;
-    int32_t more = f->links + f->left_out - (chain_leads[f->end].floe ? 1 : 2);
+    chain_end end = peak_end(run, f);
+    const char *vessel = peak_end_vessel(run, f), *what = vessel ? vessel : chain_leads[end].what;
+    int32_t more = f->links + f->left_out - (chain_leads[end].floe ? 1 : 2);
     if (f->links <= 1)
         return;
     if (more > 0)
-        text_format(ctx, out, ", behind it %d more %s %s", (int)more, chain_leads[f->end].way, what);
+        text_format(ctx, out, ", behind it %d more %s %s", (int)more, chain_leads[end].way, what);
     else
         text_format(ctx, out, ", behind it %s", what);
 }

@@ -44,6 +44,9 @@ const char *mechanism_text(ice_mechanism m);
 const char *peak_zone_name(int32_t zone);
 const char *chain_end_name(chain_end e);
 const char *chain_end_text(chain_end e);
+/* What holds the end of a chain: a vessel that is alone can only have come back to itself, which older runs did not
+   tell. */
+chain_end peak_end(const run_data *d, const peak_floe *f);
 /* The name of the vessel that a chain ends at; NULL: it ends at none, or at one without a name. */
 const char *peak_end_vessel(const run_data *d, const peak_floe *f);
 /* The mechanism with the largest part. */

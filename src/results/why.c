@@ -174,7 +174,8 @@ static const char *name_end(const why *y, const peak_floe *f)
     const char *vessel = peak_end_vessel(&y->run, f);
     if (vessel)
         return vessel;
-    return f->end == CHAIN_WALL ? "wall" : f->end == CHAIN_ITSELF ? "hull" : f->end == CHAIN_VESSEL ? "vessel" : "body";
+    chain_end end = peak_end(&y->run, f);
+    return end == CHAIN_WALL ? "wall" : end == CHAIN_ITSELF ? "hull" : end == CHAIN_VESSEL ? "vessel" : "body";
 }
 
 static void tell_chain(const why *y, const peak_floe *f, const peak_link *link, text_buffer *out)
@@ -192,7 +193,7 @@ static void tell_chain(const why *y, const peak_floe *f, const peak_link *link, 
                                         : "body",
                     load_text_of(vec3_length(link[i].push), 4).text);
     }
-    text_format(ctx, out, "; the end: %s\n", chain_end_text((chain_end)f->end));
+    text_format(ctx, out, "; the end: %s\n", chain_end_text(peak_end(&y->run, f)));
 }
 
 static void tell_chains(const why *y, const peak_detail *d, text_buffer *out)
@@ -351,7 +352,7 @@ static void json_end(const why *y, text_buffer *out, const peak_floe *f)
     else
         text_add(y->ctx, out, "null");
     text_format(y->ctx, out, ", \"end\": %s%s%s", f->links ? "\"" : "",
-                f->links ? chain_end_name((chain_end)f->end) : "null", f->links ? "\"" : "");
+                f->links ? chain_end_name(peak_end(&y->run, f)) : "null", f->links ? "\"" : "");
     text_format(y->ctx, out, ", \"end_vessel\": %s%s%s", vessel ? "\"" : "", vessel ? vessel : "null",
                 vessel ? "\"" : "");
 }

@@ -102,6 +102,22 @@ START_TEST(ends_of_chains)
 }
 END_TEST
 
+/* Runs of before that was told apart have it as a vessel. */
+START_TEST(one_vessel_is_itself)
+{
+    static peak_detail peak = {.time = 10, .load = 1000, .window = 0.5, .mechanism = {1000}, .floe_count = 1};
+    run_data d = {.s.run = {.scale = 30, .time_step = 0.02}, .s.vessel.present = true, .note.recorded_from = -1};
+    peak.floe[0] = (peak_floe){.part = {1000}, .links = 4, .end = CHAIN_VESSEL, .end_vessel = -1};
+    context ctx;
+    context_init(&ctx);
+    text_buffer out = {0};
+    peak_sentence(&ctx, &d, &peak, &out);
+    ck_assert_msg(strstr(out.data, "behind it 2 more and back to the vessel itself."), "%s", out.data);
+    ck_assert_int_eq(peak_end(&d, &peak.floe[0]), CHAIN_ITSELF);
+    text_free(&ctx, &out);
+}
+END_TEST
+
 /* By falling load, whatever the order in the file, and no more than a run keeps of a vessel. */
 START_TEST(peaks_of_a_file)
 {
@@ -137,4 +153,4 @@ START_TEST(peaks_of_a_file)
 END_TEST
 
 TEST_MAIN("peaks", breaks_are_one_or_many, parts_that_came_loose_are_no_breaks, breaks_before_a_recording_are_not_known,
-          ends_of_chains, peaks_of_a_file)
+          ends_of_chains, one_vessel_is_itself, peaks_of_a_file)
