@@ -98,7 +98,7 @@ typedef struct feeding_definition {
    window. They are then replaced by what the window shows of the endless field, which moves with it already.  Convex
    floes are cut by keep-out zones, others that reach into one are left out.  FRAM_ERROR_INPUT with the key tile or band
    for a tile that is not larger than the window by the diameter of the largest floe, or a band that is narrower than
-   its radius or leaves nothing inside; with the key keep_out when the zones leave none of the floes that were given. */
+   its radius or leaves nothing inside. */
 fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d, const feeding_world *w,
                           fram_error *error);
 

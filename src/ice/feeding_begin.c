@@ -177,26 +177,20 @@ static fram_status show_floe(context *ctx, overlay *o, const feeding_definition 
 }
 
 /* Of floes that somebody gave those that are not there are told, as a warning where it is half of them; of a drawn
-   field a hull covers some. */
-static fram_status tell_left_out(context *ctx, const feeding_definition *d, const view_work *v, int32_t floes,
-                                 fram_error *error)
+   field a hull covers some.  Even where none is there the next tile brings them once the field drifts. */
+static void tell_left_out(context *ctx, const feeding_definition *d, const view_work *v, int32_t floes)
 {
     int32_t all = v->left_out + v->covered;
-    if (d->given && all > 0 && all == floes)
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
-                         "no floe is left of %d: each is in the way of a vessel or of open water; look at where these "
-                         "lie, and at ice.keep_out_margin",
-                         (int)floes);
-    if (d->given && v->covered > 0)
+    if (d->given && all > 0)
         log_write(
             ctx, 2 * all >= floes ? LOG_WARNING : LOG_INFO,
             "%d of %d floes left out at the start, %d of them concave: they are in the way of a vessel or of open "
-            "water",
-            (int)all, (int)floes, (int)v->left_out);
+            "water%s",
+            (int)all, (int)floes, (int)v->left_out,
+            all < floes ? "" : "; none is there until the field drifts on and repeats itself");
     else if (v->left_out > 0)
         log_write(ctx, LOG_INFO, "%d concave floes left out at the start, in the way of a vessel or of open water",
                   (int)v->left_out);
-    return FRAM_OK;
 }
 
 fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d, const feeding_world *w,
@@ -223,7 +217,7 @@ fram_status feeding_begin(context *ctx, overlay *o, const feeding_definition *d,
     for (int32_t row = 0; row < w->pattern->count && status == FRAM_OK; row++)
         status = show_floe(ctx, o, d, w, row, &v, error);
     if (status == FRAM_OK)
-        status = tell_left_out(ctx, d, &v, w->pattern->count, error);
+        tell_left_out(ctx, d, &v, w->pattern->count);
     view_work_free(ctx, &v);
     return status;
 }

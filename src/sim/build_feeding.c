@@ -32,8 +32,6 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
         snprintf(error->key, sizeof error->key, "domain.band");
     else if (strcmp(error->key, "window") == 0)
         snprintf(error->key, sizeof error->key, "domain");
-    else if (strcmp(error->key, "keep_out") == 0)
-        snprintf(error->key, sizeof error->key, "ice.file");
     scenario_locate(s, error);
     return status;
 }
