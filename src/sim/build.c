@@ -137,7 +137,7 @@ fram_status build_check(context *ctx, const scenario *s, hull_store *store, buil
 static fram_status look_at_zones(context *ctx, const scenario *s, const world *w, fram_error *error)
 {
     polygon_list zones = {0};
-    fram_status status = build_keep_out(ctx, s, w, &zones, error);
+    fram_status status = build_keep_out(ctx, s, w, HUGE_VAL, &zones, error);
     polygon_list_free(ctx, &zones);
     return status;
 }

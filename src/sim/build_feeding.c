@@ -62,10 +62,19 @@ static fram_status check_place(context *ctx, const scenario *s, const world *w, 
     return status;
 }
 
+/* Of all that the tile holds. */
+static double thickest_made(const floe_table *f)
+{
+    double most = 0;
+    for (int32_t i = 0; i < f->count; i++)
+        most = f->body[i] >= 0 ? fmax(most, f->thickness[i]) : most;
+    return most;
+}
+
 static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 tile, world *w, fram_error *error)
 {
     polygon_list keep_out = {0};
-    fram_status status = build_keep_out(ctx, s, w, &keep_out, error);
+    fram_status status = build_keep_out(ctx, s, w, thickest_made(&w->floes), &keep_out, error);
     feeding_definition d = {.window = m->domain,
                             .tile = tile,
                             .band = s->domain.band,

@@ -25,14 +25,6 @@ fram_status build_footprints(context *ctx, const world *w, polygon_list *out, fr
 
 /* ---- hulls in parts ---- */
 
-static double thickest_ice(const scenario *s)
-{
-    double most = s->ice.thickness;
-    for (int32_t i = 0; i < s->ice.populations.count; i++)
-        most = real_max(most, automatic_or(s->ice.populations.data[i].thickness, 0));
-    return most;
-}
-
 /* The first two zones that have something in common; false: none. */
 static bool find_meeting(const polygon_list *zones, int32_t *a, int32_t *b)
 {
@@ -92,12 +84,12 @@ static fram_status zones_of_parts(context *ctx, const world *w, int32_t body, bu
 
 /* Of a hull in one part all that is seen from above, its deck too. */
 static fram_status add_vessel_zones(context *ctx, const scenario *s, const world *w, int32_t vessel, polygon footprint,
-                                    polygon_list *out, fram_error *error)
+                                    double thickest, polygon_list *out, fram_error *error)
 {
     polygon_list whole = {0}, parts = {0};
     double margin = s->ice.keep_out_margin;
-    fram_status status =
-        zones_of_parts(ctx, w, w->vessels.body[vessel], build_slab_of_ice(s, thickest_ice(s)), margin, &parts, error);
+    build_slab slab = thickest < HUGE_VAL ? build_slab_of_ice(s, thickest) : build_slab_all();
+    fram_status status = zones_of_parts(ctx, w, w->vessels.body[vessel], slab, margin, &parts, error);
     bool apart = polygon_list_count(&parts) > 1, good = status == FRAM_OK;
     for (int32_t i = 0; i < polygon_list_count(&parts) && good && apart; i++)
         good = polygon_list_push(ctx, out, polygon_list_get(&parts, i));
@@ -108,12 +100,13 @@ static fram_status add_vessel_zones(context *ctx, const scenario *s, const world
     return status == FRAM_OK && !good ? error_memory(error) : status;
 }
 
-fram_status build_wide_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+fram_status build_wide_footprints(context *ctx, const scenario *s, const world *w, double thickest, polygon_list *out,
+                                  fram_error *error)
 {
     polygon_list all = {0};
     fram_status status = build_footprints(ctx, w, &all, error);
     for (int32_t i = 0; i < polygon_list_count(&all) && status == FRAM_OK; i++)
-        status = add_vessel_zones(ctx, s, w, i, polygon_list_get(&all, i), out, error);
+        status = add_vessel_zones(ctx, s, w, i, polygon_list_get(&all, i), thickest, out, error);
     polygon_list_free(ctx, &all);
     return status;
 }
@@ -200,9 +193,10 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
     return status;
 }
 
-fram_status build_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+fram_status build_keep_out(context *ctx, const scenario *s, const world *w, double thickest, polygon_list *out,
+                           fram_error *error)
 {
-    fram_status status = build_wide_footprints(ctx, s, w, out, error);
+    fram_status status = build_wide_footprints(ctx, s, w, thickest, out, error);
     if (status == FRAM_OK)
         status = add_rectangles(ctx, s, out, error);
     return status == FRAM_OK ? add_file(ctx, s, w, out, error) : status;

@@ -80,7 +80,7 @@ static bool push_openings(context *ctx, const scenario *s, polygon_list *out)
 /* The vessels' footprints with their margin, and what the scenario opens. */
 static fram_status find_openings(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
-    fram_status status = build_wide_footprints(ctx, s, w, out, error);
+    fram_status status = build_wide_footprints(ctx, s, w, s->ice.thickness, out, error);
     if (status == FRAM_OK && !push_openings(ctx, s, out))
         status = error_memory(error);
     return status;

@@ -26,10 +26,25 @@ floe_traits scenario_traits(const scenario *s, double thickness)
                          s->ice.breakable};
 }
 
-/* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
-static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+/* No floe of the field is thicker; HUGE_VAL: they scatter. */
+static double thickest_drawn(const scenario *s, const import_rings *file)
 {
-    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, s, w, out, error);
+    double most = s->ice.source == ICE_FILE || s->ice.populations.count > 0 ? 0 : s->ice.thickness;
+    for (int32_t i = 0; i < file->place.count; i++)
+        most = fmax(most, scenario_traits(s, file->place.data[i].thickness).thickness);
+    for (int32_t i = 0; i < s->ice.populations.count; i++) {
+        const scenario_population *p = &s->ice.populations.data[i];
+        most = p->thickness_deviation > 0 ? HUGE_VAL : fmax(most, scenario_traits(s, p->thickness).thickness);
+    }
+    return most;
+}
+
+/* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
+static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, const import_rings *file,
+                                 polygon_list *out, fram_error *error)
+{
+    bool whole = s->domain.boundary == DOMAIN_FEEDING;
+    return whole ? FRAM_OK : build_keep_out(ctx, s, w, thickest_drawn(s, file), out, error);
 }
 
 static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
@@ -127,12 +142,18 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
     return FRAM_OK;
 }
 
-static fram_status draw_file(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
+static fram_status read_file(context *ctx, const scenario *s, char path[2 * SCENARIO_TEXT_SIZE], import_rings *out,
                              fram_error *error)
 {
-    char path[2 * SCENARIO_TEXT_SIZE];
-    if (!scenario_resolve_path(s, s->ice.file, path, sizeof path))
+    if (!scenario_resolve_path(s, s->ice.file, path, 2 * SCENARIO_TEXT_SIZE))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
+    return outline_file_read(ctx, path, out, error);
+}
+
+/* path: of the file, whose rings were read. */
+static fram_status draw_file(context *ctx, const scenario *s, world *w, const char *path, const polygon_list *keep_out,
+                             drawn_ice *out, fram_error *error)
+{
     import_rings *rings = &out->source;
     import_field *field = &out->file;
     const import_options options = {.name = path,
@@ -149,9 +170,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
                                     .bad = s->ice.bad_rings,
                                     .smallest_area = s->ice.smallest_floe_area,
                                     .keep_out = keep_out};
-    fram_status status = outline_file_read(ctx, path, rings, error);
-    if (status == FRAM_OK)
-        status = import_field_make(ctx, w->scratch.plane, rings, &options, field, error);
+    fram_status status = import_field_make(ctx, w->scratch.plane, rings, &options, field, error);
     polygon_list_free(ctx, &rings->rings);
     if (status == FRAM_OK) {
         log_notes(ctx, rings, field);
@@ -171,11 +190,14 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
 fram_status draw_ice(context *ctx, const scenario *s, world *w, drawn_ice *out, fram_error *error)
 {
     polygon_list keep_out = {0};
-    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
+    char path[2 * SCENARIO_TEXT_SIZE];
+    fram_status status = s->ice.source == ICE_FILE ? read_file(ctx, s, path, &out->source, error) : FRAM_OK;
+    if (status == FRAM_OK)
+        status = find_keep_out(ctx, s, w, &out->source, &keep_out, error);
     if (status == FRAM_OK && s->ice.source == ICE_VORONOI)
         status = draw_voronoi(ctx, s, w, &keep_out, out, error);
     if (status == FRAM_OK && s->ice.source == ICE_FILE)
-        status = draw_file(ctx, s, w, &keep_out, out, error);
+        status = draw_file(ctx, s, w, path, &keep_out, out, error);
     out->placed = polygon_list_count(&out->outlines);
     if (status == FRAM_OK && s->ice.source != ICE_VORONOI && s->ice.populations.count > 0)
         status = draw_populations(ctx, s, w, &keep_out, out, error);
