@@ -244,7 +244,13 @@ typedef struct measured_loads {
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
     /* In a scene with equal sides a vessel meets from port what it meets from starboard, seen from the middle. */
-    bool mirrored = capability_is_mirrored(s);
+    const char *one_sided = capability_one_sided(s);
+    bool mirrored = !one_sided;
+    if (one_sided)
+        log_write(ctx, LOG_INFO,
+                  "ice is measured from all %d directions, and not from half of them: the %s is not known to be the "
+                  "same to port and to starboard",
+                  (int)m->directions, one_sided);
     c->loads.runs_done = 0;
     c->loads.runs = (mirrored ? m->directions / 2 + 1 : m->directions) * m->speeds;
     for (int32_t i = 0; i < m->directions; i++) {

@@ -5,12 +5,15 @@
 
 #include <math.h>
 
-/* Of coordinates: what rounding leaves between a place and its image. */
-#define IMAGE_ROUNDED 1e-9
+/* What rounding leaves between a place and its image: of numbers as they are written, a part of the domain's size,
+   however far away the place is; of those that are computed, a part of their own size. */
+#define IMAGE_WRITTEN 1e-9
+#define IMAGE_COMPUTED 1e-14
 
 /* The centre line of the vessel, from above. */
 typedef struct mirror_line {
     vec2 at, along;
+    double written; /* [m] IMAGE_WRITTEN of the domain */
 } mirror_line;
 
 typedef struct rectangle {
@@ -21,6 +24,11 @@ static vec2 image_of(const mirror_line *m, vec2 p)
 {
     vec2 off = vec2_sub(p, m->at);
     return vec2_sub(vec2_add(m->at, vec2_scale(m->along, 2 * vec2_dot(off, m->along))), off);
+}
+
+static double rounded_at(const mirror_line *m, vec2 p)
+{
+    return m->written + IMAGE_COMPUTED * (vec2_length(p) + vec2_length(m->at));
 }
 
 static bool has_corner(const rectangle *r, vec2 p, double near)
@@ -34,10 +42,8 @@ static bool has_corner(const rectangle *r, vec2 p, double near)
 static bool is_image(const mirror_line *m, const rectangle *a, const rectangle *b)
 {
     bool same = true;
-    for (int k = 0; k < 4 && same; k++) {
-        double size = vec2_length(a->corner[k]) + vec2_length(m->at);
-        same = has_corner(b, image_of(m, a->corner[k]), IMAGE_ROUNDED * size);
-    }
+    for (int k = 0; k < 4 && same; k++)
+        same = has_corner(b, image_of(m, a->corner[k]), rounded_at(m, a->corner[k]));
     return same;
 }
 
@@ -65,17 +71,44 @@ static bool are_openings_mirrored(const mirror_line *m, const scenario_opening_l
     return all;
 }
 
-/* A sheet without edges is; where it has such, those that it lacks are far away. */
+/* One of the edges of a sheet that there are: straight, and without end as far as it matters. */
+typedef struct sheet_edge {
+    vec2 at, outward;
+} sheet_edge;
+
+/* at: the place on it that is nearest to the vessel, so that no size takes part but how far off the edge is. */
+static int list_edges(const mirror_line *m, box2 b, sheet_edge out[4])
+{
+    const sheet_edge all[4] = {{{b.lo.x, m->at.y}, {-1, 0}},
+                               {{b.hi.x, m->at.y}, {1, 0}},
+                               {{m->at.x, b.lo.y}, {0, -1}},
+                               {{m->at.x, b.hi.y}, {0, 1}}};
+    int count = 0;
+    for (int k = 0; k < 4; k++)
+        if (isfinite(all[k].at.x) && isfinite(all[k].at.y))
+            out[count++] = all[k];
+    return count;
+}
+
+static bool is_edge_image(const mirror_line *m, const sheet_edge *a, const sheet_edge *b)
+{
+    vec2 at = image_of(m, a->at), outward = vec2_sub(image_of(m, vec2_add(m->at, a->outward)), m->at);
+    return vec2_length(vec2_sub(outward, b->outward)) <= IMAGE_WRITTEN &&
+           fabs(vec2_dot(vec2_sub(at, b->at), b->outward)) <= rounded_at(m, a->at);
+}
+
+/* Each edge is its own image or that of another one, as is a sheet without edges. */
 static bool is_sheet_mirrored(const mirror_line *m, const scenario *s)
 {
-    const double far = 1e9;
-    box2 b = build_sheet_extent(s);
-    if (isinf(b.lo.x) && isinf(b.lo.y) && isinf(b.hi.x) && isinf(b.hi.y))
-        return true;
-    const box2 sheet = {{fmax(b.lo.x, m->at.x - far), fmax(b.lo.y, m->at.y - far)},
-                        {fmin(b.hi.x, m->at.x + far), fmin(b.hi.y, m->at.y + far)}};
-    const rectangle edges = of_box(sheet);
-    return is_image(m, &edges, &edges);
+    sheet_edge edges[4];
+    const int count = list_edges(m, build_sheet_extent(s), edges);
+    bool all = true;
+    for (int i = 0; i < count && all; i++) {
+        all = false;
+        for (int k = 0; k < count && !all; k++)
+            all = is_edge_image(m, &edges[i], &edges[k]);
+    }
+    return all;
 }
 
 /* The ice is endless, but its outer band goes with the drift, whatever pushes: a vessel nearer to it on one side meets
@@ -84,7 +117,7 @@ static bool is_domain_mirrored(const mirror_line *m, const scenario_domain *d)
 {
     const box2 b = domain_box(d);
     const rectangle edges = of_box(b);
-    double wide = b.hi.x - b.lo.x, high = b.hi.y - b.lo.y, near = IMAGE_ROUNDED * (wide + high);
+    const double wide = b.hi.x - b.lo.x, high = b.hi.y - b.lo.y, near = rounded_at(m, b.hi);
     vec2 middle = vec2_scale(vec2_add(b.lo, b.hi), 0.5);
     bool central = fabs(wide - high) <= near && vec2_length(vec2_sub(middle, m->at)) <= near;
     return central || is_image(m, &edges, &edges);
@@ -102,11 +135,14 @@ static bool is_ice_mirrored(const mirror_line *m, const scenario *s)
     return drawn && !i->open_water_file[0] && are_openings_mirrored(m, &i->open_water);
 }
 
-bool capability_is_mirrored(const scenario *s)
+const char *capability_one_sided(const scenario *s)
 {
     const scenario_vessel *v = &s->vessel;
+    const box2 b = domain_box(&s->domain);
     double heading = radians(v->heading_deg);
-    const mirror_line m = {{v->x, v->y}, {real_cos(heading), real_sin(heading)}};
-    return v->hull.form != HULL_MESH && automatic_or(v->centre_of_gravity_y, 0) == 0 &&
-           is_domain_mirrored(&m, &s->domain) && is_ice_mirrored(&m, s);
+    const mirror_line m = {
+        {v->x, v->y}, {real_cos(heading), real_sin(heading)}, IMAGE_WRITTEN * (b.hi.x - b.lo.x + b.hi.y - b.lo.y)};
+    if (v->hull.form == HULL_MESH || automatic_or(v->centre_of_gravity_y, 0) != 0)
+        return "vessel";
+    return !is_domain_mirrored(&m, &s->domain) ? "domain" : !is_ice_mirrored(&m, s) ? "ice" : NULL;
 }

@@ -5,8 +5,9 @@
 
 #include "model/scenario.h"
 
-/* Of a single vessel in a field that drifts through its domain: whether hull, ice and domain are their own mirror image
-   in the vessel's centre plane.  Floes that are drawn count as such: chance draws either side alike. */
-bool capability_is_mirrored(const scenario *s);
+/* Of a single vessel in a field that drifts through its domain: which of "vessel", "domain" and "ice" is not known to
+   be its own mirror image in the vessel's centre plane; NULL: all are.  Floes that are drawn count as such: chance
+   draws either side alike. */
+const char *capability_one_sided(const scenario *s);
 
 #endif
