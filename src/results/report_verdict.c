@@ -3,6 +3,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/student.h"
+#include "io/velocity_file.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/run_record.h"
@@ -247,12 +248,40 @@ static double mean_size(const report *r, const double *x, const double *y)
     return rows > 0 ? sum / rows : 0;
 }
 
-/* Of a drift that a file tells, and of a ship on a path or under its own power, the series knows the speed. */
+/* Mean speed of a current at the surface after the transient that files have a part in; 0 where they cannot be read. */
+static double mean_current_of_files(const report *r, const ice_drift *current)
+{
+    const double *time = run_channel(&r->d, "time");
+    int32_t first = run_first_row(&r->d), rows = r->d.series.rows - first;
+    const media still = {.current = scenario_velocity(current->speed, current->towards_deg)};
+    media_history files = {0};
+    double sum = 0;
+    if (velocity_file_read(r->ctx, &r->d.s, current->file, &files.current, NULL) == FRAM_OK &&
+        velocity_profile_read(r->ctx, &r->d.s, current->profile, &files.profile, NULL) == FRAM_OK)
+        for (int32_t i = first; time && i < first + rows; i++) {
+            const media now = media_at(&still, &files, time[i]);
+            sum += vec3_length(media_current(&now, 0));
+        }
+    media_history_free(r->ctx, &files);
+    return rows > 0 ? sum / rows : 0;
+}
+
+/* Of the current, and of the drift of ice. */
+static double flow_speed(const report *r)
+{
+    const ice_drift current = scenario_current(&r->d.s), drift = scenario_drift(&r->d.s);
+    double water = ice_drift_is_of_keys(&current) ? current.speed : mean_current_of_files(r, &current),
+           ice = ice_drift_is_of_keys(&drift)
+                     ? drift.speed
+                     : mean_size(r, run_channel(&r->d, "drift_x"), run_channel(&r->d, "drift_y"));
+    return fmax(water, ice);
+}
+
+/* Of a ship on a path or under its own power the series knows the speed. */
 static double approach_speed(const report *r)
 {
     const scenario *s = &r->d.s;
-    double most = fmax(s->environment.current_speed, automatic_or(s->domain.drift_speed, 0));
-    most = fmax(most, mean_size(r, run_channel(&r->d, "drift_x"), run_channel(&r->d, "drift_y")));
+    double most = flow_speed(r);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
         most = fmax(most, v->speed);

@@ -281,6 +281,30 @@ verdict touch
 says "but one of" verdict.txt
 says "of the approach speed of 8 m/s" verdict.txt # that of the path, which the series tells
 grep -q "no ice load occurred" verdict.txt && fail "the report knows nothing of a load between rows"
+
+# A current that files tell is the approach speed, with what the keys say only where no file stands in their place.
+cat >walls.yaml <<'YAML'
+run: {duration: 4, time_step: 0.05, transient: 2}
+domain: {boundary: walls, x_min: -60, x_max: 60, y_min: -60, y_max: 60}
+ice: {source: voronoi, concentration: 0.6, mean_floe_area: 200, thickness: 0.4}
+vessel: {mode: prescribed, hull: {form: ship, length: 40, beam: 10, draught: 4}}
+YAML
+printf 'time[s],x[m/s],y[m/s]\n0,0,0\n1,0,0.4\n' >walls.csv
+printf 'depth[m],x[m/s],y[m/s]\n0,0.3,0\n5,2,0\n' >deep.csv
+# approached SPEED KEYS...
+approached() {
+    local speed=$1
+    shift
+    expect 0 "$FRAM" run walls.yaml -o walls --force -q "${@/#/--set=environment.}"
+    verdict walls
+    says "of the approach speed of $speed m/s" verdict.txt
+}
+approached 1.5 current_speed=1.5
+approached 0.4 current_file=walls.csv
+approached 0.4 current_file=walls.csv current_speed=3
+approached 0.3 current_profile_file=deep.csv
+approached 0.5 current_profile_file=deep.csv current_file=walls.csv
+approached 1.3 current_profile_file=deep.csv current_speed=1
 sed -i "s|source: floes.*|source: none}|" far.yaml
 met
 grep -q "met no ice" met.txt && fail "a ship in open water is told that it met no ice: $(cat met.txt)"
