@@ -14,11 +14,6 @@ static const double WAY_TIME = 60;
 
 /* ---- which vessel ---- */
 
-static bool drives_itself(const scenario *s, int32_t v)
-{
-    return !is_automatic(scenario_vessel_entry(s, v).keys->propulsion.bollard_pull);
-}
-
 /* The unit alone is mostly written without a name. */
 static bool has_no_name(const scenario *s)
 {
@@ -40,7 +35,7 @@ static fram_status choose_vessel(manage_run *m, const manage_options *options, f
         return status;
     int32_t count = scenario_vessel_count(s), candidates = 0;
     for (int32_t v = count - 1; v >= 0; v--) {
-        if (count > 1 && drives_itself(s, v))
+        if (count > 1 && vessel_drives_itself(scenario_vessel_entry(s, v).keys))
             continue;
         candidates++;
         m->vessel = v;
