@@ -4,6 +4,7 @@
 #include "ice/fracture.h"
 #include "io/record_layout.h"
 #include "io/text_buffer.h"
+#include "model/scenario_vessel.h"
 #include "vessel/hull.h"
 
 #include <errno.h>
