@@ -245,7 +245,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
                      most_text_of(THICKNESS_STEP * thickness / speed, 3).text);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
-    bool leaves = is_in_domain(&s->domain, v->x, v->y) && !is_in_domain(&s->domain, x, y);
+    bool leaves = !sanity_lies_outside(s, v) && !is_in_domain(&s->domain, x, y);
     if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && leaves)
         note_warning(n, "%s %s the domain before the end, at (%s, %s) m", title.text,
                      v->mode == VESSEL_FREE ? "can leave" : "leaves", coordinate_text_of(x).text,

@@ -298,68 +298,6 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    h->draught, e->keys->mooring.depth);
 }
 
-/* What a vessel turns about in a field of floes, global: amidships, or its turret.  Beyond the edge of a drifting sheet
-   there is open water, not a band: there the ship is looked at as it lies.  reach: from there along X and Y; a vessel
-   that is led keeps its heading. */
-static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 start, vec2 *reach)
-{
-    bool turret = v->mode == VESSEL_FREE && v->mooring.turret && v->mooring.lines.count > 0;
-    turret = turret && scene->ice.source != ICE_LEVEL;
-    double c = real_cos(radians(start.z)), s = real_sin(radians(start.z));
-    double x = turret ? v->mooring.x : 0, y = turret ? v->mooring.y : 0;
-    double along = 0.5 * v->hull.length + fabs(x), across = 0.5 * v->hull.beam + fabs(y);
-    double most = sqrt(along * along + across * across);
-    if (v->hull.form == HULL_CONE)
-        most = 0.5 * v->hull.length + sqrt(x * x + y * y);
-    *reach = vec2_make(most, most);
-    if (v->mode != VESSEL_FREE && v->hull.form != HULL_CONE)
-        *reach = vec2_make(fabs(c) * along + fabs(s) * across, fabs(s) * along + fabs(c) * across);
-    return vec2_make(start.x + c * x - s * y, start.y + s * x + c * y);
-}
-
-/* Of a reach [m]: what is missing to it by rounding. */
-#define ROOM_ROUNDED 1e-9
-
-/* Nearest edge of a fed domain within the reach of the vessel, turned any way it may be: the band moves floes through
-   the hull. */
-static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
-{
-    const scenario_domain *d = &t->s->domain;
-    vec2 reach, at = turns_about(t->s, e->keys, start, &reach), edge = domain_edges_from(d, at);
-    double band = sanity_least_band(t->s);
-    bool along_x = reach.x - edge.x > reach.y - edge.y;
-    double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
-    if (d->boundary == DOMAIN_FEEDING && most - room > ROOM_ROUNDED * most)
-        sanity_say(t->tell, t->to,
-                   "domain: its edge%s is %.4g m %s %s, which reaches %.4g m%s; enlarge the domain by %s m or more "
-                   "on that side",
-                   band > 0 ? " with the band" : "", fabs(room), room < 0 ? "short of" : "from", e->path, most,
-                   e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it",
-                   least_text_of((most - room) * (1 - ROOM_ROUNDED), 3).text);
-}
-
-static void tell_domain(const teller *t, const vessel_entry *e, vec3 start)
-{
-    const scenario_domain *d = &t->s->domain;
-    const scenario_vessel *v = e->keys;
-    if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
-        return;
-    vec2 from = domain_edges_from(d, vec2_make(v->x, v->y));
-    double edge = fmin(from.x, from.y);
-    bool outside = edge < -0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
-    if (!outside)
-        tell_room(t, e, start);
-    else
-        sanity_say(t->tell, t->to,
-                   "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no "
-                   "ice",
-                   e->path, coordinate_text_of(v->x).text, coordinate_text_of(v->y).text, -edge);
-    double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
-    if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
-        sanity_say(t->tell, t->to, "domain: %.4g m is less than two beams of %s, so that its edges carry the load",
-                   width, e->path);
-}
-
 /* Ice in a basin does not drift past a vessel on station: it gathers at a wall. */
 static void tell_basin(const teller *t)
 {
@@ -490,7 +428,7 @@ void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, cons
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);
-        tell_domain(&t, &e, sanity_start(s, i, made));
+        sanity_tell_domain(s, i, built, tell, to);
         tell_vessel_station(&t, &e);
         sanity_tell_size(s, &e, tell, to);
         sanity_tell_vessel(s, i, built, tell, to);

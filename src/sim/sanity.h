@@ -26,6 +26,8 @@ void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, cons
 void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
 /* Of its size, held against run.scale and against what pulls it.  sanity_tell asks. */
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
+/* Of its place in the domain, and of the room that it has there.  sanity_tell asks. */
+void sanity_tell_domain(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
                          const void *to);
@@ -43,6 +45,10 @@ void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 /* Where the ship's origin begins and with which heading (x, y, heading: m, m, deg): as in `made` where that was found
    at the equilibrium of a mooring, else as its keys have it. */
 vec3 sanity_start(const scenario *s, int32_t vessel, const world *made);
+
+/* Whether a vessel begins so far outside of the domain that it is told to meet no ice; without ice none is, and hulls
+   of files, whose size is not in their keys, are not. */
+bool sanity_lies_outside(const scenario *s, const scenario_vessel *v);
 
 /* Whether a current of that speed across a hull [m/s] matters to its station, and acts on its faces with the drag of
    one that goes ahead. */

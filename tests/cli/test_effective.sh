@@ -150,6 +150,18 @@ told "the vessel leaves the domain before the end, at (-90, "
 expect 0 "$FRAM" check tow.yaml --set vessel.x=-1400000 --set vessel.y=2000000.5 --set domain.x_min=-1400080 \
     --set domain.x_max=-1399900 --set domain.y_min=1999900 --set domain.y_max=2000100
 told "the vessel leaves the domain before the end, at (-1400090, 2000000.5) m"
+# So does one that begins outside of the domain, unless it is told that there is no ice so far out.
+leaves=("the vessel leaves the domain before the end, at (190, 0) m" --set vessel.x=100 --set domain.x_max=80)
+for ice in none voronoi; do
+    expect 0 "$FRAM" check tow.yaml --set ice.source=$ice --set vessel.course_deg=0 "${leaves[@]:1}"
+    told "${leaves[0]}"
+done
+far=(--set vessel.course_deg=0 --set vessel.x=140 --set domain.x_max=80)
+expect 0 "$FRAM" check tow.yaml "${far[@]}"
+told "the vessel leaves the domain before the end, at (230, 0) m"
+expect 0 "$FRAM" check tow.yaml --set ice.source=voronoi "${far[@]}"
+told "(140, 0) m lies outside of the domain"
+grep -q 'leaves the domain' err && fail "a vessel that lies outside is told to leave"
 
 # On a path the bow is that of its first point.
 path='path: [{time: 0, heading_deg: 90}, {time: 60, y: 30, heading_deg: 90}]'
