@@ -15,6 +15,8 @@ enum { SPEED_HALVINGS = 10 };
 /* Loads stand a degree apart or less and are linear between, 1 to 2.5: a load that goes with the sine of the direction
    is then 4e-5 of its greatest off, at 2.5 degrees 2.4e-4. */
 enum { LOAD_ROWS = 360 };
+/* Of a hull from a file, which may have 1e5 faces to be summed over for each: at most 2.5 degrees apart. */
+enum { LOAD_ROWS_OF_FILE = 144 };
 
 static double direction_of(const capability *c, int32_t row) { return 2 * PI * row / c->loads.directions; }
 
@@ -26,22 +28,42 @@ static vec3 towards(double from, double speed) { return vec3_make(-speed * real_
 /* The vessel whose capability is asked for. */
 enum { VESSEL = 0 };
 
-static void find_media_loads(const model *m, const world *w, capability *c)
+fram_status capability_go_on(const capability *c, fram_error *error)
 {
-    if (m->forces != FORCES_FLUID)
-        return; /* none, as in a run */
-    for (int32_t i = 0; i < c->loads.rows; i++) {
-        double from = 2 * PI * i / c->loads.rows;
-        media still = m->media;
-        still.profile.count = 0;
-        still.current = still.wind = vec3_make(0, 0, 0);
-        media blows = still, flows = still;
-        blows.wind = towards(from, c->wind_speed);
-        flows.current = towards(from, 1);
+    if (!stop_is_asked(c->options.stop))
+        return FRAM_OK;
+    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
+}
+
+static void find_media_load(const model *m, const world *w, capability *c, int32_t i)
+{
+    double from = 2 * PI * i / c->loads.rows;
+    media still = m->media;
+    still.profile.count = 0;
+    still.current = still.wind = vec3_make(0, 0, 0);
+    media blows = still, flows = still;
+    blows.wind = towards(from, c->wind_speed);
+    flows.current = towards(from, 1);
+    if (c->wind_speed > 0)
         c->loads.wind[i] = steady_drag_load(m, w, VESSEL, &blows, 0);
-        c->loads.drag[i] = steady_drag_load(m, w, VESSEL, &flows, 0);
-        c->loads.damping[i] = steady_damping_load(m, w, VESSEL, &flows, 0);
+    c->loads.drag[i] = steady_drag_load(m, w, VESSEL, &flows, 0);
+    c->loads.damping[i] = steady_damping_load(m, w, VESSEL, &flows, 0);
+}
+
+/* Each is a sum over all faces of the hull. */
+static fram_status find_media_loads(context *ctx, const model *m, const world *w, capability *c, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    if (m->forces != FORCES_FLUID)
+        return FRAM_OK; /* none, as in a run */
+    for (int32_t i = 0; i < c->loads.rows && status == FRAM_OK; i++) {
+        status = capability_go_on(c, error);
+        if (status == FRAM_OK)
+            status = work_continue(ctx, "summing loads", i, c->loads.rows, error);
+        if (status == FRAM_OK)
+            find_media_load(m, w, c, i);
     }
+    return status;
 }
 
 static vec3 between(const vec3 *row, int32_t directions, int32_t stride, double from)
@@ -167,13 +189,6 @@ static void list_failures(const world *w, capability *c)
     for (int32_t i = 0; i < w->lines.count && c->failures < most; i++)
         if (!w->lines.broken[i])
             c->failure[c->failures++] = (capability_failure){true, i};
-}
-
-fram_status capability_go_on(const capability *c, fram_error *error)
-{
-    if (!stop_is_asked(c->options.stop))
-        return FRAM_OK;
-    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
 }
 
 /* Lines take a search for the heading at which the vessel comes to rest, seconds a direction: asked before each one of
@@ -402,6 +417,15 @@ static fram_status measure_met(context *ctx, const scenario *s, const world *w, 
     return status;
 }
 
+static fram_status find_ice_loads(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
+{
+    if (c->options.met)
+        return measure_met(ctx, s, w, c, error);
+    if (s->ice.source == ICE_NONE)
+        return FRAM_OK;
+    return c->options.formula ? capability_ice_formula(ctx, s, w, c, error) : capability_ice_measured(ctx, s, c, error);
+}
+
 static fram_status find_with_model(context *ctx, const scenario *s, const model *m, capability *c, fram_error *error)
 {
     world w;
@@ -410,12 +434,9 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
         return status;
     status = allocate(ctx, c, error);
     if (status == FRAM_OK) {
-        find_media_loads(m, &w, c);
-        if (c->options.met)
-            status = measure_met(ctx, s, &w, c, error);
-        else if (s->ice.source != ICE_NONE)
-            status = c->options.formula ? capability_ice_formula(ctx, s, &w, c, error)
-                                        : capability_ice_measured(ctx, s, c, error);
+        status = find_media_loads(ctx, m, &w, c, error);
+        if (status == FRAM_OK)
+            status = find_ice_loads(ctx, s, &w, c, error);
     }
     if (status == FRAM_OK)
         status = sweep(ctx, s, &w, c, error);
@@ -449,7 +470,8 @@ static fram_status find_alone(context *ctx, const scenario *s, const capability_
         return status;
     capability_tell_scenario(ctx, s, o);
     c->loads.directions = o->directions;
-    c->loads.rows = (LOAD_ROWS + o->directions - 1) / o->directions * o->directions;
+    int32_t least = s->vessel.hull.form == HULL_MESH ? LOAD_ROWS_OF_FILE : LOAD_ROWS;
+    c->loads.rows = (least + o->directions - 1) / o->directions * o->directions;
     c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
     c->loads.speed_step = o->speed_step;
     model m;

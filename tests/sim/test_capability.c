@@ -725,8 +725,10 @@ END_TEST
 static void count_balances(void *user, const char *what, double done, double total)
 {
     int *count = user;
+    if (strcmp(what, "balancing") != 0)
+        return;
     ck_assert(done < total && total == 8 * 4);
-    *count += strcmp(what, "balancing") == 0;
+    (*count)++;
 }
 
 /* Who waits is told of each direction, and in it of each failure until one leaves nothing: without the propeller
@@ -743,6 +745,29 @@ START_TEST(balances_are_told)
     assert_ok(capability_find(&k.ctx, &k.s, &plain, &c, &error), error);
     ck_assert_int_eq(count, 4 * 2 + 2 * 3 + 2 * 2);
     close_found(&k, &c);
+}
+END_TEST
+
+static void stop_at_loads(void *user, const char *what, double done, double total)
+{
+    int *stop = user;
+    *stop = strcmp(what, "summing loads") == 0 && done < 0.5 * total;
+}
+
+/* The sums over a hull's faces, of which there may be 1e5, are told and stopped as the balances are. */
+START_TEST(sums_of_loads_are_told_and_stopped)
+{
+    scene k;
+    capability c;
+    int stop = 0;
+    fram_error error = {0};
+    scene_open_with(&k, box, NULL, 0);
+    k.ctx.work = stop_at_loads;
+    k.ctx.work_user = &stop;
+    capability_options o = plain;
+    o.stop = &stop;
+    assert_fails(capability_find(&k.ctx, &k.s, &o, &c, &error), error, FRAM_INTERRUPTED, "nothing was written");
+    scene_close(&k);
 }
 END_TEST
 
@@ -769,4 +794,5 @@ TEST_MAIN("capability", limits_by_hand, limits_of_thrusters_that_turn, loads_bet
           what_is_left_after_a_line, ships_that_turn, balances_are_those_of_a_run,
           turned_ships_know_loads_between_directions, turns_between_measured_directions_are_told, use_as_it_is_written,
           broken_ice_by_formula, measured_ice, speeds_that_are_measured, ice_that_was_met, refusals,
-          refusals_name_the_place_in_the_list, balances_are_told, a_stop_flag_is_seen)
+          refusals_name_the_place_in_the_list, balances_are_told, a_stop_flag_is_seen,
+          sums_of_loads_are_told_and_stopped)
