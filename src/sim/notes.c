@@ -309,7 +309,9 @@ bool scenario_tells_when_made(const scenario *s)
 {
     const ice_drift current = scenario_current(s);
     bool tells = s->ice.source == ICE_FILE || !ice_drift_is_of_keys(&current);
-    for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++)
-        tells = vessel_begins_at_equilibrium(scenario_vessel_entry(s, i).keys);
+    for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++) {
+        const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
+        tells = vessel_begins_at_equilibrium(v) || sanity_asks_of_vaning(v);
+    }
     return tells;
 }

@@ -31,7 +31,9 @@ void sanity_tell_domain(const scenario *s, int32_t vessel, sanity_built built, s
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
                          const void *to);
-/* Of a bow that turns against its load: asks what was built for that load.  sanity_tell asks. */
+/* Of a bow that turns against its load: asks what was built for that load.  sanity_tell asks, and those that build ask
+   whether there is such a bow. */
+bool sanity_asks_of_vaning(const scenario_vessel *v);
 void sanity_tell_vaning(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
 void sanity_tell_ice(const scenario *s, sanity_built built, sanity_teller tell, const void *to);

@@ -63,15 +63,20 @@ static double enough_time(const scenario_positioning *p, double observer, double
     return time;
 }
 
-/* Of wind and current as the run begins; ice comes on top.  A load that is fed forward as measured is that of the ice
-   alone. */
+/* A load that is fed forward as measured is that of the ice alone. */
+bool sanity_asks_of_vaning(const scenario_vessel *v)
+{
+    const scenario_positioning *p = &v->positioning;
+    return sanity_is_positioned(v) && p->heading == HEADING_VANING && p->feed_forward != FEED_MEASURED;
+}
+
+/* Of wind and current as the run begins; ice comes on top. */
 void sanity_tell_vaning(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to)
 {
     const vessel_entry e = scenario_vessel_entry(s, vessel);
     const scenario_positioning *p = &e.keys->positioning;
     const teller t = {s, tell, to, &e, built.made, built.model, built.read};
-    if (!sanity_is_positioned(e.keys) || p->heading != HEADING_VANING || p->feed_forward == FEED_MEASURED ||
-        !built.made || !built.model || built.model->forces != FORCES_FLUID)
+    if (!sanity_asks_of_vaning(e.keys) || !built.made || !built.model || built.model->forces != FORCES_FLUID)
         return;
     double swing = swing_of_load(&t, vessel), observer = sanity_observer_bandwidth(s, p, p->interval);
     if (!(swing > largest_swing(p->vaning_time, p->reference_frequency, observer)))

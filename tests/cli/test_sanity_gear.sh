@@ -213,6 +213,9 @@ for enough in ${vaning}_time="$time" ${vaning}_load=5e4 vessel.wind_coefficients
     expect 0 "$FRAM" check vane.yaml --build --set "$enough"
     grep 'swing for long' err && fail "told of a heading that comes to rest with $enough"
 done
+# A run tells it too, once.
+expect 0 "$FRAM" run vane.yaml -o vaned --set run.duration=0.1
+same "$(grep -c 'swing for long' err)" 1 "warnings of a run that swings"
 # On a ship with propulsion it stands for the lift of a hull that slides.
 drives="vessel.propulsion.bollard_pull=5e5"
 flow current_coefficients 0.02 0 -0.03
