@@ -216,6 +216,15 @@ done
 # A run tells it too, once.
 expect 0 "$FRAM" run vane.yaml -o vaned --set run.duration=0.1
 same "$(grep -c 'swing for long' err)" 1 "warnings of a run that swings"
+# A slow controller adds its own lag to that of the set points.
+slow=(--build --set ${vaning}_time=60 --set vessel.wind_coefficients.lateral_area=1250 --set ${vaning}_load=1e3)
+expect 0 "$FRAM" check vane.yaml "${slow[@]}"
+grep 'swing for long' err && fail "told of a heading that comes to rest at the default frequency"
+told vane.yaml "it may swing for long" "${slow[@]}" --set vessel.positioning.frequency=0.04
+# What is advised does not go by what was set.
+advised() { sed -n 's/.*for ever; take \([0-9.e+]*\) s or more.*/\1/p' err; }
+told vane.yaml "may swing" --build --set ${vaning}_time=50
+same "$(advised)" "$time" "the time that is advised from 50 s"
 # On a ship with propulsion it stands for the lift of a hull that slides.
 drives="vessel.propulsion.bollard_pull=5e5"
 flow current_coefficients 0.02 0 -0.03
