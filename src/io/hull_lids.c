@@ -121,7 +121,7 @@ static int32_t mark_faces(const mesh *m, double reach, int32_array *lid)
     return count;
 }
 
-static bool is_closed(const mesh_adjacency *adjacency)
+static bool is_watertight(const mesh_adjacency *adjacency)
 {
     for (int32_t h = 0; h < adjacency->neighbour.count; h++)
         if (adjacency->neighbour.data[h] < 0)
@@ -142,7 +142,7 @@ bool hull_find_lids_off(context *ctx, const mesh *m, int32_array *lid, int32_t *
                 mesh_adjacency_build(ctx, m, &adjacency) == FRAM_OK;
     if (done) {
         int32_t marked = mark_faces(m, reach, lid);
-        *count = is_closed(&adjacency) && are_lids(m, &adjacency, &todo, lid) ? marked : 0;
+        *count = is_watertight(&adjacency) && are_lids(m, &adjacency, &todo, lid) ? marked : 0;
     }
     mesh_adjacency_free(ctx, &adjacency);
     array_free(ctx, &todo);

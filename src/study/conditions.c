@@ -183,12 +183,12 @@ static fram_status keep_whole(const study_source *r, const yaml_node *node, key_
 fram_status study_range(const study_source *r, const yaml_node *node, key_range *out)
 {
     const scenario_key *key = key_of_path(study_key(r, node));
-    fram_status status = check_rangeable(r, node, key);
     *out = (key_range){0};
-    if (status != FRAM_OK)
-        return status;
     if (node->kind != YAML_SEQUENCE || node->count != 2)
         return study_refuse_kind(r, node, "the ends of a range, as [0.5, 1.5]");
+    fram_status status = check_rangeable(r, node, key);
+    if (status != FRAM_OK)
+        return status;
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
     status = study_number(r, lo, -1e300, 1e300, &out->lo);
     if (status == FRAM_OK)
