@@ -31,10 +31,10 @@ bool hull_is_lid(const hull_lids *lids, const mesh *m, int32_t face)
 
 enum { NO_LID = -1, NEW_LID = -2 };
 
-static double slope_of(const mesh *m, int32_t face)
+static bool is_steeper(const mesh *m, int32_t face, double slope)
 {
     vec3 area = mesh_area_vector(m, face);
-    return vec3_length(vec3_make(area.x, area.y, 0)) / fabs(area.z);
+    return vec3_length(vec3_make(area.x, area.y, 0)) > slope * fabs(area.z);
 }
 
 /* The corner of a face that is in none of the two. */
@@ -71,7 +71,7 @@ static bool follow_patch(const mesh *m, const mesh_adjacency *adjacency, int32_t
 {
     while (todo->count > 0) {
         int32_t face = todo->data[--todo->count];
-        if (slope_of(m, face) > HULL_LEVEL_SLOPE)
+        if (is_steeper(m, face, HULL_LEVEL_SLOPE))
             return false;
         for (int k = 0; k < 3; k++) {
             int32_t neighbour = adjacency->neighbour.data[3 * face + k];
@@ -114,7 +114,7 @@ static int32_t mark_faces(const mesh *m, double reach, int32_array *lid)
 {
     int32_t count = 0;
     for (int32_t f = 0; f < m->face.count; f++) {
-        bool flat = is_near_water(m, f, reach) && slope_of(m, f) <= STEEP_SLOPE;
+        bool flat = is_near_water(m, f, reach) && fabs(mesh_area_vector(m, f).z) > 0 && !is_steeper(m, f, STEEP_SLOPE);
         lid->data[f] = flat ? NEW_LID : NO_LID;
         count += flat;
     }
