@@ -1,6 +1,5 @@
 /* What holds of a world whatever happens in it, as far as numbers tell: checked in each step of builds with asserts,
-   where a breach is a fault of Fram, and in states that are read (world_check_numbers), where it is one of the file.
-   */
+   where a breach is a fault of Fram, and in states that are read (world_check_numbers), where it is the file's. */
 #ifndef MODEL_WORLD_INVARIANTS_H
 #define MODEL_WORLD_INVARIANTS_H
 

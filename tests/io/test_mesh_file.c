@@ -3,6 +3,9 @@
 #include "mesh_texts.h"
 #include "scratch.h"
 
+/* Four panels of three corners each, one of them twice. */
+#define GDF_PANELS "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 0 1 0 0 0 1 0 0 1"
+
 static mesh_file parse(context *ctx, const char *name, const char *text)
 {
     mesh_file f;
@@ -52,10 +55,7 @@ START_TEST(tetrahedra)
          "solid C:\\a\\\n" STL_FACET(STL_O, STL_Y, STL_X) STL_FACET(STL_O, STL_X, STL_Z) STL_FACET(STL_O, STL_Z, STL_Y)
              STL_FACET(STL_X, STL_Y, STL_Z) "endsolid",
          MESH_STL_TEXT},
-        {"mesh",
-         "C:\\hulls\\\n1.0D+00,9.80665D+00\n0,0\n4\n"
-         "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 0 1 0 0 0 1 0 0 1",
-         MESH_GDF},
+        {"mesh", "C:\\hulls\\\n1.0D+00,9.80665D+00\n0,0\n4\n" GDF_PANELS, MESH_GDF},
         {"mesh", STL_TETRAHEDRON, MESH_STL_TEXT},
         {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
         {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
@@ -63,36 +63,15 @@ START_TEST(tetrahedra)
          "a corner twice\n1 9.8\n0 0\n4\n0 0 0, 0,1,0 1 0 0 1 0 0\n0 0 0 1.D0 0 0 0 0 1d+0 0 0 "
          "1\n0 0 0 0 0 1 0\n1 0 0 0 0\n1 0 0 0 1 0 0 0 1 1 0 0\n",
          MESH_GDF},
-        {"mesh",
-         "exported\n1.000000 9.806650   ULEN GRAV\n0  0   ISX  ISY\r\n4 NPAN, panels\n"
-         "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 0 1 0 0 0 1 0 0 1",
-         MESH_GDF},
+        {"mesh", "exported\n1.000000 9.806650   ULEN GRAV\n0  0   ISX  ISY\r\n4 NPAN, panels\n" GDF_PANELS, MESH_GDF},
         /* IGDEF 0: flat patches are panels. */
-        {"t.gdf",
-         GDF_HEAD("0", "0", "4 0") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                   "0 1 0 0 0 1 0 0 1",
-         MESH_GDF},
+        {"t.gdf", GDF_HEAD("0", "0", "4 0") GDF_PANELS, MESH_GDF},
         /* A remark after the last panel. */
-        {"t.gdf",
-         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                 "0 1 0 0 0 1 0 0 1\n\n! end of file, 4 panels\n",
-         MESH_GDF},
-        {"t.gdf",
-         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                 "0 1 0 0 0 1 0 0 1 4 panels",
-         MESH_GDF},
-        {"t.gdf",
-         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                 "0 1 0 0 0 1 0 0 1\n12 panels, 2 refined\n2026-11-30\n",
-         MESH_GDF},
-        {"t.gdf",
-         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                 "0 1 0 0 0 1 0 0 1\n2026 11\n! 1 2 3\n4",
-         MESH_GDF},
-        {"mesh",
-         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
-                                 "0 1 0 0 0 1 0 0 1",
-         MESH_GDF},
+        {"t.gdf", GDF_HEAD("0", "0", "4") GDF_PANELS "\n\n! end of file, 4 panels\n", MESH_GDF},
+        {"t.gdf", GDF_HEAD("0", "0", "4") GDF_PANELS " 4 panels", MESH_GDF},
+        {"t.gdf", GDF_HEAD("0", "0", "4") GDF_PANELS "\n12 panels, 2 refined\n2026-11-30\n", MESH_GDF},
+        {"t.gdf", GDF_HEAD("0", "0", "4") GDF_PANELS "\n2026 11\n! 1 2 3\n4", MESH_GDF},
+        {"mesh", GDF_HEAD("0", "0", "4") GDF_PANELS, MESH_GDF},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mesh_file f = parse(&ctx, cases[i].name, cases[i].text);
