@@ -118,26 +118,11 @@ def text_of(pointer) -> str:
     return ffi.string(pointer).decode("utf-8", "surrogateescape")
 
 
-def bytes_of(path) -> bytes:
-    """A path for C."""
-    return _without_nul(os.fsencode(path))
-
-
-def text_bytes_of(text) -> bytes:
-    """A text for C, whose scenarios are UTF-8 in every locale."""
-    return _without_nul(text.encode("utf-8", "surrogateescape") if isinstance(text, str) else os.fsencode(text))
-
-
-def _without_nul(encoded: bytes) -> bytes:
+def encoded_of(name: str, encoded: bytes) -> bytes:
+    """A text or a path for C, as bytes."""
     if b"\0" in encoded:
-        raise UsageError("usage", "expected a text without NUL characters", key="text")
+        raise UsageError("usage", "expected a text without NUL characters", key=name)
     return encoded
-
-
-def absolute_of(path) -> bytes:
-    """A path for C that lasts when the working folder changes."""
-    encoded = bytes_of(path)
-    return os.path.abspath(encoded) if encoded else encoded
 
 
 def check(status: int, error) -> None:

@@ -6,6 +6,7 @@ import contextlib
 import weakref
 from typing import Callable, Optional
 
+from ._arguments import call_of, one_of, text_bytes_of, whole_of
 from ._library import check, ffi, lib, new_error, owned, text_of
 
 _LEVELS = ("error", "warning", "info", "debug")
@@ -20,6 +21,8 @@ class Context:
     """
 
     def __init__(self, threads: int = 1, log: Optional[Callable[[str, str], None]] = None, isa: Optional[str] = None):
+        threads = whole_of("threads", threads, f"1 to {lib.FRAM_THREADS}")
+        log = call_of("log", log)
         definition = ffi.new("fram_context_definition *")
         lib.fram_context_default(definition, ffi.sizeof("fram_context_definition"))
         self._stop = ffi.new("int *")
@@ -36,7 +39,7 @@ class Context:
         definition.threads = threads
         definition.stop = self._stop
         if isa is not None:
-            self._keep.append(ffi.new("char[]", isa.encode()))
+            self._keep.append(ffi.new("char[]", text_bytes_of("isa", isa)))
             definition.isa = self._keep[-1]
 
         @ffi.callback("void(void *, const char *, double, double)", onerror=keep_exception)
@@ -99,3 +102,8 @@ def default_context() -> Context:
     """The context of everything that is made without one: one thread, no log."""
     # Threads that ask for it at once may make several: one is there first, and is everybody's.
     return _default.get("one") or _default.setdefault("one", Context())
+
+
+def context_of(context: Optional[Context]) -> Context:
+    """The context that is given, or the default one."""
+    return default_context() if context is None else one_of("context", context, Context)

@@ -6,6 +6,7 @@ from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 
+from ._arguments import call_of, names_of, number_of, numbers_of, one_of, refuse, whole_of
 from ._library import InputError, SimulationError, UsageError
 from .scenario import Scenario
 from .world import World
@@ -15,15 +16,28 @@ class Box:
     """A box of real numbers, as gymnasium.spaces.Box: low, high, shape, dtype, sample, contains."""
 
     def __init__(self, low, high, dtype=np.float64):
-        self.low, self.high = (np.array(bound, dtype) for bound in np.broadcast_arrays(low, high))
+        try:
+            dtype = np.dtype(dtype)
+        except TypeError:
+            raise refuse("dtype", "a type of real numbers", dtype) from None
+        if dtype.kind not in "biuf":
+            raise refuse("dtype", "a type of real numbers", dtype)
+        numbers_of("low", low)
+        numbers_of("high", high)
+        try:
+            ends = np.broadcast_arrays(low, high)
+        except ValueError:
+            raise refuse("high", f"as many numbers as low has, {low}", high) from None
+        self.low, self.high = (np.array(bound, dtype) for bound in ends)
         if np.any(self.low > self.high):
             raise InputError("input", f"expected low <= high, found {low} and {high}", key="low")
-        self.shape, self.dtype = self.low.shape, np.dtype(dtype)
+        self.shape, self.dtype = self.low.shape, dtype
         self._random = np.random.default_rng()
 
     def seed(self, seed: Optional[int] = None) -> None:
         """Begin the random numbers of `sample` anew."""
-        self._random = np.random.default_rng(seed)
+        self._random = np.random.default_rng(None if seed is None else
+                                             whole_of("seed", seed, "a whole number from 0, or None", 0, 2**128 - 1))
 
     def sample(self) -> np.ndarray:
         """A random point; a side without end counts from -1 to 1, or to 1 beyond its other end."""
@@ -34,7 +48,10 @@ class Box:
 
     def contains(self, x: Any) -> bool:
         """Whether x is a point of the box."""
-        x = np.asarray(x)
+        try:
+            x = numbers_of("x", x)
+        except UsageError:
+            return False
         return x.shape == self.shape and bool(np.all(x >= self.low) and np.all(x <= self.high))
 
     __contains__ = contains
@@ -61,8 +78,13 @@ def station_reward(world: World) -> float:
     return -float(np.hypot(world["offset_x"], world["offset_y"]) + 0.1 * abs(world["heading_deviation"]))
 
 
-def _names(given: Union[str, Sequence[str], None], default: Sequence[str]) -> tuple[str, ...]:
-    return tuple(default) if given is None else (given,) if isinstance(given, str) else tuple(given)
+def _names(key: str, given: Union[str, Sequence[str], None], default: Sequence[str], what: str) -> tuple[str, ...]:
+    return tuple(default) if given is None else names_of(key, given, what)
+
+
+def _limit(key: str, given: Optional[float], expected: str) -> float:
+    """A number, infinite if need be; ranges are for who calls."""
+    return float("inf") if given is None else number_of(key, given, expected)
 
 
 ASTERN = 179.999
@@ -112,15 +134,17 @@ class StationKeeping:
     def __init__(self, scenario: Scenario, actions: Optional[Sequence[str]] = None,
                  observations: Sequence[str] = OBSERVATIONS, interval: float = 0.5, horizon: Optional[float] = None,
                  offset_limit: float = float("inf"), reward: Callable[[World], float] = station_reward):
-        self._scenario, self._reward, self._limit = scenario, reward, offset_limit
+        self._scenario = one_of("scenario", scenario, Scenario)
+        self._limit = _limit("offset_limit", offset_limit, "0 or more")
+        self._reward = call_of("reward", reward) or station_reward
         self._seed: Optional[int] = None
         self._first = scenario.world()
         inputs = self._first.inputs
         if "positioning" not in inputs:
             raise InputError("input", "expected one free vessel with thrusters, and no list of vessels", key="vessel")
         orders = tuple(name for name in inputs if name.startswith("thruster_") and "_order" in name)
-        self.actions = _names(actions, orders)
-        self.observations = _names(observations, ())
+        self.actions = _names("actions", actions, orders, "orders to thrusters")
+        self.observations = _names("observations", observations, (), "channels or inputs")
         for name in self.actions:
             if name not in orders:
                 raise InputError("input", f"expected orders to thrusters ({', '.join(orders)}), whose limits are known",
@@ -130,10 +154,10 @@ class StationKeeping:
         for name in self.observations:
             if name not in self._first:
                 raise InputError("input", "the world has no such channel or input", key=name)
-        if not 0 < interval < float("inf"):
+        if not 0 < number_of("interval", interval, "a time above 0") < float("inf"):
             raise InputError("input", f"expected a time above 0, found {interval}", key="interval")
         for name, limit in (("horizon", horizon), ("offset_limit", offset_limit)):
-            if limit is not None and not limit >= 0:
+            if not _limit(name, limit, "0 or more") >= 0:
                 raise InputError("input", f"expected 0 or more, found {limit}", key=name)
         self._ranges = np.array([self._range(name) for name in self.actions]).reshape(-1, 2)
         self._steps = max(1, round(interval / scenario.time_step))
@@ -167,9 +191,9 @@ class StationKeeping:
         Returns observation and info.
         """
         del options
+        if seed is not None and not number_of("seed", seed, "a whole number").is_integer():
+            raise InputError("input", f"expected a whole number, found {seed}", key="seed")
         if seed is not None and seed != self._seed:
-            if seed != int(seed):
-                raise InputError("input", f"expected a whole number, found {seed}", key="seed")
             first = self._scenario.replaced({"run.seed": int(seed)}).world()
             self._first.close()
             self._first, self._seed = first, int(seed)
@@ -183,7 +207,7 @@ class StationKeeping:
         """Orders for one interval.  Returns observation, reward, terminated, truncated, info."""
         if self.world is None:
             raise UsageError("usage", "call reset before step", key="step")
-        action = np.asarray(action, float)
+        action = numbers_of("action", action, f"{len(self.actions)} finite numbers")
         if action.shape != (len(self.actions),) or not np.all(np.isfinite(action)):
             raise InputError("input", f"expected {len(self.actions)} finite numbers, found {action}", key="action")
         low, high = self._ranges[:, 0], self._ranges[:, 1]

@@ -15,8 +15,9 @@ from typing import IO, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import FileError, InputError, absolute_of, bytes_of, ffi, lib, new_error, text_of
-from .context import Context, default_context
+from ._arguments import absolute_of, list_of, names_of, number_of, numbers_of, path_of, refuse
+from ._library import FileError, InputError, encoded_of, ffi, lib, new_error, text_of
+from .context import Context, context_of, default_context
 
 try:
     import pandas
@@ -144,8 +145,8 @@ class Run:
 
     def __init__(self, folder: Union[str, os.PathLike], context: Optional[Context] = None):
         # The same run wherever the working folder is by then, here or where it is unpickled.
-        self.folder = pathlib.Path(os.fsdecode(absolute_of(folder)))
-        self._context = context or default_context()
+        self.folder = pathlib.Path(os.fsdecode(absolute_of("folder", folder)))
+        self._context = context_of(context)
         if not (self.folder / "run.json").is_file():
             raise InputError("input", "expected the folder of a run, found no run.json in it", file=str(self.folder))
 
@@ -182,6 +183,9 @@ class Run:
 
     def columns(self, table: str = "series") -> dict[str, np.ndarray]:
         """The columns of series.csv or fractures.csv as numpy arrays."""
+        if not isinstance(table, str):
+            raise refuse("table", 'the name of a table, as "series" or "fractures"', table)
+        encoded_of("table", os.fsencode(table))
         return _read_table(self.folder / f"{table}.csv")[0]
 
     @property
@@ -245,11 +249,12 @@ class Run:
         """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation (what breaks
         or leaves before the next frame goes on with its velocity); a hull that leaves water open between its parts has
         one for each, with the same properties."""
+        moment = number_of("time", time, "a time [s]")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "field.geojson")
             error = new_error()
-            self._context._check(lib.fram_export_geojson(self._context._pointer, bytes_of(self.folder), bytes_of(path),
-                                                         float(time), ffi.NULL, error, 0), error)
+            self._context._check(lib.fram_export_geojson(self._context._pointer, os.fsencode(self.folder),
+                                                         os.fsencode(path), moment, ffi.NULL, error, 0), error)
             with open(path, encoding="utf-8") as file:
                 features = json.load(file)["features"]
         found = []
@@ -264,15 +269,15 @@ class Run:
         output: a file that is there is replaced; one that the run is made of is a UsageError.
         """
         result, error = ffi.new("fram_result *"), new_error()
-        where = ffi.NULL if output is None else ffi.new("char[]", bytes_of(output))
-        self._context._check(lib.fram_report(self._context._pointer, bytes_of(self.folder), where, False, result,
+        where = ffi.NULL if output is None else ffi.new("char[]", path_of("output", output))
+        self._context._check(lib.fram_report(self._context._pointer, os.fsencode(self.folder), where, False, result,
                                              error, ffi.sizeof("fram_result")), error)
         return text_of(result.path)
 
     def plot(self, channels: Union[str, Sequence[str]], axes=None):
         """Channels over time, by matplotlib; shown by a notebook.  Returns the axes."""
         import matplotlib.pyplot as pyplot
-        names = [channels] if isinstance(channels, str) else list(channels)
+        names = names_of("channels", channels, "channels")
         columns, units = _read_table(self.folder / "series.csv", ["time"])
         for name in names:
             if name not in columns:
@@ -328,9 +333,13 @@ def plot_outlines(outlines, axes=None, **style):
     """Polygons from above, by matplotlib: of `World.outlines`, or a list of arrays.  Returns the axes."""
     import matplotlib.pyplot as pyplot
     from matplotlib.collections import PolyCollection
+    found = [numbers_of("outlines", outline, "outlines of two columns")
+             for outline in list_of("outlines", outlines, "a list of outlines")]
+    if any(outline.ndim != 2 or outline.shape[1] != 2 for outline in found):
+        raise refuse("outlines", "outlines of two columns", outlines)
     axes = axes if axes is not None else pyplot.figure(figsize=(6, 6)).gca()
     style = {"facecolor": "#dfe9f2", "edgecolor": "#33536b", "linewidth": 0.5, **style}
-    axes.add_collection(PolyCollection(list(outlines), **style))
+    axes.add_collection(PolyCollection(found, **style))
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.set_xlabel("x [m]")

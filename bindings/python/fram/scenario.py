@@ -7,8 +7,9 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from ._library import UsageError, absolute_of, bytes_of, ffi, lib, new_error, owned, text_bytes_of, text_of
-from .context import Context, default_context
+from ._arguments import absolute_of, call_of, flag_of, number_of, path_of, text_bytes_of
+from ._library import UsageError, ffi, lib, new_error, owned, text_of
+from .context import Context, context_of, default_context
 
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
 
@@ -39,13 +40,13 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
     if overrides is None:
         return []
     if isinstance(overrides, (str, bytes, os.PathLike)):
-        return [text_bytes_of(overrides)]
+        return [text_bytes_of("overrides", overrides)]
     if not hasattr(overrides, "items"):
         texts = _members(overrides, False)
         for text in texts:
             if not isinstance(text, (str, bytes, os.PathLike)):
                 raise _no_overrides(f"{type(text).__name__} {text}")
-        return [text_bytes_of(text) for text in texts]
+        return [text_bytes_of("overrides", text) for text in texts]
 
     items = _members(overrides, True)
     for key, value in items:
@@ -58,8 +59,8 @@ def _override_texts(overrides: Overrides) -> list[bytes]:
         return repr(float(value)) if isinstance(value, float) else str(value)
 
     # A path is written as the file system has it, whose bytes Python's str tells by the locale.
-    return [text_bytes_of(f"{key}=") + bytes_of(value) if isinstance(value, os.PathLike)
-            else text_bytes_of(f"{key}={word(value)}") for key, value in items]
+    return [text_bytes_of("overrides", f"{key}=") + path_of("overrides", value) if isinstance(value, os.PathLike)
+            else text_bytes_of("overrides", f"{key}={word(value)}") for key, value in items]
 
 
 def _read_again(how: str, what: bytes, base, overrides: list[bytes]) -> "Scenario":
@@ -82,14 +83,16 @@ class Scenario:
         overrides: values given over those of the file, ``{"run.seed": 7}``, a row of a pandas table or
         ``["run.seed=7"]``.  InputError says which file, line and key are wrong.
         """
-        return cls._make("load", bytes_of(path), None, _override_texts(overrides), context or default_context())
+        return cls._make("load", path_of("path", path), None, _override_texts(overrides),
+                         context_of(context))
 
     @classmethod
     def from_text(cls, text: str, base: Union[str, os.PathLike, None] = None, overrides: Overrides = None,
                   context: Optional[Context] = None) -> "Scenario":
         """A scenario from YAML text; relative paths in it start from the folder `base` (default: the working one)."""
-        folder = None if base is None else bytes_of(base)
-        return cls._make("parse", text_bytes_of(text), folder, _override_texts(overrides), context or default_context())
+        folder = None if base is None else path_of("base", base)
+        return cls._make("parse", text_bytes_of("text", text), folder, _override_texts(overrides),
+                         context_of(context))
 
     @classmethod
     def _make(cls, how: str, what: bytes, base, overrides: list[bytes], context: Context) -> "Scenario":
@@ -183,10 +186,11 @@ class Scenario:
         from .runs import open_run
         definition = ffi.new("fram_run_definition *")
         lib.fram_run_default(definition, ffi.sizeof("fram_run_definition"))
-        path = absolute_of(folder)
+        path = absolute_of("folder", folder)
         name = ffi.new("char[]", path)
-        definition.folder, definition.force, definition.stop = name, force, self._context._stop
-        if until is not None and not 0 < until < float("inf"):
+        definition.folder, definition.force = name, flag_of("force", force)
+        definition.stop, progress = self._context._stop, call_of("progress", progress)
+        if until is not None and not 0 < number_of("until", until, "a finite time after 0 s") < float("inf"):
             raise UsageError("usage", f"expected a finite time after 0 s, found {until}", key="until")
         definition.until = 0 if until is None else until
 

@@ -12,7 +12,8 @@ from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, 
 
 import numpy as np
 
-from ._library import InputError, UsageError, absolute_of, bytes_of, ffi, is_made, lib, new_error, owned, text_of
+from ._arguments import absolute_of, call_of, flag_of, list_of, number_of, numbers_of, path_of, whole_of
+from ._library import InputError, UsageError, ffi, is_made, lib, new_error, owned, text_of
 from .scenario import Scenario
 
 KINDS = {"floe": lib.FRAM_BODY_FLOE, "vessel": lib.FRAM_BODY_VESSEL, "wall": lib.FRAM_BODY_WALL,
@@ -73,6 +74,8 @@ def _closed() -> UsageError:
     return UsageError("usage", "the world was closed", key="world")
 
 
+_STEPS_MOST = 2**63 - 1
+"""What the library counts steps in."""
 _NEVER = (-1,)
 """In place of the number of changes of a world that is not looked at: no number of one."""
 _VIEW_COLUMNS = {"lives": ("u1", 1), "generation": ("u4", 1), "mass": ("f8", 1), "position": ("f8", 3),
@@ -176,6 +179,7 @@ class Outlines:
         return len(self.offsets) - 1
 
     def __getitem__(self, row: int) -> np.ndarray:
+        row = whole_of("row", row, "the number of a row", -2**63, 2**63 - 1)
         if not -len(self) <= row < len(self):
             raise IndexError(row)
         row %= len(self)
@@ -232,12 +236,13 @@ def _selection(kind: Union[str, Sequence[str], None]) -> int:
     if kind is None:
         return 0  # all
     bits = 0
-    for word in [kind] if isinstance(kind, str) else kind:
-        if word not in KINDS:
+    some = f"some of {', '.join(KINDS)}, or None for all"
+    for word in [kind] if isinstance(kind, str) else list_of("kind", kind, some):
+        if not isinstance(word, str) or word not in KINDS:
             raise UsageError("usage", f"expected one of {', '.join(KINDS)}, found {word!r}", key="kind")
         bits |= 1 << KINDS[word]
     if bits == 0:
-        raise UsageError("usage", f"expected some of {', '.join(KINDS)}, or None for all, found none", key="kind")
+        raise UsageError("usage", f"expected {some}, found none", key="kind")
     return bits
 
 
@@ -318,8 +323,8 @@ def _three_numbers(name: str, vector) -> list[float]:
     """A vector for C; what C's numbers do not hold is told as what they hold and the library refuses."""
     try:
         if np.shape(vector) == (3,):
-            return [float(x) for x in vector]
-    except (TypeError, ValueError, OverflowError):
+            return [number_of(name, x) for x in vector]
+    except (TypeError, ValueError):
         pass
     raise InputError("input", f"expected three numbers, found {vector}", key=name)
 
@@ -442,8 +447,8 @@ class World:
 
         Returns the simulated time [s].  SimulationError when the state went wrong; load a good state to go on.
         """
-        if n < 0:
-            raise UsageError("usage", f"expected 0 steps or more, found {n}", key="n")
+        n = whole_of("n", n, "0 steps or more, as many as a world can count", 0, _STEPS_MOST)
+        call_of("callback", callback)
         error, check, calls = new_error(), self.scenario._context._check, self._calls
         for _ in range(n):
             pointer = self._living()
@@ -460,7 +465,8 @@ class World:
 
     def run_until(self, time: float, callback: Optional[Callable[["World"], object]] = None) -> float:
         """Steps until the simulated time is not before `time` [s], with a `callback` as `step`; returns the time."""
-        if not time < float("inf"):
+        call_of("callback", callback)
+        if not number_of("time", time, "a finite time") < float("inf"):
             raise UsageError("usage", f"expected a finite time, found {time}", key="time")
         while self.time < time - 1e-9 * self.scenario.time_step:
             before = self.steps
@@ -498,19 +504,24 @@ class World:
         return self._inputs
 
     def __getitem__(self, name: str) -> float:
-        if name in self._channels:
-            return lib.fram_world_value(self._living(), self._channels[name].index)
-        if name in self._inputs:
-            return lib.fram_world_input_value(self._living(), self._inputs[name].index)
+        try:
+            if name in self._channels:
+                return lib.fram_world_value(self._living(), self._channels[name].index)
+            if name in self._inputs:
+                return lib.fram_world_input_value(self._living(), self._inputs[name].index)
+        except TypeError:  # a list, say: no key of any mapping
+            pass
         raise KeyError(f"{name}: the world has no such channel or input")
 
     def __setitem__(self, name: str, value: float) -> None:
-        if name not in self._inputs:
+        if not isinstance(name, str) or name not in self._inputs:
             raise KeyError(f"{name}: the world has no such input")
-        self._call(lib.fram_world_set_input, self._inputs[name].index, float(value))
+        if not isinstance(value, float):  # what a controller gives in each step mostly is
+            value = number_of(name, value)
+        self._call(lib.fram_world_set_input, self._inputs[name].index, value)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._channels or name in self._inputs
+        return isinstance(name, str) and (name in self._channels or name in self._inputs)
 
     def values(self) -> np.ndarray:
         """All channels in their order; NaN, as each by itself, while another call on the world has not returned."""
@@ -525,12 +536,13 @@ class World:
         places there is no path any more, and a towed or driven vessel goes on as fast as it went along it.  A ship with
         `propulsion` and no thrusters goes by its track, and is told none.
         """
-        t = np.ascontiguousarray(times, float).reshape(-1)
-        p = np.ascontiguousarray(places, float)
+        t = numbers_of("times", times, "times [s]").reshape(-1)
+        p = numbers_of("places", places, "x, y and heading of places")
+        number = whole_of("vessel", vessel, "the number of a vessel, counted from 0")
         if p.shape != (len(t), 3) and (p.size > 0 or len(t) > 0):
             raise InputError("input", f"expected x, y and heading of {len(t)} places, as many as times; found an array "
                              f"of shape {p.shape}", key="places")
-        self._call(lib.fram_world_set_path, vessel, ffi.cast("double *", t.ctypes.data),
+        self._call(lib.fram_world_set_path, number, ffi.cast("double *", t.ctypes.data),
                    ffi.cast("double *", p.ctypes.data), len(t))
 
     def apply_wrench(self, body: tuple[int, int], force: Sequence[float], moment: Sequence[float] = (0, 0, 0)) -> None:
@@ -660,17 +672,21 @@ class World:
 
     def from_bytes(self, state: bytes) -> None:
         """Take over a state of the same scenario and files; InputError, and nothing changes, for any other."""
-        data = ffi.from_buffer(state)
+        try:
+            data = ffi.from_buffer(state)
+        except (TypeError, ValueError, BufferError):
+            raise UsageError("usage", f"expected bytes, as to_bytes gives them, found {type(state).__name__}",
+                             key="state") from None
         self._call(lib.fram_world_load_memory, data, len(data))
 
     def save(self, path: Union[str, os.PathLike]) -> None:
         """The whole state into a file."""
-        self._call(lib.fram_world_save, bytes_of(path), reads=True)
+        self._call(lib.fram_world_save, path_of("path", path), reads=True)
 
     def load(self, path: Union[str, os.PathLike]) -> None:
         """Take over a state of the same scenario and files from a file: one of `save`, or a run's checkpoint
         (``checkpoint-*.fram`` in its folder), from which the world goes on as the resumed run does."""
-        self._call(lib.fram_world_load, bytes_of(path))
+        self._call(lib.fram_world_load, path_of("path", path))
 
     def snapshot(self) -> Snapshot:
         """Keep the state: ``with world.snapshot(): ...`` tries something and goes back."""
@@ -697,10 +713,11 @@ class World:
                              key="live")
         definition = ffi.new("fram_record_definition *")
         lib.fram_record_default(definition, ffi.sizeof("fram_record_definition"))
-        path = absolute_of(folder)
+        path = absolute_of("folder", folder)
         name = ffi.new("char[]", path)
-        definition.folder, definition.force, definition.with_paths = name, force, with_paths
-        page = ffi.NULL if live_page is None else ffi.new("char[]", bytes_of(live_page))
+        definition.folder, definition.force = name, flag_of("force", force)
+        definition.with_paths, live = flag_of("with_paths", with_paths), call_of("live", live)
+        page = ffi.NULL if live_page is None else ffi.new("char[]", path_of("live_page", live_page))
         told: list[str] = []
         callback = ffi.callback("void(void *, const char *)", lambda _, text: told.append(ffi.string(text).decode()))
         definition.live_page, definition.live = page, callback if live is not None else ffi.NULL
