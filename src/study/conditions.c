@@ -1,7 +1,6 @@
 #include "study/conditions.h"
 
 #include "base/number_text.h"
-#include "base/random.h"
 #include "io/file.h"
 #include "study/condition_table.h"
 #include "study/key_names.h"
@@ -12,9 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Streams of random numbers of this room: of strata, and of places inside them. */
-enum { STREAM_STRATA = 901, STREAM_PLACES };
 
 fram_status study_refuse(const study_source *r, const yaml_node *node, const char *format, ...)
 {
@@ -90,12 +86,17 @@ const yaml_node *study_next(const study_source *r, const yaml_node *node)
     return node->next >= 0 ? &r->tree->nodes.data[node->next] : NULL;
 }
 
+bool study_number_is(const study_source *r, const yaml_node *node, double *out)
+{
+    bool plain = node->kind == YAML_SCALAR && !node->quoted;
+    return real_from_text(plain ? yaml_text(r->tree, node->value) : "", out) == NUMBER_GOOD;
+}
+
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
 {
     bool quoted = node->kind == YAML_SCALAR && node->quoted;
-    const char *text = node->kind == YAML_SCALAR && !quoted ? yaml_text(r->tree, node->value) : "";
     double value = 0;
-    if (real_from_text(text, &value) != NUMBER_GOOD || !(value >= lo && value <= hi))
+    if (!study_number_is(r, node, &value) || !(value >= lo && value <= hi))
         return study_refuse(r, node, "expected a number from %.10g to %.10g%s, found %s", lo, hi,
                             quoted ? " without quotes" : "", study_found(r, node).text);
     *out = value;
@@ -151,7 +152,7 @@ fram_status study_add_key(const study_source *r, const yaml_node *node)
     return text_list_add(r->ctx, &r->out->keys, key) ? FRAM_OK : error_memory(r->error);
 }
 
-static fram_status add_value(const study_source *r, const yaml_node *node)
+fram_status study_add_value(const study_source *r, const yaml_node *node)
 {
     if (node->kind != YAML_SCALAR)
         return study_refuse_kind(r, node, "one value of the key");
@@ -166,7 +167,9 @@ static fram_status check_rangeable(const study_source *r, const yaml_node *node,
         [KEY_PATH] = "a file",           [KEY_SECTION] = "a section", [KEY_LIST] = "a list"};
     if (!key || key->kind == KEY_REAL || key->kind == KEY_INTEGER)
         return FRAM_OK;
-    return study_refuse(r, node, "is %s and has no range: grid, list and table take values of it", is[key->kind]);
+    return study_refuse(r, node, "is %s and has no range: %s take values of it", is[key->kind],
+                        key->kind == KEY_SECTION || key->kind == KEY_LIST ? "grid, list and table"
+                                                                          : "grid, list, table and latin");
 }
 
 /* The whole numbers of a range. */
@@ -222,7 +225,7 @@ fram_status study_add_part(const study_source *r, key_range range, double part)
     return text_list_add(r->ctx, &r->out->values, text) ? FRAM_OK : error_memory(r->error);
 }
 
-static fram_status expect(const study_source *r, const yaml_node *node, yaml_kind kind, const char *what)
+fram_status study_expect(const study_source *r, const yaml_node *node, yaml_kind kind, const char *what)
 {
     if (node->kind != kind || node->count == 0)
         return study_refuse(r, node, "expected %s, which is not empty", what);
@@ -250,10 +253,10 @@ static const yaml_node *nth_child(const study_source *r, const yaml_node *node, 
 static fram_status read_grid(const study_source *r, const yaml_node *node)
 {
     double conditions = 1;
-    fram_status status = expect(r, node, YAML_MAPPING, "keys with a list of values each");
+    fram_status status = study_expect(r, node, YAML_MAPPING, "keys with a list of values each");
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
         status = k->kind == YAML_MAPPING ? study_refuse_kind(r, k, "a list of values, as [0.6, 1.1]")
-                                         : expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
+                                         : study_expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
         if (status == FRAM_OK)
             status = study_add_key(r, k);
         conditions *= k->count;
@@ -264,7 +267,7 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
         int32_t block = r->out->conditions;
         for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
             block /= k->count;
-            status = add_value(r, nth_child(r, k, c / block % k->count));
+            status = study_add_value(r, nth_child(r, k, c / block % k->count));
         }
     }
     return status;
@@ -287,7 +290,7 @@ static fram_status add_first_condition(const study_source *r, const yaml_node *c
     for (const yaml_node *k = study_child(r, condition); k && status == FRAM_OK; k = study_next(r, k)) {
         status = study_add_key(r, k);
         if (status == FRAM_OK)
-            status = add_value(r, k);
+            status = study_add_value(r, k);
     }
     return status;
 }
@@ -303,7 +306,7 @@ static fram_status add_later_condition(const study_source *r, const yaml_node *f
         if (!k)
             return study_refuse(r, condition, "expected the keys of the first condition: %s is missing",
                                 r->out->keys.data[i]);
-        fram_status status = add_value(r, k);
+        fram_status status = study_add_value(r, k);
         if (status != FRAM_OK)
             return status;
     }
@@ -312,11 +315,11 @@ static fram_status add_later_condition(const study_source *r, const yaml_node *f
 
 static fram_status read_list(const study_source *r, const yaml_node *node)
 {
-    fram_status status = expect(r, node, YAML_SEQUENCE, "a list of conditions");
+    fram_status status = study_expect(r, node, YAML_SEQUENCE, "a list of conditions");
     if (status == FRAM_OK)
         status = count_conditions(r, node, node->count);
     for (const yaml_node *c = study_child(r, node); c && status == FRAM_OK; c = study_next(r, c)) {
-        status = expect(r, c, YAML_MAPPING, "keys with a value each");
+        status = study_expect(r, c, YAML_MAPPING, "keys with a value each");
         const yaml_node *first = study_child(r, node);
         if (status == FRAM_OK)
             status = c == first ? add_first_condition(r, c) : add_later_condition(r, first, c);
@@ -365,90 +368,13 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
     return status;
 }
 
-/* ---- Latin hypercube (McKay, Beckman and Conover 1979): every key's range in `count` strata, each met once ---- */
-
-typedef struct latin_key {
-    key_range range;
-    int32_array stratum; /* of each condition */
-} latin_key;
-
-enum { LATIN_KEYS_MOST = 64 };
-
-static fram_status draw_latin(const study_source *r, const latin_key *keys, random_stream *places)
-{
-    for (int32_t c = 0; c < r->out->conditions; c++) {
-        for (int32_t k = 0; k < r->out->keys.count; k++) {
-            const int32_t *stratum = keys[k].stratum.data;
-            if (!stratum)
-                return error_memory(r->error);
-            double at = (stratum[c] + random_unit(&places[k])) / r->out->conditions;
-            fram_status status = study_add_part(r, keys[k].range, at);
-            if (status != FRAM_OK)
-                return status;
-        }
-    }
-    return FRAM_OK;
-}
-
-static fram_status fill_latin(const study_source *r, const yaml_node *node, int64_t seed)
-{
-    latin_key keys[LATIN_KEYS_MOST] = {{.range = {.lo = 0}}};
-    random_stream places[LATIN_KEYS_MOST];
-    fram_status status = expect(r, node, YAML_MAPPING, "keys with a range each");
-    if (status == FRAM_OK && node->count > LATIN_KEYS_MOST)
-        status = study_refuse(r, node, "found %d keys, expected at most %d", (int)node->count, LATIN_KEYS_MOST);
-    int32_t n = 0;
-    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k), n++) {
-        random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)n);
-        places[n] = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)n);
-        status = study_range(r, k, &keys[n].range);
-        if (status == FRAM_OK)
-            status = study_add_key(r, k);
-        if (status == FRAM_OK && !array_resize(r->ctx, &keys[n].stratum, r->out->conditions))
-            status = error_memory(r->error);
-        if (status == FRAM_OK)
-            random_order(&strata, keys[n].stratum.data, r->out->conditions);
-    }
-    if (status == FRAM_OK)
-        status = draw_latin(r, keys, places);
-    for (int32_t k = 0; k < LATIN_KEYS_MOST; k++)
-        array_free(r->ctx, &keys[k].stratum);
-    return status;
-}
-
-static const char *const latin_names[] = {"count", "seed", "keys"};
-
-static fram_status read_latin(const study_source *r, const yaml_node *node)
-{
-    const yaml_node *keys = NULL;
-    int64_t count = 0, seed = 1;
-    fram_status status = expect(r, node, YAML_MAPPING, "count, keys and, if wanted, seed");
-    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
-        const char *name = study_key(r, k);
-        if (strcmp(name, "count") == 0)
-            status = study_whole(r, k, 1, STUDY_CONDITIONS_MOST, &count);
-        else if (strcmp(name, "seed") == 0)
-            status = study_whole(r, k, 0, 1e15, &seed);
-        else if (strcmp(name, "keys") == 0)
-            keys = k;
-        else
-            status = study_unknown(r, k, latin_names, sizeof latin_names / sizeof *latin_names);
-    }
-    if (status != FRAM_OK)
-        return status;
-    if (!keys || count == 0)
-        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
-    r->out->conditions = (int32_t)count;
-    return fill_latin(r, keys, seed);
-}
-
 fram_status study_conditions_read(const study_source *r, const yaml_node *node)
 {
     static const struct {
         const char *name;
         fram_status (*read)(const study_source *, const yaml_node *);
-    } ways[] = {{"grid", read_grid},   {"list", read_list},         {"table", read_table},
-                {"latin", read_latin}, {"sobol", study_sobol_read}, {"morris", study_morris_read}};
+    } ways[] = {{"grid", read_grid},         {"list", read_list},         {"table", read_table},
+                {"latin", study_latin_read}, {"sobol", study_sobol_read}, {"morris", study_morris_read}};
     if (node->kind != YAML_MAPPING || node->count != 1)
         return study_refuse(r, node, "expected one of grid, list, table, latin, sobol and morris");
     const yaml_node *way = study_child(r, node);

@@ -32,6 +32,8 @@ const char *study_key(const study_source *r, const yaml_node *node);
 void study_beside(const study_source *r, const char *name, text_buffer *path);
 /* FRAM_ERROR_INPUT, at the node, when there is no such file. */
 fram_status study_find_file(const study_source *r, const yaml_node *node, const char *path);
+/* Whether it is a number, without quotes. */
+bool study_number_is(const study_source *r, const yaml_node *node, double *out);
 /* A scalar as a number within a range. */
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The same, whole. */
@@ -46,6 +48,10 @@ const yaml_node *study_next(const study_source *r, const yaml_node *node);
 
 /* A key that conditions vary, at whose values or range the node is; run.seed is refused. */
 fram_status study_add_key(const study_source *r, const yaml_node *node);
+/* The next value of the conditions, as it stands in the file. */
+fram_status study_add_value(const study_source *r, const yaml_node *node);
+/* FRAM_ERROR_INPUT where a node is not of that kind, or empty. */
+fram_status study_expect(const study_source *r, const yaml_node *node, yaml_kind kind, const char *what);
 /* Two numbers, the second no less than the first, for a key that has a range: of one that is whole the whole numbers
    between them. */
 fram_status study_range(const study_source *r, const yaml_node *node, key_range *out);
@@ -55,6 +61,9 @@ fram_status study_add_part(const study_source *r, key_range range, double part);
 /* Designs of sensitivity: `vary: {sobol: ...}` and `vary: {morris: ...}`. */
 fram_status study_sobol_read(const study_source *r, const yaml_node *node);
 fram_status study_morris_read(const study_source *r, const yaml_node *node);
+
+/* A Latin hypercube: `vary: {latin: ...}`. */
+fram_status study_latin_read(const study_source *r, const yaml_node *node);
 
 /* Reads the node under `vary` into keys, values and conditions. */
 fram_status study_conditions_read(const study_source *r, const yaml_node *node);

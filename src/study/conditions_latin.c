@@ -1,0 +1,122 @@
+/* Conditions that are a Latin hypercube: ranges of keys in strata, and lists of values that are met equally often. */
+#include "base/random.h"
+#include "study/conditions.h"
+#include "study/key_names.h"
+
+#include <string.h>
+
+/* Streams of random numbers of this room: of strata, and of places inside them. */
+enum { STREAM_STRATA = 901, STREAM_PLACES };
+
+/* ---- Latin hypercube (McKay, Beckman and Conover 1979): every key's range in `count` strata, each met once ---- */
+
+/* A key: a range, or a list of values, each of which takes as many strata as the others, or one more or less. */
+typedef struct latin_key {
+    key_range range;
+    const yaml_node *values; /* NULL: it is a range */
+    int32_array stratum;     /* of each condition */
+} latin_key;
+
+enum { LATIN_KEYS_MOST = 64 };
+
+/* Whether what stands under a key are the ends of a range: two numbers, but of keys whose values are none. */
+static bool is_range(const study_source *r, const yaml_node *node)
+{
+    const scenario_key *key = key_of_path(study_key(r, node));
+    double end;
+    if (key && key->kind != KEY_REAL && key->kind != KEY_INTEGER)
+        return key->kind == KEY_SECTION || key->kind == KEY_LIST; /* they have neither, and are told so */
+    if (node->kind != YAML_SEQUENCE || node->count != 2)
+        return node->kind != YAML_SEQUENCE || node->count == 0;
+    const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
+    return key || study_number_is(r, lo, &end) || study_number_is(r, hi, &end);
+}
+
+/* `[ends of a range]`, `[a, list, of, values]`, or `{values: [...]}`, as two numbers that are no range are written. */
+static fram_status read_latin_key(const study_source *r, const yaml_node *node, latin_key *out)
+{
+    const yaml_node *only = node->kind == YAML_MAPPING && node->count == 1 ? study_child(r, node) : NULL;
+    bool listed = only && strcmp(study_key(r, only), "values") == 0;
+    if (!listed && is_range(r, node))
+        return study_range(r, node, &out->range);
+    out->values = listed ? only : node;
+    return study_expect(r, out->values, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
+}
+
+static fram_status add_of_list(const study_source *r, const yaml_node *values, int32_t stratum)
+{
+    int64_t number = (int64_t)stratum * values->count / r->out->conditions;
+    const yaml_node *value = study_child(r, values);
+    while (number-- > 0)
+        value = study_next(r, value);
+    return study_add_value(r, value);
+}
+
+static fram_status draw_latin(const study_source *r, const latin_key *keys, random_stream *places)
+{
+    for (int32_t c = 0; c < r->out->conditions; c++) {
+        for (int32_t k = 0; k < r->out->keys.count; k++) {
+            const int32_t *stratum = keys[k].stratum.data;
+            if (!stratum)
+                return error_memory(r->error);
+            double at = (stratum[c] + random_unit(&places[k])) / r->out->conditions;
+            fram_status status =
+                keys[k].values ? add_of_list(r, keys[k].values, stratum[c]) : study_add_part(r, keys[k].range, at);
+            if (status != FRAM_OK)
+                return status;
+        }
+    }
+    return FRAM_OK;
+}
+
+static fram_status fill_latin(const study_source *r, const yaml_node *node, int64_t seed)
+{
+    latin_key keys[LATIN_KEYS_MOST] = {{.range = {.lo = 0}}};
+    random_stream places[LATIN_KEYS_MOST];
+    fram_status status = study_expect(r, node, YAML_MAPPING, "keys with a range or a list of values each");
+    if (status == FRAM_OK && node->count > LATIN_KEYS_MOST)
+        status = study_refuse(r, node, "found %d keys, expected at most %d", (int)node->count, LATIN_KEYS_MOST);
+    int32_t n = 0;
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k), n++) {
+        random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)n);
+        places[n] = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)n);
+        status = read_latin_key(r, k, &keys[n]);
+        if (status == FRAM_OK)
+            status = study_add_key(r, k);
+        if (status == FRAM_OK && !array_resize(r->ctx, &keys[n].stratum, r->out->conditions))
+            status = error_memory(r->error);
+        if (status == FRAM_OK)
+            random_order(&strata, keys[n].stratum.data, r->out->conditions);
+    }
+    if (status == FRAM_OK)
+        status = draw_latin(r, keys, places);
+    for (int32_t k = 0; k < LATIN_KEYS_MOST; k++)
+        array_free(r->ctx, &keys[k].stratum);
+    return status;
+}
+
+static const char *const latin_names[] = {"count", "seed", "keys"};
+
+fram_status study_latin_read(const study_source *r, const yaml_node *node)
+{
+    const yaml_node *keys = NULL;
+    int64_t count = 0, seed = 1;
+    fram_status status = study_expect(r, node, YAML_MAPPING, "count, keys and, if wanted, seed");
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+        const char *name = study_key(r, k);
+        if (strcmp(name, "count") == 0)
+            status = study_whole(r, k, 1, STUDY_CONDITIONS_MOST, &count);
+        else if (strcmp(name, "seed") == 0)
+            status = study_whole(r, k, 0, 1e15, &seed);
+        else if (strcmp(name, "keys") == 0)
+            keys = k;
+        else
+            status = study_unknown(r, k, latin_names, sizeof latin_names / sizeof *latin_names);
+    }
+    if (status != FRAM_OK)
+        return status;
+    if (!keys || count == 0)
+        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
+    r->out->conditions = (int32_t)count;
+    return fill_latin(r, keys, seed);
+}
