@@ -161,12 +161,11 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK) {
         bool when_made = scenario_tells_when_made(s);
-        if (!when_made)
-            scenario_log_warnings(ctx, s, NULL, NULL);
         status = make_world(&r, &report, error);
-        bool made = status == FRAM_OK;
-        if (when_made)
-            scenario_log_warnings(ctx, s, made ? &r.model : NULL, made ? &r.world : NULL);
+        /* Of a scenario that is refused the error alone is told: what else is odd about it can be told when it is made.
+         */
+        if (status == FRAM_OK)
+            scenario_log_warnings(ctx, s, when_made ? &r.model : NULL, when_made ? &r.world : NULL);
     }
     if (status == FRAM_OK) {
         log_start(&r, &report);

@@ -121,10 +121,8 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
     w->fresh = true;
     look_at_keys(w, one);
     bool when_made = scenario_tells_when_made(one);
-    if (!when_made)
-        scenario_log_warnings(&telling, one, NULL, NULL);
     fram_status status = build_check(&telling, one, store, when_made ? scenario_log_warnings : NULL, error);
-    if (when_made && status != FRAM_OK)
+    if (!when_made && status == FRAM_OK)
         scenario_log_warnings(&telling, one, NULL, NULL);
     if (status == FRAM_ERROR_INPUT)
         study_place_error(w->s, condition, error);

@@ -171,7 +171,7 @@ class Folders(StudyTest):
             self.assertEqual(self.warned(study, "-o", self.at / f"file{thickness}", *dry), [])
             study.write_text(plain)
             self.assertEqual(self.warned("check", study), told)
-        # What cannot be made is warned of by its keys.
+        # Of a vessel that cannot be made the error alone is told; of ice, which is made last, what its keys tell.
         file.write_text("{}")
         study.write_text(plain + "set: {ice.thickness: 3}\n")
         self.assertEqual(self.refused_and_warned("check", study), [thick.replace("file", "thickness")])
@@ -187,8 +187,15 @@ class Folders(StudyTest):
             self.assertEqual([line.split(" and environment")[0] for line in told],
                              ["warning: vessel: a current of 0.5 m/s comes across the hull,"])
         study.write_text("scenario: moored.yaml\nset: {vessel.mass: 9.0e7, environment.wind_speed: 80}\n")
-        told = self.refused_and_warned(study, "-o", self.at / "sinks", *dry)
-        self.assertEqual([line.split(" is outside")[0] for line in told], ["warning: environment.wind_speed: 80 m/s"])
+        self.assertEqual(self.refused_and_warned(study, "-o", self.at / "sinks", *dry), [])
+        (self.at / "free.yaml").write_text(
+            "run: {duration: 3}\nice: {source: none}\nenvironment: {wind_speed: 80}\nvessel:\n  mode: free\n"
+            "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n")
+        study.write_text("scenario: free.yaml\nkeep: summary\n")
+        told = self.warned("check", study)
+        self.assertTrue(told[0].startswith("warning: environment.wind_speed: 80 m/s is outside"), told)
+        study.write_text("scenario: free.yaml\nkeep: summary\nset: {vessel.mass: 9.0e7}\n")
+        self.assertEqual(self.refused_and_warned("check", study), [])
 
     def contents(self, folder):
         return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
