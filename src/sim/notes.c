@@ -228,8 +228,9 @@ static bool is_in_domain(const scenario_domain *d, double x, double y)
     return x > d->x_min && x < d->x_max && y > d->y_min && y < d->y_max;
 }
 
-static void note_vessel(const note_taker *n, const scenario *s, const vessel_entry *entry)
+static void note_vessel(const note_taker *n, const scenario *s, int32_t vessel)
 {
+    const vessel_entry own = scenario_vessel_entry(s, vessel), *entry = &own;
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
     double speed = speed_in_ice(n, s, v), way = speed * s->run.time_step;
@@ -245,7 +246,7 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
                      most_text_of(THICKNESS_STEP * thickness / speed, 3).text);
     double far = vessel_way(v, s->run.duration), course = radians(course_of(v));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
-    bool leaves = !sanity_lies_outside(s, v) && !is_in_domain(&s->domain, x, y);
+    bool leaves = !sanity_lies_outside(s, vessel, n->model) && !is_in_domain(&s->domain, x, y);
     if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && leaves)
         note_warning(n, "%s %s the domain before the end, at (%s, %s) m", title.text,
                      v->mode == VESSEL_FREE ? "can leave" : "leaves", coordinate_text_of(x).text,
@@ -281,7 +282,7 @@ static void take_notes(const note_taker *n, const scenario *s)
     note_fracture(n, s);
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
-        note_vessel(n, s, &entry);
+        note_vessel(n, s, v);
         note_channel(n, s, &entry);
     }
     sanity_tell(s, (sanity_built){n->model, n->made, n->read}, tell_warning, n);
@@ -311,7 +312,7 @@ bool scenario_tells_when_made(const scenario *s)
     bool tells = s->ice.source == ICE_FILE || !ice_drift_is_of_keys(&current);
     for (int32_t i = 0; i < scenario_vessel_count(s) && !tells; i++) {
         const scenario_vessel *v = scenario_vessel_entry(s, i).keys;
-        tells = vessel_begins_at_equilibrium(v) || sanity_asks_of_vaning(v);
+        tells = vessel_begins_at_equilibrium(v) || sanity_asks_of_vaning(v) || sanity_asks_of_place(s, i);
     }
     return tells;
 }

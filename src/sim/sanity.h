@@ -48,9 +48,11 @@ void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
    at the equilibrium of a mooring, else as its keys have it. */
 vec3 sanity_start(const scenario *s, int32_t vessel, const world *made);
 
-/* Whether a vessel begins so far outside of the domain that it is told to meet no ice; without ice none is, and hulls
-   of files, whose size is not in their keys, are not. */
-bool sanity_lies_outside(const scenario *s, const scenario_vessel *v);
+/* Whether a vessel begins so far outside of the domain that it is told to meet no ice; without ice none is.  built: has
+   the size of a hull of a file; without it (NULL) such a vessel is outside as soon as its place is. */
+bool sanity_lies_outside(const scenario *s, int32_t vessel, const model *built);
+/* Whether the model is needed to tell that. */
+bool sanity_asks_of_place(const scenario *s, int32_t vessel);
 
 /* Whether a current of that speed across a hull [m/s] matters to its station, and acts on its faces with the drag of
    one that goes ahead. */

@@ -46,7 +46,7 @@ static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
 
 static bool is_judged_by_domain(const scenario *s, const scenario_vessel *v)
 {
-    return s->ice.source != ICE_NONE && sanity_own_hull(v) && v->path.count == 0;
+    return s->ice.source != ICE_NONE && v->path.count == 0;
 }
 
 /* From the vessel to the nearest edge [m], negative beyond it. */
@@ -56,10 +56,29 @@ static double to_edge(const scenario_domain *d, const scenario_vessel *v)
     return fmin(from.x, from.y);
 }
 
-bool sanity_lies_outside(const scenario *s, const scenario_vessel *v)
+/* How far a hull reaches from where its vessel is, turned any way [m]; 0 of one of a file that was not read. */
+static double hull_reach(const scenario_vessel *v, const vessel_model *made)
 {
-    double half = 0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
-    return is_judged_by_domain(s, v) && to_edge(&s->domain, v) < -half;
+    double most = 0;
+    if (sanity_own_hull(v))
+        return 0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
+    for (int32_t i = 0; made && i < made->plan.count; i++) {
+        double x = made->plan.data[i].x + made->centre.x, y = made->plan.data[i].y + made->centre.y;
+        most = fmax(most, sqrt(x * x + y * y));
+    }
+    return most;
+}
+
+bool sanity_lies_outside(const scenario *s, int32_t vessel, const model *built)
+{
+    const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
+    const vessel_model *made = built ? &built->vessels.data[vessel] : NULL;
+    return is_judged_by_domain(s, v) && to_edge(&s->domain, v) < -hull_reach(v, made);
+}
+
+bool sanity_asks_of_place(const scenario *s, int32_t vessel)
+{
+    return !sanity_own_hull(scenario_vessel_entry(s, vessel).keys) && sanity_lies_outside(s, vessel, NULL);
 }
 
 void sanity_tell_domain(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to)
@@ -70,13 +89,14 @@ void sanity_tell_domain(const scenario *s, int32_t vessel, sanity_built built, s
     const scenario_vessel *v = e->keys;
     if (!is_judged_by_domain(s, v))
         return;
-    if (!sanity_lies_outside(s, v))
+    if (sanity_lies_outside(s, vessel, built.model))
+        sanity_say(tell, to, "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no ice%s",
+                   e->path, coordinate_text_of(v->x).text, coordinate_text_of(v->y).text, -to_edge(d, v),
+                   sanity_own_hull(v) || built.model ? "" : ", unless the hull of its file reaches in");
+    else if (sanity_own_hull(v))
         tell_room(&t, e, sanity_start(s, vessel, built.made));
-    else
-        sanity_say(tell, to, "%s.x: (%s, %s) m lies outside of the domain, %.4g m from its edge: there is no ice",
-                   e->path, coordinate_text_of(v->x).text, coordinate_text_of(v->y).text, -to_edge(d, v));
     double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
-    if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
+    if (sanity_own_hull(v) && d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
         sanity_say(tell, to, "domain: %.4g m is less than two beams of %s, so that its edges carry the load", width,
                    e->path);
 }

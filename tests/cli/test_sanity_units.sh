@@ -333,6 +333,20 @@ all_told cut.yaml vessel.hull.freeboard=0.1 -- "vessel.hull.file: the hull ends 
 # It is the deck's height that is judged, not what is added to it; what is added to a hull with topsides is told.
 all_told open.yaml --
 all_told open.yaml vessel.hull.freeboard=0.1 -- "is 3 m above the water already, and is raised by 0.1 m|leave freeboard"
+# A hull of a file outside of the domain is told as others are; how far it reaches is known when it is read.
+outside=(--set vessel.speed=0 --set vessel.y=0 --set ice.source=voronoi)
+box ship -30 30 -7 7 -4 3
+sed "s/hull: {.*}}/hull: {form: file, file: ship.obj}}/" towed.yaml >beyond.yaml
+edge=$(sed -n 's/.*x_max: \([0-9]*\).*/\1/p' beyond.yaml)
+expect 0 "$FRAM" check beyond.yaml "${outside[@]}" --set "vessel.x=$((edge + 20))"
+says "m lies outside of the domain, 20 m from its edge: there is no ice, unless the hull of its file reaches in" err
+expect 0 "$FRAM" check beyond.yaml --build "${outside[@]}" --set "vessel.x=$((edge + 20))"
+grep 'lies outside' err && fail "a hull that reaches in is told to lie outside"
+for words in "check beyond.yaml --build" "run beyond.yaml -o beyond --set run.duration=0.1"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $words "${outside[@]}" --set "vessel.x=$((edge + 40))"
+    grep -q 'm lies outside of the domain, 40 m from its edge: there is no ice$' err || fail "$words: $(cat err)"
+done
 sed "s/hull: {.*}}/hull: {form: file, file: keel.obj}}/" towed.yaml >keel.yaml
 expect 2 "$FRAM" check keel.yaml
 says "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = 0 to 7 m" err
