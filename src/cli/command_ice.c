@@ -146,8 +146,14 @@ static void print_answers(const common_options *common, const answer_row *rows, 
         else
             printf("%-28s %-14.7g %-4s %s\n", rows[i].key, rows[i].value, rows[i].unit, rows[i].meaning);
     }
-    if (common->json)
-        json_end(&j);
+    if (!common->json)
+        return;
+    json_open(&j, "units");
+    for (int i = 0; i < count; i++)
+        if (rows[i].unit[0])
+            json_text(&j, rows[i].key, rows[i].unit);
+    json_close(&j);
+    json_end(&j);
 }
 #define PRINT(common, rows) print_answers((common), (rows), (int)(sizeof(rows) / sizeof *(rows)))
 

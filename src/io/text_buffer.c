@@ -87,3 +87,11 @@ void text_free(context *ctx, text_buffer *b)
     array_free(ctx, b);
     b->failed = false;
 }
+
+void text_units(context *ctx, text_buffer *b, const json_unit *units, int32_t count)
+{
+    text_add(ctx, b, ", \"units\": {");
+    for (int32_t i = 0; i < count; i++)
+        text_format(ctx, b, "%s\"%s\": \"%s\"", i > 0 ? ", " : "", units[i].name, units[i].unit);
+    text_add(ctx, b, "}");
+}

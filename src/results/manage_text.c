@@ -92,6 +92,21 @@ static void real(context *ctx, text_buffer *out, const char *name, double value,
     text_add(ctx, out, after);
 }
 
+static const json_unit manage_units[] = {{"limit", "m"},
+                                         {"mean_size", "m"},
+                                         {"largest", "m"},
+                                         {"largest_at_time", "s"},
+                                         {"first_ice_at_time", "s"},
+                                         {"unmanaged_comes_in_least", "s"},
+                                         {"unmanaged_comes_in_median", "s"},
+                                         {"largest_unmanaged_comes_in_least", "s"},
+                                         {"largest_unmanaged_comes_in_median", "s"},
+                                         {"load_mean", "N"},
+                                         {"load_most", "N"},
+                                         {"offset_most", "m"},
+                                         {"tension_most", "N"},
+                                         {"tension_range_equivalent", "N"}};
+
 static void summary_json(context *ctx, const manage_summary *s, text_buffer *out)
 {
     text_add(ctx, out, "{");
@@ -131,6 +146,7 @@ fram_status manage_text(context *ctx, const manage_summary *s, const manage_summ
             text_add(ctx, out, ", \"beside\": ");
             summary_json(ctx, beside, out);
         }
+        text_units(ctx, out, manage_units, (int32_t)(sizeof manage_units / sizeof *manage_units));
         text_add(ctx, out, "}\n");
     }
     return out->failed ? error_memory(error) : FRAM_OK;

@@ -434,6 +434,30 @@ static void json_check(context *ctx, text_buffer *out, const why_check *c)
     text_add(ctx, out, "}");
 }
 
+static const json_unit why_units[] = {{"time", "s"},
+                                      {"load", "N"},
+                                      {"window", "s"},
+                                      {"force", "N"},
+                                      {"mechanisms", "N"},
+                                      {"zones", "N"},
+                                      {"parts", "N"},
+                                      {"point", "m"},
+                                      {"place", "m"},
+                                      {"push", "N"},
+                                      {"held_by_contacts", "N"},
+                                      {"held_by_water", "N"},
+                                      {"inertia", "N"},
+                                      {"span_before", "s"},
+                                      {"from", "s"},
+                                      {"other_methods_from", "s"},
+                                      {"largest_from", "s"},
+                                      {"largest_to", "s"},
+                                      {"same", "N"},
+                                      {"half_step", "N"},
+                                      {"half_step_went_wrong_at", "s"},
+                                      {"accurate", "N"},
+                                      {"accurate_went_wrong_at", "s"}};
+
 fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
                      fram_error *error)
 {
@@ -461,6 +485,7 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
     text_format(ctx, out, ", \"bendings_before\": %d, \"splits_before\": %d, ", (int)b.bendings, (int)b.splits);
     number(ctx, out, "span_before", peak_span_recorded(&y->run, d->time));
     json_check(ctx, out, check);
+    text_units(ctx, out, why_units, (int32_t)(sizeof why_units / sizeof *why_units));
     text_add(ctx, out, "}\n");
     return out->failed ? error_memory(error) : FRAM_OK;
 }

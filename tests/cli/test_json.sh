@@ -45,6 +45,27 @@ object 0 compare run first --json -q
 object 0 field scene.yaml --json
 object 0 field outline.txt --json
 object 0 hull --length 50 --beam 10 --draught 3 --json
+# Numbers whose names have no unit have it beside them, but for counts and pure numbers.
+python3 -S - "$FRAM" <<'PY' || fail "numbers without units"
+import json, subprocess, sys
+PURE = {"peak", "peaks", "bodies", "floe", "bendings_before", "splits_before", "links", "after", "windows",
+        "concentration", "managed", "unbroken", "tension_line", "factor", "slenderness"}
+def walk(found, units, above=()):
+    for name, value in found.items():
+        names = (*above, name)
+        for each in value if isinstance(value, list) else [value]:
+            if isinstance(each, dict):
+                walk(each, units, names)
+            elif isinstance(each, (int, float)):
+                assert name in PURE or any(n in units for n in names), (names, units)
+for words in ("why run --time 1", "manage run", "manage run --beside first",
+              "ice break --force 1e5", "ice split"):
+    told = subprocess.run([sys.argv[1], *words.split(), "--json", "-q"], capture_output=True, text=True, check=True)
+    found = json.loads(told.stdout.splitlines()[-1])
+    units = found.pop("units")
+    assert set(units.values()) <= {"m", "s", "N", "Pa"}, units
+    walk(found, units)
+PY
 for what in wedge sheet; do object 0 ice $what --a-over-l 0.1 --json; done
 object 0 ice break --force 1e5 --json
 printf 'scenario: scene.yaml\nset: {run.duration: 0.2}\nseeds: 2\nvary: {grid: {vessel.speed: [1, 2]}}\n' >study.yaml
