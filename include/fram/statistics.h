@@ -23,6 +23,9 @@ FRAM_API void fram_duration_text(double seconds, char *text, size_t size);
 /* A load [N] in N, kN or MN by its size, and half its interval (NaN: none): "9.64 N", "739 +- 169 kN", "26.1 MN".
    largest: of the loads of its column, whose unit it is to have: "0.003 MN"; NaN: it stands alone. */
 FRAM_API void fram_load_text(double newton, double half, double largest, char *text, size_t size);
+/* Significant digits with which a number of this size tells so small a part of it to `digits` digits, as those of axes
+   tell their ticks: beside a northing the first five are the same for all.  From `least` to 15. */
+FRAM_API int fram_digits_beside(double size, double part, int digits, int least);
 
 enum { FRAM_SERIES_FILES = 4096 }; /* the most files of a series */
 

@@ -65,6 +65,11 @@ void fram_load_text(double newton, double half, double largest, char *text, size
         snprintf(text, size, "%s", load_range_text_of(newton, half, largest, LOAD_TOLD).text);
 }
 
+int fram_digits_beside(double size, double part, int digits, int least)
+{
+    return digits_beside(size, part, digits, least);
+}
+
 /* ---- the series ---- */
 
 static fram_status check_source(const fram_series_source *s, fram_error *error)

@@ -89,15 +89,11 @@ static int refuse_over_source(const common_options *common, const fram_series_so
 
 /* ---- facts ---- */
 
-/* Digits that tell so small a spread of values as large as these, as those of axes tell their ticks: beside a northing
-   the first five are the same for all.  Five at least. */
+/* Digits of a value beside the spread of those it is one of. */
 static int digits_of(double value, double spread)
 {
-    enum { LEAST = 5, MOST = 15 };
-    int digits = 3; /* of the spread */
-    for (double size = spread; spread > 0 && digits < MOST && 10 * size <= fabs(value); size *= 10)
-        digits++;
-    return digits > LEAST ? digits : LEAST;
+    enum { OF_SPREAD = 3, LEAST = 5 };
+    return fram_digits_beside(value, spread, OF_SPREAD, LEAST);
 }
 
 static void print_facts(const fram_series_source *source, const fram_series_facts *f, bool maxima)

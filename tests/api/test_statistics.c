@@ -89,6 +89,10 @@ START_TEST(numbers_are_read_strictly_and_told)
     ck_assert_str_eq(text, "739.1 +- 169 kN");
     fram_load_text(3000, (double)NAN, 2.61e7, text, sizeof text);
     ck_assert_str_eq(text, "0.003 MN");
+    ck_assert_int_eq(fram_digits_beside(6534201, 0.01, 3, 5), 11);
+    ck_assert_int_eq(fram_digits_beside(-3, 1, 3, 5), 5);
+    ck_assert_int_eq(fram_digits_beside(3, 0, 3, 4), 4);
+    ck_assert_int_eq(fram_digits_beside(1e300, 1e-300, 3, 5), 15);
 }
 END_TEST
 
