@@ -4,6 +4,7 @@
 #include "io/temporary.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -23,14 +24,16 @@ static void forget_video(video_file *v)
 {
     if (v->socket >= 0)
         close(v->socket);
+    if (v->words >= 0)
+        close(v->words);
     memory_free(v->ctx, v->path);
     memory_free(v->ctx, v->temporary);
-    *v = (video_file){.socket = -1};
+    *v = (video_file){.socket = -1, .words = -1};
 }
 
-/* An errno value, 0 when it runs: it reads from ends[1].  A process group of its own, so that Ctrl-C in a terminal
-   reaches the caller alone, who ends it. */
-static int spawn(const int ends[2], char *const *arguments, pid_t *process)
+/* An errno value, 0 when it runs: it reads from `frames` and says what it has to say to `words`.  A process group of
+   its own, so that Ctrl-C in a terminal reaches the caller alone, who ends it. */
+static int spawn(int frames, int words, char *const *arguments, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -41,7 +44,9 @@ static int spawn(const int ends[2], char *const *arguments, pid_t *process)
     if (code == 0)
         code = posix_spawn_file_actions_init(&actions);
     if (code == 0) {
-        code = posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+        code = posix_spawn_file_actions_adddup2(&actions, frames, STDIN_FILENO);
+        if (code == 0)
+            code = posix_spawn_file_actions_adddup2(&actions, words, STDERR_FILENO);
         if (code == 0)
             code = posix_spawnp(process, arguments[0], &actions, &attributes, arguments, environ);
         posix_spawn_file_actions_destroy(&actions);
@@ -54,13 +59,21 @@ static int spawn(const int ends[2], char *const *arguments, pid_t *process)
    other program gets it, be it the ffmpeg of a second video: this one would wait for its end too. */
 static fram_status start(video_file *v, char *const *arguments, fram_error *error)
 {
-    int ends[2];
+    int ends[2], words[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return file_error(error, v->path, "make a pipe", errno);
-    pid_t process = 0;
-    int code = spawn(ends, arguments, &process);
-    close(ends[1]);
     v->socket = ends[0];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, words) != 0) {
+        close(ends[1]);
+        return file_error(error, v->path, "make a pipe", errno);
+    }
+    v->words = words[0];
+    /* Nobody reads its words before its end: what has no room is lost, and it does not wait. */
+    (void)fcntl(words[1], F_SETFL, O_NONBLOCK);
+    pid_t process = 0;
+    int code = spawn(ends[1], words[1], arguments, &process);
+    close(ends[1]);
+    close(words[1]);
     v->process = (int)process;
     if (code == 0)
         return FRAM_OK;
@@ -74,7 +87,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
 {
     static const char protocol[] = "file:";
     int descriptor = -1;
-    *v = (video_file){.ctx = ctx, .socket = -1, .path = memory_string(ctx, path)};
+    *v = (video_file){.ctx = ctx, .socket = -1, .words = -1, .path = memory_string(ctx, path)};
     fram_status status = v->path ? atomic_file_check(path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = temporary_file(ctx, path, &v->temporary, &descriptor, error);
@@ -108,6 +121,65 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
     return status;
 }
 
+/* True when it ended well. */
+static bool wait_for(video_file *v)
+{
+    pid_t process = (pid_t)v->process;
+    int how = 0;
+    if (process <= 0)
+        return false;
+    v->process = 0;
+    while (waitpid(process, &how, 0) < 0) {
+        if (errno != EINTR)
+            return false;
+    }
+    return WIFEXITED(how) && WEXITSTATUS(how) == 0;
+}
+
+/* What it said, when it has ended, in one line; it knows the file by the name that it has until it is whole. */
+static void take_words(const video_file *v, char *out, size_t room)
+{
+    static const char protocol[] = "file:";
+    char said[2048];
+    ssize_t length = recv(v->words, said, sizeof said - 1, MSG_DONTWAIT);
+    size_t own = strlen(v->temporary), used = 0;
+    said[length > 0 ? length : 0] = '\0';
+    for (const char *at = said; *at && used + 1 < room;) {
+        const char *name = strncmp(at, protocol, sizeof protocol - 1) == 0 ? at + sizeof protocol - 1 : at;
+        if (strncmp(name, v->temporary, own) == 0) {
+            int put = snprintf(out + used, room - used, "%s", v->path);
+            used = put > 0 && (size_t)put < room - used ? used + (size_t)put : room - 1;
+            at = name + own;
+        } else if (*at == '\n') {
+            for (; *at == '\n'; at++)
+                ;
+            if (*at)
+                out[used++] = ';';
+            if (*at && used + 1 < room)
+                out[used++] = ' ';
+        } else {
+            out[used++] = *at++;
+        }
+    }
+    out[used] = '\0';
+}
+
+/* When it has ended. */
+static fram_status refuse_ended(const video_file *v, const char *what, fram_error *error)
+{
+    char words[400];
+    take_words(v, words, sizeof words);
+    return error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "%s%s%s", what, words[0] ? ": " : "", words);
+}
+
+/* It takes no more: it has ended, or is ended. */
+static fram_status refuse_video(video_file *v, const char *what, fram_error *error)
+{
+    kill((pid_t)v->process, SIGTERM);
+    (void)wait_for(v);
+    return refuse_ended(v, what, error);
+}
+
 fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_error *error)
 {
     const char *at = pixels;
@@ -116,22 +188,11 @@ fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_err
         if (sent < 0 && errno == EINTR)
             continue;
         if (sent <= 0)
-            return error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "ffmpeg stopped taking frames; see what it said");
+            return refuse_video(v, "ffmpeg stopped taking frames", error);
         at += sent;
         size -= (size_t)sent;
     }
     return FRAM_OK;
-}
-
-/* True when it ended well. */
-static bool wait_for(const video_file *v)
-{
-    int how = 0;
-    while (waitpid((pid_t)v->process, &how, 0) < 0) {
-        if (errno != EINTR)
-            return false;
-    }
-    return WIFEXITED(how) && WEXITSTATUS(how) == 0;
 }
 
 fram_status video_end(video_file *v, fram_error *error)
@@ -143,7 +204,7 @@ fram_status video_end(video_file *v, fram_error *error)
         status = atomic_file_adopt(v->ctx, v->temporary, v->path, error);
     } else {
         unlink(v->temporary);
-        status = error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "ffmpeg could not make the video; see what it said");
+        status = refuse_ended(v, "ffmpeg could not make the video", error);
     }
     forget_video(v);
     return status;
@@ -153,7 +214,8 @@ void video_abandon(video_file *v)
 {
     if (!v->path)
         return;
-    kill((pid_t)v->process, SIGTERM);
+    if (v->process > 0)
+        kill((pid_t)v->process, SIGTERM);
     close(v->socket); /* first: where ffmpeg waits for a frame it does not heed the signal */
     v->socket = -1;
     (void)wait_for(v);

@@ -8,6 +8,7 @@ typedef struct video_file {
     context *ctx;
     char *path, *temporary;
     int socket; /* to ffmpeg's standard input */
+    int words;  /* from its standard error */
     int process;
 } video_file;
 

@@ -204,6 +204,21 @@ case $("$FRAM" --version) in
         [ -s "./$name" ] || fail "$name is missing"
         tail -n 1 arguments | grep -q '^file:\./' || fail "ffmpeg is given $(tail -n 1 arguments)"
     done
+    # What it says of its file is told with the name that was asked for, and so is where it goes away in between.
+    for end in 'cat >/dev/null' 'head -c 1000 >/dev/null'; do
+        cat >bin/ffmpeg <<END
+#!/bin/bash
+$end
+printf '%s\n' "Error writing trailer of \${!#}: no room" "\${!#}: \$0 gives up" >&2
+exit 1
+END
+        expect 1 env PATH="$scratch/bin:$PATH" "$FRAM" video open --fps 1 --speed 2 -o lost.mp4 -q
+        says "ffmpeg" err
+        says ": Error writing trailer of lost.mp4: no room; lost.mp4: $scratch/bin/ffmpeg gives up" err
+        grep -q '\.new\|file:' err && fail "a file that the user does not know is named: $(cat err)"
+        same "$(grep -c . err)" 1 "lines about a video that was not made"
+        [ -z "$(ls lost.mp4* 2>/dev/null)" ] || fail "a video that failed left $(ls lost.mp4*)"
+    done
     ;;
 esac
 
