@@ -300,10 +300,13 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
 fram_status playback_write(context *ctx, const char *folder, const playback_options *options, playback_report *report,
                            fram_error *error)
 {
-    char path[PATH_ROOM];
+    char path[PATH_ROOM], beside[PATH_ROOM];
     record_reader r;
     *report = (playback_report){0};
-    fram_status status = run_record_open(ctx, folder, path, &r, error);
+    /* Whether the folder is needed is known only when the record has been read. */
+    fram_status status = chunks_folder(options->output, beside, error);
+    if (status == FRAM_OK)
+        status = run_record_open(ctx, folder, path, &r, error);
     if (status != FRAM_OK)
         return status;
     page_writer w = {.r = &r, .path = path, .report = report};

@@ -50,17 +50,25 @@ static fram_status refuse_foreign(const char *folder, fram_error *error)
     return FRAM_OK;
 }
 
-fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk_writer *w, fram_error *error)
+fram_status chunks_folder(const char *output, char out[PATH_ROOM], fram_error *error)
 {
     size_t length = strlen(output), end = sizeof ending - 1;
-    *w = (chunk_writer){.ctx = ctx, .limit = limit};
+    fram_status status = path_refuse_long(output, output, error);
+    if (status != FRAM_OK)
+        return status;
     if (length > end && strcmp(output + length - end, ending) == 0)
         length -= end;
-    if (length + sizeof suffix > sizeof w->folder)
+    if (length + sizeof suffix > PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, output, 0, NULL, "the page's name is too long");
-    memcpy(w->folder, output, length);
-    memcpy(w->folder + length, suffix, sizeof suffix);
-    return FRAM_OK;
+    memcpy(out, output, length);
+    memcpy(out + length, suffix, sizeof suffix);
+    return path_refuse_long(output, out, error);
+}
+
+fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk_writer *w, fram_error *error)
+{
+    *w = (chunk_writer){.ctx = ctx, .limit = limit};
+    return chunks_folder(output, w->folder, error);
 }
 
 static fram_status close_chunk(chunk_writer *w, fram_error *error)

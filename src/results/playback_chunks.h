@@ -22,7 +22,10 @@ typedef struct chunk_writer {
     bool open;
 } chunk_writer;
 
-/* The folder of the page `output`: PAGE-frames for PAGE.html.  FRAM_ERROR_INPUT when the name is too long. */
+/* The folder of the page `output`: PAGE-frames for PAGE.html.  FRAM_ERROR_INPUT when its name, or that of the page, is
+   one that the file system does not take. */
+fram_status chunks_folder(const char *output, char out[PATH_ROOM], fram_error *error);
+/* Into the folder of the page. */
 fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk_writer *w, fram_error *error);
 /* Where a frame of so many bytes is about to go: number of the file, and offset in its blocks. */
 fram_status chunks_place(chunk_writer *w, uint64_t size, int32_t *chunk, int32_t *offset, fram_error *error);

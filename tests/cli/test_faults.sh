@@ -222,4 +222,21 @@ END
     ;;
 esac
 
+# Names are looked at before the work: of the page's folder of frames too, and the folder that a file goes into.
+long=$(printf '%250s' '' | tr ' ' n)
+expect 2 "$FRAM" view open --page viewer.html -o "$long.html"
+says "--output: expected a shorter name: a file named after it would have one of 257 bytes" err
+same "$(grep -c . err)" 1 "lines about a page with too long a name"
+echo nothing >plain.txt
+for words in "view absent --page viewer.html -o none/x.html" "report absent -o none/x.html" \
+    "compare absent open -o none/x.html" "manage absent -o none/x.html" "export absent --netcdf -o none/x.nc" \
+    "export absent --geojson --time 1 -o none/x.geojson" "export absent --vtk -o none/x" "video absent -o none/x.mp4" \
+    "video absent --pictures -o none/x" "plot absent time -o none/x.png" "why absent --time 1 -o none/x.svg" \
+    "field absent.yaml --table none/x.csv" "report absent -o plain.txt/x.html"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words
+    says "/x" err
+    same "$(grep -c . err)" 1 "lines about $words"
+done
+
 finish "what the world does to the command is told"
