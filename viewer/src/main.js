@@ -9,8 +9,8 @@ import { Loads } from './loads.js';
 import { $, tell } from './page.js';
 import { PeakPanel } from './peaks.js';
 import { Poses } from './poses.js';
-import { bytesOf, Chunks, FrameStore, readRecord } from './record.js';
-import { readScenario, sizesOf, vesselsOf } from './scenario.js';
+import { bytesOf, Chunks, FrameStore, hullsOf, readRecord } from './record.js';
+import { scenarioOf, sizesOf, vesselsOf } from './scenario.js';
 import { own, rendererOn, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
@@ -34,7 +34,7 @@ class Player {
         this.playing = false;
         this.picked = null;
         this.dirty = true;
-        const told = readScenario(record.scenario), vessels = vesselsOf(told);
+        const told = scenarioOf(record), vessels = vesselsOf(told);
         $('title').textContent = told.title || 'Fram';
         this.sizes = sizesOf(told);
         this.ofVessel = vessels.length > 1 ? ` on ${vessels[0].name}` : ''; // frames tell the force on the first
@@ -60,7 +60,7 @@ class Player {
         const renderer = rendererOn($('view'));
         if (!renderer) { this.giveUp(); return; }
         this.scene = new Scene(renderer, record, this.poses, first);
-        this.hull = record.bodies.find((b) => b.material === 'hull');
+        this.hull = hullsOf(record)[0];
         this.camera = new Camera($('view'), this.scene, this.poses, this.hull);
         this.colours = new Colours(record, this.poses, this.sizes);
         this.legend = new Legend();
@@ -107,7 +107,7 @@ class Player {
         const number = Number($('vessel').value), vessel = this.loads.vessels[number];
         this.peaks.setVessel(vessel);
         this.timeline.show(this.loads, vessel);
-        this.goWith(this.record.bodies.filter((b) => b.material === 'hull')[number]);
+        this.goWith(hullsOf(this.record)[number]);
     }
 
     /** Loads and hulls are both of the vessels that take part, in their order. */
@@ -290,7 +290,7 @@ class Player {
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
             forces: $('forces').checked ? kinds : [], station: this.scene.station.keys(),
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
-            vessels: this.record.bodies.filter((b) => b.material === 'hull').length,
+            vessels: hullsOf(this.record).length,
         });
         this.placePeak();
         this.dirty = true;

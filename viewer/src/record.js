@@ -12,6 +12,9 @@ const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
 const MARKED = 32768; // of the last number of a pose: a contact force follows
 const NEVER = Infinity;
 
+/** The hulls, in the order of the vessels that take part. */
+export const hullsOf = (record) => record.bodies.filter((b) => b.material === 'hull');
+
 /** A mantissa of ten bits under an exponent, of which 0 has the numbers without a leading one; `last`: exponent of the
  *  last place of the smallest. */
 function unpackSize(packed, last) {

@@ -1,8 +1,16 @@
 // Reads the scenario that stands in a record: Fram's own print of it, every key on a line of its own, two blanks a
 // level, items of lists after "- ".  No reader of YAML: what users write is read by the program.
 
+const read = new WeakMap(); // of records, whose scenario never changes
+
+/** The scenario of a record, which is read once. */
+export function scenarioOf(record) {
+    if (!read.has(record)) read.set(record, readScenario(record.scenario));
+    return read.get(record);
+}
+
 /** @returns the scenario as objects, arrays, numbers, true, false and texts ("auto" too). */
-export function readScenario(text) {
+function readScenario(text) {
     const root = {}, open = [{ at: 0, into: root, key: '' }];
     for (const line of text.split('\n')) {
         const found = line.match(/^( *)(- )?(\w+):(?: (.*))?$/);

@@ -4,7 +4,8 @@
 import * as THREE from 'three';
 import { FORCE_COLOURS } from './legend.js';
 import { Arrows, HullPressure, LitFloes } from './overlay.js';
-import { readScenario, sizesOf } from './scenario.js';
+import { hullsOf } from './record.js';
+import { scenarioOf, sizesOf } from './scenario.js';
 import { Station } from './station.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
@@ -25,7 +26,7 @@ export class Scene {
     constructor(renderer, record, poses, first) {
         this.record = record;
         this.poses = poses;
-        const told = readScenario(record.scenario);
+        const told = scenarioOf(record);
         this.metre = sizesOf(told).length; // of full size
         this.domain = told.domain ?? {};
         this.renderer = renderer;
@@ -42,7 +43,7 @@ export class Scene {
         this.station = new Station(this.scene, record, this.water);
         this.lit = new LitFloes(this.scene);
         this.peakArrows = new Arrows(this.scene);
-        const hulls = record.bodies.filter((b) => b.material === 'hull'), { pressure } = record;
+        const hulls = hullsOf(record), { pressure } = record;
         if (hulls[pressure?.vessel]) this.pressure = new HullPressure(this.scene, pressure, hulls[pressure.vessel]);
     }
 

@@ -7,7 +7,8 @@ import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 import { FORCE_COLOURS, GONE } from './legend.js';
-import { readScenario, sizesOf, vesselsOf } from './scenario.js';
+import { hullsOf } from './record.js';
+import { scenarioOf, sizesOf, vesselsOf } from './scenario.js';
 
 const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one along the bottom
 const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller of full size without a diameter, as the keys say [Pa]
@@ -18,8 +19,8 @@ const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be see
 export class Station {
     /** water: its mesh, at whose edge lines are cut. */
     constructor(scene, record, water) {
-        const hulls = record.bodies.filter((b) => b.material === 'hull');
-        const told = readScenario(record.scenario), vessels = vesselsOf(told);
+        const hulls = hullsOf(record);
+        const told = scenarioOf(record), vessels = vesselsOf(told);
         this.sizes = sizesOf(told);
         const disc = (thrust) => Math.sqrt(4 * thrust / (Math.PI * DISC_PRESSURE * this.sizes.length));
         const each = (make) => vessels.flatMap((v, i) => (v.mode === 'free' && hulls[i] ? make(v, hulls[i]) : []));

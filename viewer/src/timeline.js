@@ -2,6 +2,7 @@
 // marks where floes broke, and a cursor that can be dragged.
 
 import { forceText, secondsText } from './legend.js';
+import { hullsOf } from './record.js';
 import { shortened, wrapped } from './text.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
@@ -143,7 +144,7 @@ export class Timeline {
 
     drawPlain(g, w, h) {
         const most = this.load.some((load) => load > 0) ? `largest of them ${forceText(this.most)}` : 'none';
-        const what = this.record.bodies.some((b) => b.material === 'hull')
+        const what = hullsOf(this.record).length
             ? `ice load${this.of}, averaged, at the frames; ${most}` : 'no vessel';
         const head = this.drawCaption(g, w, `${what}${this.eventText()}`, h - 38) + 7;
         g.fillStyle = '#c9d6e2';
