@@ -479,6 +479,14 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(run.columns()["b"], [2])
         self.assert_refused(self.broken("series.csv", b"time[s],b[m]\n1,2\n2\n").columns, "series.csv", 3)
 
+    def test_columns_that_nobody_asks_for_are_not_kept(self):
+        path = self.broken("series.csv", b"time[s],b[m],c[N]\n1,2,5\n2,3,6\n").folder / "series.csv"
+        columns, units = fram.runs._read_table(path, ["time"], ["c", "time", "none"])
+        self.assertEqual((list(columns), list(units)), (["time", "c"], ["time", "b", "c"]))
+        self.assertEqual((list(columns["c"]), columns["c"].base.nbytes), ([5, 6], 32))
+        path.write_bytes(b"time[s],b[m],c[N]\n1,2,5\n2,x,6\n")
+        self.assert_refused(lambda: fram.runs._read_table(path, [], ["c"]), "series.csv", 3)
+
     @unittest.skipIf(fram.runs.pandas is None, "without pandas")
     def test_the_time_of_a_series_is_a_column_and_the_index(self):
         series = self.broken("series.csv", b"time[s],b[m]\n1,2\n2,3\n3,1\n").series

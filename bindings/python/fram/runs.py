@@ -97,22 +97,29 @@ def _read_units(rows: Iterator[list[str]], path: pathlib.Path, needed: Sequence[
     return _heads(heads, path, needed)
 
 
-def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[str, np.ndarray], dict[str, str]]:
-    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+def _read_table(path: pathlib.Path, needed: Sequence[str] = (),
+                kept: Optional[Sequence[str]] = None) -> tuple[dict[str, np.ndarray], dict[str, str]]:
+    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out.
+
+    kept: names of the columns that are wanted, of those that are there; None: all.  Each row is looked at whole.
+    """
     values = array.array("d")
     with _open_text(path) as file:
         rows = _rows(file, path)
         units = _read_units(rows, path, needed)
+        at = [i for i, name in enumerate(units) if kept is None or name in kept]
         for number, row in enumerate(rows, start=2):
             try:
                 if len(row) != len(units):
                     raise ValueError(f"there are {len(row)}")
-                values.extend([float(word) for word in row])
+                numbers = [float(word) for word in row]
             except ValueError as error:
                 raise InputError("input", f"expected {len(units)} numbers: {error}", file=str(path),
                                  line=number) from error
-    table = np.array(values).reshape(-1, max(len(units), 1))
-    return {name: table[:, i] for i, name in enumerate(units)}, units
+            values.extend(numbers if kept is None else [numbers[i] for i in at])
+    table = np.array(values).reshape(-1, max(len(at), 1))
+    names = list(units)
+    return {names[i]: table[:, k] for k, i in enumerate(at)}, units
 
 
 def _going_on(angles: np.ndarray) -> np.ndarray:
@@ -278,7 +285,7 @@ class Run:
         """Channels over time, by matplotlib; shown by a notebook.  Returns the axes."""
         import matplotlib.pyplot as pyplot
         names = names_of("channels", channels, "channels")
-        columns, units = _read_table(self.folder / "series.csv", ["time"])
+        columns, units = _read_table(self.folder / "series.csv", ["time"], ["time", *names])
         for name in names:
             if name not in columns:
                 raise InputError("input", "the run has no such channel", key=name)
