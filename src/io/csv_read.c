@@ -1,4 +1,4 @@
-#include "io/csv_read.h"
+#include "io/csv_lines.h"
 
 #include "base/number_text.h"
 #include "io/file.h"
@@ -136,8 +136,7 @@ static bool push_value(context *ctx, const int32_t *at, int32_t count, int32_t c
     return good;
 }
 
-/* A number in a cell, and its end; false where it has none: 0x10 is one to the C library alone. */
-static bool csv_number(const char *c, double *value, char **end)
+bool csv_number(const char *c, double *value, char **end)
 {
     *value = real_read(c, end);
     const char *first = c + (*c == ' ' || *c == '\t' ? strspn(c, BLANKS) : 0);
@@ -145,9 +144,8 @@ static bool csv_number(const char *c, double *value, char **end)
     return *end > c && !(first[0] == '0' && (first[1] == 'x' || first[1] == 'X'));
 }
 
-/* Columns from 0. */
-static fram_status refuse_number(const char *path, int line, const char *name, int32_t column, const char *cell,
-                                 fram_error *error)
+fram_status csv_refuse_number(const char *path, int line, const char *name, int32_t column, const char *cell,
+                              fram_error *error)
 {
     int length = (int)strcspn(cell, ",");
     return error_set(error, FRAM_ERROR_INPUT, path, line, name, "column %d: expected a number, found \"%.*s\"",
@@ -169,7 +167,7 @@ static fram_status refuse_cell(const column_reader *r, const char *path, int lin
     int32_t k = 0;
     while (r->at[k] != asked)
         k++;
-    return refuse_number(path, line, r->names[k], asked, cell, error);
+    return csv_refuse_number(path, line, r->names[k], asked, cell, error);
 }
 
 static fram_status read_row(const column_reader *r, const char *path, int line, const char *row, fram_error *error)
@@ -210,14 +208,6 @@ static fram_status read_row(const column_reader *r, const char *path, int line, 
                          (int)column, (int)r->width);
     return FRAM_OK;
 }
-
-/* What becomes of the lines of a file. */
-typedef struct line_reader {
-    fram_status (*read)(void *user, const char *path, int line, const char *text, fram_error *error);
-    void *user;
-    bool open_end; /* the last line counts without its end; otherwise it is taken for one that was cut short */
-    bool stops;    /* who asks to stop is heard */
-} line_reader;
 
 /* Without its end, be it of one character or two. */
 static void trim_end(char *line, size_t length)
@@ -276,7 +266,7 @@ static fram_status next_line(line_buffer *b, const char *path, int number, char 
 /* Rows between two words about how far the reading is. */
 enum { ROWS_TOLD = 256 };
 
-static fram_status tell_rows(context *ctx, const line_reader *reader, double done, double size, fram_error *error)
+static fram_status tell_rows(context *ctx, const csv_line_reader *reader, double done, double size, fram_error *error)
 {
     static const char what[] = "reading rows";
     if (reader->stops)
@@ -285,8 +275,8 @@ static fram_status tell_rows(context *ctx, const line_reader *reader, double don
     return FRAM_OK;
 }
 
-static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, const char *path, const line_reader *reader,
-                               fram_error *error)
+static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, const char *path,
+                               const csv_line_reader *reader, fram_error *error)
 {
     int number = 0;
     char *line = NULL;
@@ -312,7 +302,7 @@ static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, cons
     return number > 0 ? FRAM_OK : error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "the file has no header row");
 }
 
-static fram_status read_lines(context *ctx, const char *path, const line_reader *reader, fram_error *error)
+fram_status csv_read_lines(context *ctx, const char *path, const csv_line_reader *reader, fram_error *error)
 {
     int descriptor;
     uint64_t size;
@@ -352,8 +342,8 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
     if (!at)
         return error_memory(error);
     column_reader r = {.ctx = ctx, .names = names, .count = count, .at = at, .columns = columns};
-    const line_reader reader = {read_columns, &r, true, false};
-    fram_status status = read_lines(ctx, path, &reader, error);
+    const csv_line_reader reader = {read_columns, &r, true, false};
+    fram_status status = csv_read_lines(ctx, path, &reader, error);
     memory_free(ctx, at);
     return status;
 }
@@ -375,123 +365,6 @@ static fram_status find_row(void *user, const char *path, int line, const char *
 int csv_line_of(context *ctx, const char *path, int32_t row)
 {
     row_finder f = {.left = row};
-    const line_reader reader = {find_row, &f, true, false};
-    return read_lines(ctx, path, &reader, NULL) == FRAM_OK ? f.line : 0;
-}
-
-/* ---- all columns ---- */
-
-typedef struct table_reader {
-    context *ctx;
-    csv_table *out;
-} table_reader;
-
-static int compare_columns(const void *a, const void *b)
-{
-    const csv_table_column *first = *(const csv_table_column *const *)a, *second = *(const csv_table_column *const *)b;
-    int order = strcmp(first->name, second->name);
-    return order != 0 ? order : (first > second) - (first < second);
-}
-
-/* Of columns that have the name of one before them the first is told. */
-static fram_status refuse_double_columns(const table_reader *r, const char *path, fram_error *error)
-{
-    const csv_table_column *all = r->out->columns.data, *first = NULL, *second = NULL;
-    int32_t count = r->out->columns.count;
-    const csv_table_column **sorted = memory_array(r->ctx, (size_t)count, sizeof *sorted);
-    if (!sorted)
-        return error_memory(error);
-    for (int32_t k = 0; k < count; k++)
-        sorted[k] = all + k;
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_columns);
-    for (int32_t k = 1; k < count; k++) {
-        if (strcmp(sorted[k - 1]->name, sorted[k]->name) == 0 && (!second || sorted[k] < second)) {
-            first = sorted[k - 1];
-            second = sorted[k];
-        }
-    }
-    memory_free(r->ctx, sorted);
-    return second ? csv_refuse_twice(path, second->name, (int32_t)(first - all), (int32_t)(second - all), error)
-                  : FRAM_OK;
-}
-
-/* "name[unit]" */
-static fram_status read_header(const table_reader *r, const char *path, const char *text, fram_error *error)
-{
-    for (const char *c = text;; c++) {
-        size_t whole = strcspn(c, ","), name = strcspn(c, ",["), unit = 0;
-        const char *unit_at = c + name;
-        if (*unit_at == '[') {
-            unit_at++;
-            unit = strcspn(unit_at, "],");
-        }
-        while (name > 0 && c[name - 1] == ' ')
-            name--;
-        csv_table_column column = {.name = ""};
-        if (name >= sizeof column.name || unit >= sizeof column.unit)
-            return error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "column %d: its name or unit is too long",
-                             (int)r->out->columns.count + 1);
-        memcpy(column.name, c, name);
-        memcpy(column.unit, unit_at, unit);
-        if (!array_push(r->ctx, &r->out->columns, column))
-            return error_memory(error);
-        c += whole;
-        if (!*c)
-            return refuse_double_columns(r, path, error);
-    }
-}
-
-static fram_status read_values(const table_reader *r, const char *path, int line, const char *text, fram_error *error)
-{
-    const char *c = text;
-    for (int32_t k = 0; k < r->out->columns.count; k++) {
-        bool last = k + 1 == r->out->columns.count;
-        char *end;
-        double value;
-        bool number = csv_number(c, &value, &end);
-        if (end > c && (!number || !isfinite(value)))
-            return refuse_number(path, line, r->out->columns.data[k].name, k, c, error);
-        if (end == c || *end != (last ? '\0' : ','))
-            return error_set(error, FRAM_ERROR_INPUT, path, line, r->out->columns.data[k].name,
-                             "expected a number and then %s", last ? "the end of the row" : "a comma");
-        if (!array_push(r->ctx, &r->out->columns.data[k].value, value))
-            return error_memory(error);
-        c = end + 1;
-    }
-    r->out->rows++;
-    return FRAM_OK;
-}
-
-static fram_status read_table_line(void *user, const char *path, int line, const char *text, fram_error *error)
-{
-    const table_reader *r = user;
-    return line == 1 ? read_header(r, path, text, error) : read_values(r, path, line, text, error);
-}
-
-fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error)
-{
-    *out = (csv_table){0};
-    table_reader r = {ctx, out};
-    const line_reader reader = {read_table_line, &r, false, true};
-    fram_status status = read_lines(ctx, path, &reader, error);
-    if (status != FRAM_OK)
-        csv_table_free(ctx, out);
-    return status;
-}
-
-void csv_table_free(context *ctx, csv_table *t)
-{
-    for (int32_t k = 0; k < t->columns.count; k++)
-        array_free(ctx, &t->columns.data[k].value);
-    array_free(ctx, &t->columns);
-    t->rows = 0;
-}
-
-const csv_table_column *csv_table_find(const csv_table *t, const char *name)
-{
-    for (int32_t k = 0; k < t->columns.count; k++) {
-        if (strcmp(t->columns.data[k].name, name) == 0)
-            return &t->columns.data[k];
-    }
-    return NULL;
+    const csv_line_reader reader = {find_row, &f, true, false};
+    return csv_read_lines(ctx, path, &reader, NULL) == FRAM_OK ? f.line : 0;
 }

@@ -30,19 +30,26 @@ enum { UNIT_SIZE = 16, COLUMN_NAME_SIZE = 80 };
 typedef struct csv_table_column {
     char name[COLUMN_NAME_SIZE], unit[UNIT_SIZE];
     double_array value;
+    bool left_out; /* nobody wished for it: it has no values, though the file's were looked at */
 } csv_table_column;
 typedef struct csv_table {
     ARRAY(csv_table_column) columns;
     int32_t rows;
 } csv_table;
 
-/* A row without its end, cut short while a run writes the file, ends the reading.  FRAM_ERROR_INPUT as csv_read, and
-   for a number that is not finite, which no run writes into its tables, and a name that is too long;
-   FRAM_INTERRUPTED where the context is asked to stop, which csv_read does not hear: a run that was stopped reads its
-   own series for its results.  On failure the table is empty. */
-fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error);
+/* Columns whose values are wished for: the names as they are, and behind that of a vessel (yaw: tug.yaw too). */
+typedef struct csv_wish {
+    const char *const *names;
+    int32_t count;
+} csv_wish;
+
+/* wish NULL: all columns.  A row without its end, cut short while a run writes the file, ends the reading.
+   FRAM_ERROR_INPUT as csv_read, and for a number that is not finite, which no run writes into its tables, and a name
+   that is too long; FRAM_INTERRUPTED where the context is asked to stop, which csv_read does not hear: a run that was
+   stopped reads its own series for its results.  On failure the table is empty. */
+fram_status csv_table_read(context *ctx, const char *path, const csv_wish *wish, csv_table *out, fram_error *error);
 void csv_table_free(context *ctx, csv_table *t);
-/* NULL when there is none of this name. */
+/* NULL when there is none of this name, or it was left out. */
 const csv_table_column *csv_table_find(const csv_table *t, const char *name);
 
 #endif

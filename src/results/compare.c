@@ -341,10 +341,10 @@ fram_status compare_runs(context *ctx, const char *a, const char *b, const char 
 {
     pair p = {.ctx = ctx, .page = {.ctx = ctx}, .result = result};
     *result = (compare_result){0};
-    fram_status status = run_data_read(ctx, a, false, &p.d[0], error);
+    fram_status status = run_data_read(ctx, a, false, NULL, &p.d[0], error);
     if (status != FRAM_OK)
         return status;
-    status = run_data_read(ctx, b, false, &p.d[1], error);
+    status = run_data_read(ctx, b, false, NULL, &p.d[1], error);
     if (status != FRAM_OK) {
         run_data_free(ctx, &p.d[0]);
         return status;

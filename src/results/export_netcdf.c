@@ -43,7 +43,7 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
     csv_table t;
     fram_status status = path_join(folder, file, path, error);
     if (status == FRAM_OK)
-        status = csv_table_read(ctx, path, &t, error);
+        status = csv_table_read(ctx, path, NULL, &t, error);
     if (status != FRAM_OK)
         return status;
     if (!*prefix) /* the one over time */
@@ -58,7 +58,7 @@ static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, con
 static fram_status put_tables(context *ctx, netcdf_file *f, const char *folder, fram_error *error)
 {
     run_data d;
-    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    fram_status status = run_data_read(ctx, folder, false, NULL, &d, error);
     if (status == FRAM_OK) {
         bool good =
             put_table(ctx, f, &d.series, "time", "") && put_table(ctx, f, &d.fractures, "fracture", "fracture_");

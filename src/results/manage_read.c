@@ -442,7 +442,7 @@ fram_status manage_read(context *ctx, const char *folder, const manage_options *
                         fram_error *error)
 {
     *m = (manage_run){.ctx = ctx};
-    fram_status status = run_data_read(ctx, folder, false, &m->d, error);
+    fram_status status = run_data_read(ctx, folder, false, NULL, &m->d, error);
     if (status != FRAM_OK)
         return status;
     run_warn_change(ctx, &m->d);

@@ -171,7 +171,7 @@ fram_status playback_explain(context *ctx, const char *folder, const char *press
 {
     fram_error reason = {0};
     why y = {.ctx = ctx};
-    fram_status status = run_data_read(ctx, folder, false, &y.run, &reason);
+    fram_status status = run_data_read(ctx, folder, false, NULL, &y.run, &reason);
     if (status == FRAM_OK) {
         run_warn_change(ctx, &y.run);
         status = explain(&y, pressure, blocks, &reason);

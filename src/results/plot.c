@@ -169,7 +169,11 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
                           double to, const char *output, fram_error *error)
 {
     run_data d;
-    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    const char *kept[PLOT_CHANNELS_MOST + 1] = {"time"};
+    for (int32_t i = 0; i < count && i < PLOT_CHANNELS_MOST; i++)
+        kept[i + 1] = channels[i];
+    const csv_wish wish = {kept, count + 1};
+    fram_status status = run_data_read(ctx, folder, false, &wish, &d, error);
     if (status != FRAM_OK)
         return status;
     plot p = {.time = run_channel(&d, "time")};
@@ -199,7 +203,8 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
 fram_status plot_list(context *ctx, const char *folder, text_buffer *out, fram_error *error)
 {
     run_data d;
-    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    const csv_wish wish = {(const char *const[]){"time"}, 1};
+    fram_status status = run_data_read(ctx, folder, false, &wish, &d, error);
     if (status != FRAM_OK)
         return status;
     for (int32_t i = 0; i < d.series.columns.count; i++)

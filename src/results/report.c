@@ -387,7 +387,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
     report r = {.ctx = ctx, .notes = notes, .with_paths = with_paths, .page = {.ctx = ctx}};
     fram_status status = path_given_or(output, folder, "report.html", path, error);
     if (status == FRAM_OK)
-        status = run_data_read(ctx, folder, true, &r.d, error);
+        status = run_data_read(ctx, folder, true, NULL, &r.d, error);
     if (status != FRAM_OK)
         return status;
     run_warn_change(ctx, &r.d);

@@ -352,12 +352,11 @@ static void note_progress(run_data *d)
 
 /* ---- all ---- */
 
-fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error)
+fram_status run_data_read(context *ctx, const char *folder, bool with_field, const csv_wish *wish, run_data *d,
+                          fram_error *error)
 {
     char path[PATH_ROOM];
-    memset(d, 0, sizeof *d);
-    d->note.recorded_from = -1;
-    d->note.steps = d->note.time = (double)NAN;
+    *d = (run_data){.note = {.recorded_from = -1, .steps = (double)NAN, .time = (double)NAN}};
     fram_status status = path_given_or(folder, NULL, NULL, d->folder, error);
     if (status == FRAM_OK)
         status = read_note(ctx, folder, &d->note, error);
@@ -373,13 +372,13 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
     if (status == FRAM_OK)
         status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_table_read(ctx, path, &d->series, error);
+        status = csv_table_read(ctx, path, wish, &d->series, error);
     if (status == FRAM_OK)
         status = run_series_check(&d->series, path, error);
     if (status == FRAM_OK)
         status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_table_read(ctx, path, &d->fractures, error);
+        status = csv_table_read(ctx, path, wish, &d->fractures, error);
     if (status == FRAM_OK) {
         note_progress(d);
         run_warn_gaps(ctx, d);

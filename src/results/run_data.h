@@ -63,8 +63,9 @@ typedef struct run_data {
 } run_data;
 
 /* FRAM_ERROR_INPUT when the folder is not that of a run. with_field: read the record too; a record without frames,
-   or none, leaves the fields empty. */
-fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error);
+   or none, leaves the fields empty.  wish: names of columns, "time" among them, that are kept; NULL: all. */
+fram_status run_data_read(context *ctx, const char *folder, bool with_field, const csv_wish *wish, run_data *d,
+                          fram_error *error);
 void run_data_free(context *ctx, run_data *d);
 
 /* Finds whether the scenario is still the one of run.json; as run_data_read did. */

@@ -27,7 +27,7 @@ static fram_status read_peaks(why *y, fram_error *error)
 fram_status why_open(context *ctx, const char *folder, const char *vessel, why *y, fram_error *error)
 {
     *y = (why){.ctx = ctx};
-    fram_status status = run_data_read(ctx, folder, false, &y->run, error);
+    fram_status status = run_data_read(ctx, folder, false, NULL, &y->run, error);
     if (status != FRAM_OK)
         return status;
     status = scenario_choose_vessel(&y->run.s, folder, vessel, &y->vessel, error);

@@ -145,7 +145,7 @@ static void begin_row(run_row *out)
 static fram_status read_ended(context *ctx, const char *folder, run_data *out, fram_error *error)
 {
     context own = context_unstopped(ctx);
-    return run_data_read(&own, folder, false, out, error);
+    return run_data_read(&own, folder, false, NULL, out, error);
 }
 
 /* A scenario without a vessel has a row too: of its ice. */

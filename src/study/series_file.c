@@ -101,7 +101,11 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     run_data d;
     if (source->step > 0)
         return series_refuse_step(folder, error);
-    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    /* The channel, or what a load is made of, and what tells of lines that parted. */
+    const char *const kept[] = {"time", "lines_parted", "ice_force_averaged_x", "ice_force_averaged_y",
+                                source->channel ? source->channel : "time"};
+    const csv_wish wish = {kept, sizeof kept / sizeof *kept};
+    fram_status status = run_data_read(ctx, folder, false, &wish, &d, error);
     if (status != FRAM_OK)
         return status;
     if (d.is_changed && runs->changed++ == 0)

@@ -195,6 +195,37 @@ START_TEST(rows_go_over_the_parts_of_a_buffer)
 }
 END_TEST
 
+/* Names as they are, and behind that of a vessel; all others are looked at and not kept, but told. */
+START_TEST(columns_that_nobody_wishes_for_are_left_out)
+{
+    static const char text[] = "time[s],tug.yaw[deg],yaw[deg],draw[m]\n1,2,3,4\n5,6,7,8\n";
+    static const char *const wished[] = {"time", "yaw", "none"};
+    const csv_wish wish = {wished, 3};
+    context ctx;
+    fram_error error;
+    csv_table t;
+    scratch place = scratch_make();
+    const char *path = scratch_path(&place, "a.csv");
+    context_init(&ctx);
+    scratch_write(path, text, sizeof text - 1);
+    assert_ok(csv_table_read(&ctx, path, &wish, &t, &error), error);
+    ck_assert_int_eq(t.rows, 2);
+    ck_assert_int_eq(t.columns.count, 4);
+    ck_assert_str_eq(t.columns.data[3].name, "draw");
+    ck_assert_int_eq(t.columns.data[3].value.count, 0);
+    ck_assert_ptr_null(csv_table_find(&t, "draw"));
+    ck_assert_ptr_null(csv_table_find(&t, "none"));
+    assert_bits(csv_table_find(&t, "yaw")->value.data[1], 7);
+    assert_bits(csv_table_find(&t, "tug.yaw")->value.data[0], 2);
+    csv_table_free(&ctx, &t);
+    static const char wrong[] = "time[s],draw[m]\n1,x\n";
+    scratch_write(path, wrong, sizeof wrong - 1);
+    assert_fails(csv_table_read(&ctx, path, &wish, &t, &error), error, FRAM_ERROR_INPUT,
+                 "expected a number and then the end");
+    scratch_remove(&place, "a.csv");
+}
+END_TEST
+
 TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter, blanks_do_not_matter,
           other_columns_may_hold_anything, what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read,
-          rows_go_over_the_parts_of_a_buffer)
+          rows_go_over_the_parts_of_a_buffer, columns_that_nobody_wishes_for_are_left_out)

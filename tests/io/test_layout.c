@@ -195,7 +195,7 @@ START_TEST(tables_of_whole_rows)
         csv_table table;
         const char *path = scratch_path(&place, "a.csv");
         scratch_write(path, cases[i].text, strlen(cases[i].text));
-        fram_status status = csv_table_read(&ctx, path, &table, &error);
+        fram_status status = csv_table_read(&ctx, path, NULL, &table, &error);
         ck_assert_msg(status == (cases[i].rows < 0 ? FRAM_ERROR_INPUT : FRAM_OK), "table %zu: %d", i, (int)status);
         if (cases[i].words)
             assert_fails(status, error, FRAM_ERROR_INPUT, cases[i].words);

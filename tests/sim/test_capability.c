@@ -394,7 +394,7 @@ START_TEST(use_as_it_is_written)
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     assert_ok(capability_write(&k.ctx, &k.s, &o, path, &error), error);
     assert_ok(path_join(folder, "capability_use.csv", path, &error), error);
-    assert_ok(csv_table_read(&k.ctx, path, &t, &error), error);
+    assert_ok(csv_table_read(&k.ctx, path, NULL, &t, &error), error);
     ck_assert_int_eq(t.columns.count, 13);
     ck_assert_int_eq(t.rows, c.loads.directions * c.loads.speeds);
     bool differ = false;
