@@ -328,11 +328,12 @@ static long run_cycles(const char *text, int cycles, int before, unsigned state)
 
 START_TEST(random_cycles_leave_equal_states)
 {
+    enum { ENOUGH = 60 }; /* to break a floe; `make test-cycles` may ask for fewer */
     const char *asked = getenv("FRAM_CYCLES");
-    int cycles = asked ? atoi(asked) : getenv("FRAM_TEST_SHORT") ? 10 : 60;
+    int cycles = asked ? atoi(asked) : getenv("FRAM_TEST_SHORT") ? 10 : ENOUGH;
     long fractures = run_cycles(busy, cycles, 1, 7);
     fractures += run_cycles(towed, cycles, 45, 11) /* the hull meets the ice */;
-    ck_assert_msg(getenv("FRAM_TEST_SHORT") || fractures > 0, "nothing broke");
+    ck_assert_msg(cycles < ENOUGH || fractures > 0, "nothing broke");
 }
 END_TEST
 
