@@ -6,6 +6,7 @@ In a field nearly without contact, whose steps are the shortest there are, and i
 FRAM_LIBRARY names the library (default: that of build/release).  Give --write to put the tables into the results."""
 
 import argparse
+import datetime
 import os
 import pathlib
 import platform
@@ -18,7 +19,8 @@ import kept_page
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 os.environ.setdefault("FRAM_LIBRARY", str(ROOT / "build/release/libfram.so"))
-sys.path.insert(0, str(ROOT / "bindings/python"))
+sys.path[:0] = [str(ROOT / "bindings/python"), str(ROOT / "tools")]
+import machine  # noqa: E402  (tools)
 
 SCENE = """
 run: {time_step: 0.02, duration: 100}
@@ -101,8 +103,9 @@ def main():
     words.add_argument("--write", action="store_true",
                        help="write bench/results/python.md; what stands there by hand is kept")
     options = words.parse_args()
-    head = (f"One thread, medians of computing time over {STEPS} steps ({platform.machine()}, "
-            f"Python {platform.python_version()}), by `bench/run_python.py`. Outlines in the axes of their bodies are "
+    head = (f"{datetime.date.today()}; {machine.processor()}; Python {platform.python_version()}; load average "
+            f"{machine.load()} at the start. One thread, medians of computing time over {STEPS} steps, by "
+            "`bench/run_python.py`. Outlines in the axes of their bodies are "
             "made when a floe breaks, comes or goes, and are the same arrays until then; poses are the world's own "
             "memory. A call by itself pays for an interpreter that a step has put out of the caches; a step with "
             "reading and one without tell what reading adds, as far as the machine's other work lets them.")
