@@ -3,7 +3,8 @@
 
 Runs half a minute of the demo, 40 s of the drillship, five minutes of the escort and a study of eight runs, makes
 their pages (playback, report, comparison, ice management, study, a plot, the documents) and takes
-docs/pictures/pages/NAME-WIDTH.png of each with headless Chromium, for eyes to look at.  Needs `make viewer`.
+docs/pictures/pages/NAME-WIDTH.png of each with headless Chromium, for eyes to look at, and the picture of pressure on
+the hull that docs/results.md shows.  Needs `make viewer`.
 """
 
 import pathlib
@@ -20,6 +21,7 @@ FRAM = ROOT / "build" / "release" / "fram"
 OUT = ROOT / "docs" / "pictures" / "pages"
 # Width and height of the windows: a laptop's, and the narrowest that is to be readable.
 WINDOWS = ((1280, 800), (420, 800))
+PRESSURE_WINDOW = (1000, 700)
 RUNS = {
     "demo": ("demo.yaml", ["run.duration=30", "run.transient=10"], 25),
     "calm": ("drillship.yaml", ["run.duration=40", "run.transient=10"], None),
@@ -33,6 +35,13 @@ set: {{run.duration: 20, run.transient: 10}}
 seeds: 2
 vary:
   grid: {{ice.thickness: [0.8, 1.2], domain.drift_speed: [0.3, 0.5]}}
+"""
+# A hull that is large in its field, so that panels of a metre are seen.
+PRESSED = """title: Pressure on a towed hull
+run: {duration: 12, time_step: 0.02, transient: 2}
+vessel: {mode: towed, x: -38, speed: 2, ramp: 1, hull: {length: 40, beam: 10, draught: 3, freeboard: 2}}
+ice: {source: voronoi, concentration: 0.85, mean_floe_area: 50, thickness: 0.8}
+domain: {x_min: -70, x_max: 40, y_min: -40, y_max: 40}
 """
 
 
@@ -51,19 +60,39 @@ def largest_peak(browser):
     browser.run("(fram.placeCamera(), fram.draw())")
 
 
+def from_below(browser):
+    """The bow, coloured by the largest pressure of the run."""
+    browser.choose("camera", "below")
+    browser.choose("hull", "largest")
+    browser.choose("colour", "plain")
+    seen_at(9)(browser)
+
+
+def photograph(browser, page, window, file, prepare):
+    width, height = window
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    browser.call("Page.navigate", url=page.as_uri() + "#still")
+    browser.until(f"location.pathname === {page.as_uri()[7:]!r} && document.readyState === 'complete'",
+                  "the page does not load")
+    if prepare:
+        browser.until("window.fram?.ready === true", "the playback does not get ready")
+        prepare(browser)
+    time.sleep(0.5)
+    browser.picture(file)
+    print(file.relative_to(ROOT))
+
+
 def take(browser, page, name, prepare):
-    for width, height in WINDOWS:
-        browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
-                     mobile=False)
-        browser.call("Page.navigate", url=page.as_uri() + "#still")
-        browser.until(f"location.pathname === {page.as_uri()[7:]!r} && document.readyState === 'complete'",
-                      "the page does not load")
-        if prepare:
-            browser.until("window.fram?.ready === true", "the playback does not get ready")
-            prepare(browser)
-        time.sleep(0.5)
-        browser.picture(OUT / f"{name}-{width}.png")
-        print(f"docs/pictures/pages/{name}-{width}.png")
+    for window in WINDOWS:
+        photograph(browser, page, window, OUT / f"{name}-{window[0]}.png", prepare)
+
+
+def take_pressure(browser, made):
+    (made / "pressed.yaml").write_text(PRESSED)
+    fram("run", made / "pressed.yaml", "-o", made / "pressed", "--force")
+    fram("pressure", made / "pressed", "-o", made / "pressure", "--force")
+    fram("view", made / "pressed", "--pressure", made / "pressure", "-o", made / "pressure.html")
+    photograph(browser, made / "pressure.html", PRESSURE_WINDOW, OUT.parent / "playback_pressure.png", from_below)
 
 
 def study(folder):
@@ -105,6 +134,7 @@ def main():
             if name == "demo":
                 take(browser, run / "playback.html", "peak-demo", largest_peak)
             take(browser, run / "report.html", f"report-{name}", None)
+        take_pressure(browser, made)
         for name, page in pages_of_several(made).items():
             take(browser, page, name, None)
 
