@@ -54,9 +54,9 @@ megabytes=$(stat -c %s "$wheel" | awk '{printf "%.1f", $1 / 1e6}')
 cat >"$page" <<END_OF_PAGE
 # The wheel in an empty Debian 12
 
-\`tools/try_wheel.sh\`, $(date +%F): debootstrap's minbase of bookworm, then python3-numpy and python3-cffi without what
-they recommend; $packages packages in all, no compiler, no pip. The wheel ($megabytes MB) was unpacked by
-\`python3 -m zipfile\`.
+\`tools/try_wheel.sh\`, $(date +%F), Fram $(git --git-dir=.git log -1 --format=%h): debootstrap's minbase of
+bookworm, then python3-numpy and python3-cffi without what they recommend; $packages packages in all, no compiler, no
+pip. The wheel ($megabytes MB) was unpacked by \`python3 -m zipfile\`.
 
 \`import fram\`, four seconds of \`scenes/free_vessel.yaml\` stepped and recorded: state hash \`$there\`, as
 \`fram run\` has on the machine that built it.
