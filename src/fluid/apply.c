@@ -14,6 +14,7 @@ typedef struct fluid_work {
     const body_table *bodies;
     const shape_store *shapes;
     prism_work prisms;
+    prism_rooms rooms;
     wrench *loads;
     fluid_details details;
     int32_t block; /* slots of one, at most PRISM_BLOCK */
@@ -114,7 +115,6 @@ static void dry_level_faces(const fluid_work *w, int32_t first, int32_t end, con
 /* Level, sunken and tilted floes together, all others one by one. */
 static void apply_block(void *arg, int32_t block, int32_t thread)
 {
-    (void)thread;
     const fluid_work *w = arg;
     const fluid_details *d = &w->details;
     int32_t first = block * w->block, end = first + w->block, rest[PRISM_BLOCK], others[PRISM_BLOCK];
@@ -127,9 +127,10 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
         clear_slots(&out, 0, end - first);
         return;
     }
-    int32_t left = level_block(w->ctx, &w->prisms, first, end, &out, rest);
+    const prism_room room = prism_room_of(&w->rooms, thread);
+    int32_t left = level_block(w->ctx, &w->prisms, first, end, &room, &out, rest);
     dry_level_faces(w, first, end, rest, left);
-    int32_t walked = tilted_block(w->ctx, &w->prisms, first, rest, left, &out, others);
+    int32_t walked = tilted_block(w->ctx, &w->prisms, first, rest, left, &room, &out, others);
     for (int32_t i = 0; i < walked; i++) {
         fluid_load load = load_of_body(w, others[i]);
         int32_t at = others[i] - first;
@@ -175,16 +176,25 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     flooding_table *flooding = details ? details->flooding : NULL;
     if (flooding && !table_resize(ctx, flooding, &flooding_table_info, bodies->count))
         return error_memory(error);
-    fluid_work work = {ctx,    m,      coefficients,
-                       bodies, shapes, prism_work_of(m, coefficients, bodies, shapes),
-                       loads,  {0},    pool_block(bodies->count, LEAST_BLOCK, PRISM_BLOCK)};
+    fluid_work work = {.ctx = ctx,
+                       .media = m,
+                       .coefficients = coefficients,
+                       .bodies = bodies,
+                       .shapes = shapes,
+                       .prisms = prism_work_of(m, coefficients, bodies, shapes),
+                       .loads = loads,
+                       .block = pool_block(bodies->count, LEAST_BLOCK, PRISM_BLOCK)};
     if (details)
         work.details = *details;
     work.prisms.held = held;
     work.prisms.level_only = flooding != NULL;
     int32_t blocks = pool_blocks(bodies->count, work.block);
-    if (blocks > 0)
+    if (blocks > 0) {
+        if (!prism_rooms_make(ctx, &shapes->shapes, &work.rooms))
+            return error_memory(error);
         pool_run(ctx, apply_block, &work, blocks);
+        prism_rooms_free(ctx, &work.rooms);
+    }
     int32_t count = bodies->count;
     for (int32_t slot = body_next_moving(bodies, 0, count); slot < count;
          slot = body_next_moving(bodies, slot + 1, count)) {

@@ -15,7 +15,7 @@ enum { CORNERS_IN_A_LINE = 4 };
    length add nothing. */
 static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n)
 {
-    vec2 room[LEVEL_VERTICES];
+    vec2 room[2 * PRISM_FEW_VERTICES];
     const vec2 *point = prism_outline(vertex, n, room);
     int32_t points = prism_points(n);
     for (int32_t k = 0; k < points; k++)
@@ -154,18 +154,31 @@ static floe_lie treated_as(const prism_work *w, int32_t slot)
     return lie == LIE_SUNKEN && (deep || w->level_only) ? LIE_OTHER : lie;
 }
 
-/* The floes of a block by how they lie and their number of points, each kind in ascending order of slots. */
+/* The floes of a block by how they lie and about how many points they have, each kind in ascending order of slots. */
 typedef struct level_list {
     int32_t end[LIES];
     int32_t slot[PRISM_BLOCK];
-    uint8_t points[PRISM_BLOCK];
 } level_list;
+
+/* Outlines of as many points are one kind; of longer ones those within a quarter of an octave. */
+enum { ALONE = 24, OCTAVES = 16, KINDS = ALONE + 1 + 4 * OCTAVES };
+_Static_assert(ALONE >= 16 && ALONE < 32, "the first octave of the longer ones is from 16 to 31");
+
+static int kind_of_points(int32_t points)
+{
+    if (points <= ALONE)
+        return points;
+    int octave = 0;
+    for (int32_t rest = points >> 5; rest > 0; rest >>= 1)
+        octave++;
+    int kind = ALONE + 1 + 4 * octave + (int)(points >> (octave + 2) & 3);
+    return kind < KINDS ? kind : KINDS - 1;
+}
 
 /* Those that are served have their loads.  Dynamic bodies that are no prisms go to rest; returns how many they are. */
 static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t first, int32_t end, level_list *out,
                           int32_t *rest)
 {
-    enum { KINDS = LEVEL_VERTICES + 1 }; /* numbers of points */
     const body_table *t = w->bodies;
     const shape_table *s = &w->shapes->shapes;
     int16_t kind[PRISM_BLOCK];
@@ -176,11 +189,11 @@ static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t fi
         kind[at] = -1;
         if (has_load || !body_is_dynamic(t, slot))
             continue;
-        if (shape < 0 || s->kind[shape] != SHAPE_PRISM || s->outline_count[shape] > LEVEL_VERTICES) {
+        if (shape < 0 || s->kind[shape] != SHAPE_PRISM) {
             rest[left++] = slot;
             continue;
         }
-        kind[at] = (int16_t)((int)treated_as(w, slot) * KINDS + prism_points(s->outline_count[shape]));
+        kind[at] = (int16_t)((int)treated_as(w, slot) * KINDS + kind_of_points(prism_points(s->outline_count[shape])));
         begin[kind[at] + 1]++;
     }
     for (int k = 0; k < LIES * KINDS; k++)
@@ -189,19 +202,20 @@ static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t fi
         out->end[i] = begin[(i + 1) * KINDS];
     for (int32_t slot = first; slot < end; slot++) {
         int k = kind[slot - first];
-        if (k >= 0) {
-            out->points[begin[k]] = (uint8_t)(k % KINDS);
+        if (k >= 0)
             out->slot[begin[k]++] = slot;
-        }
     }
     return left;
 }
 
-/* The floes from..end-1, at most as many as there are lanes.  Sorted: the last one has the most points.  Lanes beyond
-   it repeat it. */
+/* The floes from..end-1, at most as many as there are lanes.  Lanes beyond the last one repeat it. */
 static void pack_batch(const prism_work *w, const level_list *list, int32_t from, int32_t end, level_batch *b)
 {
-    b->sides = list->points[end - 1];
+    b->sides = 0;
+    for (int32_t k = from; k < end; k++) {
+        int32_t points = prism_points(w->shapes->shapes.outline_count[w->bodies->shape[list->slot[k]]]);
+        b->sides = points > b->sides ? points : b->sides;
+    }
     b->floes.wet = w->wet;
     b->floes.dry = w->dry;
     for (int lane = 0; lane < PRISM_LANES; lane++)
@@ -224,9 +238,11 @@ static void run_level_batch(context *ctx, const prism_work *w, const level_list 
 
 /* Floes that lie in one of both ways that the kernel knows. */
 static void run_list(context *ctx, const prism_work *w, const level_list *list, floe_lie lie, int32_t first,
-                     const prism_output *out)
+                     const prism_room *room, const prism_output *out)
 {
     level_batch batch;
+    batch.corner = room->ring[0];
+    batch.own = room->own[0];
     batch.floes.weight = w->media->water_density * w->media->gravity;
     batch.sunken = lie == LIE_SUNKEN;
     for (int32_t i = lie > 0 ? list->end[lie - 1] : 0; i < list->end[lie]; i += PRISM_LANES) {
@@ -236,16 +252,16 @@ static void run_list(context *ctx, const prism_work *w, const level_list *list, 
     }
 }
 
-int32_t level_block(context *ctx, const prism_work *w, int32_t first, int32_t end, const prism_output *out,
-                    int32_t rest[PRISM_BLOCK])
+int32_t level_block(context *ctx, const prism_work *w, int32_t first, int32_t end, const prism_room *room,
+                    const prism_output *out, int32_t rest[PRISM_BLOCK])
 {
     assert(!w->held || !out->load);
     uint8_t served[PRISM_BLOCK / HELD_LANES];
     serve_held(ctx, w, first, end, out, served);
     level_list list;
     int32_t left = find_floes(w, served, first, end, &list, rest);
-    run_list(ctx, w, &list, LIE_LEVEL, first, out);
-    run_list(ctx, w, &list, LIE_SUNKEN, first, out);
+    run_list(ctx, w, &list, LIE_LEVEL, first, room, out);
+    run_list(ctx, w, &list, LIE_SUNKEN, first, room, out);
     for (int32_t k = list.end[LIE_SUNKEN]; k < list.end[LIE_OTHER]; k++) {
         forget(w, list.slot[k]);
         rest[left++] = list.slot[k];

@@ -5,10 +5,8 @@
 typedef struct level_floes {
     prism_pose pose;
     real water0, waterx, watery; /* height of the water plane in the body's z: water0 + waterx x + watery y */
-    real x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline */
+    prism_ring ring;             /* outline */
 } level_floes;
-
-V8_INLINE prism_ring ring_of(const level_batch *b, const level_floes *f) { return (prism_ring){b->sides, f->x, f->y}; }
 
 V8_INLINE void read_floes(const level_batch *b, level_floes *f)
 {
@@ -17,15 +15,13 @@ V8_INLINE void read_floes(const level_batch *b, level_floes *f)
     f->water0 = load(b->floes.height + p->at) * scale;
     f->waterx = p->r[2][0] * scale;
     f->watery = p->r[2][1] * scale;
-    for (int32_t k = 0; k <= b->sides; k++)
-        v8_part_load_pairs(&b->corner[k][p->at].x, &f->x[k], &f->y[k]);
+    f->ring = read_ring(b->corner, b->sides, p->at, b->own);
 }
 
-/* Height of the water on each corner: of the waterline, and of what is sunken its upper cap. */
-V8_INLINE void find_waterline(const level_batch *b, const level_floes *f, real *line)
+/* Height of the water on a corner: of the waterline, and of what is sunken its upper cap. */
+V8_INLINE real line_at(const level_batch *b, const level_floes *f, real x, real y)
 {
-    for (int32_t k = 0; k <= b->sides; k++)
-        line[k] = b->sunken ? f->pose.half : f->water0 + (f->waterx * f->x[k] + f->watery * f->y[k]);
+    return b->sunken ? f->pose.half : f->water0 + (f->waterx * x + f->watery * y);
 }
 
 /* The submerged volume and its first moments. */
@@ -61,21 +57,18 @@ V8_INLINE void add_hydrostatics(const level_floes *f, const level_volume *v, pri
     store_hydrostatics(out, p->at, v->volume, gx, gy);
 }
 
-V8_INLINE prism_cap cap_of(const level_batch *b, const level_floes *f, double side)
-{
-    return (prism_cap){ring_of(b, f), set(side), f->pose.half};
-}
+V8_INLINE prism_cap cap_of(const level_floes *f, double side) { return (prism_cap){f->ring, set(side), f->pose.half}; }
 
 /* side: -1 for the wet part between the bottom and the waterline, +1 for the dry one above it. */
 V8_INLINE prism_sum drag_of(const level_batch *b, const level_floes *f, const prism_moments *m,
-                            const prism_medium *medium, const real *line, double side)
+                            const prism_medium *medium, double side)
 {
     prism_sum sum = {{zero(), zero(), zero()}, {zero(), zero(), zero()}}, form_sum = sum, skin_sum = sum;
     const prism_stream stream = stream_of(&f->pose, medium);
-    const prism_cap cap = cap_of(b, f, side);
-    real half = f->pose.half, xa = f->x[0], ya = f->y[0], la = line[0];
+    const prism_cap cap = cap_of(f, side);
+    real half = f->pose.half, xa = ring_x(&f->ring, 0), ya = ring_y(&f->ring, 0), la = line_at(b, f, xa, ya);
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = f->x[k], yb = f->y[k], lb = line[k];
+        real xb = ring_x(&f->ring, k), yb = ring_y(&f->ring, k), lb = line_at(b, f, xb, yb);
         prism_side e = side_between(xa, ya, xb, yb);
         e.base_a = side < 0 ? -half : la;
         e.base_b = side < 0 ? -half : lb;
@@ -98,7 +91,7 @@ V8_INLINE prism_sum drag_of(const level_batch *b, const level_floes *f, const pr
 V8_INLINE void add_upper_caps(const level_batch *b, const level_floes *f, const prism_moments *m, prism_sum *water)
 {
     const prism_stream stream = stream_of(&f->pose, &b->floes.water);
-    const prism_cap cap = cap_of(b, f, 1);
+    const prism_cap cap = cap_of(f, 1);
     add_cap_form(&cap, &stream, water);
     add_cap_skin(&cap, m, &stream, water);
 }
@@ -131,19 +124,16 @@ static void part_loads(level_batch *b, int at)
     prism_batch *floes = &b->floes;
     level_floes f = {.pose = pose_of(floes, at)};
     read_floes(b, &f);
-    real line[LEVEL_VERTICES + 1];
-    find_waterline(b, &f, line);
-    const prism_ring ring = ring_of(b, &f);
-    prism_moments m = moments_of(&ring);
+    prism_moments m = moments_of(&f.ring);
     const level_volume v = b->sunken ? whole_volume(&f, &m) : volume_of(&f, &m);
     add_hydrostatics(&f, &v, floes);
     store_state(floes, &f, &m, &b->state);
     const prism_sum none = {{zero(), zero(), zero()}, {zero(), zero(), zero()}};
-    prism_sum water = floes->wet ? drag_of(b, &f, &m, &floes->water, line, -1) : none;
+    prism_sum water = floes->wet ? drag_of(b, &f, &m, &floes->water, -1) : none;
     if (floes->wet && b->sunken)
         add_upper_caps(b, &f, &m, &water);
     store_drag(&f.pose, &water, &floes->water_drag, &b->state.water_drag);
-    prism_sum air = floes->dry && !b->sunken ? drag_of(b, &f, &m, &floes->air, line, 1) : none;
+    prism_sum air = floes->dry && !b->sunken ? drag_of(b, &f, &m, &floes->air, 1) : none;
     store_drag(&f.pose, &air, &floes->air_drag, &b->state.air_drag);
     add_up(floes, at);
 }

@@ -13,9 +13,6 @@
 #include "base/kernel.h"
 #include "fluid/prism_batch.h"
 
-/* Most vertices of an outline. */
-enum { LEVEL_VERTICES = 24 };
-
 /* The floes as their drag was computed, body axes: what held_drag.h keeps. */
 typedef struct level_state {
     prism_lane moments[6]; /* of the outline: 1, x, y, xx, yy, xy */
@@ -29,7 +26,8 @@ typedef struct level_batch {
     int32_t sides; /* edges of the longest outline; shorter ones are padded with their last point */
     bool sunken;   /* all of them are; otherwise all are level */
     prism_batch floes;
-    prism_corner corner[LEVEL_VERTICES + 1]; /* outline, closed by its first vertex */
+    prism_corner *corner; /* outline, closed by its first vertex: sides + 1 */
+    double *own;          /* the kernel's: two lanes of numbers for each of these */
 
     level_state state; /* out; of level floes */
 } level_batch;

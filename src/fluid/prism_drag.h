@@ -23,8 +23,6 @@
 #define NO_TURN 1e-200
 /* Squared length of an edge below which it is none: a padded one [m2]. */
 #define NO_LENGTH 1e-300
-/* Most points of an outline, its first one again at the end. */
-enum { PRISM_POINTS = 41 };
 
 V8_INLINE real zero(void) { return (real){0}; }
 V8_INLINE real set(double x) { return x - zero(); }
@@ -46,8 +44,11 @@ typedef struct prism_sum {
 /* Closed outlines, counter-clockwise; an edge without length adds nothing. */
 typedef struct prism_ring {
     int32_t sides;
-    const real *x, *y; /* sides + 1 points, the last of them the first */
+    const double *x, *y; /* sides + 1 points, the last of them the first, register by register */
 } prism_ring;
+
+V8_INLINE real ring_x(const prism_ring *f, int32_t k) { return load(f->x + (ptrdiff_t)k * V8_PART_LANES); }
+V8_INLINE real ring_y(const prism_ring *f, int32_t k) { return load(f->y + (ptrdiff_t)k * V8_PART_LANES); }
 
 /* A cap or a part of one. */
 typedef struct prism_cap {
@@ -64,9 +65,9 @@ typedef struct prism_moments {
 V8_INLINE prism_moments moments_of(const prism_ring *f)
 {
     prism_moments m = {zero(), zero(), zero(), zero(), zero(), zero()};
-    real xa = f->x[0], ya = f->y[0];
+    real xa = ring_x(f, 0), ya = ring_y(f, 0);
     for (int32_t k = 1; k <= f->sides; k++) {
-        real xb = f->x[k], yb = f->y[k];
+        real xb = ring_x(f, k), yb = ring_y(f, k);
         real cross = xa * yb - xb * ya, x = xa + xb, y = ya + yb;
         m.area += cross;
         m.x += cross * x;
@@ -110,11 +111,11 @@ V8_INLINE void add_cap_form(const prism_cap *c, const prism_stream *s, prism_sum
     const prism_ring *f = &c->ring;
     const real side = c->side;
     real level = side * s->velocity.z, gx = -side * s->spin.y, gy = side * s->spin.x;
-    real low = set(HUGE_VAL), high = set(-HUGE_VAL), inflow[PRISM_POINTS];
+    real low = set(HUGE_VAL), high = set(-HUGE_VAL);
     for (int32_t k = 0; k <= f->sides; k++) {
-        inflow[k] = level + (gx * f->x[k] + gy * f->y[k]);
-        low = minimum(low, inflow[k]);
-        high = maximum(high, inflow[k]);
+        real inflow = level + (gx * ring_x(f, k) + gy * ring_y(f, k));
+        low = minimum(low, inflow);
+        high = maximum(high, inflow);
     }
     mask into = less(zero(), high), parted = into & less(low, zero());
     if (!v8_part_bits(into))
@@ -122,10 +123,11 @@ V8_INLINE void add_cap_form(const prism_cap *c, const prism_stream *s, prism_sum
     real g2 = gx * gx + gy * gy, away = choose(parted, -level / choose(less(zero(), g2), g2, set(1)), zero());
     real cx = away * gx, cy = away * gy, at_c = choose(parted, zero(), level), at_c2 = at_c * at_c;
     real square = zero(), x = zero(), y = zero();
-    real xa = f->x[0] - cx, ya = f->y[0] - cy;
+    real x0 = ring_x(f, 0), y0 = ring_y(f, 0), from = level + (gx * x0 + gy * y0), xa = x0 - cx, ya = y0 - cy;
     for (int32_t k = 1; k <= f->sides; k++) {
-        real xb = f->x[k] - cx, yb = f->y[k] - cy, ex = xb - xa, ey = yb - ya;
-        part p = positive_part(inflow[k - 1], inflow[k]);
+        real xk = ring_x(f, k), yk = ring_y(f, k), to = level + (gx * xk + gy * yk);
+        real xb = xk - cx, yb = yk - cy, ex = xb - xa, ey = yb - ya;
+        part p = positive_part(from, to);
         real ax = xa + p.from * ex, ay = ya + p.from * ey, bx = xa + p.to * ex, by = ya + p.to * ey;
         /* The triangle's rule for int f^2 and int f^2 r (24 and 120 times), where r = 0 at its third corner. */
         real cross = ax * by - bx * ay, all = at_c + (p.a + p.b);
@@ -136,6 +138,7 @@ V8_INLINE void add_cap_form(const prism_cap *c, const prism_stream *s, prism_sum
         y += ay * at_a + by * at_b;
         xa = xb;
         ya = yb;
+        from = to;
     }
     real push = choose(into, -side * s->form, zero());
     square *= 1.0 / 24;
@@ -157,9 +160,9 @@ typedef struct cap_skin {
 V8_INLINE cap_skin turning_skin(const prism_ring *f, real ux, real uy, real turn)
 {
     cap_skin c = {zero(), zero(), zero()};
-    real va = ux - turn * f->y[0], wa = uy + turn * f->x[0];
+    real va = ux - turn * ring_y(f, 0), wa = uy + turn * ring_x(f, 0);
     for (int32_t k = 1; k <= f->sides; k++) {
-        real vb = ux - turn * f->y[k], wb = uy + turn * f->x[k];
+        real vb = ux - turn * ring_y(f, k), wb = uy + turn * ring_x(f, k);
         real cross = va * wb - vb * wa; /* turn^2 times that of the triangle */
         real dv = GAUSS_NEAR * (vb - va), dw = GAUSS_NEAR * (wb - wa);
         real v0 = va + dv, w0 = wa + dw, v1 = vb - dv, w1 = wb - dw;

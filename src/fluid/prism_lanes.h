@@ -52,6 +52,19 @@ V8_INLINE prism_pose pose_of(const prism_batch *b, int at)
     return p;
 }
 
+/* The lanes of a part, closed outlines of so many sides, into room of two lanes of numbers for each point. */
+V8_INLINE prism_ring read_ring(prism_corner *corner, int32_t sides, int at, double *room)
+{
+    double *x = room, *y = room + (ptrdiff_t)(sides + 1) * V8_PART_LANES;
+    for (int32_t k = 0; k <= sides; k++) {
+        real xk, yk;
+        v8_part_load_pairs(&corner[k][at].x, &xk, &yk);
+        store(x + (ptrdiff_t)k * V8_PART_LANES, xk);
+        store(y + (ptrdiff_t)k * V8_PART_LANES, yk);
+    }
+    return (prism_ring){sides, x, y};
+}
+
 V8_INLINE prism_stream stream_of(const prism_pose *p, const prism_medium *m)
 {
     return (prism_stream){to_body(p, load_vec(m->velocity, p->at)), p->spin, load(m->form + p->at),

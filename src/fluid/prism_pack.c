@@ -2,8 +2,6 @@
 
 #include "fluid/facet.h"
 
-enum { FEW_VERTICES = 4 };
-
 static drag_coefficients half_of(const media *m, const drag_coefficients *c)
 {
     double water = 0.5 * m->water_density, air = 0.5 * m->air_density;
@@ -23,11 +21,11 @@ prism_work prism_work_of(const media *m, const drag_coefficients coefficients[MA
     return w;
 }
 
-int32_t prism_points(int32_t vertices) { return vertices <= FEW_VERTICES ? 2 * vertices : vertices; }
+int32_t prism_points(int32_t vertices) { return vertices <= PRISM_FEW_VERTICES ? 2 * vertices : vertices; }
 
 const vec2 *prism_outline(const vec2 *vertex, int32_t n, vec2 *room)
 {
-    if (n > FEW_VERTICES)
+    if (n > PRISM_FEW_VERTICES)
         return vertex;
     for (int32_t k = 0; k < n; k++) {
         room[2 * k] = vertex[k];

@@ -28,6 +28,9 @@ typedef struct prism_output {
     fluid_load *load; /* may be NULL */
 } prism_output;
 
+/* Vertices of the longest outline whose sides are cut in half. */
+enum { PRISM_FEW_VERTICES = 4 };
+
 /* Points that an outline has in a batch.  Those of few vertices have long edges, on which the quadrature of skin drag
    is coarse: they are cut in half. */
 int32_t prism_points(int32_t vertices);

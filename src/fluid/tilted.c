@@ -10,11 +10,6 @@ typedef struct rim_point {
     double depth;        /* of water over the lower cap, up to the thickness [m] */
 } rim_point;
 
-typedef struct rim {
-    int32_t count;
-    rim_point point[TILTED_POINTS];
-} rim;
-
 typedef struct water_line {
     double height, x, y; /* of the middle plane over still water: height + x r.x + y r.y */
     double rise;         /* of the upper cap over the middle plane [m] */
@@ -49,62 +44,72 @@ static rim_point crossing(const water_line *w, const rim_point *a, const rim_poi
     return p;
 }
 
+/* The corners of one lane of a part of a cap. */
+typedef struct ring_lane {
+    tilted_ring *ring;
+    int32_t count;
+    bool inside; /* not all of them lie on its border */
+} ring_lane;
+
+/* The points of a floe, as they are found, into a lane of a batch. */
+typedef struct rim {
+    tilted_batch *batch;
+    int lane;
+    int32_t count;
+    ring_lane cap[TILTED_CAPS];
+} rim;
+
+/* A point of a cap, `into` the medium by that much. */
+static void add_corner(rim *r, int cap, vec2 place, double into)
+{
+    if (into < 0)
+        return;
+    ring_lane *to = &r->cap[cap];
+    to->ring->corner[to->count++][r->lane] = place;
+    to->inside = to->inside || into > 0;
+}
+
+/* A cap that lies in the water plane is wet. */
+static void add_point(rim *r, const rim_point *p)
+{
+    r->batch->outline.corner[r->count][r->lane] = p->place;
+    r->batch->depth[r->count][r->lane] = p->depth;
+    r->count++;
+    add_corner(r, TILTED_WET_LOWER, p->place, -p->lower);
+    add_corner(r, TILTED_WET_UPPER, p->place, -p->upper);
+    add_corner(r, TILTED_DRY_LOWER, p->place, p->lower);
+    add_corner(r, TILTED_DRY_UPPER, p->place, p->upper);
+}
+
+static rim rim_begin(tilted_batch *b, int lane)
+{
+    rim r = {.batch = b, .lane = lane};
+    for (int i = 0; i < TILTED_CAPS; i++)
+        r.cap[i] = (ring_lane){&b->cap[i], 0, i == TILTED_WET_LOWER || i == TILTED_WET_UPPER};
+    return r;
+}
+
 /* The outline with a point wherever the water plane crosses a rim.  On the way out of the water the upper rim crosses
    first, however near to each other the two do.  false: too many points. */
 static bool make_rim(const water_line *w, const vec2 *vertex, int32_t n, rim *out)
 {
     rim_point a = point_at(w, vertex[n - 1]);
-    out->count = 0;
     for (int32_t k = 0; k < n; k++) {
         rim_point b = point_at(w, vertex[k]);
-        if (out->count + 3 > TILTED_POINTS)
+        if (out->count + 3 > prism_most_crossed(n))
             return false;
         bool rising = a.lower < b.lower;
         for (int i = 0; i < 2; i++) {
             bool upper = rising == (i == 0);
-            if (upper ? crosses(a.upper, b.upper) : crosses(a.lower, b.lower))
-                out->point[out->count++] = crossing(w, &a, &b, upper);
+            if (upper ? crosses(a.upper, b.upper) : crosses(a.lower, b.lower)) {
+                rim_point p = crossing(w, &a, &b, upper);
+                add_point(out, &p);
+            }
         }
-        out->point[out->count++] = b;
+        add_point(out, &b);
         a = b;
     }
     return true;
-}
-
-/* The corners of one lane of a part of a cap. */
-typedef struct ring_lane {
-    tilted_ring *ring;
-    int lane;
-    int32_t count;
-    bool inside; /* not all of them lie on its border */
-} ring_lane;
-
-/* A point of a cap, `into` the medium by that much. */
-static void add_corner(ring_lane *r, vec2 place, double into)
-{
-    if (into < 0)
-        return;
-    r->ring->corner[r->count++][r->lane] = place;
-    r->inside = r->inside || into > 0;
-}
-
-/* A cap that lies in the water plane is wet. */
-static void write_rim(tilted_batch *b, int lane, const rim *r, int32_t counts[TILTED_CAPS])
-{
-    ring_lane cap[TILTED_CAPS];
-    for (int i = 0; i < TILTED_CAPS; i++)
-        cap[i] = (ring_lane){&b->cap[i], lane, 0, i == TILTED_WET_LOWER || i == TILTED_WET_UPPER};
-    for (int32_t k = 0; k < r->count; k++) {
-        const rim_point *p = &r->point[k];
-        b->outline.corner[k][lane] = p->place;
-        b->depth[k][lane] = p->depth;
-        add_corner(&cap[TILTED_WET_LOWER], p->place, -p->lower);
-        add_corner(&cap[TILTED_WET_UPPER], p->place, -p->upper);
-        add_corner(&cap[TILTED_DRY_LOWER], p->place, p->lower);
-        add_corner(&cap[TILTED_DRY_UPPER], p->place, p->upper);
-    }
-    for (int i = 0; i < TILTED_CAPS; i++)
-        counts[i] = cap[i].inside && cap[i].count > 2 ? cap[i].count : 0;
 }
 
 /* Closes the ring of a lane, and repeats its first point to the longest one's end. */
@@ -139,16 +144,15 @@ static water_line line_of(const prism_work *w, int32_t slot)
 static bool add_floe(const prism_work *w, int32_t slot, tilted_batch *b, tilted_lanes *l)
 {
     polygon outline = shape_outline(w->shapes, w->bodies->shape[slot]);
-    vec2 room[TILTED_POINTS];
-    if (prism_points(outline.count) > TILTED_POINTS)
-        return false;
+    vec2 room[2 * PRISM_FEW_VERTICES];
     water_line line = line_of(w, slot);
-    rim r;
+    rim r = rim_begin(b, l->count);
     if (!make_rim(&line, prism_outline(outline.vertex, outline.count, room), prism_points(outline.count), &r))
         return false;
-    write_rim(b, l->count, &r, l->cap[l->count]);
     prism_pack(w, &b->floes, l->count, slot);
     l->outline[l->count] = r.count;
+    for (int i = 0; i < TILTED_CAPS; i++)
+        l->cap[l->count][i] = r.cap[i].inside && r.cap[i].count > 2 ? r.cap[i].count : 0;
     l->slot[l->count++] = slot;
     return true;
 }
@@ -199,9 +203,15 @@ static void run_tilted_batch(context *ctx, const prism_work *w, int32_t first, t
 }
 
 int32_t tilted_block(context *ctx, const prism_work *w, int32_t first, const int32_t *slots, int32_t count,
-                     const prism_output *out, int32_t rest[PRISM_BLOCK])
+                     const prism_room *room, const prism_output *out, int32_t rest[PRISM_BLOCK])
 {
     tilted_batch batch;
+    batch.outline.corner = room->ring[0];
+    for (int i = 0; i < TILTED_CAPS; i++)
+        batch.cap[i].corner = room->ring[1 + i];
+    batch.depth = room->depth;
+    for (int i = 0; i < 2; i++)
+        batch.own[i] = room->own[i];
     tilted_lanes lanes = {.count = 0};
     int32_t left = 0;
     batch.floes.wet = w->wet;

@@ -2,13 +2,11 @@
 
 #include "fluid/prism_lanes.h"
 
-_Static_assert(TILTED_POINTS + 1 <= PRISM_POINTS, "an outline closed by its first point");
-
 typedef struct tilted_floes {
     prism_pose pose;
     real height; /* of the centre of mass over still water */
     real up;     /* 1 where the top is the upper cap, -1 where the bottom is */
-    real x[TILTED_POINTS + 1], y[TILTED_POINTS + 1], depth[TILTED_POINTS + 1];
+    prism_ring outline;
 } tilted_floes;
 
 /* Pressure over rho g, and drag of both media. */
@@ -20,14 +18,6 @@ V8_INLINE prism_sum no_sum(void)
 {
     const real3 none = {zero(), zero(), zero()};
     return (prism_sum){none, none};
-}
-
-V8_INLINE void load_ring(const tilted_ring *r, int at, real *x, real *y)
-{
-    int32_t k = 0;
-    do /* once at least: gcc asks for that */
-        v8_part_load_pairs(&r->corner[k][at].x, &x[k], &y[k]);
-    while (++k <= r->sides);
 }
 
 /* Height over still water of a point of the body. */
@@ -92,15 +82,17 @@ V8_INLINE void add_sides(const tilted_batch *b, const tilted_floes *f, const pri
 {
     prism_sum water_form = no_sum(), water_skin = no_sum(), air_form = no_sum(), air_skin = no_sum();
     for (int32_t k = 1; k <= b->outline.sides; k++) {
-        prism_side e = side_between(f->x[k - 1], f->y[k - 1], f->x[k], f->y[k]);
-        set_depth(f, true, f->depth[k - 1], f->depth[k], &e);
+        prism_side e = side_between(ring_x(&f->outline, k - 1), ring_y(&f->outline, k - 1), ring_x(&f->outline, k),
+                                    ring_y(&f->outline, k));
+        real depth_a = load(b->depth[k - 1] + f->pose.at), depth_b = load(b->depth[k] + f->pose.at);
+        set_depth(f, true, depth_a, depth_b, &e);
         add_side_pressure(f, &e, &sums->pressure);
         if (b->floes.wet) {
             add_deep_side_form(water, &e, &water_form);
             add_deep_side_skin(water, &e, &water_skin);
         }
         if (b->floes.dry) {
-            set_depth(f, false, f->depth[k - 1], f->depth[k], &e);
+            set_depth(f, false, depth_a, depth_b, &e);
             add_deep_side_form(air, &e, &air_form);
             add_deep_side_skin(air, &e, &air_skin);
         }
@@ -121,9 +113,7 @@ static __attribute__((noinline)) void add_cap(const tilted_batch *b, const tilte
     const tilted_ring *r = &b->cap[which];
     const bool wet = which == TILTED_WET_LOWER || which == TILTED_WET_UPPER;
     const bool upper = which == TILTED_WET_UPPER || which == TILTED_DRY_UPPER;
-    real x[TILTED_POINTS + 1], y[TILTED_POINTS + 1];
-    load_ring(r, f->pose.at, x, y);
-    const prism_cap cap = {{r->sides, x, y}, upper ? f->up : -f->up, f->pose.half};
+    const prism_cap cap = {read_ring(r->corner, r->sides, f->pose.at, b->own[1]), upper ? f->up : -f->up, f->pose.half};
     prism_moments m = moments_of(&cap.ring);
     if (wet)
         add_cap_pressure(f, &cap, &m, &sums->pressure);
@@ -151,9 +141,7 @@ static void part_loads(tilted_batch *b, int at)
     prism_batch *floes = &b->floes;
     tilted_floes f = {.pose = pose_of(floes, at), .height = load(floes->height + at)};
     f.up = choose(less(f.pose.r[2][2], zero()), set(-1), set(1));
-    load_ring(&b->outline, at, f.x, f.y);
-    for (int32_t k = 0; k <= b->outline.sides; k++)
-        f.depth[k] = load(b->depth[k] + at);
+    f.outline = read_ring(b->outline.corner, b->outline.sides, at, b->own[0]);
     prism_stream water = {0}, air = {0};
     if (floes->wet)
         water = stream_of(&f.pose, &floes->water);

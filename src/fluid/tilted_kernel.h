@@ -15,23 +15,21 @@
 #include "base/kernel.h"
 #include "fluid/prism_batch.h"
 
-/* Most points of an outline with its crossings. */
-enum { TILTED_POINTS = 40 };
-
 /* The four parts of the caps. */
 enum { TILTED_WET_LOWER, TILTED_WET_UPPER, TILTED_DRY_LOWER, TILTED_DRY_UPPER, TILTED_CAPS };
 
 /* Outlines, each closed by its first point and padded with that to the longest. */
 typedef struct tilted_ring {
     int32_t sides; /* of the longest; 0: none has any */
-    prism_corner corner[TILTED_POINTS + 1];
+    prism_corner *corner;
 } tilted_ring;
 
 typedef struct tilted_batch {
     prism_batch floes;
     tilted_ring outline;
-    prism_lane depth[TILTED_POINTS + 1]; /* of the wet part of a side at each corner, from the lower cap on [m] */
+    prism_lane *depth; /* of the wet part of a side at each corner, from the lower cap on [m] */
     tilted_ring cap[TILTED_CAPS];
+    double *own[2]; /* the kernel's: each has two lanes of numbers for a point of the longest ring */
 } tilted_batch;
 
 KERNEL_DECLARE(void, tilted_loads, (tilted_batch * batch));
