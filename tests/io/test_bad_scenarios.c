@@ -54,6 +54,7 @@ static const bad_scenario bad[] = {
     {"key_with_points_in_section", 3, "vessel.hull.length",
      "a key of vessel, found \"hull.length\": write hull: {length"},
     {"line_break_in_text", 1, "title", "one line"},
+    {"other_name_of_a_kind", 5, "vessel.mooring.lines[0].type", "did you mean kind?"},
     {"path_goes_back", 6, "vessel.path[2].time", "expected a later time"},
     {"line_table_missing", 5, "vessel.mooring.lines[0].table", "since kind is table, found neither"},
     {"line_table_of_a_spring", 6, "vessel.mooring.lines[0].table", "since kind is not table"},

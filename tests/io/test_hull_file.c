@@ -353,6 +353,40 @@ START_TEST(lids_within_reach)
 }
 END_TEST
 
+/* Lids of two boxes, one behind the other, are at one height, or none is a lid. */
+START_TEST(lids_of_two_parts)
+{
+    context ctx;
+    context_init(&ctx);
+    const double heights[] = {0.001, 0.005};
+    for (int i = 0; i < 2; i++) {
+        char text[2048] = GDF_HEAD("0", "1", "10");
+        for (int part = 0; part < 2; part++) {
+            const double a = part ? 2 : -20, b = a + 18, z = part ? heights[i] : heights[0];
+            const struct {
+                double x, y, z;
+            } corner[5][4] = {{{a, 5, -3}, {b, 5, -3}, {b, 0, -3}, {a, 0, -3}},
+                              {{b, 0, -3}, {b, 5, -3}, {b, 5, z}, {b, 0, z}},
+                              {{b, 5, -3}, {a, 5, -3}, {a, 5, z}, {b, 5, z}},
+                              {{a, 5, -3}, {a, 0, -3}, {a, 0, z}, {a, 5, z}},
+                              {{a, 0, z}, {b, 0, z}, {b, 5, z}, {a, 5, z}}};
+            for (int k = 0; k < 20; k++)
+                snprintf(text + strlen(text), sizeof text - strlen(text), "%g %g %g\n", corner[k / 4][k % 4].x,
+                         corner[k / 4][k % 4].y, corner[k / 4][k % 4].z);
+        }
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = 2;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        assert_ok(finish(&ctx, "two.gdf", text, &options, &m, &report, &error), error);
+        ck_assert_int_eq(report.lids, i == 0 ? 8 : 0);
+        check_sound(&ctx, &m, 180 * (6 + heights[0] + heights[i] + (i == 0 ? 4 : 0)));
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
 /* A quarter of a hull between levels, each a rectangle of half a length and half a breadth; `lid` closes it at the
    last, whose corners are off by `off`. */
 typedef struct level {
@@ -562,5 +596,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("hull_file", topsides, scale, repair, inner_parts, open_boat, half, half_with_a_hole, tops_within_reach,
-          tops_within_reach_above, wetted_parts_near_the_water, lids_within_reach, holes_of_decks,
+          tops_within_reach_above, wetted_parts_near_the_water, lids_within_reach, lids_of_two_parts, holes_of_decks,
           freeboards_left_to_fram, options_are_checked, memory_runs_out)

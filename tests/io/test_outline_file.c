@@ -83,6 +83,11 @@ START_TEST(lines_of_points)
     assert_ok(parse("0 0\n0 0\n1 0\n1 1\n0 0\n0 0\n\n0 0\n1 0\n1 1\n0 0\n-1 0\n-1 -1\n0 0\n"), error);
     ck_assert_int_eq(rings.place.count, 2);
     check_ring(1, (const int[]){2, 1, 1, 8, 1, 6, 0});
+    /* Neither a position that is said twice nor a spike ends an outline that does not come back. */
+    assert_ok(parse("0 0\n0 0\n1 0\n1 1\n\n5 5\n6 5\n5 5\n6 6\n"), error);
+    ck_assert_int_eq(rings.place.count, 2);
+    check_ring(0, (const int[]){1, 1, 1, 1, 1, 4, 0});
+    check_ring(1, (const int[]){2, 1, 1, 6, 1, 4, 0});
     import_rings_free(&ctx, &rings);
 }
 END_TEST

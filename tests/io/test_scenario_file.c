@@ -516,6 +516,11 @@ START_TEST(size_and_depth_are_limited)
                       error.message);
         scenario_free(&ctx, &s);
     }
+    /* At the end of a long file they are as short as in a short one. */
+    memset(text, '\n', size);
+    memcpy(text + size - 4, "\n{}", 3);
+    assert_ok(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error);
+    scenario_free(&ctx, &s);
     /* As deep as the file is long: refused before any stack or memory is used up. */
     for (int way = 0; way < 3; way++) {
         memset(text, "[{-"[way], size - 1);

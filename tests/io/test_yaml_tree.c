@@ -254,6 +254,7 @@ START_TEST(wrong_indentation_is_blamed_on_its_line)
         {"a:\n  - b: 1\n    c: 2\n   d: 3\n", 4, 4, "as no block above is"},
         {"a:\n  - {b: 1,\n c: 2\nd:\n  e: 1\n", 2, 5, "bracket that opens here is not closed"},
         {"a: [1, 2\n", 1, 4, "bracket that opens here is not closed"},
+        {"a: [1,\n  {b: 2\n", 1, 4, "bracket that opens here is not closed"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_fails(parse(wrong[i].text, 16), error, FRAM_ERROR_INPUT, wrong[i].part);

@@ -40,7 +40,8 @@ START_TEST(tables_of_any_program_are_read)
     snprintf(wide, sizeof wide, "vessel.name\n \"%s\" \n", name);
     const char *const longer[] = {"vessel.name", name};
     read_as(wide, longer, 1, 1);
-    read_as("\xef\xbb\xbfvessel.speed[m/s] , \"vessel.mode\"\r\n\r\n 1.50,\t\"towed\" \r\n2,free\r\n\r\n", cells, 2, 2);
+    read_as("\xef\xbb\xbfvessel.speed[m/s] , \"vessel.mode\"\r\n\r\n 1.50 \t,\t\"towed\" \r\n2,free\r\n\r\n", cells, 2,
+            2);
     static const char *const odd[] = {"vessel.name", "ice.concentration", "a, \"b\"", "0.5"};
     read_as("vessel.name,ice.concentration[1]\n\"a, \"\"b\"\"\",0.5", odd, 2, 1);
     /* As the page of a study has its heads. */
@@ -97,7 +98,7 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
         {"vessel.speed,ice.thickness\n1,2\n\n1,\n", 4, "ice.thickness", "empty cell"},
         {"vessel.speed,ice.thickness\n1\n", 2, "ice.thickness", "expected 2 cells"},
         {"vessel.speed,ice.thickness\n1,2,3\n", 2, "", "found more"},
-        {"vessel.speed\n\"1\n", 2, "vessel.speed", "not closed"},
+        {"vessel.speed\n\"1\n", 2, "vessel.speed", "column 1: the quotation mark that opens here is not closed"},
         {"vessel.speed\n\"1\"2\n", 2, "vessel.speed", "comma behind"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
