@@ -59,6 +59,7 @@ static void record(const char *const *overrides, int count, int told)
         if (i == told) {
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "tow_velocity_x"), told_speed, &e), e);
             assert_ok(fram_world_set_input(w, fram_world_find_input(w, "wind_x"), 0, &e), e);
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "wind_y"), 0, &e), e);
         }
         assert_ok(fram_world_step(w, &e), e);
     }
@@ -173,8 +174,9 @@ START_TEST(what_was_told_is_named)
     for (int told = -1; told < 3; told += 3) {
         record(no_checkpoints, 1, told);
         assert_ok(fram_report(ctx, run, NULL, false, &report, &e), e);
-        ck_assert(run_file_has("run.json", told < 0 ? "\"told\": []," : "\"told\": [\"wind_x\", \"tow_velocity\"],"));
-        ck_assert(run_file_has("report.html", "in place of which were wind_x, tow_velocity") == (told >= 0));
+        ck_assert(run_file_has("run.json",
+                               told < 0 ? "\"told\": []," : "\"told\": [\"wind_x\", \"wind_y\", \"tow_velocity\"],"));
+        ck_assert(run_file_has("report.html", "in place of which were wind_x, wind_y, tow_velocity") == (told >= 0));
     }
     close_all();
 }

@@ -80,15 +80,20 @@ START_TEST(open_water_is_turned_as_given)
     scene_open(&k, BASE NO_VESSEL DOMAIN "ice:\n  concentration: 0.9\n  mean_floe_area: 20\n"
                                          "  open_water: [{x: 10, y: 5, length: 100, width: 20, angle_deg: 25}]\n");
     double c = real_cos(radians(25)), s = real_sin(radians(25));
-    int along = 0, other = 0;
+    int along = 0, other = 0, beside = 0;
     for (int i = -9; i <= 9; i++)
         for (int j = -3; j <= 3; j++) {
             double x = 5.4 * i, y = 3.2 * j;
             along += is_ice(&k, 10 + c * x - s * y, 5 + s * x + c * y);
             other += is_ice(&k, 10 + c * x + s * y, 5 - s * x + c * y);
         }
+    /* 6 m from its long sides there is ice again. */
+    for (int i = -9; i <= 9; i++)
+        for (int side = -1; side <= 1; side += 2)
+            beside += is_ice(&k, 10 + c * 5.4 * i - s * 16 * side, 5 + s * 5.4 * i + c * 16 * side);
     ck_assert_int_eq(along, 0);
     ck_assert_int_gt(other, 20);
+    ck_assert_int_gt(beside, 19);
     scene_close(&k);
 }
 END_TEST
