@@ -112,6 +112,9 @@ says "5 values" out
 printf 'T\n1\r2\r\n3\r\r\n1\n4\n' >mixed.csv
 expect 0 "$FRAM" fatigue mixed.csv --channel T --step 20
 says "5 values" out
+printf 'T\n3\r\r\n1\nx\n4\n' >mixed.csv
+expect 2 "$FRAM" fatigue mixed.csv --channel T --step 20
+says "mixed.csv:4: " err
 printf 'time;T\n0;1\n20;2\n' >history.csv
 expect 2 "$FRAM" fatigue history.csv --channel T
 says "columns are divided by commas" err

@@ -217,7 +217,7 @@ done
 expect 0 "$FRAM" run vane.yaml -o vaned --set run.duration=0.1
 same "$(grep -c 'swing for long' err)" 1 "warnings of a run that swings"
 # A slow controller adds its own lag to that of the set points.
-slow=(--build --set "${vaning}_time=60" --set vessel.wind_coefficients.lateral_area=1250 --set "${vaning}_load=1e3")
+slow=(--build --set "${vaning}_time=80" --set vessel.wind_coefficients.lateral_area=1250 --set "${vaning}_load=1e3")
 expect 0 "$FRAM" check vane.yaml "${slow[@]}"
 grep 'swing for long' err && fail "told of a heading that comes to rest at the default frequency"
 told vane.yaml "it may swing for long" "${slow[@]}" --set vessel.positioning.frequency=0.04

@@ -37,6 +37,12 @@ sed 's/, freeboard: 0.12//' moored.yaml >deck.yaml
 told deck.yaml "vessel.hull.freeboard: the deck is 4 m above the water, more than the beam of 0.63 m|of a model too"
 told moored.yaml "vessel.thrusters: 100 kN is 40.5 of the vessel's weight, about 2468 N|give newtons" \
     --set "vessel.thrusters[0].thrust=1e5"
+# Thrusters together, and the line that is pulled the most.
+told moored.yaml "vessel.thrusters: 1400 N is 0.567 of the vessel's weight" \
+    --set "vessel.thrusters[0].thrust=700" --set "vessel.thrusters[1].thrust=700"
+sed -e 's/lines: \[\(.*\)pretension: 30}/lines: [\1pretension: 2000}, \1pretension: 30}/' \
+    -e 's/stiffness: 5/stiffness: 1e5/g' moored.yaml >lines.yaml
+told lines.yaml "vessel.mooring.lines: 2000 N is 0.81 of the vessel's weight"
 told moored.yaml "vessel.mooring.lines: 1000 kN is 405 of the vessel's weight" \
     --set "vessel.mooring.lines[0].pretension=1e6" --set "vessel.mooring.lines[0].stiffness=1e6"
 told drive.yaml "vessel.propulsion.bollard_pull: 1000 kN is 405 of the vessel's weight" \

@@ -172,6 +172,9 @@ expected = [("barge", "tug", 70 / 3), ("pilot", "tug", 29.6), ("pilot", "barge",
 assert [m[:2] for m in met] == [e[:2] for e in expected], met
 assert all(e[2] is None or abs(float(m[2]) - e[2]) < 0.01 for m, e in zip(met, expected)), met
 END
+# In a run of more than an hour they go farther between two looks than they reach.
+expect 0 "$FRAM" check "$scratch/meet.yaml" --set vessels.pilot.present=false --set run.duration=4000
+says "vessel barge is driven through vessel tug from t = 23.33 s on" err
 for change in barge.mode=free barge.y=9; do
     expect 0 "$FRAM" check "$scratch/meet.yaml" --set vessels.pilot.present=false --set "vessels.$change"
     grep -q 'is driven through' err && fail "vessels are said to meet with $change"

@@ -250,14 +250,20 @@ def check_stack(page, series):
     leave a gap where it does."""
     data = re.search(r'alt="Ice load by mechanism" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
     bands = re.findall(r'fill:rgb[^"]*" d="M ([^MZ]*) Z', base64.b64decode(data).decode())
-    heights = [[float(point.split()[1]) for point in band.split(" L ")] for band in bands]
-    heights = [h for h in heights if len(h) > 4]
+    points = [[[float(x) for x in point.split()] for point in band.split(" L ")] for band in bands]
+    heights = [[y for _, y in p] for p in points if len(p) > 4]
     zero = heights[0][0]
     heads = [[f"mechanism_{part}_{axis}[N]" for axis in "xy"] for part in COLUMNS[:-1]]
     carrying = 1 + sum(any(float(row[head]) for row in series for head in part) for part in heads)
     assert len(heights) >= carrying >= len(MECHANISMS) - 1, (len(heights), carrying)
     for h in heights:
         assert max(h) < zero + 0.01 or min(h) > zero - 0.01, f"a band from {min(h)} to {max(h)} about {zero}"
+    # All parts together are the load, which pushes with itself: more goes up than down.
+    area = {True: 0.0, False: 0.0}
+    for p in points:
+        around = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(p, p[1:] + p[:1]))
+        area[max(y for _, y in p) < zero + 0.01] += abs(around) / 2
+    assert area[True] > area[False] > 0, area
 
 
 def check_times(folder):
