@@ -29,6 +29,18 @@ void image_ramp(double t, double rgb[3])
         rgb[k] = from[k] + part * (to[k] - from[k]);
 }
 
+fram_status image_or_skip(context *ctx, const char *name, fram_status status, const fram_error *reason,
+                          fram_error *error)
+{
+    if (status == FRAM_ERROR_UNSUPPORTED) {
+        log_write(ctx, LOG_WARNING, "%s is skipped: %s", name, reason->message);
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK && error)
+        *error = *reason;
+    return status;
+}
+
 #ifdef FRAM_HAVE_CAIRO
 
 #include "io/atomic_file.h"

@@ -7,6 +7,10 @@
 
 /* True when this build can make pictures. */
 bool image_available(void);
+/* Pictures of a run are a service: where the build cannot draw one (status is FRAM_ERROR_UNSUPPORTED), the log says
+   that it is skipped, by its name, and that is FRAM_OK.  Any other status is returned, with its reason in `error`. */
+fram_status image_or_skip(context *ctx, const char *name, fram_status status, const fram_error *reason,
+                          fram_error *error);
 
 #ifdef FRAM_HAVE_CAIRO
 #include <cairo.h>

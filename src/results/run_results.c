@@ -5,6 +5,7 @@
 #include "io/chart.h"
 #include "io/csv_read.h"
 #include "io/file.h"
+#include "io/image.h"
 #include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/load_statistics.h"
@@ -138,19 +139,6 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
     return status;
 }
 
-/* A picture that this build cannot draw is no failure of the run. */
-static fram_status drawn(context *ctx, const char *name, fram_status status, const fram_error *reason,
-                         fram_error *error)
-{
-    if (status == FRAM_ERROR_UNSUPPORTED) {
-        log_write(ctx, LOG_WARNING, "%s is skipped: %s", name, reason->message);
-        return FRAM_OK;
-    }
-    if (status != FRAM_OK && error)
-        *error = *reason;
-    return status;
-}
-
 static fram_status write_station(context *ctx, const scenario *s, int32_t vessel, const station_outcome *station,
                                  const char *folder, fram_error *error)
 {
@@ -161,7 +149,8 @@ static fram_status write_station(context *ctx, const scenario *s, int32_t vessel
     if (status != FRAM_OK)
         return status;
     vessel_file name = vessel_file_name(s, vessel, "station", ".png");
-    return drawn(ctx, name.text, station_page_write(ctx, s, vessel, station, folder, &reason), &reason, error);
+    status = station_page_write(ctx, s, vessel, station, folder, &reason);
+    return image_or_skip(ctx, name.text, status, &reason, error);
 }
 
 fram_status run_results_write(context *ctx, const scenario *s, const station_outcome *station, const char *folder,
@@ -171,7 +160,7 @@ fram_status run_results_write(context *ctx, const scenario *s, const station_out
     for (int32_t v = 0; v < scenario_vessel_count(s) && status == FRAM_OK; v++) {
         fram_error reason = {0};
         vessel_file name = vessel_file_name(s, v, "loads", ".png");
-        status = drawn(ctx, name.text, draw_loads(ctx, s, v, folder, &reason), &reason, error);
+        status = image_or_skip(ctx, name.text, draw_loads(ctx, s, v, folder, &reason), &reason, error);
         if (status == FRAM_OK)
             status = write_station(ctx, s, v, station, folder, error);
     }

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/pool.h"
 #include "io/atomic_file.h"
+#include "io/image.h"
 #include "io/path.h"
 #include "io/scenario_file.h"
 #include "sim/pictures.h"
@@ -59,26 +60,14 @@ static fram_status write_summary(recording *r, const char *state, const char *me
     return run_folder_write_summary(r->ctx, r->folder, r->s, r->w, &summary, error);
 }
 
-/* Pictures are a service: a build without cairo says so once and goes on. */
-static fram_status draw(recording *r, const char *name, fram_status (*picture)(recording *, const char *, fram_error *),
-                        fram_error *error)
-{
-    fram_error reason = {0};
-    fram_status status = picture(r, name, &reason);
-    if (status == FRAM_ERROR_UNSUPPORTED) {
-        log_write(r->ctx, LOG_WARNING, "%s is skipped: %s", name, reason.message);
-        return FRAM_OK;
-    }
-    if (status != FRAM_OK && error)
-        *error = reason;
-    return status;
-}
-
 static fram_status draw_plan(recording *r, const char *name, fram_error *error)
 {
     char path[PATH_ROOM];
-    fram_status status = path_join(r->folder, name, path, error);
-    return status == FRAM_OK ? picture_plan(r->ctx, r->s, r->w, path, error) : status;
+    fram_error reason = {0};
+    fram_status status = path_join(r->folder, name, path, &reason);
+    if (status == FRAM_OK)
+        status = picture_plan(r->ctx, r->s, r->w, path, &reason);
+    return image_or_skip(r->ctx, name, status, &reason, error);
 }
 
 /* Digits of the time in a picture's name: before the point, and behind it at least and at most. */
@@ -105,7 +94,7 @@ static fram_status draw_numbered_plan(recording *r, fram_error *error)
         return file_error(error, folder, "make the folder", errno);
     snprintf(name, sizeof name, "pictures/plan-%0*.*f.png", PICTURE_DIGITS + 1 + decimals, decimals,
              r->w->clock.time[0]);
-    return draw(r, name, draw_plan, error);
+    return draw_plan(r, name, error);
 }
 
 static fram_status write_what_is_due(recording *r, double step_wall, fram_error *error)
@@ -136,7 +125,7 @@ static fram_status write_end(recording *r, fram_error *error)
     double began = clock_wall();
     fram_status status = write_checkpoint(r, error);
     if (status == FRAM_OK)
-        status = draw(r, "plan.png", draw_plan, error);
+        status = draw_plan(r, "plan.png", error);
     const world *w = r->w;
     const station_outcome station = {w->clock.time[0], &w->lines, &w->thrusters, &w->events};
     if (status == FRAM_OK && r->finish)

@@ -61,4 +61,33 @@ START_TEST(long_texts_are_cut)
 }
 END_TEST
 
-TEST_MAIN("image", bytes_that_are_no_text, long_texts_are_cut)
+static void keep_line(void *user, log_level level, const char *text)
+{
+    ck_assert_int_eq(level, LOG_WARNING);
+    snprintf(user, 80, "%s", text);
+}
+
+/* Whether the build draws or not. */
+START_TEST(pictures_that_cannot_be_drawn_are_skipped)
+{
+    char line[80] = "";
+    context ctx;
+    fram_error e = {0};
+    context_init(&ctx);
+    ctx.log = keep_line;
+    ctx.log_user = line;
+    fram_error reason = {.status = FRAM_ERROR_UNSUPPORTED, .message = "no cairo"};
+    ck_assert_int_eq(image_or_skip(&ctx, "plan.png", FRAM_ERROR_UNSUPPORTED, &reason, &e), FRAM_OK);
+    ck_assert_str_eq(line, "plan.png is skipped: no cairo");
+    ck_assert_int_eq(e.status, FRAM_OK);
+    line[0] = '\0';
+    reason = (fram_error){.status = FRAM_ERROR_IO, .message = "no room"};
+    ck_assert_int_eq(image_or_skip(&ctx, "plan.png", FRAM_ERROR_IO, &reason, NULL), FRAM_ERROR_IO);
+    ck_assert_int_eq(image_or_skip(&ctx, "plan.png", FRAM_ERROR_IO, &reason, &e), FRAM_ERROR_IO);
+    ck_assert_str_eq(e.message, "no room");
+    ck_assert_int_eq(image_or_skip(&ctx, "plan.png", FRAM_OK, &reason, &e), FRAM_OK);
+    ck_assert_str_eq(line, "");
+}
+END_TEST
+
+TEST_MAIN("image", bytes_that_are_no_text, long_texts_are_cut, pictures_that_cannot_be_drawn_are_skipped)
