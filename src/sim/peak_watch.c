@@ -99,6 +99,8 @@ bool peak_watch_await(peak_watch *p, const world *w)
     return true;
 }
 
+void peak_watch_forget(peak_watch *p) { p->filled = 0; }
+
 /* ---- contacts of steps ---- */
 
 static vec3 share_force(const ice_share *s) { return vec3_add(s->normal, s->friction); }

@@ -35,6 +35,8 @@ bool peak_watch_begin(peak_watch *p, const world *w);
 /* Where the watch begins beside a world that has come some way, or has lost what it knew: peaks count from when it
    knows each step of their window.  The same before and after a resume.  false: no memory. */
 bool peak_watch_await(peak_watch *p, const world *w);
+/* The steps that it knows are none of this world, which was copied: what it has of them goes. */
+void peak_watch_forget(peak_watch *p);
 /* Keeps the contacts of the step that was just done. */
 fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error);
 /* What carries the load of a vessel now: after peak_watch_keep. */

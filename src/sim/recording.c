@@ -237,7 +237,7 @@ static fram_status start_streams(recording *r, fram_error *error)
         return status;
     r->open = true;
     status = recorder_step(&r->recorder, r->w, 0, error);
-    r->recorder.peaks.filled = 0; /* the contacts of the last step are not in a world that was copied */
+    peak_watch_forget(&r->recorder.peaks); /* the contacts of the last step are not in a world that was copied */
     if (status == FRAM_OK)
         status = await_peaks(r, error);
     return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
