@@ -75,10 +75,8 @@ static fram_status record(fram_world *w, const fram_record_definition *definitio
         return error_memory(error);
     w->recording = r;
     w->process = getpid();
-    status = recording_init(ctx, &w->scenario->inner, folder, r, error);
-    r->force = d.force;
-    r->with_paths = d.with_paths;
-    r->finish = run_results_write;
+    const recording_options options = {d.force, d.with_paths, run_results_write};
+    status = recording_init(ctx, &w->scenario->inner, folder, &options, r, error);
     if (status == FRAM_OK)
         status = live_open(ctx, folder, d.live_page, d.live, d.live_user, &w->live, error);
     if (status == FRAM_OK)

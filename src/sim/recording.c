@@ -128,8 +128,8 @@ static fram_status write_end(recording *r, fram_error *error)
         status = draw_plan(r, "plan.png", error);
     const world *w = r->w;
     const station_outcome station = {w->clock.time[0], &w->lines, &w->thrusters, &w->events};
-    if (status == FRAM_OK && r->finish)
-        status = r->finish(r->ctx, r->s, &station, r->folder, error);
+    if (status == FRAM_OK && r->options.finish)
+        status = r->options.finish(r->ctx, r->s, &station, r->folder, error);
     if (status == FRAM_OK)
         status = end_checkpoint(r, error);
     r->end_time = clock_wall() - began;
@@ -227,7 +227,8 @@ static fram_status await_peaks(recording *r, fram_error *error)
 /* The record's scenario is for programs: without comments. */
 static fram_status start_streams(recording *r, fram_error *error)
 {
-    const scenario_print_options options = {.absolute_paths = r->with_paths, .names_only = !r->with_paths};
+    const scenario_print_options options = {.absolute_paths = r->options.with_paths,
+                                            .names_only = !r->options.with_paths};
     text_buffer text = {0};
     fram_status status = scenario_print(r->ctx, r->s, &options, &text, error);
     if (status == FRAM_OK)
@@ -245,10 +246,11 @@ static fram_status start_streams(recording *r, fram_error *error)
 
 /* ---- from outside ---- */
 
-fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error)
+fram_status recording_init(context *ctx, const scenario *s, const char *folder, const recording_options *options,
+                           recording *r, fram_error *error)
 {
     double dt = s->run.time_step;
-    *r = (recording){.ctx = ctx, .s = s, .started = clock_wall(), .stop_step = -1, .lock = -1};
+    *r = (recording){.ctx = ctx, .s = s, .options = *options, .started = clock_wall(), .stop_step = -1, .lock = -1};
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     r->end_step = scenario_step_at(s->run.duration, dt);
@@ -270,7 +272,7 @@ static fram_status refuse_own_scenario(const recording *r, fram_error *error)
 
 fram_status recording_prepare(recording *r, fram_error *error)
 {
-    fram_status status = run_folder_check(r->folder, r->force, error);
+    fram_status status = run_folder_check(r->folder, r->options.force, error);
     if (status == FRAM_OK)
         status = refuse_own_scenario(r, error);
     if (status == FRAM_OK)
@@ -291,7 +293,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
     double began = clock_wall();
     r->w = w;
     r->recorded_from = r->began_at = r->good_until = w->clock.time[0];
-    fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, r->inputs.data, &r->lock, error);
+    fram_status status = run_folder_prepare(r->ctx, r->folder, r->options.force, r->inputs.data, &r->lock, error);
     if (status == FRAM_OK)
         status = write_scenario(r, error);
     if (status == FRAM_OK)

@@ -19,14 +19,19 @@
 typedef fram_status (*recording_finish)(context *ctx, const scenario *s, const station_outcome *station,
                                         const char *folder, fram_error *error);
 
+typedef struct recording_options {
+    bool force;              /* write into a folder that is not empty */
+    bool with_paths;         /* the record tells where input files lie; otherwise their names alone */
+    recording_finish finish; /* may be NULL */
+} recording_options;
+
 /* Stays where it is in memory between recording_prepare and recording_free. */
 typedef struct recording {
     context *ctx;
     const scenario *s;
     world *w; /* from recording_begin or recording_read_state on */
     char folder[PATH_ROOM];
-    bool force, with_paths;
-    recording_finish finish; /* may be NULL */
+    recording_options options;
     recorder recorder;
     late_commit checkpoint; /* under way */
     text_buffer inputs;
@@ -57,7 +62,8 @@ typedef struct run_result {
 
 /* The names, and the schedule that follows from the scenario; nothing is opened or allocated.  FRAM_ERROR_INPUT for a
    folder whose name is too long. */
-fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error);
+fram_status recording_init(context *ctx, const scenario *s, const char *folder, const recording_options *options,
+                           recording *r, fram_error *error);
 /* What can be told before the world is made: that the folder may be written (a USAGE error when it is not empty,
    without `force`), and what the inputs are.  Nothing is touched. */
 fram_status recording_prepare(recording *r, fram_error *error);

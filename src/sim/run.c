@@ -29,10 +29,10 @@ typedef struct run {
 static fram_status run_init(context *ctx, const scenario *s, const run_options *options, run *r, fram_error *error)
 {
     *r = (run){.own = *ctx, .ctx = &r->own, .options = options};
-    fram_status status = recording_init(r->ctx, s, options->folder, &r->record, error);
-    r->record.force = options->force;
-    r->record.with_paths = options->with_paths;
-    r->record.finish = options->finish;
+    const recording_options of = {options->force, options->with_paths, options->finish};
+    fram_status status = recording_init(r->ctx, s, options->folder, &of, &r->record, error);
+    if (status != FRAM_OK)
+        return status;
     r->record.stop_step = r->record.end_step;
     /* Times first: the step of one far behind the end may be no integer of 64 bits. */
     if (options->until > 0 && options->until < s->run.duration)
@@ -40,7 +40,7 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
     else if (options->until > s->run.duration * (1 + 1e-9))
         log_write(ctx, LOG_WARNING, "until %.10g s: the run ends at run.duration, %.10g s", options->until,
                   s->run.duration);
-    return status;
+    return FRAM_OK;
 }
 
 /* Progress is told so seldom [s]. */

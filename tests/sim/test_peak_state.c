@@ -350,10 +350,11 @@ START_TEST(a_recording_that_begins_late_explains_whole_peaks)
     char folder[] = "/tmp/fram_peaks_XXXXXX", command[64];
     scene k;
     recording r;
+    const recording_options options = {0};
     ck_assert_ptr_nonnull(mkdtemp(folder));
     scene_open_with(&k, text, window, 1);
     scene_steps(&k, 50);
-    assert_ok(recording_init(&k.ctx, &k.s, folder, &r, &e), e);
+    assert_ok(recording_init(&k.ctx, &k.s, folder, &options, &r, &e), e);
     assert_ok(recording_prepare(&r, &e), e);
     assert_ok(recording_begin(&r, &k.w, &e), e);
     for (int i = 0; i < 100; i++) {
