@@ -428,7 +428,7 @@ static fram_status look_for_file(void *user, const scenario_key *key, const void
     const char *given = member;
     if (key->kind != KEY_PATH || !*given)
         return FRAM_OK;
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     fram_error reason = {0};
     if (!scenario_resolve_path(s, given, path, sizeof path))
         return scenario_fault(s, error, name, "expected a shorter path");

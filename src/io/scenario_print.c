@@ -49,7 +49,7 @@ static bool is_printable(const char *text)
 fram_status scenario_absolute_path(const scenario *s, const char *key, const char *path, char out[SCENARIO_TEXT_SIZE],
                                    fram_error *error)
 {
-    char inside[2 * SCENARIO_TEXT_SIZE], absolute[SCENARIO_TEXT_SIZE];
+    char inside[SCENARIO_PATH_ROOM], absolute[SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, path, inside, sizeof inside) || !path_absolute(inside, absolute, sizeof absolute))
         return error_set(error, FRAM_ERROR_INPUT, s->file, 0, key,
                          "expected a path of at most %d bytes together with its folder", SCENARIO_TEXT_SIZE - 1);

@@ -56,10 +56,10 @@ static fram_status velocity_rows_read(context *ctx, const scenario *s, const cha
                                       velocity_rows *rows, fram_error *error)
 {
     const char *const names[VELOCITY_COLUMNS] = {first, "x[m/s]", "y[m/s]"};
-    char path[2 * SCENARIO_TEXT_SIZE];
-    if (!scenario_resolve_path(s, file, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
-    fram_status status = csv_read(ctx, path, names, VELOCITY_COLUMNS, rows->column, error);
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = scenario_file_path(s, NULL, file, path, error);
+    if (status == FRAM_OK)
+        status = csv_read(ctx, path, names, VELOCITY_COLUMNS, rows->column, error);
     return status == FRAM_OK ? check_rows(ctx, rows, path, names, error) : status;
 }
 

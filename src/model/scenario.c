@@ -128,6 +128,14 @@ bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_
     return length >= 0 && (size_t)length < size;
 }
 
+fram_status scenario_file_path(const scenario *s, const char *key, const char *file, char out[SCENARIO_PATH_ROOM],
+                               fram_error *error)
+{
+    if (scenario_resolve_path(s, file, out, SCENARIO_PATH_ROOM))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, key ? NULL : file, 0, key, "the path is too long");
+}
+
 bool scenario_own_file(const scenario *s, char *out, size_t size)
 {
     const char *slash = strrchr(s->file, '/');

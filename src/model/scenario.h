@@ -155,6 +155,11 @@ const scenario_place *scenario_given(const scenario *s, const char *key);
 /* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it
    does not fit. */
 bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size);
+/* The same of a file that a scenario names: FRAM_ERROR_INPUT, for the key or, where that is NULL, for the file as it is
+   named, when it does not fit. */
+enum { SCENARIO_PATH_ROOM = 2 * SCENARIO_TEXT_SIZE };
+fram_status scenario_file_path(const scenario *s, const char *key, const char *file, char out[SCENARIO_PATH_ROOM],
+                               fram_error *error);
 /* The same of the file that the scenario was read from; false, too, where there is none. */
 bool scenario_own_file(const scenario *s, char *out, size_t size);
 

@@ -38,10 +38,9 @@ static fram_status read_rows(const flow_job *j, flow_rows *rows)
 {
     static const char *const names[4] = {"angle[deg]", "cx", "cy", "cn"};
     if (j->from->table_file[0]) {
-        char path[2 * SCENARIO_TEXT_SIZE];
-        if (!scenario_resolve_path(j->s, j->from->table_file, path, sizeof path))
-            return error_set(j->error, FRAM_ERROR_INPUT, j->from->table_file, 0, NULL, "the path is too long");
-        return csv_read(j->ctx, path, names, 4, rows->column, j->error);
+        char path[SCENARIO_PATH_ROOM];
+        fram_status status = scenario_file_path(j->s, NULL, j->from->table_file, path, j->error);
+        return status == FRAM_OK ? csv_read(j->ctx, path, names, 4, rows->column, j->error) : status;
     }
     for (int32_t i = 0; i < j->from->table.count; i++) {
         const scenario_flow_row *r = &j->from->table.data[i];
@@ -59,7 +58,7 @@ static fram_status read_rows(const flow_job *j, flow_rows *rows)
 static fram_status fault(const flow_job *j, int32_t row, const char *rule, double found)
 {
     char name[80];
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     bool in_file = j->from->table_file[0] && scenario_resolve_path(j->s, j->from->table_file, path, sizeof path);
     snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", j->key, (int)row);
     if (in_file && row >= 0)

@@ -169,9 +169,10 @@ static bool keep(context *ctx, hull_store *store, const scenario_hull *keys, con
 static fram_status read_hull(context *ctx, const scenario *s, const scenario_hull *keys, hull_store *store, new_hull *h,
                              fram_error *error)
 {
-    char path[2 * SCENARIO_TEXT_SIZE];
-    if (!scenario_resolve_path(s, keys->file, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "file", "the path of the mesh is too long");
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = scenario_file_path(s, "file", keys->file, path, error);
+    if (status != FRAM_OK)
+        return status;
     const stored_hull *known = find_stored(store, keys, path);
     if (known) {
         h->concavity = known->concavity;
@@ -180,7 +181,7 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
     const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard,
                                        SCENARIO_FREEBOARD};
     hull_file_report report;
-    fram_status status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
+    status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK) {
         report_file(ctx, &report);
         if (!(report.freeboard > 0) && !is_automatic(keys->freeboard))

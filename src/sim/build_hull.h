@@ -12,7 +12,7 @@ enum { STORED_HULLS = 32 };
    a fine mesh takes seconds.  A file that changes meanwhile is not read again.  Starts as {0}. */
 typedef struct stored_hull {
     scenario_hull keys;
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     mesh surface;
     polyhedron_array pieces;
     double concavity; /* of the pieces [m] */

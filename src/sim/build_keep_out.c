@@ -167,11 +167,9 @@ static void tell_zones_elsewhere(context *ctx, const scenario *s, const polygon_
 
 static fram_status add_file(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     if (!s->ice.open_water_file[0])
         return FRAM_OK;
-    if (!scenario_resolve_path(s, s->ice.open_water_file, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.open_water_file", "the path of the zones is too long");
     import_rings rings = {0};
     import_field field = {0};
     const import_options options = {.name = path,
@@ -180,7 +178,9 @@ static fram_status add_file(context *ctx, const scenario *s, const world *w, pol
                                     .as_it_is = true,
                                     .lengths = build_is_of_tank(s),
                                     .say_lengths = BUILD_SAY_TANK};
-    fram_status status = outline_file_read(ctx, path, &rings, error);
+    fram_status status = scenario_file_path(s, "ice.open_water_file", s->ice.open_water_file, path, error);
+    if (status == FRAM_OK)
+        status = outline_file_read(ctx, path, &rings, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)

@@ -52,14 +52,12 @@ size_law population_size_law(const scenario_population *p)
                       .exponent = p->exponent};
 }
 
-static fram_status resolve(const scenario *s, const char *file, int32_t number, const char *member, char *out,
-                           size_t size, fram_error *error)
+static fram_status resolve(const scenario *s, const char *file, int32_t number, const char *member,
+                           char out[SCENARIO_PATH_ROOM], fram_error *error)
 {
-    if (scenario_resolve_path(s, file, out, size))
-        return FRAM_OK;
     char key[64];
     snprintf(key, sizeof key, "ice.populations[%d].%s", (int)number, member);
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "the path is too long");
+    return scenario_file_path(s, key, file, out, error);
 }
 
 /* Binning begins at 0, where there is no floe. */
@@ -76,10 +74,9 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
                                   fram_error *error)
 {
     static const char *const names[HISTOGRAM_COLUMNS] = {"diameter_min[m]", "diameter_max[m]", "floes"};
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     double_array column[HISTOGRAM_COLUMNS] = {0};
-    fram_status status =
-        resolve(s, s->ice.populations.data[number].histogram, number, "histogram", path, sizeof path, error);
+    fram_status status = resolve(s, s->ice.populations.data[number].histogram, number, "histogram", path, error);
     if (status == FRAM_OK)
         status = csv_read(ctx, path, names, HISTOGRAM_COLUMNS, column, error);
     const double *lo = column[HISTOGRAM_LO].data, *hi = column[HISTOGRAM_HI].data;
@@ -107,9 +104,8 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
 static fram_status read_templates(context *ctx, const scenario *s, overlay *plane, int32_t number, polygon_list *out,
                                   fram_error *error)
 {
-    char path[2 * SCENARIO_TEXT_SIZE];
-    fram_status status =
-        resolve(s, s->ice.populations.data[number].templates, number, "templates", path, sizeof path, error);
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = resolve(s, s->ice.populations.data[number].templates, number, "templates", path, error);
     return status == FRAM_OK ? template_file_read(ctx, plane, path, out, error) : status;
 }
 

@@ -30,7 +30,7 @@ static fram_status name_line(context *ctx, const scenario *s, const vessel_entry
                              int32_t item, fram_error *error)
 {
     const char *file = entry->keys->mooring.lines.data[item].table_file;
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     int point;
     if (status != FRAM_ERROR_INPUT || !error || !file[0] || strncmp(error->key, "table", 5) != 0 ||
         !scenario_resolve_path(s, file, path, sizeof path))
@@ -48,10 +48,10 @@ static fram_status read_curve(context *ctx, const scenario *s, const char *file,
 {
     static const char *const names[2] = {"offset[m]", "tension[N]"};
     double_array column[2] = {{0}, {0}};
-    char path[2 * SCENARIO_TEXT_SIZE];
-    if (!scenario_resolve_path(s, file, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
-    fram_status status = csv_read(ctx, path, names, 2, column, error);
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = scenario_file_path(s, NULL, file, path, error);
+    if (status == FRAM_OK)
+        status = csv_read(ctx, path, names, 2, column, error);
     if (status == FRAM_OK && column[0].count > LINE_POINTS)
         status = error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, LINE_POINTS), NULL,
                            "expected at most %d rows, found %d", (int)LINE_POINTS, (int)column[0].count);

@@ -142,12 +142,11 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
     return FRAM_OK;
 }
 
-static fram_status read_file(context *ctx, const scenario *s, char path[2 * SCENARIO_TEXT_SIZE], import_rings *out,
+static fram_status read_file(context *ctx, const scenario *s, char path[SCENARIO_PATH_ROOM], import_rings *out,
                              fram_error *error)
 {
-    if (!scenario_resolve_path(s, s->ice.file, path, 2 * SCENARIO_TEXT_SIZE))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
-    return outline_file_read(ctx, path, out, error);
+    fram_status status = scenario_file_path(s, "ice.file", s->ice.file, path, error);
+    return status == FRAM_OK ? outline_file_read(ctx, path, out, error) : status;
 }
 
 /* path: of the file, whose rings were read. */
@@ -190,7 +189,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const ch
 fram_status draw_ice(context *ctx, const scenario *s, world *w, drawn_ice *out, fram_error *error)
 {
     polygon_list keep_out = {0};
-    char path[2 * SCENARIO_TEXT_SIZE];
+    char path[SCENARIO_PATH_ROOM];
     fram_status status = s->ice.source == ICE_FILE ? read_file(ctx, s, path, &out->source, error) : FRAM_OK;
     if (status == FRAM_OK)
         status = find_keep_out(ctx, s, w, &out->source, &keep_out, error);

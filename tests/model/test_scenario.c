@@ -449,8 +449,29 @@ START_TEST(paths_are_relative_to_the_scenario)
 }
 END_TEST
 
+/* By its key, or by its name where the caller has none. */
+START_TEST(paths_that_are_too_long_are_refused)
+{
+    scenario s = good();
+    char out[SCENARIO_PATH_ROOM], file[SCENARIO_PATH_ROOM + 1];
+    set_text(s.file, sizeof s.file, "scenes/a.yaml");
+    assert_ok(scenario_file_path(&s, NULL, "wind.csv", out, &error), error);
+    ck_assert_str_eq(out, "scenes/wind.csv");
+    memset(file, 'w', sizeof file);
+    file[sizeof file - 1] = '\0';
+    ck_assert_int_eq(scenario_file_path(&s, "ice.file", file, out, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, "ice.file");
+    ck_assert_str_eq(error.file, "");
+    ck_assert_int_eq(scenario_file_path(&s, NULL, file, out, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, "");
+    ck_assert_int_eq(strncmp(error.file, "www", 3), 0);
+    ck_assert_str_eq(error.message, "the path is too long");
+}
+END_TEST
+
 TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, loads_are_averaged_over_whole_steps,
           averages_tell_of_the_time_before_the_start, defaults_of_the_specification, ice_has_one_drift,
           every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once,
           ranges_are_checked, keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked,
-          floes_stay_in_the_domain, errors_find_their_place, paths_are_relative_to_the_scenario)
+          floes_stay_in_the_domain, errors_find_their_place, paths_are_relative_to_the_scenario,
+          paths_that_are_too_long_are_refused)
