@@ -58,22 +58,18 @@ static json_walk *member_of(object *o, const char *key)
 static fram_status scan_object(const reading *r, json_walk *w, object *o)
 {
     char key[24];
-    bool more = true;
     *o = (object){.type = ""};
-    fram_status status = json_walk_enter(w, JSON_OBJECT, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_member(w, first, key, sizeof key, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
+    json_loop loop = json_walk_into(w, JSON_OBJECT, r->error);
+    while (json_walk_next_member(w, &loop, key, sizeof key, r->error)) {
         json_walk *member = member_of(o, key);
         if (member && member->at)
             return json_walk_refuse(w, r->key, r->error, "the member \"%s\" is there twice", key);
         if (member)
             *member = *w;
-        status = member == &o->type_place ? json_walk_text(w, o->type, sizeof o->type, r->error)
-                                          : json_walk_skip(w, r->error);
+        loop.status = member == &o->type_place ? json_walk_text(w, o->type, sizeof o->type, r->error)
+                                               : json_walk_skip(w, r->error);
     }
-    return status;
+    return loop.status;
 }
 
 /* ---- coordinates ---- */
@@ -82,45 +78,37 @@ static fram_status read_position(const reading *r, json_walk *w, vec2 *out)
 {
     double value[3] = {0};
     int count = 0;
-    bool more = true;
     json_walk begin = *w;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_element(w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
+    json_loop loop = json_walk_into(w, JSON_ARRAY, r->error);
+    while (json_walk_next(w, &loop, r->error)) {
         if (count == 3)
             return json_walk_refuse(&begin, r->key, r->error, "expected a position of 2 or 3 numbers, found more");
-        status = json_walk_number(w, &value[count++], r->error);
+        loop.status = json_walk_number(w, &value[count++], r->error);
     }
-    if (status == FRAM_OK && count < 2)
+    if (loop.status == FRAM_OK && count < 2)
         return json_walk_refuse(&begin, r->key, r->error, "expected a position of 2 or 3 numbers, found %d", count);
     *out = vec2_make(value[0], value[1]);
-    return status;
+    return loop.status;
 }
 
 /* The last ring of a list, while it grows: its vertices stand at the end of the pool. */
 static fram_status read_positions(const reading *r, json_walk *w, int32_t begin)
 {
     vec2_array *vertices = &r->out->rings.vertex;
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    json_loop loop = json_walk_into(w, JSON_ARRAY, r->error);
+    while (json_walk_next(w, &loop, r->error)) {
         vec2 position = {0, 0};
-        status = json_walk_element(w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
         if (vertices->count - begin == GEOJSON_RING_VERTICES_MOST)
             return json_walk_refuse(w, r->key, r->error, "a ring has more than %d positions",
                                     (int)GEOJSON_RING_VERTICES_MOST);
         if (vertices->count == GEOJSON_VERTICES_MOST)
             return json_walk_refuse(w, r->key, r->error, "the file has more than %d positions",
                                     (int)GEOJSON_VERTICES_MOST);
-        status = read_position(r, w, &position);
-        if (status == FRAM_OK && !array_push(r->ctx, vertices, position))
-            status = error_memory(r->error);
+        loop.status = read_position(r, w, &position);
+        if (loop.status == FRAM_OK && !array_push(r->ctx, vertices, position))
+            loop.status = error_memory(r->error);
     }
-    return status;
+    return loop.status;
 }
 
 static fram_status read_ring(reading *r, json_walk *w, int32_t number)
@@ -155,44 +143,33 @@ static fram_status read_ring(reading *r, json_walk *w, int32_t number)
 static fram_status read_polygon(reading *r, json_walk *w)
 {
     int32_t count = 0;
-    bool more = true;
     json_walk begin = *w;
     r->polygon++;
     snprintf(r->key, sizeof r->key, "feature %d, polygon %d", (int)r->feature, (int)r->polygon);
-    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_element(w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_ring(r, w, ++count);
-    }
-    if (status == FRAM_OK && count == 0)
+    json_loop loop = json_walk_into(w, JSON_ARRAY, r->error);
+    while (json_walk_next(w, &loop, r->error))
+        loop.status = read_ring(r, w, ++count);
+    if (loop.status == FRAM_OK && count == 0)
         return json_walk_refuse(&begin, r->key, r->error, "expected at least one ring, found none");
-    return name_place(r, status);
+    return name_place(r, loop.status);
 }
 
 /* A geometry without coordinates is one of null (RFC 7946, 3.1), as programs write what a cut left nothing of. */
 static fram_status read_single_polygon(reading *r, json_walk *w)
 {
-    bool more = true;
     json_walk inside = *w;
-    fram_status status = json_walk_enter(&inside, JSON_ARRAY, NULL);
-    if (status == FRAM_OK && json_walk_element(&inside, true, &more, NULL) == FRAM_OK && !more)
+    json_loop loop = json_walk_into(&inside, JSON_ARRAY, NULL);
+    if (!json_walk_next(&inside, &loop, NULL) && loop.status == FRAM_OK)
         return FRAM_OK;
     return read_polygon(r, w);
 }
 
 static fram_status read_polygons(reading *r, json_walk *w)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_element(w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_polygon(r, w);
-    }
-    return status;
+    json_loop loop = json_walk_into(w, JSON_ARRAY, r->error);
+    while (json_walk_next(w, &loop, r->error))
+        loop.status = read_polygon(r, w);
+    return loop.status;
 }
 
 /* ---- features ---- */
@@ -234,20 +211,16 @@ static fram_status read_thickness(reading *r, json_walk *w, json_kind kind)
 static fram_status read_properties(reading *r, json_walk w)
 {
     char key[16];
-    bool more = true;
     json_kind kind;
     if (!w.at)
         return FRAM_OK;
     fram_status status = json_walk_kind(&w, &kind, r->error);
     if (status != FRAM_OK || kind == JSON_NULL)
         return status;
-    status = json_walk_enter(&w, JSON_OBJECT, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_member(&w, first, key, sizeof key, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
+    json_loop loop = json_walk_into(&w, JSON_OBJECT, r->error);
+    while (json_walk_next_member(&w, &loop, key, sizeof key, r->error)) {
         if (strcmp(key, "kind") == 0) {
-            status = read_kind(r, &w);
+            loop.status = read_kind(r, &w);
             continue;
         }
         bool wanted = strcmp(key, "thickness") == 0;
@@ -257,32 +230,28 @@ static fram_status read_properties(reading *r, json_walk w)
             r->told = true;
         }
         if (wanted)
-            status = json_walk_kind(&w, &kind, r->error);
-        if (status != FRAM_OK || !wanted || kind == JSON_NULL) {
-            status = status == FRAM_OK ? json_walk_skip(&w, r->error) : status;
+            loop.status = json_walk_kind(&w, &kind, r->error);
+        if (loop.status != FRAM_OK || !wanted || kind == JSON_NULL) {
+            loop.status = loop.status == FRAM_OK ? json_walk_skip(&w, r->error) : loop.status;
             continue;
         }
-        status = read_thickness(r, &w, kind);
+        loop.status = read_thickness(r, &w, kind);
     }
-    return status;
+    return loop.status;
 }
 
 static fram_status read_geometry(reading *r, json_walk w);
 
 static fram_status read_geometries(reading *r, json_walk w)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(&w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_element(&w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
+    json_loop loop = json_walk_into(&w, JSON_ARRAY, r->error);
+    while (json_walk_next(&w, &loop, r->error)) {
         json_walk geometry = w;
-        status = json_walk_skip(&w, r->error);
-        if (status == FRAM_OK)
-            status = read_geometry(r, geometry);
+        loop.status = json_walk_skip(&w, r->error);
+        if (loop.status == FRAM_OK)
+            loop.status = read_geometry(r, geometry);
     }
-    return status;
+    return loop.status;
 }
 
 /* A geometry object that the walk stands at, scanned already. */
@@ -346,23 +315,19 @@ static fram_status read_feature(reading *r, json_walk begin, const object *o)
 
 static fram_status read_features(reading *r, json_walk w)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(&w, JSON_ARRAY, r->error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    json_loop loop = json_walk_into(&w, JSON_ARRAY, r->error);
+    while (json_walk_next(&w, &loop, r->error)) {
         object o;
         r->key[0] = '\0';
-        status = json_walk_element(&w, first, &more, r->error);
-        if (status != FRAM_OK || !more)
-            break;
         json_walk begin = w;
-        status = begin_feature(r, &begin);
-        if (status == FRAM_OK)
-            status = scan_object(r, &w, &o);
-        if (status == FRAM_OK)
-            status = read_feature(r, begin, &o);
-        name_place(r, status);
+        loop.status = begin_feature(r, &begin);
+        if (loop.status == FRAM_OK)
+            loop.status = scan_object(r, &w, &o);
+        if (loop.status == FRAM_OK)
+            loop.status = read_feature(r, begin, &o);
+        name_place(r, loop.status);
     }
-    return status;
+    return loop.status;
 }
 
 static fram_status read_root(reading *r, json_walk *w)

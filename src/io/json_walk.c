@@ -89,51 +89,53 @@ fram_status json_walk_kind(json_walk *w, json_kind *kind, fram_error *error)
 
 /* ---- objects and arrays ---- */
 
-fram_status json_walk_enter(json_walk *w, json_kind kind, fram_error *error)
+json_loop json_walk_into(json_walk *w, json_kind kind, fram_error *error)
 {
+    json_loop loop = {FRAM_OK, true};
     skip_blanks(w);
     if (w->at == w->end || *w->at != (kind == JSON_OBJECT ? '{' : '['))
-        return refuse_next(w, error, kind == JSON_OBJECT ? "an object, '{'" : "an array, '['");
-    if (w->depth == w->depth_limit)
-        return json_walk_refuse(w, NULL, error, "objects and arrays are nested more than %d deep", (int)w->depth_limit);
+        loop.status = refuse_next(w, error, kind == JSON_OBJECT ? "an object, '{'" : "an array, '['");
+    else if (w->depth == w->depth_limit)
+        loop.status =
+            json_walk_refuse(w, NULL, error, "objects and arrays are nested more than %d deep", (int)w->depth_limit);
+    if (loop.status != FRAM_OK)
+        return loop;
     w->depth++;
     w->at++;
-    return FRAM_OK;
+    return loop;
 }
 
-/* The comma before the next item, or the end of all. */
-static fram_status next_item(json_walk *w, bool first, char close, bool *more, fram_error *error)
+/* Past the comma before the next item, or the end of all. */
+static bool next_item(json_walk *w, json_loop *loop, char close, fram_error *error)
 {
+    bool first = loop->first;
+    loop->first = false;
+    if (loop->status != FRAM_OK)
+        return false;
     skip_blanks(w);
-    *more = true;
     if (w->at < w->end && *w->at == close) {
-        *more = false;
         w->depth--;
         w->at++;
-        return FRAM_OK;
+        return false;
     }
     if (first)
-        return FRAM_OK;
-    if (w->at == w->end || *w->at != ',')
-        return refuse_next(w, error, close == ']' ? "',' or ']'" : "',' or '}'");
+        return true;
+    if (w->at == w->end || *w->at != ',') {
+        loop->status = refuse_next(w, error, close == ']' ? "',' or ']'" : "',' or '}'");
+        return false;
+    }
     w->at++;
     skip_blanks(w);
-    return FRAM_OK;
+    return true;
 }
 
-fram_status json_walk_element(json_walk *w, bool first, bool *more, fram_error *error)
-{
-    return next_item(w, first, ']', more, error);
-}
+bool json_walk_next(json_walk *w, json_loop *loop, fram_error *error) { return next_item(w, loop, ']', error); }
 
-fram_status json_walk_member(json_walk *w, bool first, char *key, size_t room, bool *more, fram_error *error)
+static fram_status read_name(json_walk *w, char *key, size_t room, fram_error *error)
 {
-    fram_status status = next_item(w, first, '}', more, error);
-    if (status != FRAM_OK || !*more)
-        return status;
     if (w->at == w->end || *w->at != '"')
         return refuse_next(w, error, "the name of a member in quotes");
-    status = json_walk_text(w, key, room, error);
+    fram_status status = json_walk_text(w, key, room, error);
     if (status != FRAM_OK)
         return status;
     skip_blanks(w);
@@ -142,6 +144,14 @@ fram_status json_walk_member(json_walk *w, bool first, char *key, size_t room, b
     w->at++;
     skip_blanks(w);
     return FRAM_OK;
+}
+
+bool json_walk_next_member(json_walk *w, json_loop *loop, char *key, size_t room, fram_error *error)
+{
+    if (!next_item(w, loop, '}', error))
+        return false;
+    loop->status = read_name(w, key, room, error);
+    return loop->status == FRAM_OK;
 }
 
 /* ---- single values ---- */
@@ -340,17 +350,11 @@ fram_status json_walk_skip(json_walk *w, fram_error *error)
     if (status != FRAM_OK || kind > JSON_ARRAY)
         return status == FRAM_OK ? skip_single(w, kind, error) : status;
     char key[2];
-    bool more = true;
-    status = json_walk_enter(w, kind, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = kind == JSON_ARRAY ? json_walk_element(w, first, &more, error)
-                                    : json_walk_member(w, first, key, sizeof key, &more, error);
-        if (status == FRAM_OK && !more)
-            return FRAM_OK;
-        if (status == FRAM_OK)
-            status = json_walk_skip(w, error); /* as deep as depth_limit allows */
-    }
-    return status;
+    json_loop loop = json_walk_into(w, kind, error);
+    while (kind == JSON_ARRAY ? json_walk_next(w, &loop, error)
+                              : json_walk_next_member(w, &loop, key, sizeof key, error))
+        loop.status = json_walk_skip(w, error); /* as deep as depth_limit allows */
+    return loop.status;
 }
 
 fram_status json_walk_end(json_walk *w, fram_error *error)

@@ -38,15 +38,20 @@ fram_status json_walk_refuse(const json_walk *w, const char *key, fram_error *er
 
 /* The kind of the value that comes next; the walk moves to its first character. */
 fram_status json_walk_kind(json_walk *w, json_kind *kind, fram_error *error);
+/* The way through an array or an object: while (json_walk_next(w, &loop, error)) loop.status = what became of the
+   element, which must have been passed. */
+typedef struct json_loop {
+    fram_status status; /* the loop ends at another one than FRAM_OK, of the walk or of its user */
+    bool first;         /* no item was met yet */
+} json_loop;
 /* Into an object or array. */
-fram_status json_walk_enter(json_walk *w, json_kind kind, fram_error *error);
-/* To the next element of the array that was entered (first: none was read yet); *more is false, and the array is left,
-   at its end. */
-fram_status json_walk_element(json_walk *w, bool first, bool *more, fram_error *error);
+json_loop json_walk_into(json_walk *w, json_kind kind, fram_error *error);
+/* To the next element of an array; false where there is none, and the array is left, or the loop has failed. */
+bool json_walk_next(json_walk *w, json_loop *loop, fram_error *error);
 /* The same for an object: to the value of the next member.  Its name goes to key as UTF-8, of what its escapes mean;
    what has no room in `room` bytes with the NUL is cut off between characters.  U+0000 and half a pair of surrogates,
    which no text can hold, become U+FFFD. */
-fram_status json_walk_member(json_walk *w, bool first, char *key, size_t room, bool *more, fram_error *error);
+bool json_walk_next_member(json_walk *w, json_loop *loop, char *key, size_t room, fram_error *error);
 /* A string, in the same way. */
 fram_status json_walk_text(json_walk *w, char *text, size_t room, fram_error *error);
 /* A number; one that overflows is refused. */

@@ -40,15 +40,10 @@ static fram_status read_named(json_walk *w, const char *key, const note_member *
 static fram_status read_object(json_walk *w, const note_member *members, size_t count, fram_error *error)
 {
     char key[64];
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_OBJECT, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_member(w, first, key, sizeof key, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_named(w, key, members, count, error);
-    }
-    return status;
+    json_loop loop = json_walk_into(w, JSON_OBJECT, error);
+    while (json_walk_next_member(w, &loop, key, sizeof key, error))
+        loop.status = read_named(w, key, members, count, error);
+    return loop.status;
 }
 
 static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
@@ -63,18 +58,14 @@ static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
 
 static fram_status read_events(context *ctx, json_walk *w, run_note *n, fram_error *error)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
+    while (json_walk_next(w, &loop, error)) {
         run_event e = {0};
-        status = json_walk_element(w, first, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_event(w, &e, error);
-        if (status == FRAM_OK && !array_push(ctx, &n->events, e))
-            status = error_memory(error);
+        loop.status = read_event(w, &e, error);
+        if (loop.status == FRAM_OK && !array_push(ctx, &n->events, e))
+            loop.status = error_memory(error);
     }
-    return status;
+    return loop.status;
 }
 
 static fram_status read_track(json_walk *w, run_track *t, fram_error *error)
@@ -90,34 +81,26 @@ static fram_status read_track(json_walk *w, run_track *t, fram_error *error)
 
 static fram_status read_tracks(context *ctx, json_walk *w, run_note *n, fram_error *error)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
+    while (json_walk_next(w, &loop, error)) {
         run_track t = {0};
-        status = json_walk_element(w, first, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_track(w, &t, error);
-        if (status == FRAM_OK && !array_push(ctx, &n->tracks, t))
-            status = error_memory(error);
+        loop.status = read_track(w, &t, error);
+        if (loop.status == FRAM_OK && !array_push(ctx, &n->tracks, t))
+            loop.status = error_memory(error);
     }
-    return status;
+    return loop.status;
 }
 
 static fram_status read_inputs(context *ctx, json_walk *w, run_note *n, fram_error *error)
 {
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
+    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
+    while (json_walk_next(w, &loop, error)) {
         char digest[SHA256_TEXT_SIZE] = "";
         const note_member members[] = {{"sha256", digest, sizeof digest, NULL}};
-        status = json_walk_element(w, first, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_object(w, members, sizeof members / sizeof *members, error);
+        loop.status = read_object(w, members, sizeof members / sizeof *members, error);
         text_add(ctx, &n->inputs, digest);
     }
-    return status == FRAM_OK && n->inputs.failed ? error_memory(error) : status;
+    return loop.status == FRAM_OK && n->inputs.failed ? error_memory(error) : loop.status;
 }
 
 /* So many names of what a program told fit in a cell of a page. */
@@ -125,21 +108,18 @@ enum { TOLD_MOST = 16 };
 
 static fram_status read_told(context *ctx, json_walk *w, run_note *n, fram_error *error)
 {
-    bool more = true;
     int count = 0;
-    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
-    for (; status == FRAM_OK; count++) {
+    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
+    while (json_walk_next(w, &loop, error)) {
         char name[VESSEL_NAME_MOST + 48];
-        status = json_walk_element(w, count == 0, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = json_walk_text(w, name, sizeof name, error);
-        if (status == FRAM_OK && count < TOLD_MOST)
+        loop.status = json_walk_text(w, name, sizeof name, error);
+        if (loop.status == FRAM_OK && count < TOLD_MOST)
             text_format(ctx, &n->told, "%s%s", count == 0 ? "" : ", ", name);
+        count++;
     }
     if (count > TOLD_MOST)
         text_format(ctx, &n->told, " and %d more", count - TOLD_MOST);
-    return status == FRAM_OK && n->told.failed ? error_memory(error) : status;
+    return loop.status == FRAM_OK && n->told.failed ? error_memory(error) : loop.status;
 }
 
 static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
@@ -216,16 +196,10 @@ static fram_status read_note(context *ctx, const char *folder, run_note *n, fram
     if (status != FRAM_OK)
         return status;
     json_walk w = json_walk_begin(path, text, size, JSON_DEPTH);
-    bool more = true;
-    status = json_walk_enter(&w, JSON_OBJECT, error);
-    for (bool first = true; status == FRAM_OK; first = false) {
-        status = json_walk_member(&w, first, key, sizeof key, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
-        status = read_member(ctx, &w, key, n, error);
-    }
-    if (status == FRAM_OK)
-        status = json_walk_end(&w, error);
+    json_loop loop = json_walk_into(&w, JSON_OBJECT, error);
+    while (json_walk_next_member(&w, &loop, key, sizeof key, error))
+        loop.status = read_member(ctx, &w, key, n, error);
+    status = loop.status == FRAM_OK ? json_walk_end(&w, error) : loop.status;
     memory_free(ctx, text);
     return status == FRAM_OK ? check_note(n, path, error) : status;
 }

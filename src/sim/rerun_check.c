@@ -202,26 +202,22 @@ typedef struct run_end {
 static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
 {
     char key[WORD_SIZE];
-    bool more = true;
-    fram_status status = json_walk_enter(w, JSON_OBJECT, error);
-    for (bool first = true; status == FRAM_OK && more; first = false) {
-        status = json_walk_member(w, first, key, sizeof key, &more, error);
-        if (status != FRAM_OK || !more)
-            break;
+    json_loop loop = json_walk_into(w, JSON_OBJECT, error);
+    while (json_walk_next_member(w, &loop, key, sizeof key, error)) {
         if (strcmp(key, "status") == 0)
-            status = json_walk_text(w, e->status, sizeof e->status, error);
+            loop.status = json_walk_text(w, e->status, sizeof e->status, error);
         else if (strcmp(key, "state_hash") == 0)
-            status = json_walk_text(w, e->hash, sizeof e->hash, error);
+            loop.status = json_walk_text(w, e->hash, sizeof e->hash, error);
         else if (strcmp(key, "time_s") == 0)
-            status = json_walk_number_or_null(w, &e->time, error);
+            loop.status = json_walk_number_or_null(w, &e->time, error);
         else if (strcmp(key, "steps") == 0)
-            status = json_walk_number(w, &e->steps, error);
+            loop.status = json_walk_number(w, &e->steps, error);
         else if (strcmp(key, "good_until_s") == 0)
-            status = json_walk_number_or_null(w, &e->good_until, error);
+            loop.status = json_walk_number_or_null(w, &e->good_until, error);
         else
-            status = json_walk_skip(w, error);
+            loop.status = json_walk_skip(w, error);
     }
-    return status;
+    return loop.status;
 }
 
 /* Of a run that came to an end of its own; of one that failed only how far it went; a file that is not there, is

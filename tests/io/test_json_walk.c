@@ -119,14 +119,16 @@ START_TEST(numbers_may_be_missing)
     text_add(&ctx, &json, "]");
     ck_assert_str_eq(json.data, "[null,null,null,1.23,0.1]");
     json_walk w = json_walk_begin("run.json", json.data, (size_t)json.count, 8);
-    assert_ok(json_walk_enter(&w, JSON_ARRAY, &error), error);
-    for (int i = 0; i < 5; i++) {
-        bool more = false;
+    json_loop loop = json_walk_into(&w, JSON_ARRAY, &error);
+    int count = 0;
+    for (; json_walk_next(&w, &loop, &error); count++) {
         double value = 7;
-        assert_ok(json_walk_element(&w, i == 0, &more, &error), error);
-        assert_ok(json_walk_number_or_null(&w, &value, &error), error);
-        ck_assert(more && (i < 3 ? isnan(value) : value == (i == 3 ? 1.23 : 0.1)));
+        loop.status = json_walk_number_or_null(&w, &value, &error);
+        ck_assert(count < 3 ? isnan(value) : value == (count == 3 ? 1.23 : 0.1));
     }
+    assert_ok(loop.status, error);
+    ck_assert_int_eq(count, 5);
+    assert_ok(json_walk_end(&w, &error), error);
     w = json_walk_begin("run.json", "nan", 3, 8);
     double value = 7;
     assert_fails(json_walk_number_or_null(&w, &value, &error), error, FRAM_ERROR_INPUT, "expected");
@@ -134,5 +136,52 @@ START_TEST(numbers_may_be_missing)
 }
 END_TEST
 
+/* Of arrays and objects, whatever is met in them, and what its user makes of it. */
+START_TEST(loops_end)
+{
+    static const struct {
+        const char *json, *words;
+        int items;
+        json_kind kind;
+    } cases[] = {{"[]", NULL, 0, JSON_ARRAY},
+                 {" { } ", NULL, 0, JSON_OBJECT},
+                 {"[1, [2], {\"a\": 3}]", NULL, 3, JSON_ARRAY},
+                 {"{\"a\": [1, 2], \"b\": null}", NULL, 2, JSON_OBJECT},
+                 {"{}", "an array, '['", 0, JSON_ARRAY},
+                 {"[[[[]]]]", "nested more than 3 deep", 1, JSON_ARRAY},
+                 {"[1 2]", "',' or ']'", 1, JSON_ARRAY},
+                 {"{\"a\": 1; \"b\": 2}", "',' or '}'", 1, JSON_OBJECT},
+                 {"{\"a\": 1, 2}", "the name of a member in quotes", 1, JSON_OBJECT},
+                 {"{\"a\" 1}", "':'", 0, JSON_OBJECT},
+                 {"[1,", "expected", 2, JSON_ARRAY}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fram_error error = {0};
+        char key[8];
+        int items = 0;
+        json_walk w = json_walk_begin("run.json", cases[i].json, strlen(cases[i].json), 3);
+        json_loop loop = json_walk_into(&w, cases[i].kind, &error);
+        while (cases[i].kind == JSON_ARRAY ? json_walk_next(&w, &loop, &error)
+                                           : json_walk_next_member(&w, &loop, key, sizeof key, &error)) {
+            loop.status = json_walk_skip(&w, &error);
+            items++;
+        }
+        ck_assert_int_eq(items, cases[i].items);
+        if (cases[i].words) {
+            assert_fails(loop.status, error, FRAM_ERROR_INPUT, cases[i].words);
+        } else {
+            assert_ok(loop.status, error);
+            assert_ok(json_walk_end(&w, &error), error);
+        }
+    }
+    fram_error error = {0};
+    json_walk w = json_walk_begin("run.json", "[1, 2]", 6, 3);
+    json_loop loop = json_walk_into(&w, JSON_ARRAY, &error);
+    ck_assert(json_walk_next(&w, &loop, &error));
+    loop.status = FRAM_ERROR_MEMORY;
+    ck_assert(!json_walk_next(&w, &loop, &error));
+    ck_assert_int_eq(loop.status, FRAM_ERROR_MEMORY);
+}
+END_TEST
+
 TEST_MAIN("json_walk", escapes_are_what_they_mean, what_is_written_comes_back, a_long_text_is_cut,
-          what_is_no_text_is_refused, numbers_may_be_missing)
+          what_is_no_text_is_refused, numbers_may_be_missing, loops_end)

@@ -12,17 +12,13 @@
 /* The member of an object, however deep; the walk is then at its value. */
 static void find(json_walk *w, const char *name, fram_error *error)
 {
-    char key[64], text[64];
-    bool more = true;
+    char key[64] = "", text[64];
     snprintf(text, sizeof text, "no member %s", name);
-    assert_ok(json_walk_enter(w, JSON_OBJECT, error), *error);
-    for (bool first = true;; first = false) {
-        assert_ok(json_walk_member(w, first, key, sizeof key, &more, error), *error);
-        ck_assert_msg(more, "%s", text);
-        if (strcmp(key, name) == 0)
-            return;
-        assert_ok(json_walk_skip(w, error), *error);
-    }
+    json_loop loop = json_walk_into(w, JSON_OBJECT, error);
+    while (json_walk_next_member(w, &loop, key, sizeof key, error) && strcmp(key, name) != 0)
+        loop.status = json_walk_skip(w, error);
+    assert_ok(loop.status, *error);
+    ck_assert_msg(strcmp(key, name) == 0, "%s", text);
 }
 
 START_TEST(what_is_no_number_is_null)
