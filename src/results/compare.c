@@ -179,6 +179,14 @@ static void choose_units(pair *p)
     p->energy = kilojoules_or_less(largest_measure(p, "kinetic_energy", LAST));
 }
 
+static bool same_files(const run_note *a, const run_note *b)
+{
+    bool same = a->files.count == b->files.count;
+    for (int32_t i = 0; same && i < a->files.count; i++)
+        same = strcmp(a->files.data[i].digest, b->files.data[i].digest) == 0;
+    return same;
+}
+
 /* The hash has files by their names alone; what is in them is told beside it.  A run of a Fram that lacked a key has
    another hash than one of the same scenario by this: there is what this one reads of both. */
 static void compare_scenarios(const run_data *d, compare_result *out)
@@ -186,8 +194,7 @@ static void compare_scenarios(const run_data *d, compare_result *out)
     const run_note *a = &d[0].note, *b = &d[1].note;
     bool noted = strcmp(a->scenario_hash, b->scenario_hash) == 0;
     bool names = noted || strcmp(d[0].scenario_hash, d[1].scenario_hash) == 0;
-    bool files = a->inputs.count == b->inputs.count &&
-                 (a->inputs.count == 0 || memcmp(a->inputs.data, b->inputs.data, (size_t)a->inputs.count) == 0);
+    bool files = same_files(a, b);
     out->same_scenario = noted && files;
     out->same_as_read = names && files && !noted;
     out->only_files_differ = names && !files;

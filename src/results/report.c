@@ -234,6 +234,25 @@ static void flow_fact(report *r, const char *name, const char *file, double spee
         html_fact(&r->page, name, "none");
 }
 
+/* So many of the names fit in a cell of the page. */
+static void told_fact(report *r)
+{
+    enum { SHOWN = 16, ROOM = VESSEL_NAME_MOST + 50 };
+    char text[SHOWN * ROOM + 32] = "";
+    const char *at = r->d.note.told.data;
+    int count = 0;
+    size_t used = 0;
+    for (size_t length; at && *at; at += length + 1, count++) {
+        length = strcspn(at, "\n");
+        if (count < SHOWN && length + 2 < ROOM)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s", count > 0 ? ", " : "", (int)length, at);
+    }
+    if (count > SHOWN)
+        snprintf(text + used, sizeof text - used, " and %d more", count - SHOWN);
+    if (count > 0)
+        html_fact(&r->page, "told by a program", "the rows above are the scenario's, in place of which were %s", text);
+}
+
 static void scenario_table(report *r)
 {
     const scenario *s = &r->d.s;
@@ -258,9 +277,7 @@ static void scenario_table(report *r)
     if (e->current_profile_file[0])
         html_fact(&r->page, "over depth", "plus the profile %s", file_told(r, e->current_profile_file));
     flow_fact(r, "wind", e->wind_file, e->wind_speed, e->wind_direction_deg);
-    if (r->d.note.told.count > 0)
-        html_fact(&r->page, "told by a program", "the rows above are the scenario's, in place of which were %s",
-                  r->d.note.told.data);
+    told_fact(r);
     html_fact(&r->page, "run", "%g s in steps of %g s, seed %lld", s->run.duration, s->run.time_step,
               (long long)s->run.seed);
     html_table_end(&r->page);

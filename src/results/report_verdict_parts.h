@@ -5,7 +5,7 @@
 #include "results/report_parts.h"
 
 /* A text holds the longest message of a failed run (run_note), and what goes before it. */
-enum { VERDICT_TEXT_SIZE = 640 };
+enum { VERDICT_TEXT_SIZE = sizeof((run_note *)0)->message + 128 };
 
 typedef struct finding {
     verdict_grade grade;

@@ -3,7 +3,6 @@
 #include "base/channel_statistics.h"
 #include "base/sort.h"
 #include "io/file.h"
-#include "io/json_walk.h"
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_ice.h"
@@ -12,205 +11,6 @@
 
 #include <math.h>
 #include <string.h>
-
-enum { NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
-
-/* ---- run.json ---- */
-
-typedef struct note_member {
-    const char *name;
-    char *text; /* NULL: a number */
-    size_t room;
-    double *number;
-} note_member;
-
-static fram_status read_named(json_walk *w, const char *key, const note_member *members, size_t count,
-                              fram_error *error)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(key, members[i].name) != 0)
-            continue;
-        return members[i].text ? json_walk_text(w, members[i].text, members[i].room, error)
-                               : json_walk_number_or_null(w, members[i].number, error);
-    }
-    return json_walk_skip(w, error);
-}
-
-/* What it has of these. */
-static fram_status read_object(json_walk *w, const note_member *members, size_t count, fram_error *error)
-{
-    char key[64];
-    json_loop loop = json_walk_into(w, JSON_OBJECT, error);
-    while (json_walk_next_member(w, &loop, key, sizeof key, error))
-        loop.status = read_named(w, key, members, count, error);
-    return loop.status;
-}
-
-static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
-{
-    const note_member members[] = {{"time_s", NULL, 0, &e->time},
-                                   {"value", NULL, 0, &e->value},
-                                   {"kind", e->kind, sizeof e->kind, NULL},
-                                   {"vessel", e->vessel, sizeof e->vessel, NULL},
-                                   {"text", e->text, sizeof e->text, NULL}};
-    return read_object(w, members, sizeof members / sizeof *members, error);
-}
-
-static fram_status read_events(context *ctx, json_walk *w, run_note *n, fram_error *error)
-{
-    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
-    while (json_walk_next(w, &loop, error)) {
-        run_event e = {0};
-        loop.status = read_event(w, &e, error);
-        if (loop.status == FRAM_OK && !array_push(ctx, &n->events, e))
-            loop.status = error_memory(error);
-    }
-    return loop.status;
-}
-
-static fram_status read_track(json_walk *w, run_track *t, fram_error *error)
-{
-    const note_member members[] = {{"vessel", t->vessel, sizeof t->vessel, NULL},
-                                   {"limit_m", NULL, 0, &t->limit},
-                                   {"largest_m", NULL, 0, &t->largest},
-                                   {"rms_m", NULL, 0, &t->rms},
-                                   {"time_s", NULL, 0, &t->time},
-                                   {"rounds", NULL, 0, &t->rounds}};
-    return read_object(w, members, sizeof members / sizeof *members, error);
-}
-
-static fram_status read_tracks(context *ctx, json_walk *w, run_note *n, fram_error *error)
-{
-    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
-    while (json_walk_next(w, &loop, error)) {
-        run_track t = {0};
-        loop.status = read_track(w, &t, error);
-        if (loop.status == FRAM_OK && !array_push(ctx, &n->tracks, t))
-            loop.status = error_memory(error);
-    }
-    return loop.status;
-}
-
-static fram_status read_inputs(context *ctx, json_walk *w, run_note *n, fram_error *error)
-{
-    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
-    while (json_walk_next(w, &loop, error)) {
-        char digest[SHA256_TEXT_SIZE] = "";
-        const note_member members[] = {{"sha256", digest, sizeof digest, NULL}};
-        loop.status = read_object(w, members, sizeof members / sizeof *members, error);
-        text_add(ctx, &n->inputs, digest);
-    }
-    return loop.status == FRAM_OK && n->inputs.failed ? error_memory(error) : loop.status;
-}
-
-/* So many names of what a program told fit in a cell of a page. */
-enum { TOLD_MOST = 16 };
-
-static fram_status read_told(context *ctx, json_walk *w, run_note *n, fram_error *error)
-{
-    int count = 0;
-    json_loop loop = json_walk_into(w, JSON_ARRAY, error);
-    while (json_walk_next(w, &loop, error)) {
-        char name[VESSEL_NAME_MOST + 48];
-        loop.status = json_walk_text(w, name, sizeof name, error);
-        if (loop.status == FRAM_OK && count < TOLD_MOST)
-            text_format(ctx, &n->told, "%s%s", count == 0 ? "" : ", ", name);
-        count++;
-    }
-    if (count > TOLD_MOST)
-        text_format(ctx, &n->told, " and %d more", count - TOLD_MOST);
-    return loop.status == FRAM_OK && n->told.failed ? error_memory(error) : loop.status;
-}
-
-static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
-{
-    if (strcmp(key, "tracks") == 0)
-        return read_tracks(ctx, w, n, error);
-    if (strcmp(key, "events") == 0)
-        return read_events(ctx, w, n, error);
-    if (strcmp(key, "inputs") == 0)
-        return read_inputs(ctx, w, n, error);
-    if (strcmp(key, "told") == 0)
-        return read_told(ctx, w, n, error);
-    const note_member members[] = {
-        {"fram_version", n->version, sizeof n->version, NULL},
-        {"compiler", n->compiler, sizeof n->compiler, NULL},
-        {"libraries", n->libraries, sizeof n->libraries, NULL},
-        {"isa", n->isa, sizeof n->isa, NULL},
-        {"status", n->status, sizeof n->status, NULL},
-        {"message", n->message, sizeof n->message, NULL},
-        {"scenario_hash", n->scenario_hash, sizeof n->scenario_hash, NULL},
-        {"state_hash", n->state_hash, sizeof n->state_hash, NULL},
-        {"threads", NULL, 0, &n->threads},
-        {"steps", NULL, 0, &n->steps},
-        {"time_s", NULL, 0, &n->time},
-        {"recorded_from_s", NULL, 0, &n->recorded_from},
-        {"good_until_s", NULL, 0, &n->good_until},
-        {"wall_s", NULL, 0, &n->wall},
-        {"recording_s", NULL, 0, &n->recording},
-        {"step_wall_median_ms", NULL, 0, &n->step_median},
-        {"step_wall_p99_ms", NULL, 0, &n->step_p99},
-        {"step_wall_p999_ms", NULL, 0, &n->step_p999},
-        {"step_wall_longest_ms", NULL, 0, &n->step_longest},
-        {"events_left_out", NULL, 0, &n->events_left_out},
-    };
-    return read_named(w, key, members, sizeof members / sizeof *members, error);
-}
-
-/* Beyond all steps and seconds that the longest run.duration has at the shortest run.time_step. */
-#define NOTE_MOST 1e15
-#define NO_RUN_WROTE ": no run of Fram wrote that; run the scenario again"
-
-static fram_status check_number(const char *path, const char *key, double value, fram_error *error)
-{
-    if (value >= 0 && value <= NOTE_MOST)
-        return FRAM_OK;
-    if (isnan(value))
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, key, "is missing" NO_RUN_WROTE);
-    return error_set(error, FRAM_ERROR_INPUT, path, 0, key, "expected a number from 0 to %g, found %.6g" NO_RUN_WROTE,
-                     NOTE_MOST, value);
-}
-
-/* What every run tells. */
-static fram_status check_note(const run_note *n, const char *path, fram_error *error)
-{
-    static const char *const states[] = {"running", "finished", "stopped", "interrupted", "failed"};
-    size_t i = 0, count = sizeof states / sizeof *states;
-    while (i < count && strcmp(n->status, states[i]) != 0)
-        i++;
-    if (i == count)
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, "status",
-                         "expected running, finished, stopped, interrupted or failed, found \"%s\"" NO_RUN_WROTE,
-                         n->status);
-    fram_status status = check_number(path, "steps", n->steps, error);
-    return status == FRAM_OK ? check_number(path, "time_s", n->time, error) : status;
-}
-
-static fram_status read_note(context *ctx, const char *folder, run_note *n, fram_error *error)
-{
-    char path[PATH_ROOM], key[64], *text = NULL;
-    size_t size = 0;
-    fram_status status = path_join(folder, "run.json", path, error);
-    if (status == FRAM_OK)
-        status = file_read(ctx, path, NOTE_LIMIT, &text, &size, error);
-    if (status != FRAM_OK)
-        return status;
-    json_walk w = json_walk_begin(path, text, size, JSON_DEPTH);
-    json_loop loop = json_walk_into(&w, JSON_OBJECT, error);
-    while (json_walk_next_member(&w, &loop, key, sizeof key, error))
-        loop.status = read_member(ctx, &w, key, n, error);
-    status = loop.status == FRAM_OK ? json_walk_end(&w, error) : loop.status;
-    memory_free(ctx, text);
-    return status == FRAM_OK ? check_note(n, path, error) : status;
-}
-
-static void note_free(context *ctx, run_note *n)
-{
-    array_free(ctx, &n->events);
-    array_free(ctx, &n->tracks);
-    text_free(ctx, &n->inputs);
-    text_free(ctx, &n->told);
-}
 
 /* ---- the field ---- */
 
@@ -330,16 +130,19 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, con
                           fram_error *error)
 {
     char path[PATH_ROOM];
-    *d = (run_data){.note = {.recorded_from = -1, .steps = (double)NAN, .time = (double)NAN}};
+    *d = (run_data){0};
+    run_note_init(&d->note);
     fram_status status = path_given_or(folder, NULL, NULL, d->folder, error);
     if (status == FRAM_OK)
-        status = read_note(ctx, folder, &d->note, error);
+        status = run_note_read(ctx, folder, &d->note, error);
+    if (status == FRAM_OK)
+        status = run_note_check(&d->note, folder, error);
     if (status == FRAM_OK)
         status = path_join(folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_read_alone(ctx, path, NULL, &d->s, error);
     if (status != FRAM_OK) {
-        note_free(ctx, &d->note);
+        run_note_free(ctx, &d->note);
         return status;
     }
     status = run_find_change(ctx, d, error);
@@ -367,7 +170,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, con
 void run_data_free(context *ctx, run_data *d)
 {
     scenario_free(ctx, &d->s);
-    note_free(ctx, &d->note);
+    run_note_free(ctx, &d->note);
     csv_table_free(ctx, &d->series);
     csv_table_free(ctx, &d->fractures);
     array_free(ctx, &d->before.areas);

@@ -6,37 +6,9 @@
 #include "base/hash.h"
 #include "io/csv_read.h"
 #include "io/path.h"
-#include "io/text_buffer.h"
+#include "io/run_note.h"
 #include "model/scenario.h"
 #include "vessel/event.h"
-
-/* What befell a vessel, as run.json has it. */
-typedef struct run_event {
-    double time, value; /* [s], what the kind says (vessel/event.h) */
-    char vessel[25], kind[24], text[160];
-} run_event;
-
-/* How a ship that drives itself kept its track. */
-typedef struct run_track {
-    char vessel[25];
-    double limit, largest, rms; /* track error: beyond which it is off, most, and in the mean [m] */
-    double time, rounds;        /* that counts, 0: it never came to its track [s]; of its pattern */
-} run_track;
-
-/* Texts of run.json; "" for those that are missing.  Of a run that has no end yet, steps and time are how far its
-   series goes, and there is no hash of its state, no track, no computing time that says anything. */
-typedef struct run_note {
-    char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
-    char scenario_hash[SHA256_TEXT_SIZE], state_hash[17];
-    double threads, steps, time, wall, recording, events_left_out;
-    double recorded_from; /* when its recording began [s]; -1: not told, by earlier versions */
-    double good_until;    /* of a run that failed: the end of its last good step [s]; 0: not told, or there is none */
-    double step_median, step_p99, step_p999, step_longest; /* wall time [ms]; 0: not told */
-    ARRAY(run_event) events;
-    ARRAY(run_track) tracks;
-    text_buffer told;   /* names of what a program told the world in place of the scenario, "wind_x, path and 2 more" */
-    text_buffer inputs; /* SHA-256 of the files that the scenario names, one after the other */
-} run_note;
 
 /* The ice of one frame. */
 typedef struct field_state {
@@ -55,7 +27,8 @@ typedef struct run_data {
     scenario s;
     char scenario_hash[SHA256_TEXT_SIZE]; /* of s, that is as scenario.yaml stands now and this program reads it */
     bool is_changed;                      /* it is not the one that the run was made of, or another Fram made it */
-    run_note note;
+    run_note note; /* of a run that has no end yet, steps and time are how far its series goes, and there is no hash of
+                      its state, no track, no computing time that says anything */
     csv_table series, fractures;
     field_state before, after; /* empty without a record */
     int64_t frames;

@@ -9,6 +9,7 @@
 #include "sim/pictures.h"
 #include "sim/run_folder.h"
 #include "sim/run_inputs.h"
+#include "sim/run_summary.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -57,7 +58,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
                            .step_times = &r->steps,
                            .state_hash = world_hash(r->w)};
     memcpy(summary.scenario_hash, r->hash, sizeof summary.scenario_hash);
-    return run_folder_write_summary(r->ctx, r->folder, r->s, r->w, &summary, error);
+    return run_summary_write(r->ctx, r->folder, r->s, r->w, &summary, error);
 }
 
 static fram_status draw_plan(recording *r, const char *name, fram_error *error)

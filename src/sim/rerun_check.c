@@ -2,8 +2,8 @@
 
 #include "base/number_text.h"
 #include "io/csv_read.h"
-#include "io/json_walk.h"
 #include "io/path.h"
+#include "io/run_note.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 /* Rows have CSV_DIGITS digits: two numbers that differ by more than this part of them are not the same. */
 static const double SAME_PART = 1e-11;
 /* Bytes of series.csv that are read at once, about twenty rows. */
-enum { READ_AT_ONCE = 1 << 16, SUMMARY_MOST = 1 << 26, JSON_DEPTH = 16, WORD_SIZE = 32 };
+enum { READ_AT_ONCE = 1 << 16, WORD_SIZE = 32 };
 
 /* ---- rows ---- */
 
@@ -194,55 +194,27 @@ bool rerun_check_awaits(const rerun_check *c, double time)
 /* ---- the end ---- */
 
 typedef struct run_end {
-    char status[WORD_SIZE], hash[WORD_SIZE];
+    char hash[WORD_SIZE];
     double time, steps; /* steps -1: nothing tells; time -1: neither does the note of a failure */
-    double good_until;
 } run_end;
-
-static fram_status read_end(json_walk *w, run_end *e, fram_error *error)
-{
-    char key[WORD_SIZE];
-    json_loop loop = json_walk_into(w, JSON_OBJECT, error);
-    while (json_walk_next_member(w, &loop, key, sizeof key, error)) {
-        if (strcmp(key, "status") == 0)
-            loop.status = json_walk_text(w, e->status, sizeof e->status, error);
-        else if (strcmp(key, "state_hash") == 0)
-            loop.status = json_walk_text(w, e->hash, sizeof e->hash, error);
-        else if (strcmp(key, "time_s") == 0)
-            loop.status = json_walk_number_or_null(w, &e->time, error);
-        else if (strcmp(key, "steps") == 0)
-            loop.status = json_walk_number(w, &e->steps, error);
-        else if (strcmp(key, "good_until_s") == 0)
-            loop.status = json_walk_number_or_null(w, &e->good_until, error);
-        else
-            loop.status = json_walk_skip(w, error);
-    }
-    return loop.status;
-}
 
 /* Of a run that came to an end of its own; of one that failed only how far it went; a file that is not there, is
    damaged, or of one that was killed tells nothing. */
 static fram_status find_end(context *ctx, const char *folder, run_end *e, fram_error *error)
 {
-    char path[PATH_ROOM];
-    char *text = NULL;
-    size_t size = 0;
-    fram_status status = path_join(folder, "run.json", path, NULL);
-    *e = (run_end){.time = -1, .steps = -1, .good_until = -1};
-    if (status == FRAM_OK)
-        status = file_read(ctx, path, SUMMARY_MOST, &text, &size, NULL);
+    run_note n;
+    fram_status status = run_note_read(ctx, folder, &n, NULL);
+    bool ended =
+        strcmp(n.status, "finished") == 0 || strcmp(n.status, "stopped") == 0 || strcmp(n.status, "interrupted") == 0;
+    *e = (run_end){.steps = -1, .time = -1};
     if (status == FRAM_OK) {
-        json_walk w = json_walk_begin(path, text, size, JSON_DEPTH);
-        status = read_end(&w, e, NULL);
+        double time = ended ? n.time : n.good_until;
+        e->time = isnan(time) ? -1 : time;
+        e->steps = ended && !isnan(n.steps) ? n.steps : -1;
+        snprintf(e->hash, sizeof e->hash, "%s", ended ? n.state_hash : "");
     }
-    memory_free(ctx, text);
-    if (status == FRAM_ERROR_MEMORY)
-        return error_memory(error);
-    bool ended = strcmp(e->status, "finished") == 0 || strcmp(e->status, "stopped") == 0 ||
-                 strcmp(e->status, "interrupted") == 0;
-    if (status != FRAM_OK || !ended)
-        *e = (run_end){.steps = -1, .time = status == FRAM_OK ? e->good_until : -1};
-    return FRAM_OK;
+    run_note_free(ctx, &n);
+    return status == FRAM_ERROR_MEMORY ? error_memory(error) : FRAM_OK;
 }
 
 fram_status rerun_check_end(const rerun_check *c, const world *w, double time, fram_error *error)

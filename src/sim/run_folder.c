@@ -1,22 +1,16 @@
 #include "sim/run_folder.h"
 
-#include "base/build.h"
-#include "base/number_text.h"
-#include "fram/version.h"
-#include "io/atomic_file.h"
 #include "io/file.h"
 #include "io/folder.h"
 #include "io/path.h"
 #include "io/run_files.h"
+#include "io/run_note.h"
 #include "io/temporary.h"
-#include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
 #include "sim/run_inputs.h"
-#include "sim/run_told.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/file.h>
@@ -314,18 +308,15 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, con
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
                                  fram_error *error)
 {
-    char path[PATH_ROOM], *text = NULL;
-    size_t size = 0;
+    char *text = NULL;
     run_input file;
-    fram_status status = path_join(folder, "run.json", path, error);
-    if (status == FRAM_OK)
-        status = file_read(ctx, path, RUN_NOTE_MOST, &text, &size, error);
-    if (status == FRAM_OK && !strstr(text, scenario_hash))
+    fram_status status = run_note_load(ctx, folder, &text, error);
+    if (status == FRAM_OK && !run_note_mentions(text, scenario_hash))
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "scenario.yaml",
                            "was changed since the run was made, or is read by another version of Fram: restore it or "
                            "make the run again");
     for (const char *end = inputs + strlen(inputs); status == FRAM_OK && run_inputs_next(&inputs, end, &file);) {
-        if (!strstr(text, file.digest))
+        if (!run_note_mentions(text, file.digest))
             status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "inputs",
                                "%.*s was changed since the run was made; restore it or make the run again",
                                file.path_length, file.path);
@@ -336,150 +327,9 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
 
 fram_status run_folder_recorded_from(context *ctx, const char *folder, double *time, fram_error *error)
 {
-    static const char key[] = "\"recorded_from_s\": ";
-    char path[PATH_ROOM], *text = NULL, *end;
-    size_t size = 0;
-    fram_status status = path_join(folder, "run.json", path, NULL);
-    if (status == FRAM_OK)
-        status = file_read(ctx, path, RUN_NOTE_MOST, &text, &size, NULL);
-    /* No text of the file has its quotes. */
-    const char *found = status == FRAM_OK ? strstr(text, key) : NULL;
-    *time = found ? real_read(found + sizeof key - 1, &end) : -1;
-    memory_free(ctx, text);
+    run_note n;
+    fram_status status = run_note_read(ctx, folder, &n, NULL);
+    *time = status == FRAM_OK ? n.recorded_from : -1;
+    run_note_free(ctx, &n);
     return status == FRAM_ERROR_MEMORY ? error_memory(error) : FRAM_OK;
-}
-
-/* ---- summary ---- */
-
-static void add_text_member(context *ctx, text_buffer *b, const char *key, const char *value)
-{
-    text_format(ctx, b, "  \"%s\": ", key);
-    text_quoted(ctx, b, value);
-    text_add(ctx, b, ",\n");
-}
-
-/* A member by the fewest digits that read back as the same number, as people are told it. */
-static void add_real_member(context *ctx, text_buffer *b, const char *before, double value)
-{
-    text_format(ctx, b, "%s: ", before);
-    text_real_or_null(ctx, b, value);
-}
-
-static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
-{
-    text_add(ctx, b, "  \"inputs\": [");
-    const char *comma = "";
-    run_input file;
-    for (const char *end = inputs + strlen(inputs); run_inputs_next(&inputs, end, &file); comma = ", ") {
-        char path[PATH_ROOM];
-        snprintf(path, sizeof path, "%.*s", file.path_length, file.path);
-        text_format(ctx, b, "%s{\"sha256\": \"%s\", \"file\": ", comma, file.digest);
-        text_quoted(ctx, b, path);
-        text_add(ctx, b, "}");
-    }
-    text_add(ctx, b, "],\n");
-}
-
-/* What befell the vessels, as far as a file that is read in one go can hold it. */
-static void add_events(context *ctx, text_buffer *b, const scenario *s, const event_table *events)
-{
-    enum { MOST = 1000 };
-    int32_t shown = events->count < MOST ? events->count : MOST;
-    text_add(ctx, b, "  \"events\": [");
-    for (int32_t i = 0; i < shown; i++) {
-        char text[160];
-        bool of_two = event_is_of_two((station_event)events->kind[i]);
-        const char *name = scenario_vessel_name(s, events->vessel[i]);
-        const char *other = of_two ? scenario_vessel_name(s, events->number[i]) : NULL;
-        event_text(events, i, other, scenario_vessel_entry(s, events->vessel[i]).keys->approach.look_ahead, text,
-                   sizeof text);
-        add_real_member(ctx, b, i > 0 ? ",\n    {\"time_s\"" : "\n    {\"time_s\"", events->time[i]);
-        text_format(ctx, b, ", \"kind\": \"%s\", ", event_name((station_event)events->kind[i]));
-        if (name)
-            text_format(ctx, b, "\"vessel\": \"%s\", ", name);
-        if (other)
-            text_format(ctx, b, "\"other\": \"%s\", ", other);
-        add_real_member(ctx, b, "\"value\"", events->value[i]);
-        add_real_member(ctx, b, ", \"ahead_s\"", events->ahead[i]);
-        text_format(ctx, b, ", \"text\": \"%s\"}", text);
-    }
-    text_format(ctx, b, "],\n  \"events_left_out\": %d,\n", (int)(events->count - shown));
-}
-
-/* How ships that drive themselves kept their tracks. */
-static void add_tracks(context *ctx, text_buffer *b, const scenario *s, const propulsion_table *p)
-{
-    const char *comma = "";
-    text_add(ctx, b, "  \"tracks\": [");
-    for (int32_t i = 0; i < p->count; i++) {
-        const scenario_propulsion *keys = &scenario_vessel_entry(s, p->vessel[i]).keys->propulsion;
-        const char *name = scenario_vessel_name(s, p->vessel[i]);
-        if (keys->pattern.kind == PATTERN_NONE && keys->waypoints.count == 0)
-            continue;
-        text_format(ctx, b, "%s\n    {", comma);
-        if (name)
-            text_format(ctx, b, "\"vessel\": \"%s\", ", name);
-        add_real_member(ctx, b, "\"limit_m\"", p->settings[i].track_limit);
-        add_real_member(ctx, b, ", \"largest_m\"", p->off_most[i]);
-        add_real_member(ctx, b, ", \"rms_m\"", p->off_time[i] > 0 ? sqrt(p->off_square[i] / p->off_time[i]) : 0);
-        add_real_member(ctx, b, ", \"time_s\"", p->off_time[i]);
-        text_format(ctx, b, ", \"rounds\": %" PRId64 "}", p->rounds[i]);
-        comma = ",";
-    }
-    text_add(ctx, b, "],\n");
-}
-
-/* Wall times of steps, to the digits that their bins have. */
-static void add_step_times(context *ctx, text_buffer *b, const time_ranks *t)
-{
-    if (t->count > 0)
-        text_format(ctx, b,
-                    "  \"step_wall_median_ms\": %.3g,\n  \"step_wall_p99_ms\": %.3g,\n  \"step_wall_p999_ms\": %.3g,\n"
-                    "  \"step_wall_longest_ms\": %.3g,\n",
-                    1e3 * time_ranks_at(t, 500), 1e3 * time_ranks_at(t, 990), 1e3 * time_ranks_at(t, 999),
-                    1e3 * t->longest);
-}
-
-fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
-                                     const run_summary *summary, fram_error *error)
-{
-    char path[PATH_ROOM];
-    if (path_join(folder, "run.json", path, error) != FRAM_OK)
-        return FRAM_ERROR_INPUT;
-    text_buffer b = {0};
-    text_add(ctx, &b, "{\n");
-    add_text_member(ctx, &b, "fram_version", FRAM_VERSION);
-    add_text_member(ctx, &b, "compiler", build_compiler());
-    add_text_member(ctx, &b, "libraries", build_parts());
-    add_text_member(ctx, &b, "isa", isa_name(ctx->isa));
-    text_format(ctx, &b, "  \"threads\": %d,\n", summary->threads);
-    add_text_member(ctx, &b, "title", s->title);
-    text_format(ctx, &b, "  \"seed\": %" PRId64 ",\n", s->run.seed);
-    add_text_member(ctx, &b, "scenario_hash", summary->scenario_hash);
-    add_inputs(ctx, &b, summary->inputs);
-    add_text_member(ctx, &b, "status", summary->status);
-    if (summary->message) {
-        add_text_member(ctx, &b, "message", summary->message);
-        add_real_member(ctx, &b, "  \"good_until_s\"", summary->good_until);
-        text_add(ctx, &b, ",\n");
-    }
-    if (summary->recorded_from >= 0) {
-        add_real_member(ctx, &b, "  \"recorded_from_s\"", summary->recorded_from);
-        text_add(ctx, &b, ",\n");
-    }
-    text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n", w->clock.step[0]);
-    add_real_member(ctx, &b, "  \"time_s\"", w->clock.time[0]);
-    text_add(ctx, &b, ",\n");
-    add_events(ctx, &b, s, &w->events);
-    add_tracks(ctx, &b, s, &w->propulsion);
-    text_add(ctx, &b, "  \"told\": [");
-    run_told_add(ctx, s, w, &b);
-    text_add(ctx, &b, "],\n");
-    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
-                summary->recording, summary->recording_end);
-    add_step_times(ctx, &b, summary->step_times);
-    text_format(ctx, &b, "  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->state_hash);
-    fram_status status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
-    text_free(ctx, &b);
-    return status;
 }

@@ -3,11 +3,9 @@
 #ifndef SIM_RUN_FOLDER_H
 #define SIM_RUN_FOLDER_H
 
-#include "base/hash.h"
-#include "base/time_ranks.h"
-#include "io/text_buffer.h"
-#include "model/scenario.h"
-#include "model/world.h"
+#include "base/context.h"
+
+#include <stdbool.h>
 
 /* The folder and those above it, where they are not there. */
 fram_status run_folder_make(const char *folder, fram_error *error);
@@ -32,8 +30,6 @@ fram_status run_folder_refuse_pipes(const char *folder, fram_error *error);
 fram_status run_folder_prepare(context *ctx, const char *folder, bool force, const char *inputs, int *lock,
                                fram_error *error);
 
-/* Bytes that a run.json has at most. */
-enum { RUN_NOTE_MOST = 1 << 26 };
 /* Whether the run was made of this scenario (its hash) and these inputs (run_inputs_list), by its run.json;
    FRAM_ERROR_INPUT names what was changed. */
 fram_status run_folder_unchanged(context *ctx, const char *folder, const char *scenario_hash, const char *inputs,
@@ -41,23 +37,5 @@ fram_status run_folder_unchanged(context *ctx, const char *folder, const char *s
 
 /* When its recording began, by its run.json [s]; -1: that does not tell. */
 fram_status run_folder_recorded_from(context *ctx, const char *folder, double *time, fram_error *error);
-
-/* How a run stands, for run.json. */
-typedef struct run_summary {
-    const char *status;   /* "running", "stopped", "finished", "interrupted", "failed" */
-    const char *message;  /* of a failure, or NULL */
-    double recorded_from; /* when its recording began [s]; -1: not known */
-    double good_until;    /* with a message: the end of the last step before the one that failed [s] */
-    char scenario_hash[SHA256_TEXT_SIZE];
-    const char *inputs;
-    int threads;
-    double wall;          /* of the last call [s] */
-    double recording;     /* of it for what the run writes: series, frames, checkpoints, pictures, results [s] */
-    double recording_end; /* of that at the end: the last checkpoint, pictures, results [s] */
-    const time_ranks *step_times; /* of the last call */
-    uint64_t state_hash;
-} run_summary;
-fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
-                                     const run_summary *summary, fram_error *error);
 
 #endif

@@ -8,14 +8,9 @@
 typedef struct told_list {
     context *ctx;
     text_buffer *out;
-    const char *comma;
 } told_list;
 
-static void add_told(told_list *l, const char *name)
-{
-    text_format(l->ctx, l->out, "%s\"%s\"", l->comma, name);
-    l->comma = ", ";
-}
+static void add_told(told_list *l, const char *name) { text_format(l->ctx, l->out, "%s\n", name); }
 
 static void add_flow(told_list *l, const world *w, input_kind kind, const char *name)
 {
@@ -84,9 +79,9 @@ static bool velocity_is_given(const scenario_vessel *v, const world *w, int32_t 
     return v->mode == VESSEL_FREE || v->path.count > 0 || (now.x == given.x && now.y == given.y);
 }
 
-void run_told_add(context *ctx, const scenario *s, const world *w, text_buffer *out)
+void run_told_list(context *ctx, const scenario *s, const world *w, text_buffer *out)
 {
-    told_list l = {ctx, out, ""};
+    told_list l = {ctx, out};
     add_flow(&l, w, INPUT_WIND, "wind");
     add_flow(&l, w, INPUT_CURRENT, "current");
     add_flow(&l, w, INPUT_DRIFT, "ice_drift");

@@ -7,10 +7,10 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
-/* Names in quotes, divided by commas: components of wind, current and drift, and of each vessel the force from outside,
+/* Names, a line each: components of wind, current and drift, and of each vessel the force from outside,
    the path and the velocity of its carriage, by the names of inputs (controls.h); "set_point" where that ended way
    points of the scenario.  When it was told is not known, nor other set points, orders to thrusters and lines, which
    are no conditions. */
-void run_told_add(context *ctx, const scenario *s, const world *w, text_buffer *out);
+void run_told_list(context *ctx, const scenario *s, const world *w, text_buffer *out);
 
 #endif

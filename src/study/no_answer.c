@@ -1,8 +1,8 @@
 #include "study/no_answer.h"
 
 #include "io/file.h"
+#include "io/run_note.h"
 #include "io/text_buffer.h"
-#include "sim/run_folder.h"
 #include "study/run_row.h"
 
 #include <errno.h>

@@ -5,6 +5,7 @@
 #include "fram/version.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
+#include "io/run_note.h"
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "sim/run_folder.h"
@@ -379,23 +380,19 @@ bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, 
 
 fram_status study_run_check_files(const study_folder *f, int32_t condition, const char *folder, fram_error *error)
 {
-    text_buffer path = {0};
     char *text = NULL;
-    size_t size = 0;
     run_input file;
-    text_format(f->ctx, &path, "%s/run.json", folder);
-    fram_status status = path.failed ? error_memory(error) : FRAM_OK;
     const char *at = f->files[condition];
-    if (status == FRAM_OK && at && file_is_readable(path.data))
-        status = file_read(f->ctx, path.data, RUN_NOTE_MOST, &text, &size, error);
-    for (const char *end = text ? at + strlen(at) : at; status == FRAM_OK && text && run_inputs_next(&at, end, &file);)
-        if (!strstr(text, file.digest))
+    if (!at || !run_note_is_there(folder))
+        return FRAM_OK;
+    fram_status status = run_note_load(f->ctx, folder, &text, error);
+    for (const char *end = at + strlen(at); status == FRAM_OK && run_inputs_next(&at, end, &file);)
+        if (!run_note_mentions(text, file.digest))
             status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "inputs",
                                "%.*s was changed while the study ran; what ended before is kept: restore the file, or "
                                "have all runs made of what it is now, and give the same command again",
                                file.path_length, file.path);
     memory_free(f->ctx, text);
-    text_free(f->ctx, &path);
     return status;
 }
 

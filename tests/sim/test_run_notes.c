@@ -1,5 +1,5 @@
-/* sim/run_folder: run.json is JSON whatever a run comes to, and its texts read back as they were. */
-#include "sim/run_folder.h"
+/* sim/run_summary: run.json is JSON whatever a run comes to, and its texts read back as they were. */
+#include "sim/run_summary.h"
 
 #include "io/file.h"
 #include "io/json_walk.h"
@@ -45,7 +45,7 @@ START_TEST(what_is_no_number_is_null)
     char folder[] = "/tmp/fram_notes_XXXXXX", path[64], text[64], *data = NULL;
     ck_assert_ptr_nonnull(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/run.json", folder);
-    assert_ok(run_folder_write_summary(&ctx, folder, &s, &w, &summary, &error), error);
+    assert_ok(run_summary_write(&ctx, folder, &s, &w, &summary, &error), error);
     size_t size = 0;
     assert_ok(file_read(&ctx, path, 1 << 20, &data, &size, &error), error);
     const json_walk begin = json_walk_begin(path, data, size, 8);
