@@ -70,7 +70,7 @@ static void add_corner(rim *r, int cap, vec2 place, double into)
 }
 
 /* A cap that lies in the water plane is wet. */
-static void add_point(rim *r, const rim_point *p)
+static void add_rim_point(rim *r, const rim_point *p)
 {
     r->batch->outline.corner[r->count][r->lane] = p->place;
     r->batch->depth[r->count][r->lane] = p->depth;
@@ -103,10 +103,10 @@ static bool make_rim(const water_line *w, const vec2 *vertex, int32_t n, rim *ou
             bool upper = rising == (i == 0);
             if (upper ? crosses(a.upper, b.upper) : crosses(a.lower, b.lower)) {
                 rim_point p = crossing(w, &a, &b, upper);
-                add_point(out, &p);
+                add_rim_point(out, &p);
             }
         }
-        add_point(out, &b);
+        add_rim_point(out, &b);
         a = b;
     }
     return true;
