@@ -102,7 +102,7 @@ fram_status fram_plot(fram_context *c, const char *run, const char *const *chann
     for (int i = 0; i < channel_count && status == FRAM_OK; i++)
         status = REFUSE_NULL(error, {"channels", channels[i]});
     if (status == FRAM_OK)
-        status = path_refuse_own(run, output, error);
+        status = path_take(run, output, error);
     if (status != FRAM_OK)
         return status;
     return plot_channels(&c->inner, run, channels, channel_count, from, to, output, error);
@@ -144,9 +144,9 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
     if (status == FRAM_OK)
         status = comparison_check(comparison, size, error);
     if (status == FRAM_OK && output)
-        status = path_refuse_own(run_a, output, error);
+        status = path_take(run_a, output, error);
     if (status == FRAM_OK && output)
-        status = path_refuse_own(run_b, output, error);
+        status = path_take(run_b, output, error);
     if (status != FRAM_OK)
         return status;
     comparison_inside *in = memory_array(&c->inner, 1, sizeof *in);

@@ -289,7 +289,7 @@ fram_status(fram_playback)(fram_context *c, const fram_playback_definition *defi
     if (status == FRAM_OK)
         status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
     if (status == FRAM_OK)
-        status = path_refuse_own(d->folder, d->output, error);
+        status = path_take(d->folder, d->output, error);
     if (status == FRAM_OK)
         status = path_refuse_read(d->viewer_page, d->output, "output", error);
     if (status != FRAM_OK)

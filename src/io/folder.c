@@ -4,7 +4,9 @@
 #include "io/path.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 const char *folder_next(DIR *folder, int *failure)
@@ -29,9 +31,35 @@ bool name_is_numbered(const char *name, const char *begin, size_t digits, const 
     return found >= digits && strcmp(name + length + found, end) == 0;
 }
 
+DIR *folder_open_own(const char *path)
+{
+    int descriptor = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *folder = descriptor >= 0 ? fdopendir(descriptor) : NULL;
+    if (!folder && descriptor >= 0)
+        close(descriptor);
+    return folder;
+}
+
+fram_status folder_make_own(const char *path, fram_error *error)
+{
+    if (mkdir(path, 0777) == 0)
+        return FRAM_OK;
+    return errno == EEXIST ? folder_refuse_other(path, error) : file_error(error, path, "make the folder", errno);
+}
+
+fram_status folder_refuse_other(const char *path, fram_error *error)
+{
+    struct stat about;
+    if (lstat(path, &about) != 0 || S_ISDIR(about.st_mode))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                     "expected a folder to write into, found %s: remove it, or move it away",
+                     S_ISLNK(about.st_mode) ? "a link" : "a file");
+}
+
 void folder_remove_files(const char *path, bool (*is_such)(const char *name))
 {
-    DIR *folder = opendir(path);
+    DIR *folder = folder_open_own(path);
     if (!folder)
         return;
     int failure;

@@ -14,7 +14,15 @@ const char *folder_next(DIR *folder, int *failure);
 /* Whether a name is `begin`, so many digits or more, and `end`: "floes_000012.vtp". */
 bool name_is_numbered(const char *name, const char *begin, size_t digits, const char *end);
 
-/* Removes the files in a folder whose names are such; one that cannot be listed or removed stays. */
+/* To list a folder that is Fram's own inside another one, and may be emptied: NULL where it is no folder, or a link to
+   one, which may lead anywhere. */
+DIR *folder_open_own(const char *path);
+/* One that is to be written into is made, or is there; FRAM_ERROR_INPUT for a link to one, or what is none. */
+fram_status folder_make_own(const char *path, fram_error *error);
+/* The same error, where there is something: asked before the work of one that is made at its end. */
+fram_status folder_refuse_other(const char *path, fram_error *error);
+
+/* Removes the files in a folder (folder_open_own) whose names are such; one that cannot be listed or removed stays. */
 void folder_remove_files(const char *path, bool (*is_such)(const char *name));
 
 /* Whether a regular file of this name in the folder begins with a text of up to 64 bytes. */

@@ -49,6 +49,41 @@ fram_status path_refuse_read(const char *read, const char *path, const char *key
     return error_set(error, FRAM_ERROR_USAGE, path, 0, key, "expected a file of its own, found one that is read");
 }
 
+/* In the same call that makes the path, and not when the file is begun: what draws, prints and prepares a file in
+   between has many hands, and a link that leads outside is taken away however they end. */
+fram_status path_claim(const char *path, fram_error *error)
+{
+    struct stat about, behind;
+    bool stays = lstat(path, &about) != 0 || S_ISREG(about.st_mode) || S_ISDIR(about.st_mode) ||
+                 (stat(path, &behind) == 0 && S_ISDIR(behind.st_mode));
+    if (stays || unlink(path) == 0)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_IO, path, 0, NULL,
+                     "cannot take away the link, device or pipe that stands in the place of the file: remove it");
+}
+
+fram_status path_own(const char *folder, const char *name, char out[PATH_ROOM], fram_error *error)
+{
+    fram_status status = path_join(folder, name, out, error);
+    return status == FRAM_OK ? path_claim(out, error) : status;
+}
+
+/* The same of a path that lies in the folder itself, whoever named it; of another one nothing. */
+static fram_status path_claim_in(const char *folder, const char *path, fram_error *error)
+{
+    char above[PATH_ROOM] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash && snprintf(above, sizeof above, "%.*s", (int)(slash + 1 - path), path) >= PATH_ROOM)
+        return FRAM_OK; /* the system takes no such path */
+    return path_is_same(above, folder) ? path_claim(path, error) : FRAM_OK;
+}
+
+fram_status path_take(const char *run, const char *path, fram_error *error)
+{
+    fram_status status = path_refuse_own(run, path, error);
+    return status == FRAM_OK ? path_claim_in(run, path, error) : status;
+}
+
 fram_status path_refuse_long(const char *given, const char *path, fram_error *error)
 {
     struct stat about;
@@ -65,10 +100,10 @@ fram_status path_given_or(const char *given, const char *folder, const char *nam
                           fram_error *error)
 {
     if (!given)
-        return path_join(folder, name, out, error);
+        return path_own(folder, name, out, error);
     int length = snprintf(out, PATH_ROOM, "%s", given);
     if (length >= 0 && length < PATH_ROOM)
-        return folder ? path_refuse_own(folder, given, error) : FRAM_OK;
+        return folder ? path_take(folder, given, error) : FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL,
                      "expected a path of less than %d bytes, found a longer one", (int)PATH_ROOM);
 }

@@ -298,6 +298,8 @@ fram_status run_note_write(context *ctx, const char *folder, const run_note *n, 
 {
     char path[PATH_ROOM];
     fram_status status = note_path(folder, path, error);
+    if (status == FRAM_OK)
+        status = path_claim(path, error);
     if (status != FRAM_OK)
         return status;
     text_buffer text = {0};

@@ -270,8 +270,11 @@ static fram_status write_frames(vtk_export *e, int64_t every, export_report *rep
     return status == FRAM_OK ? write_series(e, error) : status;
 }
 
-static fram_status make_folder(const char *path, fram_error *error)
+/* The one that a caller names may be a link. */
+static fram_status make_folder(const char *path, bool own, fram_error *error)
 {
+    if (own)
+        return folder_make_own(path, error);
     return mkdir(path, 0777) != 0 && errno != EEXIST ? file_error(error, path, "make the folder", errno) : FRAM_OK;
 }
 
@@ -316,9 +319,9 @@ fram_status export_vtk(context *ctx, const char *folder, const char *output, int
         status = replay_open(ctx, folder, &e.r, error);
     if (status != FRAM_OK)
         return status;
-    status = make_folder(e.folder, error);
+    status = make_folder(e.folder, !output, error);
     if (status == FRAM_OK)
-        status = make_folder(data, error);
+        status = make_folder(data, true, error);
     if (status == FRAM_OK)
         status = remove_earlier(&e, data, error);
     if (status == FRAM_OK)

@@ -255,9 +255,9 @@ static fram_status find_paths(context *ctx, const manage_options *options, const
     for (size_t i = 0; i < sizeof paths / sizeof *paths && status == FRAM_OK; i++) {
         status = path_refuse_long(s->page, paths[i], error);
         if (status == FRAM_OK)
-            status = path_refuse_own(folder, paths[i], error);
+            status = path_take(folder, paths[i], error);
         if (status == FRAM_OK && options->beside)
-            status = path_refuse_own(options->beside, paths[i], error);
+            status = path_take(options->beside, paths[i], error);
     }
     return status;
 }

@@ -30,10 +30,10 @@ static void remove_chunks(const char *folder)
 /* Files of another kind would stop the folder from being replaced in the end: they are told before the work. */
 static fram_status refuse_foreign(const char *folder, fram_error *error)
 {
-    DIR *dir = opendir(folder);
+    DIR *dir = folder_open_own(folder);
     char other[64] = "";
     if (!dir)
-        return FRAM_OK;
+        return folder_refuse_other(folder, error);
     int failure = 0;
     for (const char *name = folder_next(dir, &failure); name && !other[0]; name = folder_next(dir, &failure)) {
         if (!is_chunk(name))

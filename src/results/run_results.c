@@ -100,7 +100,7 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
 {
     char to[PATH_ROOM];
     vessel_entry entry = scenario_vessel_entry(s, vessel);
-    if (path_join(folder, vessel_file_name(s, vessel, "loads", ".png").text, to, error) != FRAM_OK)
+    if (path_own(folder, vessel_file_name(s, vessel, "loads", ".png").text, to, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
     double_array column[CHANNELS] = {0};
     fram_status status = read_loads(ctx, s, vessel, folder, column, error);

@@ -79,7 +79,7 @@ fram_status station_data_read(context *ctx, const scenario *s, int32_t vessel, c
     *d = (station_data){.s = s, .vessel = vessel, .outcome = o};
     fram_status status = read_series(ctx, d, folder, error);
     if (status == FRAM_OK)
-        status = path_join(folder, vessel_file_name(s, vessel, "station", ending).text, path, error);
+        status = path_own(folder, vessel_file_name(s, vessel, "station", ending).text, path, error);
     return status;
 }
 

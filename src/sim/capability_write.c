@@ -190,7 +190,7 @@ static fram_status write_one(context *ctx, const capability *c, writer write, co
     char path[PATH_ROOM];
     text_buffer b = {0};
     write(ctx, c, &b);
-    fram_status status = path_join(c->options.folder, name, path, error);
+    fram_status status = path_own(c->options.folder, name, path, error);
     if (status == FRAM_OK)
         status = text_file_write(ctx, path, &b, error);
     text_free(ctx, &b);
@@ -285,7 +285,7 @@ static fram_status draw_capability(context *ctx, const scenario *s, const capabi
                      .outer = outer,
                      .text = text.data};
     char path[PATH_ROOM];
-    fram_status status = path_join(c->options.folder, name, path, error);
+    fram_status status = path_own(c->options.folder, name, path, error);
     if (status == FRAM_OK)
         status = good && !text.failed ? polar_write(ctx, &p, path, error) : error_memory(error);
     text_free(ctx, &text);

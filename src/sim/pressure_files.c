@@ -19,7 +19,7 @@ static double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real
 static fram_status write_text(pressure_map *p, const char *name, text_buffer *text, fram_error *error)
 {
     char path[PATH_ROOM];
-    fram_status status = path_join(p->o->output, name, path, error);
+    fram_status status = path_own(p->o->output, name, path, error);
     if (status == FRAM_OK)
         status = text_file_write(p->ctx, path, text, error);
     text_free(p->ctx, text);
@@ -126,7 +126,7 @@ static fram_status write_hull(pressure_map *p, fram_error *error)
                            .fields = fields,
                            .field_count = FIELDS,
                            .time = p->time};
-    fram_status status = good ? path_join(p->o->output, "hull.vtp", path, error) : error_memory(error);
+    fram_status status = good ? path_own(p->o->output, "hull.vtp", path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = vtk_write(p->ctx, path, &data, error);
     for (int k = 0; k < FIELDS; k++)
@@ -195,7 +195,7 @@ static fram_status write_for_page(pressure_map *p, fram_error *error)
 {
     char path[PATH_ROOM], hash[SHA256_TEXT_SIZE];
     text_buffer block = {0};
-    fram_status status = path_join(p->o->output, "pressure.fram", path, error);
+    fram_status status = path_own(p->o->output, "pressure.fram", path, error);
     if (status == FRAM_OK)
         status = scenario_hash(p->ctx, &p->s, hash, error);
     if (status != FRAM_OK)
@@ -231,6 +231,6 @@ fram_status pressure_write_files(pressure_map *p, fram_error *error)
     if (status == FRAM_OK)
         status = write_for_page(p, error);
     if (status == FRAM_OK)
-        status = path_join(p->o->output, "pressure.png", path, error);
+        status = path_own(p->o->output, "pressure.png", path, error);
     return status == FRAM_OK ? pressure_draw(p, path, error) : status;
 }

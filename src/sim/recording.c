@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/pool.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/image.h"
 #include "io/path.h"
 #include "io/scenario_file.h"
@@ -11,10 +12,8 @@
 #include "sim/run_inputs.h"
 #include "sim/run_summary.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static fram_status end_checkpoint(recording *r, fram_error *error)
@@ -65,7 +64,7 @@ static fram_status draw_plan(recording *r, const char *name, fram_error *error)
 {
     char path[PATH_ROOM];
     fram_error reason = {0};
-    fram_status status = path_join(r->folder, name, path, &reason);
+    fram_status status = path_own(r->folder, name, path, &reason);
     if (status == FRAM_OK)
         status = picture_plan(r->ctx, r->s, r->w, path, &reason);
     return image_or_skip(r->ctx, name, status, &reason, error);
@@ -91,8 +90,9 @@ static fram_status draw_numbered_plan(recording *r, fram_error *error)
     fram_status status = path_join(r->folder, "pictures", folder, error);
     if (status != FRAM_OK)
         return status;
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return file_error(error, folder, "make the folder", errno);
+    status = folder_make_own(folder, error);
+    if (status != FRAM_OK)
+        return status;
     snprintf(name, sizeof name, "pictures/plan-%0*.*f.png", PICTURE_DIGITS + 1 + decimals, decimals,
              r->w->clock.time[0]);
     return draw_plan(r, name, error);
@@ -211,7 +211,7 @@ static fram_status write_scenario(recording *r, fram_error *error)
     const scenario_print_options options = {.comments = true, .absolute_paths = true};
     char path[PATH_ROOM];
     text_buffer text = {0};
-    fram_status status = path_join(r->folder, "scenario.yaml", path, error);
+    fram_status status = path_own(r->folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_print(r->ctx, r->s, &options, &text, error);
     if (status == FRAM_OK)

@@ -156,7 +156,7 @@ typedef struct result_part {
 
 static void remove_part(const char *folder, const result_part *part, const char *inputs)
 {
-    DIR *dir = opendir(folder);
+    DIR *dir = folder_open_own(folder);
     struct stat about;
     int failure;
     for (const char *name = dir ? folder_next(dir, &failure) : NULL; name; name = folder_next(dir, &failure)) {
@@ -167,8 +167,20 @@ static void remove_part(const char *folder, const result_part *part, const char 
     }
     if (dir)
         closedir(dir);
-    if (part->goes)
+    if (dir && part->goes)
         (void)rmdir(folder);
+}
+
+/* Whether no folder on the way from the run's to the part's is a link, which may lead anywhere. */
+static bool is_reached(const char *folder, char *part)
+{
+    bool reached = true;
+    for (char *at = strchr(part + strlen(folder) + 1, '/'); at && reached; at = strchr(at + 1, '/')) {
+        *at = '\0';
+        reached = folder_refuse_other(part, NULL) == FRAM_OK;
+        *at = '/';
+    }
+    return reached;
 }
 
 /* Results of the run before: next to the files of a new one that stops before it has written its own, or never writes
@@ -186,7 +198,7 @@ static void remove_results(const char *folder, const char *inputs)
                                         {".", is_stream, false, true}};
     char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        if (path_join(folder, parts[i].folder, path, NULL) == FRAM_OK)
+        if (path_join(folder, parts[i].folder, path, NULL) == FRAM_OK && is_reached(folder, path))
             remove_part(path, &parts[i], inputs);
     }
 }
@@ -273,7 +285,9 @@ fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
     if (*lock < 0)
         return file_error(error, folder, "open the folder", errno);
     if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        folder_remove_files(folder, is_leftover);
+        char inside[PATH_ROOM]; /* the run's folder, where its name is that of a link */
+        if (path_join(folder, ".", inside, NULL) == FRAM_OK)
+            folder_remove_files(inside, is_leftover);
         return FRAM_OK;
     }
     run_folder_unlock(*lock);

@@ -3,6 +3,7 @@
 #include "study/processes.h"
 
 #include "io/file.h"
+#include "io/path.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -85,7 +86,10 @@ fram_status processes_start(context *ctx, process_pool *all, const char *const *
     if (!array_reserve(ctx, &all->running, all->running.count + 1))
         return error_memory(error);
     /* Here and not by the system as it starts the program, whose fault it would then be. */
-    int file = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    fram_status status = path_claim(log, error);
+    if (status != FRAM_OK)
+        return status;
+    int file = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0)
         return file_error(error, log, "open for writing", errno);
     int bad = start_program(words, file, &p.id);

@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "ice/fracture.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
@@ -298,7 +299,9 @@ fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows,
 {
     text_buffer text = {0};
     run_rows_text(ctx, rows, &text);
-    fram_status status = text_file_write(ctx, path, &text, error);
+    fram_status status = path_claim(path, error);
+    if (status == FRAM_OK)
+        status = text_file_write(ctx, path, &text, error);
     text_free(ctx, &text);
     return status;
 }

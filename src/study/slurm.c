@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "study/capture.h"
 #include "study/no_answer.h"
 
@@ -53,8 +54,9 @@ static fram_status put(const slurm_pool *all, int32_t array, const char *ending,
                        fram_error *error)
 {
     char *path = text->failed ? NULL : array_path(all, array, ending);
-    fram_status status =
-        path ? atomic_file_write(all->ctx, path, text->data, (size_t)text->count, error) : error_memory(error);
+    fram_status status = path ? path_claim(path, error) : error_memory(error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(all->ctx, path, text->data, (size_t)text->count, error);
     memory_free(all->ctx, path);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "fram/version.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
+#include "io/path.h"
 #include "io/run_note.h"
 #include "io/scenario_file.h"
 #include "io/temporary.h"
@@ -175,6 +176,8 @@ static fram_status write_condition(study_folder *f, int32_t condition, hull_stor
     if (status == FRAM_OK)
         status = make_folder(f, "runs", f->id[condition], error);
     if (status == FRAM_OK && fresh)
+        status = path_claim(path, error);
+    if (status == FRAM_OK && fresh)
         status = atomic_file_put(f->ctx, path, text.data, (size_t)text.count, error);
     memory_free(f->ctx, path);
     text_free(f->ctx, &text);
@@ -218,6 +221,8 @@ static fram_status copy_study(const study_folder *f, fram_error *error)
     fram_status status = path.failed ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
         status = file_read(f->ctx, f->s->file, STUDY_FILE_LIMIT, &data, &size, error);
+    if (status == FRAM_OK)
+        status = path_claim(path.data, error);
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, data, size, error);
     memory_free(f->ctx, data);
@@ -330,7 +335,7 @@ int study_folder_jobs(const study_folder *f, int jobs)
 /* All files of a folder but those named, and the folder when it is empty then. */
 static void remove_but(context *ctx, const char *folder, const char *const *kept, int32_t count)
 {
-    DIR *dir = opendir(folder);
+    DIR *dir = folder_open_own(folder);
     if (!dir)
         return;
     int failure; /* what is not listed stays */

@@ -2,6 +2,7 @@
 #include "base/number_text.h"
 #include "base/sort.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "model/mechanism.h"
 #include "study/key_names.h"
 #include "study/study_page_parts.h"
@@ -468,7 +469,9 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
     text_format(f->ctx, &path, "%s/study.html", f->path);
     fram_status status = make_page(&p, error);
     if (status == FRAM_OK)
-        status = path.failed ? error_memory(error) : text_file_write(f->ctx, path.data, &p.page.text, error);
+        status = path.failed ? error_memory(error) : path_claim(path.data, error);
+    if (status == FRAM_OK)
+        status = text_file_write(f->ctx, path.data, &p.page.text, error);
     text_free(f->ctx, &path);
     array_free(f->ctx, &p.key_digits);
     html_free(&p.page);

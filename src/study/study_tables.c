@@ -1,5 +1,6 @@
 /* The tables of a study.  No wall-clock times and no order of ends: the same study leaves the same bytes. */
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "model/mechanism.h"
 #include "study/cells.h"
 #include "study/seeds.h"
@@ -89,7 +90,9 @@ fram_status study_table_write(const study_folder *f, const char *name, const tex
 {
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/%s", f->path, name);
-    fram_status status = path.failed ? error_memory(error) : text_file_write(f->ctx, path.data, b, error);
+    fram_status status = path.failed ? error_memory(error) : path_claim(path.data, error);
+    if (status == FRAM_OK)
+        status = text_file_write(f->ctx, path.data, b, error);
     text_free(f->ctx, &path);
     return status;
 }

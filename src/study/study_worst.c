@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
+#include "io/path.h"
 #include "io/temporary.h"
 #include "study/no_answer.h"
 #include "study/processes.h"
@@ -244,6 +245,8 @@ static fram_status judge(const worst_work *w, worst_entry *e, const char *folder
                            "made again for its record, the run has other figures than its row runs/%s/%lld.row: the "
                            "command fram is not the one that made the row; give the study a new folder",
                            w->f->id[e->run.condition], (long long)w->f->s->seeds.first + e->run.index);
+    if (status == FRAM_OK)
+        status = path_claim(row, error);
     if (status == FRAM_OK)
         status = text_file_write(ctx, row, &again, error);
     if (status == FRAM_OK)
