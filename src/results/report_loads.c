@@ -3,11 +3,13 @@
 
 #include "base/channel_statistics.h"
 #include "io/file.h"
+#include "io/png_check.h"
 #include "results/station_results.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static double step_of(const report *r)
@@ -129,6 +131,13 @@ static void load_table(report *r, load_unit unit)
 
 /* ---- keeping station ---- */
 
+/* Of a link, which may lead to anybody's file, and of what is no picture, nothing goes into a page that others get. */
+static bool picture_may_be_shown(const char *path, const char *png, size_t size)
+{
+    struct stat about;
+    return lstat(path, &about) == 0 && S_ISREG(about.st_mode) && png_is_whole(png, size);
+}
+
 static fram_status station_picture(report *r, fram_error *error)
 {
     char path[PATH_ROOM], *png = NULL;
@@ -141,10 +150,14 @@ static fram_status station_picture(report *r, fram_error *error)
         return FRAM_OK;
     status = file_read(r->ctx, path, 64 << 20, &png, &size, error);
     bool moored = scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring.lines.count > 0;
-    if (status == FRAM_OK)
+    bool shown = status == FRAM_OK && picture_may_be_shown(path, png, size);
+    if (shown)
         html_picture(&r->page, png, size,
                      moored ? "Footprint, offsets, heading, loads and lines"
                             : "Footprint, offsets, heading, loads and power");
+    else if (status == FRAM_OK)
+        log_write(r->ctx, LOG_WARNING, "%s: expected a picture (PNG) that the run drew, found %s: it is left out", path,
+                  size == 0 ? "an empty file" : "another file, or a link");
     memory_free(r->ctx, png);
     return status;
 }

@@ -132,4 +132,24 @@ expect 0 "$FRAM" report g -o mine.html -q
 holds "</html>" notes.txt
 cp kept.txt notes.txt
 
+# The picture of a page is one that the run drew: nobody's file goes with the page to others.
+if built_with cairo; then
+    mooring='  mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}'
+    sed -e 's/towed/free/; /speed: 2/d' -e "/^  hull:/a\\$mooring" scene.yaml >moored.yaml
+    "$FRAM" run moored.yaml -o moored -q
+    expect 0 "$FRAM" report moored -o shown.html -q
+    pictures() { grep -o "data:image/png" shown.html | wc -l; }
+    all=$(pictures)
+    cp moored/station.png mine.png
+    ln -sf "$PWD/mine.png" moored/station.png
+    expect 0 "$FRAM" report moored -o shown.html
+    says "moored/station.png: expected a picture" err
+    [ "$(pictures)" = $((all - 1)) ] || fail "the page shows what a link leads to"
+    rm moored/station.png
+    { cat mine.png && cat notes.txt; } >moored/station.png
+    expect 0 "$FRAM" report moored -o shown.html
+    says "moored/station.png: expected a picture" err
+    [ "$(pictures)" = $((all - 1)) ] || fail "the page has what is no picture"
+fi
+
 finish "links in a run's folder lead nothing out of it"
