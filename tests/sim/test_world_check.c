@@ -174,8 +174,9 @@ START_TEST(what_no_body_can_be_is_found)
     snprintf(key, sizeof key, "body[%d].angular_velocity", (int)floe);
     FOUND(&k, bodies.angular_velocity[floe].y, bits(nan_value), key);
     FOUND(&k, bodies.angular_velocity[floe].x, bits(-1e100), key);
-    snprintf(key, sizeof key, "body[%d]", (int)floe);
+    snprintf(key, sizeof key, "body[%d].orientation", (int)floe);
     FOUND(&k, bodies.orientation[floe].w, bits(nan_value), key);
+    snprintf(key, sizeof key, "body[%d]", (int)floe);
     FOUND(&k, bodies.orientation[floe].w, bits(k.w.bodies.orientation[floe].w + 1e-8), key); /* the solver asserts it */
     FOUND(&k, bodies.mass[floe], bits(0), key);
     FOUND(&k, bodies.inertia[floe].zz, bits(-3.8e-280), key);
@@ -199,6 +200,72 @@ START_TEST(what_no_body_can_be_is_found)
     FOUND(&k, shapes.shapes.half_height[shape], bits(infinite), key);
     snprintf(key, sizeof key, "shape[%d].area", (int)shape);
     FOUND(&k, shapes.shapes.area[shape], bits(nan_value), key);
+    scene_close(&k);
+}
+END_TEST
+
+/* Every column, those included that somebody adds tomorrow: a row of each table has no number in each place in turn. */
+START_TEST(no_column_may_have_what_is_no_number)
+{
+    scene k;
+    scene_open(&k, moored);
+    scene_steps(&k, 3);
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(&k.w, tables);
+    int places = 0;
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++) {
+        table_head *head = (table_head *)(uintptr_t)tables[t].table;
+        int32_t rows = head->count;
+        ck_assert(table_resize(&k.ctx, head, tables[t].info, rows > 0 ? rows : 1));
+        for (int f = 0; f < tables[t].info->field_count; f++) {
+            const field_info *field = &tables[t].info->fields[f];
+            int32_t row = head->count - 1;
+            double *value = (double *)table_field(head, field) + (int64_t)row * field->components;
+            for (int i = 0; i < (field->kind == FIELD_F64 ? field->components : 0); i++, places++) {
+                fram_error error = {0};
+                char key[80];
+                double kept = value[i];
+                value[i] = (double)NAN;
+                snprintf(key, sizeof key, "%s[%d].%s", tables[t].info->name, (int)row, field->name);
+                ck_assert_int_eq(world_check_numbers(&k.m, &k.w, &error), FRAM_ERROR_INPUT);
+                ck_assert_str_eq(error.key, key);
+                value[i] = kept;
+            }
+        }
+        ck_assert(table_resize(&k.ctx, head, tables[t].info, rows));
+    }
+    ck_assert_int_gt(places, 500);
+    assert_sound(&k);
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(what_no_spring_and_no_size_can_be_is_found)
+{
+    scene k;
+    scene_open(&k, towed_level);
+    scene_steps(&k, 3);
+    ck_assert_int_eq(k.w.joints.count, 1);
+    FOUND(&k, joints.stiffness[0], bits(-1e12), "joint[0].stiffness");
+    FOUND(&k, joints.damping[0], bits(-1), "joint[0].damping");
+    FOUND(&k, joints.frame_b[0].x, bits(3.5e305), "joint[0].frame_b");
+    FOUND(&k, joints.frame_a[0].w, bits(k.w.joints.frame_a[0].w + 1e-6), "joint[0].frame_a");
+    FOUND(&k, joints.frame_b[0].w, bits(k.w.joints.frame_b[0].w - 1e-6), "joint[0].frame_b");
+    FOUND(&k, shapes.shapes.radius[0], bits(-1), "shape[0].radius");
+    FOUND(&k, shapes.shapes.plan_radius[0], bits(-1e-9), "shape[0].plan_radius");
+    FOUND(&k, shapes.shapes.half_height[0], bits(1e300), "shape[0].half_height");
+    FOUND(&k, vessels.length[0], bits(1e13), "vessel[0].length");
+    FOUND(&k, vessels.tow_ramp[0], bits((double)INFINITY), "vessel[0].tow_ramp");
+    FOUND(&k, clock.work_crushed[0], bits(-1e61), "clock[0].work_crushed");
+    scene_close(&k);
+    /* Infinity where it means that there is none. */
+    scene_open(&k, moored);
+    scene_steps(&k, 3);
+    k.w.stations.offset_limit[0] = (double)INFINITY;
+    k.w.lines.release_time[0] = (double)INFINITY;
+    k.w.thrusters.failure_time[0] = (double)INFINITY;
+    assert_sound(&k);
+    FOUND(&k, stations.offset_limit[0], bits((double)NAN), "station[0].offset_limit");
     scene_close(&k);
 }
 END_TEST
@@ -271,4 +338,5 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
 END_TEST
 
 TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found, what_no_body_can_be_is_found,
+          no_column_may_have_what_is_no_number, what_no_spring_and_no_size_can_be_is_found,
           what_names_another_thing_is_found, a_checkpoint_of_such_a_state_is_refused)
