@@ -88,7 +88,7 @@ static void print_error_for_people(const fram_error *e)
 {
     fputs("fram: ", stderr);
     if (e->file[0]) {
-        fputs(e->file, stderr);
+        tell(stderr, "%s", e->file);
         if (e->line > 0)
             fprintf(stderr, ":%d", e->line);
         if (e->line > 0 && e->column > 0)
@@ -96,8 +96,8 @@ static void print_error_for_people(const fram_error *e)
         fputs(": ", stderr);
     }
     if (e->key[0])
-        fprintf(stderr, "%s: ", e->key);
-    fprintf(stderr, "%s\n", e->message);
+        tell(stderr, "%s: ", e->key);
+    tell(stderr, "%s\n", e->message);
 }
 
 int answer_error(const common_options *common, const fram_error *error)
@@ -146,41 +146,24 @@ void json_end(json *j)
     fflush(j->file);
 }
 
-/* Bytes of the well-formed UTF-8 sequence that text begins with (Unicode 15, table 3-7); 0: there is none. */
-static int sequence_length(const unsigned char *text)
-{
-    if (text[0] < 0x80)
-        return 1;
-    int length = text[0] >= 0xf0 ? 4 : text[0] >= 0xe0 ? 3 : 2;
-    if (text[0] < 0xc2 || text[0] > 0xf4)
-        return 0;
-    for (int i = 1; i < length; i++) {
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    }
-    bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
-    bool surrogate = text[0] == 0xed && text[1] >= 0xa0;
-    bool too_large = text[0] == 0xf4 && text[1] >= 0x90;
-    return overlong || surrogate || too_large ? 0 : length;
-}
-
-/* JSON is UTF-8, names of files are any bytes: others than UTF-8 become the replacement character. */
+/* JSON is UTF-8, names of files are any bytes: others than UTF-8 become the replacement character.  What would act on a
+   terminal (control_code) is escaped, which to a program is the same. */
 static void quoted(FILE *file, const char *text)
 {
     fputc('"', file);
-    for (const unsigned char *c = (const unsigned char *)text; *c;) {
-        int length = sequence_length(c);
+    while (*text) {
+        int length = utf8_sequence(text), code = length > 0 ? control_code(text) : 0;
         if (length == 0)
             fputs("\\ufffd", file);
-        else if (*c == '"' || *c == '\\')
-            fprintf(file, "\\%c", *c);
-        else if (*c == '\n')
+        else if (*text == '"' || *text == '\\')
+            fprintf(file, "\\%c", *text);
+        else if (code == '\n')
             fputs("\\n", file);
-        else if (*c < 0x20)
-            fprintf(file, "\\u%04x", *c);
+        else if (code > 0)
+            fprintf(file, "\\u%04x", (unsigned)code);
         else
-            fwrite(c, 1, (size_t)length, file);
-        c += length > 0 ? length : 1;
+            fwrite(text, 1, (size_t)length, file);
+        text += length > 0 ? length : 1;
     }
     fputc('"', file);
 }

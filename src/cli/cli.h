@@ -75,6 +75,26 @@ bool take_number(const char **at, const char *ends, double *out, fram_error *err
 /* Whether --json is among the words, before a -- that ends the options. */
 bool words_ask_for_json(int count, char **words);
 
+/* --- shown.c --- */
+
+/* Bytes of the well-formed UTF-8 sequence that a text begins with (Unicode 15, table 3-7); 0: there is none. */
+int utf8_sequence(const char *at);
+/* The code of a well-formed sequence that does something where it is shown instead of being seen: control characters,
+   with which a text takes hold of a terminal, and what ends a line or turns the direction of writing; 0: none. */
+int control_code(const char *at);
+/* A text for people, of which nothing acts on their terminal: what does, and what is no UTF-8, is U+FFFD; tabs and line
+   ends stay. */
+void put_shown(FILE *file, const char *text);
+/* The same where the stream is a terminal; elsewhere every byte, for programs. */
+void put_given(FILE *file, const char *text);
+/* printf of one line, shown so: no line ends but those that the format begins and ends with, so that no name makes a
+ * line. */
+void tell(FILE *file, const char *format, ...)
+#ifdef __GNUC__
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
 /* --- answer.c --- */
 
 /* Print an error for people on standard error, and as JSON on standard output if asked; returns the exit code. */

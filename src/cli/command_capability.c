@@ -22,7 +22,7 @@ static int find(const common_options *common, const char *path, const option_lis
     if (code < 0) {
         code = EXIT_GOOD;
         if (!common->quiet)
-            fprintf(stderr, "%s; tables: capability.csv, capability_use.csv, capability.json beside it\n", result.path);
+            tell(stderr, "%s; tables: capability.csv, capability_use.csv, capability.json beside it\n", result.path);
         if (common->json) {
             json j = json_begin();
             json_text(&j, "file", result.path);

@@ -75,9 +75,9 @@ int command_check(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        fputs(fram_scenario_text(scenario), stdout);
+        put_given(stdout, fram_scenario_text(scenario));
         if (!common.quiet) {
-            fputs(build ? made.notes : fram_scenario_notes(scenario), stderr);
+            put_shown(stderr, build ? made.notes : fram_scenario_notes(scenario));
             if (!build)
                 fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n",
                       stderr);

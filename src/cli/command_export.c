@@ -8,7 +8,7 @@
 static void print_export(const common_options *common, const fram_result *r, const char *advice)
 {
     if (!common->quiet)
-        fprintf(stderr, "%s: %lld frame%s; %s\n", r->path, (long long)r->frames, plural(r->frames), advice);
+        tell(stderr, "%s: %lld frame%s; %s\n", r->path, (long long)r->frames, plural(r->frames), advice);
     if (!common->json)
         return;
     json j = json_begin();

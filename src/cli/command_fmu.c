@@ -16,8 +16,7 @@ static bool find_binary(char out[BESIDE_SIZE])
 static void print_unit(const common_options *common, const char *output, const fram_fmu_result *r)
 {
     if (!common->quiet)
-        fprintf(stderr, "%s: %d inputs, %d outputs, %d files of the scenario\n", output, r->inputs, r->outputs,
-                r->files);
+        tell(stderr, "%s: %d inputs, %d outputs, %d files of the scenario\n", output, r->inputs, r->outputs, r->files);
     if (!common->json)
         return;
     json j = json_begin();

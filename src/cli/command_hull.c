@@ -163,7 +163,7 @@ static const char *title_of(const hull_words *w)
 
 static void print_surface(const hull_words *w, const fram_hull_surface *s)
 {
-    printf("%s: %s", form_name(w), s->format);
+    tell(stdout, "%s: %s", form_name(w), s->format);
     if (w->path)
         printf(", %d %s%s%s", s->elements, strcmp(s->format, "GDF") == 0 ? "panels" : "elements",
                s->mirrored_x ? ", mirrored in x = 0" : "", s->mirrored_y ? ", mirrored in y = 0" : "");

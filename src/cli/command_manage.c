@@ -38,9 +38,9 @@ int command_manage(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        fputs(text, stdout);
+        put_shown(stdout, text);
         if (!common.quiet)
-            fprintf(stderr, "%s: open it in a browser, or print it\n", result.path);
+            tell(stderr, "%s: open it in a browser, or print it\n", result.path);
     }
     fram_text_free(context, text);
     fram_context_destroy(context);

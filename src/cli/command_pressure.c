@@ -63,7 +63,7 @@ static int compute(const common_options *common, const char *run, const fram_pre
         return code;
     code = fram_pressure(context, run, d, &error) == FRAM_OK ? EXIT_GOOD : answer_error(common, &error);
     if (code == EXIT_GOOD && !common->quiet)
-        fprintf(stderr, "%s: panels.csv, area.csv, zones.csv, hull.vtp, pressure.fram, pressure.png\n", d->output);
+        tell(stderr, "%s: panels.csv, area.csv, zones.csv, hull.vtp, pressure.fram, pressure.png\n", d->output);
     if (code == EXIT_GOOD && common->json) {
         json j = json_begin();
         json_text(&j, "folder", d->output);

@@ -8,7 +8,7 @@
 static void print_file(const common_options *common, const char *path, const char *advice)
 {
     if (!common->quiet)
-        fprintf(stderr, "%s%s\n", path, advice);
+        tell(stderr, "%s%s\n", path, advice);
     if (!common->json)
         return;
     json j = json_begin();
@@ -82,7 +82,7 @@ static fram_status list_channels(const common_options *common, fram_context *con
     if (status == FRAM_OK && common->json)
         json_channels(text);
     else if (status == FRAM_OK)
-        fputs(text, stdout);
+        put_shown(stdout, text);
     fram_text_free(context, text);
     return status;
 }
@@ -166,7 +166,7 @@ static void print_compared(const fram_comparison *c)
     for (int i = 0; i < c->count; i++) {
         const fram_comparison_row *row = &c->rows[i];
         compared_name(row, name);
-        printf("%-*s", width, name);
+        tell(stdout, "%-*s", width, name);
         print_number(row->a, row->unit, 6);
         print_number(row->b, row->unit, 6);
         print_number(row->b - row->a, row->unit, 4);
@@ -188,7 +188,7 @@ static void print_comparison(const common_options *common, const fram_comparison
     if (!common->json) {
         print_compared(c);
         if (output && !common->quiet)
-            fprintf(stderr, "%s: open it in a browser\n", output);
+            tell(stderr, "%s: open it in a browser\n", output);
         return;
     }
     json j = json_begin();

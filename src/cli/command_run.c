@@ -13,7 +13,7 @@ static void print_run(const common_options *common, const char *folder, const fr
         fprintf(stderr, "%s at t = %g s after %lld step%s: %d floe%s, wall-clock %.1f s, real-time factor %.2f\n",
                 r->finished ? "finished" : "stopped", r->time, (long long)r->steps, plural(r->steps), r->floes,
                 plural(r->floes), r->wall, r->real_time_factor);
-        fprintf(stderr, "results are in %s\n", folder);
+        tell(stderr, "results are in %s\n", folder);
     }
     if (!common->json)
         return;
@@ -36,11 +36,8 @@ static void print_resume(const char *folder)
     bool plain =
         folder[strspn(folder, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=:,@%")] == '\0';
     fprintf(stderr, "continue with: fram resume %s%s", folder[0] == '-' ? "./" : "", plain ? folder : "'");
-    for (const char *c = folder; *c && !plain; c++) {
-        if (*c == '\'')
-            fputs("'\\'", stderr);
-        fputc(*c, stderr);
-    }
+    for (const char *c = folder; *c && !plain; c += strcspn(c, "'") + (c[strcspn(c, "'")] == '\''))
+        tell(stderr, "%.*s%s", (int)strcspn(c, "'"), c, c[strcspn(c, "'")] == '\'' ? "'\\''" : "");
     fputs(plain ? "\n" : "'\n", stderr);
 }
 

@@ -98,13 +98,13 @@ static int digits_of(double value, double spread)
 
 static void print_facts(const fram_series_source *source, const fram_series_facts *f, bool maxima)
 {
-    printf("%s of %d %s: %lld %s", source->channel ? source->channel : "load", source->file_count,
-           source->file_count == 1 ? "file" : "files", (long long)f->values, maxima ? "maxima" : "values");
+    tell(stdout, "%s of %d %s: %lld %s", source->channel ? source->channel : "load", source->file_count,
+         source->file_count == 1 ? "file" : "files", (long long)f->values, maxima ? "maxima" : "values");
     if (!maxima)
         printf(", %.6g s at a step of %.4g s, correlation time %.4g s", f->time, f->step, f->time_scale);
     int digits = digits_of(fmax(fabs(f->least), fabs(f->greatest)), f->deviation);
-    printf("\nmean %.*g, standard deviation %.5g, minimum %.*g, maximum %.*g %s\n", digits, f->mean, f->deviation,
-           digits, f->least, digits, f->greatest, f->unit);
+    tell(stdout, "\nmean %.*g, standard deviation %.5g, minimum %.*g, maximum %.*g %s\n", digits, f->mean, f->deviation,
+         digits, f->least, digits, f->greatest, f->unit);
 }
 
 static void json_facts(json *j, const fram_series_facts *f)
@@ -131,9 +131,10 @@ static void print_level(const char *name, const fram_level *l, const char *unit)
 {
     int digits = digits_of(l->level, (isfinite(l->high) ? l->high : l->level) - l->low);
     if (isnan(l->level))
-        printf("  %-16s %11s\n", name, "not told");
+        tell(stdout, "  %-16s %11s\n", name, "not told");
     else
-        printf("  %-16s %11.*g  (%.*g to %.*g) %s\n", name, digits, l->level, digits, l->low, digits, l->high, unit);
+        tell(stdout, "  %-16s %11.*g  (%.*g to %.*g) %s\n", name, digits, l->level, digits, l->low, digits, l->high,
+             unit);
 }
 
 static void print_law(const fram_extreme *e, double deviation)
@@ -157,7 +158,7 @@ static void print_method(const fram_extreme *e, const fram_extremes_definition *
         else
             printf(" over %.*g", digits_of(e->threshold, of->deviation), e->threshold);
         print_law(e, of->deviation);
-        printf("\n  intervals: %s\n", e->interval);
+        tell(stdout, "\n  intervals: %s\n", e->interval);
         print_level("most probable", &e->most_probable, of->unit);
         for (int i = 0; i < d->levels; i++) {
             char name[32];
@@ -374,12 +375,13 @@ static void print_classes(const fram_fatigue *f)
 static void print_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)
 {
     print_facts(&d->source, &f->series, false);
-    printf("%.1f cycles (rainflow, ASTM E1049-85), largest range %.5g %s\n", f->cycles, f->greatest, f->series.unit);
+    tell(stdout, "%.1f cycles (rainflow, ASTM E1049-85), largest range %.5g %s\n", f->cycles, f->greatest,
+         f->series.unit);
     if (f->greatest > 0)
         print_classes(f);
     for (int i = 0; i < d->slopes; i++)
-        printf("equivalent range at %g Hz, slope %g: %.6g %s\n", d->frequency, d->slope[i], f->equivalent[i],
-               f->series.unit);
+        tell(stdout, "equivalent range at %g Hz, slope %g: %.6g %s\n", d->frequency, d->slope[i], f->equivalent[i],
+             f->series.unit);
 }
 
 static void json_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)

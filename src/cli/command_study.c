@@ -177,8 +177,8 @@ static void print_rows(const list_view *view)
         snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
         tell_load(c->load_mean, c->load_mean_half, view->largest, mean);
         tell_load(c->load_largest, (double)NAN, view->largest, largest);
-        printf("%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest, c->id,
-               c->keys);
+        tell(stdout, "%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest,
+             c->id, c->keys);
     }
 }
 
@@ -270,7 +270,7 @@ static void show(void *user, const fram_study_progress *p)
         fprintf(stderr, "; %lld of %lld worst runs made again with a record", (long long)p->records_done,
                 (long long)p->records);
     if (p->waits)
-        fprintf(stderr, "; %s", p->waits);
+        tell(stderr, "; %s", p->waits);
     fputs(view->terminal ? "" : "\n", stderr);
     fflush(stderr);
 }
@@ -284,8 +284,8 @@ static void print_study(const char *folder, const fram_study_result *r, bool dry
     else
         fprintf(stderr, "%lld carried out now\n", (long long)r->made);
     if (r->runs > 0)
-        fprintf(stderr, "results: %s/study.html is the page, summary.csv and conditions.csv beside it the tables\n",
-                folder);
+        tell(stderr, "results: %s/study.html is the page, summary.csv and conditions.csv beside it the tables\n",
+             folder);
 }
 
 static int answer_result(const common_options *common, const char *folder, const fram_study_result *r, bool dry)
@@ -293,8 +293,8 @@ static int answer_result(const common_options *common, const char *folder, const
     if (!common->quiet)
         print_study(folder, r, dry);
     if (r->failed > 0)
-        fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s%s\n", (long long)r->failed_condition,
-                (long long)r->failed_seed, r->reason, r->made == 0 && !dry ? " (--retry repeats failed runs)" : "");
+        tell(stderr, "the first that failed: condition %lld, seed %lld: %s%s\n", (long long)r->failed_condition,
+             (long long)r->failed_seed, r->reason, r->made == 0 && !dry ? " (--retry repeats failed runs)" : "");
     int code = r->runs > 0 && r->failed == r->runs ? EXIT_RUN_FAILED : EXIT_GOOD;
     if (!common->json)
         return code;

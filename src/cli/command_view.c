@@ -11,8 +11,8 @@ bool viewer_page_find(char out[BESIDE_SIZE])
 static void print_page(const common_options *common, const char *output, const fram_playback_result *r)
 {
     if (!common->quiet) {
-        fprintf(stderr, "%s: %lld frame%s%s", output, (long long)r->frames, plural(r->frames),
-                r->left_out > 0 ? " (others left out to keep the page small)" : "");
+        tell(stderr, "%s: %lld frame%s%s", output, (long long)r->frames, plural(r->frames),
+             r->left_out > 0 ? " (others left out to keep the page small)" : "");
         if (r->files > 0)
             fprintf(stderr, ", most of them in %lld files in the folder beside it: keep both together",
                     (long long)r->files);

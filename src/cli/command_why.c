@@ -51,9 +51,9 @@ int command_why(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        fputs(text, stdout);
+        put_shown(stdout, text);
         if (d.picture && !common.quiet)
-            fprintf(stderr, "%s\n", d.picture);
+            tell(stderr, "%s\n", d.picture);
     }
     fram_text_free(context, text);
     fram_context_destroy(context);

@@ -78,9 +78,9 @@ static void print_overlaps(const fram_field_summary *s)
 static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
 {
     if (w->scenario)
-        printf("%s: %d floes\n", field_title(w), s->floes);
+        tell(stdout, "%s: %d floes\n", field_title(w), s->floes);
     else
-        printf("%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
+        tell(stdout, "%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
     printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
     print_box(s);
     printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration, whole_of(w, field));
@@ -144,8 +144,9 @@ static int print_notes_of(const fram_field_note *notes, int count, bool outside,
     for (int i = 0; i < count && shown < NOTES_SHOWN; i++) {
         if (notes[i].outside != outside)
             continue;
-        printf("    %s: feature %d, polygon %d, ring %d (line %d): %s\n", notes[i].dropped ? "left out" : "repaired",
-               notes[i].feature, notes[i].polygon, notes[i].ring, notes[i].line, notes[i].reason);
+        tell(stdout, "    %s: feature %d, polygon %d, ring %d (line %d): %s\n",
+             notes[i].dropped ? "left out" : "repaired", notes[i].feature, notes[i].polygon, notes[i].ring,
+             notes[i].line, notes[i].reason);
         shown++;
     }
     return shown;

@@ -15,7 +15,7 @@ static void log_to_stderr(void *user, fram_log_level level, const char *text)
 {
     (void)user;
     static const char *const prefix[] = {"error: ", "warning: ", "", ""};
-    fprintf(stderr, "%s%s\n", prefix[level], text);
+    tell(stderr, "%s%s\n", prefix[level], text);
 }
 
 /* The only mutable globals of Fram: a signal handler can reach nothing else. */

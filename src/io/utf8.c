@@ -46,12 +46,19 @@ size_t utf8_mark(const char *text, size_t size)
 
 static bool is_control(int32_t code) { return code < 0x20 || (code >= 0x7f && code < 0xa0); }
 
+/* What turns the direction of what is written after it: a name can show as another one. */
+static bool turns_writing(int32_t code)
+{
+    return (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+}
+
 int32_t utf8_shown(const char **at, const char *end)
 {
     int32_t code = utf8_next(at, end);
     if (code < 0)
         *at += 1;
-    return code < 0 || (is_control(code) && code != '\t' && code != '\n') ? UTF8_REPLACEMENT : code;
+    bool acts = code < 0 || turns_writing(code) || (is_control(code) && code != '\t' && code != '\n');
+    return acts ? UTF8_REPLACEMENT : code;
 }
 
 bool utf8_is_printable(int32_t code)

@@ -17,8 +17,8 @@ size_t utf8_mark(const char *text, size_t size);
 /* What stands for what cannot be shown. */
 #define UTF8_REPLACEMENT 0xfffd
 #define UTF8_REPLACEMENT_TEXT "\xef\xbf\xbd"
-/* The same for text that people see, as names of files, which are any bytes: what is not UTF-8, a byte of it, and
-   control characters other than tabs and line ends are UTF8_REPLACEMENT. */
+/* The same for text that people see, as names of files, which are any bytes: what is not UTF-8, a byte of it,
+   control characters other than tabs and line ends, and what turns the direction of writing are UTF8_REPLACEMENT. */
 int32_t utf8_shown(const char **at, const char *end);
 /* Neither a control character nor a line break, byte order mark or non-character. */
 bool utf8_is_printable(int32_t code);

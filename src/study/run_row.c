@@ -4,6 +4,7 @@
 #include "ice/fracture.h"
 #include "io/atomic_file.h"
 #include "io/path.h"
+#include "io/utf8.h"
 #include "model/scenario_vessel.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
@@ -171,11 +172,18 @@ fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_er
     return status;
 }
 
+/* A reason is one line for people: whatever made it, a program's log or a row that is read, nothing in it acts on the
+   terminal or the page where it is shown. */
 static void replace_controls(char *text)
 {
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = ' ';
+    const char *end = text + strlen(text);
+    for (char *c = text; *c;) {
+        const char *next = c, *plain = c;
+        int32_t shown = utf8_shown(&next, end);
+        if (shown < ' ' || shown != utf8_next(&plain, end))
+            memset(c, ' ', (size_t)(next - c));
+        c += next - c;
+    }
 }
 
 bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON])
@@ -357,8 +365,11 @@ static bool read_row_lines(context *ctx, char *text, run_rows *rows, bool *no_me
         if (!row.failed && strcmp(state, "finished") != 0)
             return false;
         if (!take_line(&text, row.vessel, sizeof row.vessel) || !take_line(&text, row.reason, sizeof row.reason) ||
-            !take_line(&text, row.state_hash, sizeof row.state_hash) || !read_figures(&text, &row))
+            !take_line(&text, row.state_hash, sizeof row.state_hash) || !read_figures(&text, &row) ||
+            row.state_hash[strspn(row.state_hash, "0123456789abcdef")])
             return false;
+        replace_controls(row.vessel);
+        replace_controls(row.reason);
         *no_memory = !array_push(ctx, rows, row);
         if (*no_memory)
             return false;
