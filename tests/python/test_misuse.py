@@ -516,6 +516,33 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(fram.InputError, "no frame: .*output.frame_interval.*record for longer"):
             fram.open(self.bad.parent / "short").floes(0.05)
 
+    def test_files_that_somebody_sent(self):
+        """Nothing waits, grows without an end or leaves by an error that is not of Fram."""
+        deep, long_number = b"[" * 200000, b'{"a": ' + b"1" * 10000 + b"}"
+        for content in (deep, b'{"a":' * 100000, long_number):
+            run = self.broken("run.json", content)
+            with self.assertRaises(fram.InputError):
+                run.info  # noqa: B018
+        run = self.broken("series.csv", b"time[s],b_c[m]\n1,1_0\n2,3\n")
+        self.assert_refused(lambda: run.columns(), "series.csv", 2)
+        with self.assertRaisesRegex(fram.InputError, "lines of less than"):
+            self.broken("series.csv", b"time[s]\n" + b"1" * (1 << 21) + b"\n").columns()
+        name = self.bad / "series.csv"
+        for make, found in ((lambda: os.mkfifo(name), "a pipe"), (lambda: name.symlink_to("/dev/zero"), "a device"),
+                            (name.mkdir, "a folder")):
+            name.unlink()
+            make()
+            for ask in (run.columns, lambda: run.series):
+                with self.assertRaisesRegex(fram.InputError, found):
+                    ask()
+        name.rmdir()
+        for kind in ("run.json", "scenario.yaml"):
+            run = self.broken(kind, b"{}")
+            with open(self.bad / kind, "wb") as file:
+                file.truncate(1 << 40)
+            with self.assertRaisesRegex(fram.InputError, "at most"):
+                run.info if kind == "run.json" else run.scenario_text  # noqa: B018
+
     def test_files_that_are_gone(self):
         run = self.broken("series.csv", b"")
         (self.bad / "series.csv").unlink()

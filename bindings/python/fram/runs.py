@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import stat
 import tempfile
 from dataclasses import dataclass
 from typing import IO, Any, Iterator, Mapping, Optional, Sequence, Union
@@ -34,12 +35,43 @@ class Floe:
     properties: Mapping[str, Any]
 
 
-def _read_text(path: pathlib.Path) -> str:
-    """A file as text; bytes that are none become what no number and no key has."""
+_TABLE_MOST = 16 << 30
+_TEXT_MOST = 64 << 20
+"""Bytes of a table, which are as many as the command reads, and of a scenario or a JSON object."""
+_LINE_MOST = 1 << 20
+"""Characters of a line of a table, as the command."""
+_KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"))
+
+
+def _open_text(path: pathlib.Path, most: int = _TABLE_MOST) -> IO[str]:
+    """A regular file as text; bytes that are none become what no number and no key has.
+
+    The folder may be one that somebody sent: nothing waits for a pipe's other end, or reads a device without an end.
+    """
     try:
-        return path.read_text(encoding="utf-8", errors="surrogateescape")
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0))
     except OSError as error:
         raise FileError("io", str(error), file=str(path)) from error
+    about = os.fstat(descriptor)
+    if not stat.S_ISREG(about.st_mode):
+        os.close(descriptor)
+        found = next((kind for is_such, kind in _KINDS if is_such(about.st_mode)), "a device")
+        raise InputError("input", f"expected a regular file, found {found}", file=str(path))
+    file = open(descriptor, encoding="utf-8", errors="surrogateescape", newline="")
+    if about.st_size > most:
+        file.close()
+        raise InputError("input", f"expected a file of at most {most} bytes, found {about.st_size}", file=str(path))
+    return file
+
+
+def _read_text(path: pathlib.Path) -> str:
+    """A whole file, with line ends as Python has them."""
+    with _open_text(path, _TEXT_MOST) as file:
+        try:
+            text = file.read(_TEXT_MOST)
+        except OSError as error:
+            raise FileError("io", str(error), file=str(path)) from error
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _read_object(path: pathlib.Path) -> dict[str, Any]:
@@ -49,6 +81,8 @@ def _read_object(path: pathlib.Path) -> dict[str, Any]:
     except json.JSONDecodeError as error:
         raise InputError("input", f"expected a JSON object: {error.msg}", file=str(path), line=error.lineno,
                          column=error.colno) from error
+    except (RecursionError, ValueError) as error:  # nested without an end, a number of thousands of digits
+        raise InputError("input", f"expected a JSON object: {error}", file=str(path)) from error
     if not isinstance(found, dict):
         raise InputError("input", f"expected a JSON object, found {type(found).__name__}", file=str(path), line=1)
     return found
@@ -69,20 +103,23 @@ def _heads(row: list[str], path: pathlib.Path, needed: Sequence[str]) -> dict[st
     return units
 
 
-def _open_text(path: pathlib.Path) -> IO[str]:
-    try:
-        return path.open(encoding="utf-8", errors="surrogateescape", newline="")
-    except OSError as error:
-        raise FileError("io", str(error), file=str(path)) from error
+def _lines(file: IO[str], path: pathlib.Path) -> Iterator[str]:
+    """Lines that are whole: one without an end is still being written, and its last number may be half of one."""
+    while line := file.readline(_LINE_MOST):
+        if line[-1] in "\r\n":
+            yield line
+        elif len(line) >= _LINE_MOST:
+            raise InputError("input", f"expected lines of less than {_LINE_MOST} characters", file=str(path))
 
 
 def _rows(file: IO[str], path: pathlib.Path) -> Iterator[list[str]]:
-    """The rows of a table, one at a time: as texts they take ten times what their numbers take.
-
-    A line without an end is not whole yet: its last number may be half of one.
-    """
+    """The rows of a table, one at a time: as texts they take ten times what their numbers take."""
     try:
-        yield from csv.reader(line for line in file if line[-1] in "\r\n")
+        for number, row in enumerate(csv.reader(_lines(file, path)), start=1):
+            if number > 1 and "_" in "".join(row):  # 1_0 is a number of Python's, and of nobody else's
+                raise InputError("input", "expected a row of numbers, found an underscore", file=str(path),
+                                 line=number)
+            yield row
     except csv.Error as error:
         raise InputError("input", f"expected rows of numbers: {error}", file=str(path)) from error
     except OSError as error:
@@ -135,10 +172,10 @@ def _last_time(path: pathlib.Path) -> Optional[float]:
     with _open_text(path) as file:
         at = list(_read_units(_rows(file, path), path, ["time"])).index("time")
         last = None
-        for line in file:
-            last = line if line[-1] in "\r\n" else last
+        for line in _lines(file, path):
+            last = line
     try:
-        return None if last is None else float(last.split(",")[at])
+        return None if last is None else float(last.replace("_", "?").split(",")[at])
     except (IndexError, ValueError) as error:
         raise InputError("input", "expected a row of numbers at the end", file=str(path)) from error
 
