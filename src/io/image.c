@@ -4,11 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The shortest step: of less the powers below round to zero, and ends of axes are divided by it. */
+#define STEP_LEAST 1e-300
+
 double image_round_step(double span, int parts)
 {
     if (!(span > 0) || !isfinite(span) || parts < 1)
         return 1;
-    double raw = span / parts, power = 1;
+    double raw = fmax(span / parts, STEP_LEAST), power = 1;
     while (power * 10 <= raw)
         power *= 10;
     while (power > raw)

@@ -46,7 +46,7 @@ static fram_status open_folder(late_commit *c, fram_error *error)
     int reason = errno;
     if (end)
         *end = kept;
-    return c->folder < 0 ? file_error(error, c->file.path, "open the folder of", reason) : FRAM_OK;
+    return c->folder < 0 ? file_error(error, c->file.path, "open its folder", reason) : FRAM_OK;
 }
 
 fram_status late_commit_start(late_commit *c, atomic_file *file, file_writer *const *streams, int stream_count,

@@ -316,8 +316,21 @@ START_TEST(legends_have_their_room)
 }
 END_TEST
 
-TEST_MAIN("fitted", texts_end_in_their_room, ends_are_kept, lines_are_broken_at_words, bands_have_gaps,
-          ticks_have_the_digits_of_their_step, labels_have_their_room, titles_have_their_room,
+/* An axis of the least width that doubles have, and of one beside it, has a step and ends. */
+START_TEST(the_narrowest_axis_has_ticks)
+{
+    const double widths[] = {5e-324, 1e-323, 1e-310, 2e-308};
+    for (int i = 0; i < 4; i++) {
+        for (int parts = 1; parts <= 10; parts += 3) {
+            tick_row t = tick_row_of(0, widths[i], parts, 0, false);
+            ck_assert(t.step > 0 && isfinite(t.first) && t.count >= 1 && t.count < 60);
+        }
+    }
+}
+END_TEST
+
+TEST_MAIN("fitted", the_narrowest_axis_has_ticks, texts_end_in_their_room, ends_are_kept, lines_are_broken_at_words,
+          bands_have_gaps, ticks_have_the_digits_of_their_step, labels_have_their_room, titles_have_their_room,
           lines_run_out_of_the_frame, legends_have_their_room)
 
 #else
