@@ -74,12 +74,17 @@ typedef struct fram_comparison_row {
 typedef struct fram_comparison {
     const fram_comparison_row *rows;
     int count;
-    bool same_scenario, same_state; /* by hash, the files that a scenario names too */
+    bool same_scenario, same_state; /* by hash, the files that a scenario names too; not of a run that was told */
     void *inside;
     bool only_files_differ; /* the scenarios are the same but for what is in the files that they name */
     bool same_as_read; /* not by hash, but as this Fram reads both: another one made a run, or scenario.yaml was changed
                         */
-    bool changed_a, changed_b; /* scenario.yaml is not what the run was made of, or another Fram made the run */
+    bool changed_a, changed_b;   /* scenario.yaml is not what the run was made of, or another Fram made the run */
+    const char *told_a, *told_b; /* what a program told the run in place of its scenario, "wind_x, tug.path"; "":
+                                    nothing; valid until the comparison is freed */
+    bool only_told_differs;      /* the scenarios are the same but for that, or may be: its numbers stand in no file */
+    double counted_from;         /* statistics of both are of what is after it, since the recording of one began late
+                                    [s]; 0: each after its transient */
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,

@@ -169,7 +169,11 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
                                   .only_files_differ = in->result.only_files_differ,
                                   .same_as_read = in->result.same_as_read,
                                   .changed_a = in->result.changed_a,
-                                  .changed_b = in->result.changed_b};
+                                  .changed_b = in->result.changed_b,
+                                  .told_a = in->result.told[0],
+                                  .told_b = in->result.told[1],
+                                  .only_told_differs = in->result.only_told_differs,
+                                  .counted_from = in->result.counted_from};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

@@ -68,6 +68,31 @@ static fram_status find(const why *y, const fram_why_definition *d, const peak_d
     return refuse_unrecorded(y, d->time, error);
 }
 
+/* What is kept of a peak is told though its moment cannot be computed again, where a program steered the run: only its
+   own computing knows what it was told. */
+static fram_status compute_again(context *ctx, const why *y, double time, const peak_detail *kept, rerun_result *again,
+                                 why_check *checked, fram_error *error)
+{
+    const bool steered = kept && y->run.note.told.count > 0;
+    fram_error reason = {0};
+    fram_status status =
+        rerun_moment(ctx, y->run.folder, time, steered ? run_recorded_from(&y->run) : 0, y->vessel, again, &reason);
+    if (status == FRAM_OK)
+        *checked = (why_check){.done = true,
+                               .start = again->start,
+                               .fork = again->fork,
+                               .first = again->first,
+                               .last = again->last,
+                               .same = again->same.load,
+                               .half_step = {again->half_step.load, again->half_step.wrong},
+                               .accurate = {again->accurate.load, again->accurate.wrong}};
+    else if (status == FRAM_ERROR_INPUT && steered)
+        snprintf(checked->hindrance, sizeof checked->hindrance, "%s", reason.message);
+    else if (error)
+        *error = reason;
+    return status == FRAM_ERROR_INPUT && steered ? FRAM_OK : status;
+}
+
 static fram_status explain(context *ctx, const why *y, const fram_why_definition *d, text_buffer *out,
                            fram_error *error)
 {
@@ -79,17 +104,8 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
         status = why_picture_check(y, d->picture, error);
     if (status == FRAM_OK && d->rerun) {
         again = memory_array(ctx, 1, sizeof *again);
-        status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, y->vessel, again, error)
+        status = again ? compute_again(ctx, y, detail ? detail->time : d->time, detail, again, &checked, error)
                        : error_memory(error);
-        if (status == FRAM_OK)
-            checked = (why_check){.done = true,
-                                  .start = again->start,
-                                  .fork = again->fork,
-                                  .first = again->first,
-                                  .last = again->last,
-                                  .same = again->same.load,
-                                  .half_step = {again->half_step.load, again->half_step.wrong},
-                                  .accurate = {again->accurate.load, again->accurate.wrong}};
         detail = detail || !again ? detail : &again->detail;
     }
     int32_t rank = rank_of(y, detail);

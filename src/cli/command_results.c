@@ -155,8 +155,9 @@ static int compared_name(const fram_comparison_row *row, char out[COMPARED_NAME_
 
 static void print_compared(const fram_comparison *c)
 {
-    static const char heading[] = "after the transient";
-    char name[COMPARED_NAME_ROOM];
+    char heading[64] = "after the transient", name[COMPARED_NAME_ROOM];
+    if (c->counted_from > 0)
+        snprintf(heading, sizeof heading, "after %.6g s, of what both recorded", c->counted_from);
     int width = (int)strlen(heading);
     for (int i = 0; i < c->count; i++) {
         int length = compared_name(&c->rows[i], name);
@@ -172,12 +173,17 @@ static void print_compared(const fram_comparison *c)
         print_number(row->b - row->a, row->unit, 4);
         putchar('\n');
     }
+    if (c->told_a[0])
+        printf("told A by a program, in place of its scenario's: %s\n", c->told_a);
+    if (c->told_b[0])
+        printf("told B by a program, in place of its scenario's: %s\n", c->told_b);
     /* What is read of a changed scenario may be the same where what was run was not. */
-    bool read = c->same_as_read || c->only_files_differ;
+    bool read = c->same_as_read || c->only_files_differ || c->only_told_differs;
     printf("scenarios: %s%s; final states: %s\n",
            c->same_scenario       ? "the same"
            : c->same_as_read      ? "the same, as this Fram reads them"
            : c->only_files_differ ? "the same but for the files that they name"
+           : c->only_told_differs ? "the same but for what a program told"
                                   : "different",
            read && (c->changed_a || c->changed_b) ? ", or scenario.yaml was changed since" : "",
            c->same_state ? "identical to the bit" : "different");
@@ -195,9 +201,13 @@ static void print_comparison(const common_options *common, const fram_comparison
     json_boolean(&j, "same_scenario", c->same_scenario);
     json_boolean(&j, "same_as_read", c->same_as_read);
     json_boolean(&j, "only_files_differ", c->only_files_differ);
+    json_boolean(&j, "only_told_differs", c->only_told_differs);
     json_boolean(&j, "changed_a", c->changed_a);
     json_boolean(&j, "changed_b", c->changed_b);
     json_boolean(&j, "same_state", c->same_state);
+    json_text(&j, "told_a", c->told_a);
+    json_text(&j, "told_b", c->told_b);
+    json_real(&j, "counted_from", c->counted_from);
     json_open_list(&j, "rows");
     for (int i = 0; i < c->count; i++) {
         json_open(&j, NULL);

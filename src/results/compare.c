@@ -18,6 +18,7 @@ typedef struct pair {
     compare_result *result;
     load_unit load, tension, power, work, energy; /* those of both runs */
     char last_row[48];                            /* "7 s", "7 and 12 s": of both; "" where both ended with it */
+    double from[2];                               /* statistics are of what is after that [s] */
 } pair;
 
 static void add_row(pair *p, const char *name, const char *unit, bool is_place, const double value[2])
@@ -32,12 +33,13 @@ static void add_row(pair *p, const char *name, const char *unit, bool is_place, 
 
 typedef enum measure { MEAN, DEVIATION, GREATEST, LEAST, SIGNIFICANT, LAST } measure;
 
-static double measure_of(const run_data *d, const char *channel, measure what)
+static double measure_of(const pair *p, int k, const char *channel, measure what)
 {
+    const run_data *d = &p->d[k];
     const double *time = run_channel(d, "time"), *value = run_channel(d, channel);
     if (!time || !value || d->series.rows == 0)
         return (double)NAN;
-    channel_statistics s = channel_statistics_of(time, value, d->series.rows, d->s.run.transient);
+    channel_statistics s = channel_statistics_of(time, value, d->series.rows, p->from[k]);
     const double all[] = {[MEAN] = s.mean,   [DEVIATION] = s.deviation,     [GREATEST] = s.greatest,
                           [LEAST] = s.least, [SIGNIFICANT] = s.significant, [LAST] = value[d->series.rows - 1]};
     return all[what];
@@ -92,6 +94,20 @@ static load_unit row_unit(const pair *p, size_t i)
     return (load_unit){rows[i].unit, rows[i].factor};
 }
 
+/* Numbers of two spans are not those of two runs: where the recording of one began after its transient, both are told
+   from the later of the two beginnings. */
+static void find_spans(pair *p)
+{
+    bool late = false;
+    for (int k = 0; k < 2; k++) {
+        double recorded = run_recorded_from(&p->d[k]);
+        late |= time_is_after(recorded, p->d[k].s.run.transient) && recorded > 0;
+        p->from[k] = fmax(p->d[k].s.run.transient, recorded);
+    }
+    if (late)
+        p->from[0] = p->from[1] = p->result->counted_from = fmax(p->from[0], p->from[1]);
+}
+
 /* Where the last row is not of the end, what was then is not told as of the end. */
 static void find_last_row(pair *p)
 {
@@ -121,14 +137,43 @@ static void name_row(const pair *p, size_t i, const char *vessel, char out[COMPA
         snprintf(out + n, COMPARE_NAME_SIZE - (size_t)n, "%s", name);
 }
 
+/* Whether a vessel has what the channel is of: lines, thrusters, a station that it keeps. */
+static bool has_what_tells(const scenario_vessel *v, const char *channel)
+{
+    bool lines = v->mooring.lines.count > 0;
+    if (strcmp(channel, "line_tension_max") == 0)
+        return lines;
+    if (strcmp(channel, "thruster_power") == 0)
+        return v->thrusters.count > 0;
+    if (strncmp(channel, "offset_", 7) == 0)
+        return v->mode == VESSEL_FREE && (lines || v->positioning.active);
+    return true;
+}
+
+/* Of none of the two runs' vessels: 0 in both, which is told of nobody. */
+static bool is_of_neither(const pair *p, size_t i, const char *vessel)
+{
+    for (int k = 0; k < 2; k++) {
+        const scenario *s = &p->d[k].s;
+        int32_t v = *vessel ? scenario_find_vessel(s, vessel) : 0;
+        if (v < 0 || v >= scenario_vessel_count(s))
+            continue;
+        if (has_what_tells(scenario_vessel_entry(s, v).keys, rows[i].channel))
+            return false;
+    }
+    return true;
+}
+
 /* One measure of a channel in both runs; vessel: its name before a colon, or "". */
 static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
 {
     double value[2];
     char name[COMPARE_NAME_SIZE];
     const load_unit unit = row_unit(p, i);
+    if (is_of_neither(p, i, vessel))
+        return;
     for (int k = 0; k < 2; k++)
-        value[k] = measure_of(&p->d[k], channel, rows[i].what) * unit.factor;
+        value[k] = measure_of(p, k, channel, rows[i].what) * unit.factor;
     if (strcmp(rows[i].unit, "deg") == 0)
         value[1] = angle_next_to(value[0], value[1]);
     name_row(p, i, vessel, name);
@@ -159,9 +204,9 @@ static double largest_measure(const pair *p, const char *channel, measure what)
     double most = 0;
     const scenario *s;
     for (int k = 0; k < 2; k++) {
-        most = fmax(most, fabs(measure_of(&p->d[k], channel, what)));
+        most = fmax(most, fabs(measure_of(p, k, channel, what)));
         for (int32_t at = 0, v = 0; (s = next_vessel(p, at, &v)); at++)
-            most = fmax(most, fabs(measure_of(&p->d[k], vessel_channel_name(s, v, channel).text, what)));
+            most = fmax(most, fabs(measure_of(p, k, vessel_channel_name(s, v, channel).text, what)));
     }
     return most;
 }
@@ -188,16 +233,20 @@ static bool same_files(const run_note *a, const run_note *b)
 }
 
 /* The hash has files by their names alone; what is in them is told beside it.  A run of a Fram that lacked a key has
-   another hash than one of the same scenario by this: there is what this one reads of both. */
+   another hash than one of the same scenario by this: there is what this one reads of both.  What a program told a run
+   stands in place of the scenario, and with which numbers in no file. */
 static void compare_scenarios(const run_data *d, compare_result *out)
 {
     const run_note *a = &d[0].note, *b = &d[1].note;
     bool noted = strcmp(a->scenario_hash, b->scenario_hash) == 0;
     bool names = noted || strcmp(d[0].scenario_hash, d[1].scenario_hash) == 0;
-    bool files = same_files(a, b);
-    out->same_scenario = noted && files;
-    out->same_as_read = names && files && !noted;
-    out->only_files_differ = names && !files;
+    bool files = same_files(a, b), steered = a->told.count > 0 || b->told.count > 0;
+    for (int k = 0; k < 2; k++)
+        run_told(&d[k], out->told[k]);
+    out->same_scenario = noted && files && !steered;
+    out->same_as_read = names && files && !noted && !steered;
+    out->only_files_differ = names && !files && !steered;
+    out->only_told_differs = names && files && steered;
     out->changed_a = d[0].is_changed;
     out->changed_b = d[1].is_changed;
 }
@@ -206,6 +255,7 @@ static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
     const scenario *s;
+    find_spans(p);
     choose_units(p);
     find_last_row(p);
     add_row(p, "simulated time", "s", false, time);
@@ -280,7 +330,10 @@ static fram_status overlay_charts(pair *p, const overlay *o, fram_error *error)
 
 static void number_table(pair *p)
 {
-    const char *const heads[] = {"after the transient", "A", "B", "B - A", "B / A"};
+    char span[64] = "after the transient";
+    if (p->result->counted_from > 0)
+        snprintf(span, sizeof span, "after %.6g s, of what both recorded", p->result->counted_from);
+    const char *const heads[] = {span, "A", "B", "B - A", "B / A"};
     html_table_begin(&p->page, heads, 5);
     for (int32_t i = 0; i < p->result->count; i++) {
         const compare_row *row = &p->result->row[i];
@@ -300,7 +353,7 @@ static void number_table(pair *p)
 /* What was read of a changed scenario may be the same where what was run was not. */
 static const char *unless_changed(const compare_result *r)
 {
-    bool read = r->same_as_read || r->only_files_differ;
+    bool read = r->same_as_read || r->only_files_differ || r->only_told_differs;
     return read && (r->changed_a || r->changed_b) ? ", or scenario.yaml was changed since" : "";
 }
 
@@ -323,10 +376,15 @@ static fram_status compose_comparison(pair *p, fram_error *error)
     for (int k = 0; k < 2; k++)
         if (p->d[k].is_changed)
             html_fact(&p->page, k ? "of B" : "of A", RUN_IS_CHANGED);
+    for (int k = 0; k < 2; k++)
+        if (p->result->told[k][0])
+            html_fact(&p->page, k ? "told B by a program" : "told A by a program", "%s, in place of its scenario's",
+                      p->result->told[k]);
     html_fact(&p->page, "scenarios", "%s%s",
               p->result->same_scenario       ? "the same"
               : p->result->same_as_read      ? "the same, as this Fram reads them"
               : p->result->only_files_differ ? "the same but for the files that they name"
+              : p->result->only_told_differs ? "the same but for what a program told"
                                              : "different",
               unless_changed(p->result));
     html_fact(&p->page, "final states", "%s", p->result->same_state ? "identical to the bit" : "different");

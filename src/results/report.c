@@ -234,22 +234,11 @@ static void flow_fact(report *r, const char *name, const char *file, double spee
         html_fact(&r->page, name, "none");
 }
 
-/* So many of the names fit in a cell of the page. */
 static void told_fact(report *r)
 {
-    enum { SHOWN = 16, ROOM = VESSEL_NAME_MOST + 50 };
-    char text[SHOWN * ROOM + 32] = "";
-    const char *at = r->d.note.told.data;
-    int count = 0;
-    size_t used = 0;
-    for (size_t length; at && *at; at += length + 1, count++) {
-        length = strcspn(at, "\n");
-        if (count < SHOWN && length + 2 < ROOM)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%.*s", count > 0 ? ", " : "", (int)length, at);
-    }
-    if (count > SHOWN)
-        snprintf(text + used, sizeof text - used, " and %d more", count - SHOWN);
-    if (count > 0)
+    char text[RUN_TOLD_SIZE];
+    run_told(&r->d, text);
+    if (*text)
         html_fact(&r->page, "told by a program", "the rows above are the scenario's, in place of which were %s", text);
 }
 

@@ -51,6 +51,10 @@ void run_warn_change(context *ctx, const run_data *d);
 /* The same once of so many runs, of which the first is in this folder; of none nothing. */
 void run_warn_changes(context *ctx, const char *first, int32_t count);
 
+/* The names of what a program told the run in place of its scenario, "wind_x, tug.path and 2 more"; "": nothing. */
+enum { RUN_TOLD_SIZE = 1280 };
+void run_told(const run_data *d, char out[RUN_TOLD_SIZE]);
+
 /* Whether the run has no end: it goes on, or was killed. */
 bool run_is_open(const run_data *d);
 /* Whether there may have been events that are not in its note: it is open, or had more than that holds. */

@@ -1,5 +1,5 @@
 /* What the rows of a run's series are of, and what is refused where they are damaged, where it has none, or not the
-   channel.  One module with run_data. */
+   channel; what a program told it.  One module with run_data. */
 #include "results/run_data.h"
 
 #include "base/channel_statistics.h"
@@ -168,4 +168,24 @@ fram_status run_refuse_channel(const run_data *d, const char *name, const char *
     return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name,
                      "the run has no channel of this name; %s%s%s`fram plot %.200s` lists them all",
                      meant ? "did you mean " : "", meant ? meant : "", meant ? "? " : "", d->folder);
+}
+
+/* ---- what a program told ---- */
+
+void run_told(const run_data *d, char out[RUN_TOLD_SIZE])
+{
+    enum { SHOWN = 16, ROOM = VESSEL_NAME_MOST + 50 };
+    const char *at = d->note.told.data;
+    int count = 0;
+    size_t used = 0;
+    _Static_assert(SHOWN * ROOM + 32 <= RUN_TOLD_SIZE, "room for the names that are shown");
+    out[0] = '\0';
+    for (size_t length; at && *at; at += length + 1, count++) {
+        length = strcspn(at, "\n");
+        if (count < SHOWN && length + 2 < ROOM)
+            used +=
+                (size_t)snprintf(out + used, RUN_TOLD_SIZE - used, "%s%.*s", count > 0 ? ", " : "", (int)length, at);
+    }
+    if (count > SHOWN)
+        snprintf(out + used, RUN_TOLD_SIZE - used, " and %d more", count - SHOWN);
 }

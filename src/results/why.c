@@ -260,6 +260,8 @@ static void tell_difference(context *ctx, const char *how, why_method by, double
 static void tell_check(context *ctx, const peak_detail *d, const why_check *c, load_unit unit, text_buffer *out)
 {
     if (!c->done) {
+        if (c->hindrance[0])
+            text_format(ctx, out, "\nA program steered the run: %s. --no-rerun does not try.", c->hindrance);
         text_add(ctx, out, "\nNot recomputed: the influence of time step and solver is unknown.\n");
         return;
     }
@@ -417,6 +419,10 @@ static void json_check(context *ctx, text_buffer *out, const why_check *c)
     text_add(ctx, out, ", \"computed_again\": ");
     if (!c->done) {
         text_add(ctx, out, "null");
+        if (c->hindrance[0]) {
+            text_add(ctx, out, ", \"hindrance\": ");
+            text_quoted(ctx, out, c->hindrance);
+        }
         return;
     }
     text_add(ctx, out, "{");

@@ -27,7 +27,8 @@ typedef struct rerun {
     const char *folder;
     scenario s;
     double time;
-    double ran; /* where the run stands, as rerun_run_end [s] */
+    double known_from; /* as rerun_moment */
+    double ran;        /* where the run stands, as rerun_run_end [s] */
     int32_t vessel;
     rerun_check check;
     rerun_result *out;
@@ -202,6 +203,13 @@ static fram_status go_back(rerun *r, const model *m, fram_error *error)
     if (status != FRAM_OK)
         return status;
     r->out->start = w.clock.time[0];
+    if (r->out->start < r->known_from - 0.5 * m->time_step) {
+        world_free(r->ctx, &w);
+        return error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "time",
+                         "it was recorded from %g s on, what it was told until then stands in no file, and no "
+                         "checkpoint of it is a second and an averaging window before %g s",
+                         r->known_from, r->time);
+    }
     log_write(r->ctx, LOG_INFO, "computing again from t = %g s", r->out->start);
     if (r->vessel >= w.vessels.count)
         status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "vessel",
@@ -228,11 +236,11 @@ static fram_status check_moment(rerun *r, fram_error *error)
     return status;
 }
 
-fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t vessel, rerun_result *out,
-                         fram_error *error)
+fram_status rerun_moment(context *ctx, const char *folder, double time, double known_from, int32_t vessel,
+                         rerun_result *out, fram_error *error)
 {
     char path[PATH_ROOM];
-    rerun r = {.ctx = ctx, .folder = folder, .time = time, .vessel = vessel, .out = out};
+    rerun r = {.ctx = ctx, .folder = folder, .time = time, .known_from = known_from, .vessel = vessel, .out = out};
     memset(out, 0, sizeof *out);
     fram_status status = path_join(folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)

@@ -26,9 +26,10 @@ typedef struct rerun_result {
 fram_status rerun_start(context *ctx, const char *folder, const scenario *s, double time, const model *m, world *w,
                         fram_error *error);
 
-/* vessel: row.  FRAM_ERROR_INPUT for a folder that is not of a run, a time outside it, a vessel that is not there, and
-   for inputs that were changed since.  FRAM_INTERRUPTED when the context's stop flag is set. */
-fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t vessel, rerun_result *out,
-                         fram_error *error);
+/* vessel: row.  known_from: a state before it is not gone on from, since what a program told the run until then stands
+   in no file [s]; 0: from any.  FRAM_ERROR_INPUT for a folder that is not of a run, a time outside it, a vessel that is
+   not there, and for inputs that were changed since.  FRAM_INTERRUPTED when the context's stop flag is set. */
+fram_status rerun_moment(context *ctx, const char *folder, double time, double known_from, int32_t vessel,
+                         rerun_result *out, fram_error *error);
 
 #endif

@@ -85,6 +85,10 @@ static fram_status compare_condition(context *ctx, series_runs *r, const run_dat
     if (r->told)
         return FRAM_OK;
     fram_status status = scenario_walk(&d->s, add_key, &to, error);
+    /* In place of what the keys say. */
+    char told[RUN_TOLD_SIZE];
+    run_told(d, told);
+    text_format(ctx, to.out, "what a program told it: %s\n", *told ? told : "nothing");
     if (status == FRAM_OK && to.out->failed)
         status = error_memory(error);
     if (status == FRAM_OK && !first)

@@ -145,7 +145,15 @@ START_TEST(steered)
     ck_assert_int_eq(access(map, F_OK), -1);
     assert_ok(pressure(0, 1.5), e);
     assert_fails(why(2.5, 0), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
-    assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "at t = 1.52 s");
+    /* A peak that is kept is told, with why its moment is not computed again. */
+    assert_ok(why(0, 1), e);
+    assert_told("Peak 1 of ");
+    assert_told("\nA program steered the run: at t = 1.52 s");
+    assert_told("\nNot recomputed: ");
+    as_json = true;
+    assert_ok(why(0, 1), e);
+    assert_told("\"computed_again\": null, \"hindrance\": \"at t = 1.52 s");
+    as_json = false;
     assert_ok(why(1, 0), e);
     close_all();
 }
@@ -460,6 +468,69 @@ START_TEST(recorded_from_later_on)
 }
 END_TEST
 
+/* A peak of a run that was told something and recorded late is told, and nothing is computed up to where it began. */
+START_TEST(steered_and_recorded_from_later_on)
+{
+    open_all();
+    unrecorded = 75;
+    record(no_checkpoints, 1, 76);
+    unrecorded = 0;
+    assert_ok(why(0, 1), e);
+    assert_told("\nA program steered the run: it was recorded from 1.5 s on, ");
+    close_all();
+}
+END_TEST
+
+static double row_of(const fram_comparison *c, const char *name, bool second)
+{
+    int i = 0;
+    while (i < c->count && strcmp(c->rows[i].name, name) != 0)
+        i++;
+    ck_assert_msg(i < c->count, "no row %s", name);
+    return second ? c->rows[i].b : c->rows[i].a;
+}
+
+/* The same motion, recorded from 1.5 s on, has the same numbers from there on; a run that was told is not the same. */
+START_TEST(compared_from_where_both_are_recorded)
+{
+    static const char *const numbers[] = {"ice load along X, mean", "ice load along X, maximum",
+                                          "contact points, mean"};
+    char whole[300], page[300];
+    open_all();
+    record(no_checkpoints, 1, -1);
+    snprintf(whole, sizeof whole, "%s/whole", folder);
+    snprintf(page, sizeof page, "%s/page.html", run);
+    ck_assert_int_eq(rename(run, whole), 0);
+    unrecorded = 75;
+    for (int told = -1; told < 100; told += 91) {
+        fram_comparison c;
+        record(no_checkpoints, 1, told);
+        assert_ok(fram_compare(ctx, whole, run, page, &c, &e), e);
+        ck_assert_double_eq_tol(c.counted_from, 1.5, 1e-9);
+        ck_assert_str_eq(c.told_a, "");
+        ck_assert_str_eq(c.told_b, told < 0 ? "" : "wind_x, wind_y, tow_velocity");
+        ck_assert(c.same_scenario == (told < 0) && c.only_told_differs == (told >= 0));
+        ck_assert(!c.same_as_read && !c.only_files_differ);
+        for (int i = 0; i < c.count; i++) /* of no lines, thrusters and station nothing is told */
+            ck_assert(!strstr(c.rows[i].name, "tension") && !strstr(c.rows[i].name, "thruster") &&
+                      !strstr(c.rows[i].name, "offset"));
+        ck_assert(run_file_has("page.html", "after 1.5 s, of what both recorded"));
+        ck_assert(run_file_has("page.html", "told B by a program") == (told >= 0));
+        for (size_t i = 0; i < sizeof numbers / sizeof *numbers && told < 0; i++)
+            ck_assert_double_eq(row_of(&c, numbers[i], false), row_of(&c, numbers[i], true));
+        ck_assert((row_of(&c, "x at the end", false) == row_of(&c, "x at the end", true)) == (told < 0));
+        fram_comparison_free(ctx, &c);
+    }
+    unrecorded = 0;
+    record(no_checkpoints, 1, -1);
+    fram_comparison c;
+    assert_ok(fram_compare(ctx, whole, run, NULL, &c, &e), e);
+    ck_assert(c.counted_from == 0 && c.same_scenario && c.same_state);
+    fram_comparison_free(ctx, &c);
+    close_all();
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     open_all();
@@ -488,4 +559,5 @@ END_TEST
 
 TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
           from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
-          up_to_a_failure, no_step, recorded_from_later_on, memory_runs_out)
+          up_to_a_failure, no_step, recorded_from_later_on, steered_and_recorded_from_later_on,
+          compared_from_where_both_are_recorded, memory_runs_out)

@@ -183,11 +183,18 @@ class Statistics(unittest.TestCase):
             self.fram("run", scene, "-o", runs[name], "--quiet", "--set", "run.duration=0.2",
                       *(word for key in keys for word in ("--set", key)))
         shutil.copytree(runs["first"], self.at / "copy")
+        # As one that a program told a wind.
+        runs["told"] = self.at / "told"
+        shutil.copytree(runs["other"], runs["told"])
+        note = (runs["told"] / "run.json").read_text()
+        self.assertIn('"told": []', note)
+        (runs["told"] / "run.json").write_text(note.replace('"told": []', '"told": ["wind_x"]'))
         for command in ("fatigue", "extremes"):
             self.refused((command, runs["other"], runs["first"], self.at / "copy"),
                          "copy:0:", f"is given twice ({runs['first']} is the same), and would count twice")
             for others, told in ((("other",), None), (("other", "faster", "window"), "vessel.speed is 1 in one, 1.5"),
-                                 (("window",), "output.averaging_window is 0.5 in one, 0.1")):
+                                 (("window",), "output.averaging_window is 0.5 in one, 0.1"),
+                                 (("told",), "what a program told it is nothing in one, wind_x in the other")):
                 done = subprocess.run([FRAM, command, runs["first"], *(runs[name] for name in others)],
                                       capture_output=True, text=True, check=True)
                 self.assertEqual(done.stderr.count("one condition"), told is not None, done.stderr)
