@@ -487,9 +487,9 @@ fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method
         status = answer_weibull(&w);
     else
         status = answer_blocks(&w);
-    if (status == FRAM_OK && out->answered) {
+    if (status == FRAM_OK && out->answered)
         extremes_doubt(out, ask, w.time);
+    if (status == FRAM_OK)
         extremes_doubt_series(out, s);
-    }
     return status;
 }

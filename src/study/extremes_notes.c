@@ -279,9 +279,16 @@ void extremes_doubt_series(extreme_result *out, const series_set *s)
         return;
     double variance = (a.square + b.square) / (a.count + b.count - 2);
     double deviation = sqrt(variance * (1.0 / a.count + 1.0 / b.count));
-    if (fabs(b.mean - a.mean) > UNSTEADY * deviation)
-        say(out,
-            "The means of the two halves differ by %.2g times what their batches scatter: the series is not "
-            "stationary (leave its start out?).",
-            fabs(b.mean - a.mean) / deviation);
+    if (!(fabs(b.mean - a.mean) > UNSTEADY * deviation))
+        return;
+    char refusal[sizeof out->note];
+    memcpy(refusal, out->note, sizeof refusal);
+    if (!out->answered)
+        out->note[0] = '\0';
+    say(out,
+        "The means of the two halves differ by %.2g times what their batches scatter: the series is not stationary "
+        "(leave its start out?).",
+        fabs(b.mean - a.mean) / deviation);
+    if (!out->answered)
+        say(out, "Its time scale, by which blocks and batches go, is that of this change. %s", refusal);
 }

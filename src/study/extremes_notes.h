@@ -26,7 +26,8 @@ void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t c
 /* Tensions of runs in which lines parted are told up to the least that was the largest of such a run [N], infinite:
    all; offsets have no levels, since the vessel drifts on from there. */
 void extremes_cut_parted(extreme_result *out, int levels, int32_t parted, int32_t runs, bool offset, double least);
-/* The same of the series: halves that differ. */
+/* The same of the series: halves that differ.  Of a series without an answer it stands first, since time scales, and
+   the blocks and batches that are of so many of them, are then those of the change. */
 void extremes_doubt_series(extreme_result *out, const series_set *s);
 
 /* Of rates: draws without a fit, and a tail that does not go on as it begins. */

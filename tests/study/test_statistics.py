@@ -242,6 +242,12 @@ class Statistics(unittest.TestCase):
         note = self.fram("extremes", drift, "--channel", "x", "--method", "gumbel", "--block",
                          "20")["methods"][0]["note"]
         self.assertIn("not stationary", note)
+        # Where that takes the answer too, it is the reason, and stands before what comes of it.
+        for method in ("gumbel", "gev", "acer", "upcrossing"):
+            steep = self.write("time,x\n" + "".join(f"{i},{(i * 7919 % 100) / 50 + i / 500}\n" for i in range(2000)),
+                               "steep.csv")
+            note = self.fram("extremes", steep, "--channel", "x", "--method", method)["methods"][0]["note"]
+            self.assertRegex(note, "^The means of the two halves differ .* not stationary .* of this change. No answer")
         maxima = self.write("x\n" + "\n".join(map(str, sample())) + "\n", "m.csv")
         note = self.fram("extremes", maxima, "--channel", "x", "--maxima", "--block", "60", "--duration", "1a",
                          "--method", "gumbel")["methods"][0]["note"]
