@@ -1,11 +1,13 @@
 /* Levels of a year over all conditions, as far as their runs carry them. */
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "study/extremes_notes.h"
 #include "study/study_answers.h"
 #include "study/study_extremes.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* The first condition that occurs in which lines part, of tensions below the level, and how; -1 without. */
 static int32_t find_parting(const study *s, const condition_rows *conditions, double level, parted_lines *parted)
@@ -85,7 +87,27 @@ static bool is_idle(const condition_rows *of)
     return true;
 }
 
-/* Levels of a year know no more than the fits of their conditions. */
+/* Levels of a year know no more than the fits of their conditions, and most of all that of the one that carries them:
+   what would be told of it as one of that condition alone. */
+static void doubt_carrier(const study_extremes *x, const condition_maxima *of, const annual_lack *by,
+                          annual_answer *out)
+{
+    const condition_maxima *own = &of[by->carrier];
+    const extreme_request ask = {.duration = by->duration, .confidence = x->confidence, .fit = FIT_LIKELIHOOD};
+    extreme_result r;
+    extremes_begin(&r, x->gev ? EXTREME_GEV : EXTREME_GUMBEL, &ask);
+    r.sample = own->value.count;
+    r.law = by->law;
+    r.most_probable = out->level;
+    extremes_doubt(&r, &ask, own->block * own->value.count);
+    if (!x->gev)
+        extremes_doubt_gumbel(&r, own->value.data, own->value.count);
+    if (r.note[0])
+        snprintf(out->why, sizeof out->why,
+                 "%.0f %% of what exceeds it is of condition %d, in which it is one of %s h. %s", 100 * by->share,
+                 (int)by->carrier + 1, plain_text_of(by->duration / EXTREME_HOUR, 3).text, r.note);
+}
+
 static void doubt_gumbel(const study_extremes *x, const condition_maxima *of, int32_t count, annual_answer *out)
 {
     int32_t against = 0, occur = 0;
@@ -94,10 +116,11 @@ static void doubt_gumbel(const study_extremes *x, const condition_maxima *of, in
         occur += occurs;
         against += occurs && extremes_against_gumbel(of[c].value.data, of[c].value.count);
     }
+    size_t used = strlen(out->why);
     if (against > 0)
-        snprintf(out->why, sizeof out->why,
-                 "The largest values of %d of %d conditions speak against Gumbel's law (extremes.csv tells which).",
-                 (int)against, (int)occur);
+        snprintf(out->why + used, sizeof out->why - used,
+                 "%sThe largest values of %d of %d conditions speak against Gumbel's law (extremes.csv tells which).",
+                 used > 0 ? " " : "", (int)against, (int)occur);
 }
 
 fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
@@ -127,8 +150,11 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
             snprintf(out[i].why, sizeof out[i].why,
                      "No answer: no condition that occurs met ice, and the runs of each are the same: nothing is left "
                      "to chance.");
-        } else if (!x->gev) {
-            doubt_gumbel(x, of, count, &out[i]);
+        } else {
+            if (lack[i].carrier >= 0)
+                doubt_carrier(x, of, &lack[i], &out[i]);
+            if (!x->gev)
+                doubt_gumbel(x, of, count, &out[i]);
         }
         check_parting(f->s, conditions, figure, &out[i]);
     }

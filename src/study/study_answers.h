@@ -25,7 +25,7 @@ fram_status study_values(const study_folder *f, const condition_rows *conditions
    speaks against it, if anything does. */
 typedef struct annual_answer {
     level_interval level;
-    char why[240];
+    char why[EXTREME_NOTE];
 } annual_answer;
 /* Of a figure, for each of the probabilities that are asked. */
 fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,

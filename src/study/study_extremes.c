@@ -138,6 +138,12 @@ fram_status study_extremes_check(context *ctx, study *s, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, s->file, s->seeds.extreme_line, "extreme_within",
                          "expected most from %d on, since fewer runs carry no law, found %d", (int)LAW_VALUES_LEAST,
                          (int)s->seeds.most);
+    if (s->extremes.asked && s->seeds.most < LAW_VALUES_LEAST)
+        log_write(
+            ctx, LOG_WARNING,
+            "%s:%d: extremes: no condition will have an answer: a law takes %d runs, and of %d seeds come no more; "
+            "take seeds: %d or more",
+            s->file, s->extremes.line, (int)LAW_VALUES_LEAST, (int)s->seeds.most, (int)LAW_VALUES_LEAST);
     return check_hours(ctx, s, error);
 }
 
@@ -336,13 +342,13 @@ static fram_status replicate_student(year_work *w, int32_t replicate, const doub
 
 static annual_lack lack_of_shape(const year_work *w, double exponent)
 {
-    annual_lack out = {.condition = -1};
+    annual_lack out = {.condition = -1, .carrier = -1};
     for (int32_t c = 0; c < w->conditions; c++) {
         if (!w->source[c].occurs || !w->ask->gev)
             continue;
         double y = real_log(fmax(w->part[c].blocks / exponent, 1)), runs = ceil(SHAPE_VARIANCE * y * y);
         if (w->source[c].count < runs && runs > out.runs)
-            out = (annual_lack){.condition = c, .runs = (int32_t)runs, .there = w->source[c].count};
+            out = (annual_lack){.condition = c, .carrier = -1, .runs = (int32_t)runs, .there = w->source[c].count};
     }
     return out;
 }
@@ -351,7 +357,7 @@ static annual_lack lack_of_shape(const year_work *w, double exponent)
 static annual_lack lack_of_fit(const year_work *w, const condition_maxima *of, int32_t condition)
 {
     const double_array *value = &of[condition].value;
-    annual_lack out = {.condition = condition, .there = value->count};
+    annual_lack out = {.condition = condition, .carrier = -1, .there = value->count};
     if (value->count < LAW_VALUES_LEAST)
         return out;
     out.same = value->data[0] == value->data[value->count - 1];
@@ -404,6 +410,24 @@ static level_interval at_least(const level_interval *i, double least)
                             i->high < least ? least : i->high};
 }
 
+/* The condition that most exceedances of a level are of. */
+static void find_carrier(const year_work *w, const condition_maxima *of, double level, double exponent,
+                         annual_lack *out)
+{
+    double most = 0, all = 0;
+    for (int32_t c = 0; c < w->conditions; c++) {
+        double own = w->source[c].occurs ? w->part[c].blocks * extreme_law_exponent(&w->part[c].law, level) : 0;
+        all += own;
+        if (!(own > most))
+            continue;
+        most = own;
+        out->carrier = c;
+        out->law = w->part[c].law;
+        out->duration = w->part[c].blocks * of[c].block / exponent;
+    }
+    out->share = all > 0 ? most / all : 0;
+}
+
 static fram_status answer_year(year_work *w, const condition_maxima *of, level_interval *out, annual_lack *lack)
 {
     const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
@@ -412,8 +436,10 @@ static fram_status answer_year(year_work *w, const condition_maxima *of, level_i
     for (int i = 0; i < w->ask->annuals; i++) {
         exponent[i] = -real_log(1 - w->ask->annual[i]);
         lack[i] = missing >= 0 ? lack_of_fit(w, of, missing) : lack_of_shape(w, exponent[i]);
-        if (missing < 0 && w->occur > 0)
-            out[i].level = solve_year(w->part, w->conditions, exponent[i]);
+        if (missing >= 0 || w->occur == 0)
+            continue;
+        out[i].level = solve_year(w->part, w->conditions, exponent[i]);
+        find_carrier(w, of, out[i].level, exponent[i], &lack[i]);
     }
     if (missing >= 0 || w->occur == 0)
         return FRAM_OK;
@@ -438,7 +464,7 @@ fram_status annual_levels(context *ctx, const study_extremes *ask, const conditi
     year_work w = {.ctx = ctx, .ask = ask, .conditions = conditions, .least = -(double)INFINITY};
     for (int i = 0; i < ask->annuals; i++) {
         out[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
-        lack[i] = (annual_lack){.condition = -1};
+        lack[i] = (annual_lack){.condition = -1, .carrier = -1};
     }
     if (ask->annuals == 0)
         return FRAM_OK;

@@ -20,12 +20,17 @@ typedef struct condition_maxima {
     bool idle; /* none of the runs saw any ice load */
 } condition_maxima;
 
-/* Why there is no level: a condition has no fit, or by gev fewer runs than the level takes. */
+/* Why there is no level: a condition has no fit, or by gev fewer runs than the level takes; of one that there is, on
+   which condition it rests most. */
 typedef struct annual_lack {
     int32_t condition;   /* from 0; -1: the level is there */
     int32_t runs, there; /* that it takes and has; 0: no fit at all */
     int32_t tied;        /* of those without a fit: how many are equal, the least, which is too many */
     bool same;           /* of those without a fit: all are, under ice */
+    int32_t carrier;     /* of a level: the condition that most of its exceedances are of, from 0; -1: there is none */
+    double share;        /* the part of them that are */
+    double duration;     /* in that condition that the level is one of: its time in a year over the probability [s] */
+    extreme_law law;     /* of its largest values */
 } annual_lack;
 
 /* Levels that are exceeded with the probabilities ask->annual in a year, where conditions last their hours in it: the

@@ -582,10 +582,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         load, year = told([2 ** k for k in range(12)])
         self.assertIn("speak against Gumbel's law", load["note"])
         self.assertGreater(float(year["level"]), float(load["most_probable"]))
-        self.assertIn("of 1 of 1 conditions speak against Gumbel's law", year["note"])
+        self.assertRegex(year["note"], "^100 %.* condition 1, .* 9950 h. The duration.* wide.*small.* low.*1 of 1 ")
         load, year = told([-math.log(-math.log((k + 0.5) / 12)) for k in range(12)])
         self.assertNotIn("speak against", load["note"])
-        self.assertEqual(year["note"], "")
+        self.assertNotIn("speak against", year["note"])
 
     @WHOLE
     def test_extremes_of_conditions_and_of_a_year(self):

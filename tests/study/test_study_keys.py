@@ -1,9 +1,10 @@
 """What a study says of its keys: whole numbers between the ends of a range, files that are not there, parts of a mean,
 names of vessels."""
 import collections
+import subprocess
 import unittest
 
-from studies import StudyTest
+from studies import FRAM, StudyTest
 
 WAYS = ("latin: {count: 4, keys: {", "sobol: {count: 10, keys: {", "morris: {count: 2, keys: {")
 TWO = """
@@ -58,6 +59,15 @@ class KeysTest(StudyTest):
                              "5 per cent are 0.05")
         for given in ("much", "0", "-1"):
             self.refused(f"seeds: {{least: 4, most: 9, mean_within: {given}}}\n", "from 1e-06 to 1,", f"found {given}")
+
+    def test_extremes_that_will_have_no_answer_are_told_beforehand(self):
+        for seeds, extremes, told in (("9", "extremes: {duration: 1h}\n", True), ("9", "", False),
+                                      ("{least: 2, most: 9, mean_within: 0.1}", "extremes: {duration: 1h}\n", True),
+                                      ("{least: 2, most: 10, mean_within: 0.1}", "extremes: {duration: 1h}\n", False)):
+            study = self.write(f"set: {{run.duration: 0.1, run.transient: 0}}\nseeds: {seeds}\n{extremes}")
+            done = subprocess.run([FRAM, "study", "check", study], capture_output=True, text=True, check=True)
+            self.assertEqual("study.yaml:4: extremes: no condition will have an answer: a law takes 10 runs, and of 9 "
+                             "seeds come no more" in done.stderr, told, done.stderr)
 
     def test_a_vessel_that_is_told_is_there_under_all_conditions(self):
         (self.at / "base.yaml").write_text(TWO)
