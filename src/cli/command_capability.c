@@ -57,7 +57,8 @@ int command_capability(const command_row *self, int argc, char **argv)
         {"--measure", NULL, OPTION_REAL, &d.measure, "T",
          "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
         {"--formula", NULL, OPTION_FLAG, &d.formula, NULL,
-         "ice load from Zuev's formula for ships in broken ice instead: without runs, but coarse"},
+         "ice load from Zuev's formula for ships in broken ice instead, without runs: for some 20 degrees about the "
+         "bow; abeam it is many times too large"},
         {"--directions", NULL, OPTION_INTEGER, &d.directions, "N", "number of directions, evenly spaced (36)"},
         {"--speed-step", NULL, OPTION_REAL, &d.speed_step, "V", "step of drift speed [m/s] (0.1)"},
         {"--speed-most", NULL, OPTION_REAL, &d.speed_most, "V", "largest drift speed [m/s] (1)"},

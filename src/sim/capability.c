@@ -440,8 +440,10 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
     }
     if (status == FRAM_OK)
         status = sweep(ctx, s, &w, c, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
+        capability_tell_growth(ctx, c);
         capability_tell_turns(ctx, c);
+    }
     world_free(ctx, &w);
     if (status != FRAM_OK)
         capability_free(ctx, c);

@@ -57,6 +57,9 @@ typedef struct capability_loads {
     vec3 *ice;                   /* [row * speeds + k] at the speed (k + 1) speed_step; constant below the first */
     int32_t measured;            /* in so many directions, and linear between them; 0: not */
     double runs_done, runs;      /* that measure the ice load, for who waits */
+    /* Of measured loads, at the speed where they grow most [m/s]: mean of the second half of what counts over that of
+       the first, over all directions and from the one where it is most [rad]. */
+    double growth, growth_speed, growth_most, growth_from;
 } capability_loads;
 
 /* What is lost in a failure. */
@@ -114,6 +117,9 @@ double broken_ice_resistance(double density, double gravity, double breadth, dou
    to where measured ice loads are far apart. */
 void capability_tell_scenario(context *ctx, const scenario *s, const capability_options *o);
 void capability_tell_turns(context *ctx, const capability *c);
+/* A warning where measured ice loads were still building up; whether they were. */
+void capability_tell_growth(context *ctx, const capability *c);
+bool capability_builds_up(const capability *c);
 /* FRAM_INTERRUPTED when the options' stop flag is set. */
 fram_status capability_go_on(const capability *c, fram_error *error);
 /* All of it, before anything is written; to be freed. */

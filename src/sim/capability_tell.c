@@ -61,3 +61,29 @@ void capability_tell_turns(context *ctx, const capability *c)
         "%.3g degrees apart: %s",
         degrees(largest_turn(c)), degrees(spacing), remedy);
 }
+
+/* A second half that is larger by this factor over all directions is no chance of single ones, and no small part of
+   what a balance is judged by: of the allowance that mean loads have. */
+#define GROWTH_MOST 1.25
+
+bool capability_builds_up(const capability *c) { return c->loads.measured && c->loads.growth > GROWTH_MOST; }
+
+/* How ice comes to press on a wide hull goes by the way that it has drifted, which is short at low speeds. */
+void capability_tell_growth(context *ctx, const capability *c)
+{
+    const capability_loads *l = &c->loads;
+    if (!capability_builds_up(c))
+        return;
+    char factors[96];
+    int n = isfinite(l->growth) ? snprintf(factors, sizeof factors, "%.3g times as large", l->growth)
+                                : snprintf(factors, sizeof factors, "there alone");
+    if (isfinite(l->growth) && isfinite(l->growth_most))
+        snprintf(factors + n, sizeof factors - (size_t)n, " (from %.0f deg %.3g times)", degrees(l->growth_from),
+                 l->growth_most);
+    log_write(ctx, LOG_WARNING,
+              "measured ice loads were still building up, and limits are too high: at %.3g m/s, at which %.3g m of ice "
+              "came in %.6g s, those of the second half of what counts are %s; measure twice as long (--measure %.6g), "
+              "until both halves agree",
+              l->growth_speed, l->growth_speed * c->options.measure, c->options.measure, factors,
+              2 * c->options.measure);
+}

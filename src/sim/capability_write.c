@@ -153,6 +153,8 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
     const capability_options *o = &c->options;
     text_format(ctx, b, "{\n  \"ice_load\": \"%s\",\n", ice_load_source(c));
     add_member(ctx, b, "measuring_time_s", c->loads.measured ? o->measure : (double)NAN);
+    add_member(ctx, b, "ice_load_growth", c->loads.measured ? c->loads.growth : (double)NAN);
+    add_member(ctx, b, "ice_load_growth_speed_m_s", c->loads.measured ? c->loads.growth_speed : (double)NAN);
     add_member(ctx, b, "wind_speed_m_s", c->wind_speed);
     add_member(ctx, b, "ice_thickness_m", c->thickness);
     add_member(ctx, b, "ice_concentration", c->concentration);
@@ -231,11 +233,15 @@ static void describe(context *ctx, const scenario *s, const capability *c, text_
     if (c->thickness > 0)
         text_format(ctx, b, "Ice: %.3g m, %.3g %%; load %s\n", c->thickness, 100 * c->concentration,
                     c->loads.measured ? "measured in runs of" : "by Zuev's formula");
+    if (c->thickness > 0 && !c->loads.measured)
+        text_add(ctx, b, "  for some 20 deg about the bow; abeam it is\n  many times too large\n");
     if (o->met)
         text_format(ctx, b, "Managed ice as in %g windows of %d %s\n  before the vessel; floes of %.3g m by area\n",
                     o->met->windows, (int)o->met->run_count, o->met->run_count > 1 ? "runs" : "run", o->met->law.mean);
     if (c->loads.measured)
         text_format(ctx, b, "  %g s, highest third of the peaks\n", o->measure);
+    if (capability_builds_up(c))
+        text_add(ctx, b, "  that were still building up\n");
     text_format(ctx, b, "Wind: %.3g m/s\n", c->wind_speed);
     text_format(ctx, b, "Allowance on mean loads: %.3g\n", o->allowance);
     int32_t row = o->vessel ? scenario_find_vessel(s, o->vessel) : 0;

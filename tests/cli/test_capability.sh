@@ -78,6 +78,22 @@ expect 0 "$FRAM" capability mixed.yaml -o mixed --measure 3 --directions 4 --spe
 python3 -c 'import json; j = json.load(open("mixed/capability.json"))
 assert 0.5 < j["ice_thickness_m"] < 0.7 and abs(j["ice_concentration"] - 0.6) < 0.01, j
 assert j["measuring_time_s"] == 3, j' || fail "what ice was met"
+# A sheet that comes to a wide side loads it more and more, and a plot of its first metres is none of its load.
+cat >growing.yaml <<'END'
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}
+  thrusters: [{x: 15, thrust: 4.0e4}, {x: -15, thrust: 4.0e4}]
+domain: {x_min: -120, x_max: 120, y_min: -120, y_max: 120, boundary: feeding}
+ice: {source: voronoi, concentration: 0.5, mean_floe_area: 60, thickness: 0.4}
+END
+expect 0 "$FRAM" capability growing.yaml -o growing --measure 40 --directions 4 --speed-step 0.2 --speed-most 0.2
+says 'measured ice loads were still building up, and limits are too high: at 0.2 m/s, at which 8 m of ice' err
+says '--measure 80' err
+python3 -c 'import json; j = json.load(open("growing/capability.json"))
+assert j["ice_load_growth"] > 1.25 and j["ice_load_growth_speed_m_s"] == 0.2, j
+j = json.load(open("'"$scratch"'/a/capability.json"))
+assert j["ice_load_growth"] is None, j' || fail "how much loads grew"
 # The formula measures nothing, however long.
 expect 2 "$FRAM" capability mixed.yaml -o "$scratch/b" --formula --measure 3
 says '--measure: expected none with the formula' err
