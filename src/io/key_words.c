@@ -97,6 +97,9 @@ static const char *const other_words[][2] = {
     {"sigma_f", "flexural_strength"},
     {"simulation_time", "duration"},
     {"spacing", "spacing_deg"},
+    {"speed", "speed"}, /* of a vessel, but for these two sections */
+    {"speed", "current_speed"},
+    {"speed", "drift_speed"},
     {"stem_angle", "stem_angle_deg"},
     {"step", "time_step"},
     {"strength", "flexural_strength"},
@@ -127,6 +130,24 @@ static const char *const other_words[][2] = {
     {"young_modulus", "elastic_modulus"},
     {"youngs_modulus", "elastic_modulus"},
 };
+
+/* Words for what there is not.  section: that the words are of; "": any. */
+static const char *const lacking[][2] = {
+    {"", "hawser"},    {"", "hawsers"},           {"", "tow"},         {"", "tow_line"},
+    {"", "tow_lines"}, {"", "tow_rope"},          {"", "tow_wire"},    {"", "towed_by"},
+    {"", "towing"},    {"", "towing_line"},       {"", "towline"},     {"", "tows"},
+    {"lines", "body"}, {"lines", "connected_to"}, {"lines", "other"},  {"lines", "ship"},
+    {"lines", "to"},   {"lines", "to_vessel"},    {"lines", "vessel"},
+};
+
+const char *key_lacks(const char *path, const char *name)
+{
+    for (size_t i = 0; i < sizeof lacking / sizeof *lacking; i++)
+        if (strcmp(name, lacking[i][1]) == 0 && (!lacking[i][0][0] || strstr(path, lacking[i][0])))
+            return "no line ties two vessels: lines end at fixed anchors, and a vessel in tow (mode: towed) goes as "
+                   "its speed or path says, whatever tows it";
+    return NULL;
+}
 
 /* A word may stand for several keys, of which nth counts from 0.  NULL past the last, and for a word that is not known.
  */

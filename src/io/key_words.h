@@ -16,6 +16,9 @@ void key_join(char out[KEY_SIZE], const char *path, const char *name);
    its path, in `out`.  NULL: nothing is like it. */
 const char *key_meant(const scenario_section *section, const char *path, const char *name, char out[KEY_SIZE]);
 
+/* What is said of a name that stands for what Fram does not have, as a tow line between vessels; NULL: of none. */
+const char *key_lacks(const char *path, const char *name);
+
 /* How a key is written in a file whose name has points in it, as --set wants it: "run: {duration: ...}" of
    "run.duration" in the whole scenario.  false: it is none of the section. */
 enum { KEY_NESTED_SIZE = 160 };

@@ -185,6 +185,11 @@ static fram_status unknown_key(const scenario_reader *r, const scenario_section 
     const char *where = *path ? path : "the scenario", *meant = key_meant(section, path, name, other);
     if (key_nested(section, name, nested))
         return refuse(r, place, "expected a key of %s, found %s: write %s", where, shown(name).text, nested);
+    if (key_lacks(path, name))
+        return refuse(r, place, "expected a key of %s, found %s: %s", where, shown(name).text, key_lacks(path, name));
+    if (meant && strcmp(meant, name) == 0)
+        return refuse(r, place, "expected a key of %s, found %s, which is a key of the whole scenario", where,
+                      shown(name).text);
     if (meant)
         return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, meant);
     return refuse(r, place, "expected a key of %s, found %s", where, shown(name).text);

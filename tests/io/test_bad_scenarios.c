@@ -50,6 +50,7 @@ static const bad_scenario bad[] = {
     {"integer_beyond_double", 2, "run.seed", "to 9007199254740991"},
     {"integer_overflow", 2, "run.seed", "expected a smaller integer"},
     {"key_of_another_section", 3, "run.flexural_strength", "did you mean ice.flexural_strength?"},
+    {"line_to_a_vessel", 6, "vessel.mooring.lines[0].vessel", "no line ties two vessels"},
     {"key_with_points", 2, "run.duration", "found \"run.duration\": write run: {duration: ...}"},
     {"key_with_points_in_section", 3, "vessel.hull.length",
      "a key of vessel, found \"hull.length\": write hull: {length"},
