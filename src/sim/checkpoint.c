@@ -254,7 +254,8 @@ static fram_status check_origin(context *ctx, const char *path, const table_file
         *other = true;
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                          alone ? "the state belongs to another scenario, or another Fram saved it: load it into a "
-                                 "world of the one it is of, by that Fram"
+                                 "world of the one it is of (scenario.yaml in a run's folder; title and run.duration "
+                                 "count, and a program may step beyond its duration), by that Fram"
                                : "the checkpoint belongs to another scenario: scenario.yaml in the folder was "
                                  "changed, or the run was begun by another Fram: restore it, continue with that "
                                  "Fram, or start the run again");

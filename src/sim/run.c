@@ -38,8 +38,10 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
     if (options->until > 0 && options->until < s->run.duration)
         r->record.stop_step = scenario_step_at(options->until, s->run.time_step);
     else if (options->until > s->run.duration * (1 + 1e-9))
-        log_write(ctx, LOG_WARNING, "until %.10g s: the run ends at run.duration, %.10g s", options->until,
-                  s->run.duration);
+        log_write(ctx, LOG_WARNING,
+                  "until %.10g s: the run ends at run.duration, %.10g s; a longer one is a run of its own (--set "
+                  "run.duration) or a program's, which loads a checkpoint and steps on",
+                  options->until, s->run.duration);
     return FRAM_OK;
 }
 

@@ -195,7 +195,7 @@ same "$(cut -d, -f1-70 straight/series.csv | md5sum)" "$(cut -d, -f1-70 halves/s
 expect 2 "$FRAM" resume halves --until 1.5 --json
 same "$(value 'j["error"]["key"]')" --until "key of a time before the checkpoint"
 expect 0 "$FRAM" resume halves --until 1e200 --json
-says "warning: until 1e+200 s: the run ends at run.duration, 2 s" err
+says "warning: until 1e+200 s: the run ends at run.duration, 2 s; a longer one is a run of its own" err
 same "$(value 'j["state_hash"]')" "$hash" "hash of a run that was finished before"
 
 # A scenario and its files are found from any folder, and a run that used them resumes from any.

@@ -9,8 +9,26 @@ fi
 cp -r "$FRAM_SOURCE/scenes" "$scratch/"
 mkdir -p "$scratch/build/release" "$scratch/out"
 ln -s "$FRAM" "$scratch/build/release/fram"
-count=0
+export FRAM_LIBRARY=$FRAM_BUILD/libfram.so PYTHONPATH=$FRAM_SOURCE/bindings/python code python
+# shellcheck disable=SC2016  # the shell that runs it knows it
+python_runs='"$python" -c "$code"' python=
+for each in python3 /usr/bin/python3; do
+    # Debian's packages are those of Debian's own Python, and under sanitizers none loads the library.
+    [ -n "$python" ] || [ -n "${FRAM_TEST_SANITIZE:-}" ] || ! "$each" -c 'import fram' 2>/dev/null || python=$each
+done
+if [ -z "$python" ]; then
+    echo "skipped: no Python that can load the library"
+    python_runs=:
+fi
+count=0 inside='' code=''
 while IFS= read -r line; do
+    # Lines of Python that stand between two fences are one command.
+    case $inside$line in
+    '```python') inside=yes code='' ;;
+    'yes```') inside='' line='    '$python_runs ;;
+    yes*) code+=$line$'\n' ;;
+    esac
+    [[ $line = '    '* && ! $inside ]] || continue
     command=${line#    }
     count=$((count + 1))
     if [ -z "${FRAM_TEST_LONG:-}" ]; then
@@ -28,7 +46,7 @@ while IFS= read -r line; do
         tail -n 5 out/log
         exit 1
     fi
-done < <(grep '^    ' "$FRAM_SOURCE/docs/tutorials.md")
+done <"$FRAM_SOURCE/docs/tutorials.md"
 echo "$count commands of docs/tutorials.md"
 [ "$count" -ge 15 ]
 
