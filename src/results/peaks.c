@@ -20,6 +20,15 @@ const char *mechanism_name(ice_mechanism m) { return mechanism_names[m]; }
 const char *mechanism_text(ice_mechanism m) { return mechanism_texts[m]; }
 const char *chain_end_name(chain_end e) { return end_names[e]; }
 const char *chain_end_text(chain_end e) { return end_texts[e]; }
+const char *chain_end_noun(chain_end e)
+{
+    static const char *const nouns[CHAIN_END_COUNT] = {[CHAIN_SHEET] = "fixed ice",
+                                                       [CHAIN_DRIVEN] = "driven ice",
+                                                       [CHAIN_WALL] = "wall",
+                                                       [CHAIN_VESSEL] = "vessel",
+                                                       [CHAIN_ITSELF] = "hull"};
+    return nouns[e] ? nouns[e] : "body";
+}
 chain_end peak_end(const run_data *d, const peak_floe *f)
 {
     return f->end == CHAIN_VESSEL && scenario_vessel_count(&d->s) == 1 ? CHAIN_ITSELF : (chain_end)f->end;

@@ -44,6 +44,8 @@ const char *mechanism_text(ice_mechanism m);
 const char *peak_zone_name(int32_t zone);
 const char *chain_end_name(chain_end e);
 const char *chain_end_text(chain_end e);
+/* What a body is called that is no floe and ends a chain. */
+const char *chain_end_noun(chain_end e);
 /* What holds the end of a chain: a vessel that is alone can only have come back to itself, which older runs did not
    tell. */
 chain_end peak_end(const run_data *d, const peak_floe *f);

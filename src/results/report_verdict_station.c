@@ -8,6 +8,20 @@
 #include <math.h>
 #include <stdio.h>
 
+/* What would hold the vessel better, of what it has. */
+static const char *station_remedy(const verdict *v)
+{
+    const scenario_vessel *keys = scenario_vessel_entry(&v->r->d.s, v->r->vessel).keys;
+    bool thrusters = keys->thrusters.count > 0, lines = keys->mooring.lines.count > 0;
+    if (thrusters && lines)
+        return "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.";
+    if (thrusters)
+        return "Examine the loads at that time (fram why); consider more thrust or ice management.";
+    if (lines)
+        return "Examine the loads at that time (fram why); consider stiffer lines or ice management.";
+    return "Examine the loads at that time (fram why): nothing holds the vessel there, neither lines nor thrusters.";
+}
+
 /* Rows after the transient are beyond it. */
 static void judge_beyond(verdict *v, const char *what, const char *unit, limit_use u, double limit)
 {
@@ -19,10 +33,8 @@ static void judge_beyond(verdict *v, const char *what, const char *unit, limit_u
                  u.since);
     else
         snprintf(when, sizeof when, "passed its limit of %.4g %s, first at %.6g s", limit, unit, u.first);
-    verdict_find(v, VERDICT_BAD,
-                 "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
-                 "%sthe %s %s: largest %s %s, exceeded for %.3g %% of the time.", verdict_whose(v->r, name), what, when,
-                 most, unit, 100 * u.part);
+    verdict_find(v, VERDICT_BAD, station_remedy(v), "%sthe %s %s: largest %s %s, exceeded for %.3g %% of the time.",
+                 verdict_whose(v->r, name), what, when, most, unit, 100 * u.part);
 }
 
 static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)

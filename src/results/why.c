@@ -172,10 +172,7 @@ static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_
 static const char *name_end(const why *y, const peak_floe *f)
 {
     const char *vessel = peak_end_vessel(&y->run, f);
-    if (vessel)
-        return vessel;
-    chain_end end = peak_end(&y->run, f);
-    return end == CHAIN_WALL ? "wall" : end == CHAIN_ITSELF ? "hull" : end == CHAIN_VESSEL ? "vessel" : "body";
+    return vessel ? vessel : chain_end_noun(peak_end(&y->run, f));
 }
 
 static void tell_chain(const why *y, const peak_floe *f, const peak_link *link, text_buffer *out)

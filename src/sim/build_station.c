@@ -201,9 +201,14 @@ static void find_equilibrium(context *ctx, const vessel_entry *entry, const mode
     mooring_balance left;
     bool found = mooring_equilibrium(&w->lines, vessel, w->vessels.length[vessel], fluid ? still_load : NULL, &hull,
                                      &position, &orientation, &left);
+    /* Of the point whose offset counts: the origin of a ship that turns about its turret goes far. */
+    vec3 watched = w->stations.watched[vessel];
+    vec3 by =
+        vec3_sub(vec3_add(position, mat3_mul_vec(quat_matrix(orientation), watched)),
+                 vec3_add(w->bodies.position[body], mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), watched)));
     double heading = quat_roll_pitch_yaw(orientation).z;
     double turn = plane_angle(heading - quat_roll_pitch_yaw(w->bodies.orientation[body]).z);
-    tell_equilibrium(ctx, entry, found, vec3_sub(position, w->bodies.position[body]), turn, heading, &left);
+    tell_equilibrium(ctx, entry, found, by, turn, heading, &left);
     w->bodies.position[body] = position;
     w->bodies.orientation[body] = orientation;
 }
