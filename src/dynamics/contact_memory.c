@@ -211,7 +211,8 @@ static int32_t join_entries(memory_entry *entries, const int32_t *found, int32_t
             count++;
         }
     }
-    sort_entries(entries, count, sorted, tail_sorted, entries + contacts);
+    if (count > 0)
+        sort_entries(entries, count, sorted, tail_sorted, entries + contacts);
     return count;
 }
 
