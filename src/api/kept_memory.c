@@ -46,6 +46,7 @@ void kept_replace(kept_memory *kept, context *ctx, body_table *bodies, body_tabl
                          loaded->count);
         }
         bodies->count = loaded->count;
+        bodies->taken = loaded->taken;
         table_free(through, loaded, &body_table_info);
         return;
     }

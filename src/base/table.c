@@ -109,6 +109,8 @@ bool table_resize(context *ctx, void *table, const table_info *info, int32_t row
         memset(data + (size_t)head->count * field->size, 0, (size_t)(rows - head->count) * field->size);
     }
     head->count = rows;
+    if (rows < head->taken)
+        head->taken = rows;
     return true;
 }
 
@@ -118,7 +120,7 @@ void table_free(context *ctx, void *table, const table_info *info)
     memory_free(ctx, table_block(table, info));
     for (int f = 0; f < info->field_count; f++)
         field_point(table, &info->fields[f], NULL);
-    head->count = head->capacity = 0;
+    head->count = head->capacity = head->taken = 0;
 }
 
 uint64_t table_hash(const void *table, const table_info *info, uint64_t seed)
@@ -147,7 +149,33 @@ bool table_copy(context *ctx, void *dst, const void *src, const table_info *info
         memcpy(table_field(dst, field), table_field(src, field), (size_t)from->count * field->size);
     }
     to->count = from->count;
+    to->taken = from->taken;
     return true;
+}
+
+void table_row_taken(void *table, int32_t row)
+{
+    table_head *head = table;
+    assert(row >= head->taken && row < head->count);
+    head->taken = row + 1;
+}
+
+void table_row_freed(void *table, int32_t row)
+{
+    table_head *head = table;
+    assert(row >= 0 && row < head->count);
+    if (row < head->taken)
+        head->taken = row;
+}
+
+int32_t table_first_zero(const void *table, const uint8_t *column)
+{
+    const table_head *head = table;
+    assert(head->taken == 0 || !memchr(column, 0, (size_t)head->taken));
+    if (head->taken >= head->count)
+        return head->count;
+    const uint8_t *zero = memchr(column + head->taken, 0, (size_t)(head->count - head->taken));
+    return zero ? (int32_t)(zero - column) : head->count;
 }
 
 void table_move_row(void *table, const table_info *info, int32_t to, int32_t from)

@@ -10,7 +10,10 @@
    Fields hold plain numbers (no pointers, no padding): kind and components describe all bytes.  A table starts
    as {0} and may be moved by assignment; its field pointers must not be exchanged one by one, because all
    fields share one block of memory.  Every field starts on a cache line (64 bytes), and the capacity is a multiple
-   of 8 rows, so that the last group of 8 can be loaded whole; rows from count on have no meaning. */
+   of 8 rows, so that the last group of 8 can be loaded whole; rows from count on have no meaning.
+
+   Some tables use rows again, the lowest free one first, so that results depend on the order of events only.  For them
+   a table knows below which row none is free: no state, but what it is costs a search of all rows to find out. */
 #ifndef BASE_TABLE_H
 #define BASE_TABLE_H
 
@@ -41,12 +44,14 @@ typedef struct table_info {
 /* What every table begins with. */
 typedef struct table_head {
     int32_t count, capacity;
+    int32_t taken; /* no row below it is free; whoever writes rows by other ways than those here makes it 0 */
 } table_head;
 
 #define TABLE_FIELD_POINTER(name, ctype, kind, components, unit, meaning) ctype *name;
 #define TABLE_DECLARE(noun, FIELDS) \
     typedef struct noun##_table {   \
         int32_t count, capacity;    \
+        int32_t taken;              \
         FIELDS(TABLE_FIELD_POINTER) \
     } noun##_table;                 \
     extern const table_info noun##_table_info;
@@ -77,6 +82,12 @@ void table_free(context *ctx, void *table, const table_info *info);
 uint64_t table_hash(const void *table, const table_info *info, uint64_t seed);
 /* dst becomes a copy of src.  false: no memory, dst unchanged. */
 bool table_copy(context *ctx, void *dst, const void *src, const table_info *info);
+/* The lowest free row was put to use: the next is looked for behind it. */
+void table_row_taken(void *table, int32_t row);
+/* A row became free. */
+void table_row_freed(void *table, int32_t row);
+/* The lowest row whose byte of a column is 0, which is a free one; count without. */
+int32_t table_first_zero(const void *table, const uint8_t *column);
 /* Row `from` over row `to`, all fields. */
 void table_move_row(void *table, const table_info *info, int32_t to, int32_t from);
 /* The address that the memory function gave for the block of all fields; NULL without rows.  The block begins with

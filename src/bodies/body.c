@@ -12,11 +12,12 @@ int32_t body_create(context *ctx, body_table *bodies, motion kind, material subs
 {
     /* A free slot is a zero byte in the motion column: a search at memory speed, and no free list that would have to be
        state. */
-    const uint8_t *hole = bodies->count > 0 ? memchr(bodies->motion, MOTION_NONE, (size_t)bodies->count) : NULL;
-    int32_t slot = hole ? (int32_t)(hole - bodies->motion) : bodies->count;
-    if (!hole && !table_resize(ctx, bodies, &body_table_info, bodies->count + 1))
+    static_assert(MOTION_NONE == 0, "a free slot");
+    int32_t slot = table_first_zero(bodies, bodies->motion);
+    if (slot == bodies->count && !table_resize(ctx, bodies, &body_table_info, slot + 1))
         return -1;
     assert(kind != MOTION_NONE);
+    table_row_taken(bodies, slot);
     bodies->orientation[slot] = quat_identity();
     bodies->shape[slot] = -1;
     bodies->owner[slot] = -1;
@@ -36,6 +37,7 @@ void body_remove(body_table *bodies, int32_t slot)
         memset((char *)table_field(bodies, field) + field->size * (size_t)slot, 0, field->size);
     }
     bodies->generation[slot] = generation;
+    table_row_freed(bodies, slot);
 }
 
 /* Slots that are looked at together. */

@@ -143,14 +143,16 @@ static bool find_corners(context *ctx, polygon outline, const vec2_array *vertex
 
 /* ---- rows ---- */
 
-/* The lowest free row, or one more; -1 without memory. */
+/* The lowest free row, or one more, which the caller gives a kind; -1 without memory. */
 static int32_t shape_row(context *ctx, shape_store *s)
 {
+    static_assert(SHAPE_NONE == 0, "a free row");
     shape_table *t = &s->shapes;
-    const uint8_t *hole = t->count > 0 ? memchr(t->kind, SHAPE_NONE, (size_t)t->count) : NULL;
-    if (hole)
-        return (int32_t)(hole - t->kind);
-    return table_resize(ctx, t, &shape_table_info, t->count + 1) ? t->count - 1 : -1;
+    int32_t row = table_first_zero(t, t->kind);
+    if (row == t->count && !table_resize(ctx, t, &shape_table_info, row + 1))
+        return -1;
+    table_row_taken(t, row);
+    return row;
 }
 
 /* Unit outward normal of the side from vertex i; at a repeated vertex that of the next side. */
@@ -380,6 +382,7 @@ void shape_remove(shape_store *s, int32_t row)
         const field_info *field = &shape_table_info.fields[f];
         memset((char *)table_field(&s->shapes, field) + field->size * (size_t)row, 0, field->size);
     }
+    table_row_freed(&s->shapes, row);
     s->changes++;
 }
 

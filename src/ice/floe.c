@@ -52,11 +52,11 @@ static sym3 prism_inertia(polygon_moments p, double thickness, double density)
 }
 
 /* The lowest free row, or a new one at the end; -1 without memory.  Rows are looked at by the block, without leaving it
-   early, which compilers turn into a few wide instructions: a field of 100,000 floes is made in no time. */
+   early, which compilers turn into a few wide instructions. */
 static int32_t free_row(context *ctx, floe_table *floes)
 {
     enum { BLOCK = 64 };
-    int32_t first = 0;
+    int32_t first = floes->taken;
     for (; first + BLOCK <= floes->count; first += BLOCK) {
         int32_t sign = 0;
         for (int32_t i = 0; i < BLOCK; i++)
@@ -116,6 +116,7 @@ fram_status floe_create(context *ctx, const floe_definition *d, double piece_are
     bodies->shape[slot] = shape;
     bodies->owner[slot] = at;
     floes->body[at] = slot;
+    table_row_taken(floes, at);
     floes->thickness[at] = d->thickness;
     floes->area[at] = plan.area;
     floes->material[at] = d->material;
@@ -144,4 +145,5 @@ void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int
     floes->material[row] = (ice_material){0};
     floes->breakable[row] = 0;
     floes->parent[row] = floes->number[row] = floes->tile[row] = 0;
+    table_row_freed(floes, row);
 }

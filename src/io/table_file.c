@@ -237,6 +237,8 @@ static void take_table(body_source *s, const world_table *t)
     /* The rows fit the file, as the first walk has seen: a hostile count cannot ask for more memory than that. */
     if (s->status == FRAM_OK && s->apply && !table_resize(s->ctx, t->table, t->info, rows))
         s->status = error_memory(s->error);
+    if (s->apply)
+        ((table_head *)t->table)->taken = 0;
     for (int f = 0; f < t->info->field_count && s->status == FRAM_OK; f++) {
         uint64_t size = (uint64_t)rows * t->info->fields[f].size;
         const void *data = take_data(s, size);

@@ -140,7 +140,9 @@ START_TEST(a_copy_is_equal_and_apart)
     context_init(&ctx);
     sample_table a = sample_make(&ctx, 20), b = sample_make(&ctx, 300), empty = {0};
     uint64_t hash = table_hash(&a, &sample_table_info, 0);
+    table_row_taken(&b, 7);
     ck_assert(table_copy(&ctx, &b, &a, &sample_table_info));
+    ck_assert_int_eq(table_first_zero(&b, b.flags), 0);
     ck_assert_int_eq(b.count, 20);
     ck_assert_uint_eq(table_hash(&b, &sample_table_info, 0), hash);
     b.mass[3] = 9;

@@ -1,4 +1,5 @@
 /* Floes as bodies: mass, inertia, frame, rows, errors. */
+#include "base/random.h"
 #include "base/transcendental.h"
 #include "ice/floe.h"
 #include "testing.h"
@@ -161,6 +162,113 @@ START_TEST(rows_are_used_again)
 }
 END_TEST
 
+/* ---- rows against a search of all ---- */
+
+static int32_t floe_searched(const floe_table *t)
+{
+    for (int32_t i = 0; i < t->count; i++)
+        if (t->body[i] < 0)
+            return i;
+    return t->count;
+}
+
+static int32_t body_searched(const body_table *t)
+{
+    for (int32_t i = 0; i < t->count; i++)
+        if (t->motion[i] == MOTION_NONE)
+            return i;
+    return t->count;
+}
+
+static int32_t shape_searched(const shape_table *t)
+{
+    for (int32_t i = 0; i < t->count; i++)
+        if (t->kind[i] == SHAPE_NONE)
+            return i;
+    return t->count;
+}
+
+/* The living floe of a number among all, -1 without one. */
+static int32_t drawn_floe(const ice *r, random_stream *draw)
+{
+    int32_t from = r->floes.count > 0 ? (int32_t)random_uniform(draw, 0, r->floes.count - 0.001) : 0;
+    for (int32_t i = from; i < r->floes.count; i++)
+        if (r->floes.body[i] >= 0)
+            return i;
+    return -1;
+}
+
+static void copy_ice(ice *to, const ice *from)
+{
+    ck_assert(table_copy(&to->ctx, &to->bodies, &from->bodies, &body_table_info));
+    ck_assert(table_copy(&to->ctx, &to->floes, &from->floes, &floe_table_info));
+    ck_assert(table_copy(&to->ctx, &to->shapes.shapes, &from->shapes.shapes, &shape_table_info));
+    ck_assert(table_copy(&to->ctx, &to->shapes.pieces, &from->shapes.pieces, &piece_table_info));
+    ck_assert(table_copy(&to->ctx, &to->shapes.vertices, &from->shapes.vertices, &shape_vertex_table_info));
+    to->shapes.is_counted = false;
+    to->next_number = from->next_number;
+}
+
+/* One thing that may happen to a world: a floe comes, one goes, a wall comes or goes, one breaks. */
+static void happen(ice *r, random_stream *draw, double coming)
+{
+    fram_error e = {0};
+    floe_definition d = definition(RECTANGLE, 4);
+    double what = random_uniform(draw, 0, 1);
+    int32_t victim = drawn_floe(r, draw), row;
+    if (what < 0.1) { /* a slot, and none of the other rows */
+        int32_t slot = body_searched(&r->bodies);
+        ck_assert_int_eq(body_create(&r->ctx, &r->bodies, MOTION_STATIC, MATERIAL_WALL), slot);
+        if (what < 0.03)
+            body_remove(&r->bodies, slot);
+        return;
+    }
+    if (what > coming && victim >= 0)
+        floe_remove(&r->bodies, &r->shapes, &r->floes, victim);
+    if (what > coming && what < 0.9)
+        return;
+    for (int i = 0; i < (what >= 0.9 ? 3 : 1); i++) {
+        int32_t floe = floe_searched(&r->floes), slot = body_searched(&r->bodies),
+                shape = shape_searched(&r->shapes.shapes);
+        assert_ok(create(r, &d, &row, &e), e);
+        ck_assert_int_eq(row, floe);
+        ck_assert_int_eq(r->floes.body[row], slot);
+        ck_assert_int_eq(r->bodies.shape[slot], shape);
+    }
+}
+
+/* Through births, breaks, removals, compactions, tables that become those of another time (a fork, in both directions),
+   and tables that lose their last rows. */
+START_TEST(rows_are_those_of_a_search)
+{
+    random_stream draw = random_begin(31, 0, 0);
+    ice now, other;
+    ice_start(&now);
+    ice_start(&other);
+    for (int i = 0; i < 4000; i++) {
+        happen(&now, &draw, i / 500 % 2 ? 0.3 : 0.7);
+        if (i % 97 == 0)
+            ck_assert_int_eq(shape_compact(&now.ctx, &now.shapes), FRAM_OK);
+        if (i % 211 == 0)
+            copy_ice(&other, &now);
+        if (i % 211 > 150)
+            happen(&other, &draw, 0.5);
+        if (i % 633 == 400)
+            copy_ice(&now, &other);
+    }
+    ck_assert_int_gt(now.floes.count, 100);
+    int32_t kept = now.bodies.count / 2, slot;
+    ck_assert(table_resize(&now.ctx, &now.bodies, &body_table_info, kept));
+    ck_assert(table_resize(&now.ctx, &now.bodies, &body_table_info, kept + 20));
+    do {
+        slot = body_searched(&now.bodies);
+        ck_assert_int_eq(body_create(&now.ctx, &now.bodies, MOTION_STATIC, MATERIAL_WALL), slot);
+    } while (slot < kept + 20);
+    ice_free(&now);
+    ice_free(&other);
+}
+END_TEST
+
 /* The state's hash must not remember what a free row once held. */
 START_TEST(free_rows_are_blank)
 {
@@ -239,5 +347,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("floe", elevation_floats, mass_and_inertia, frame_and_products, rows_are_used_again, free_rows_are_blank,
-          wrong_definitions, memory_runs_out)
+TEST_MAIN("floe", elevation_floats, mass_and_inertia, frame_and_products, rows_are_used_again,
+          rows_are_those_of_a_search, free_rows_are_blank, wrong_definitions, memory_runs_out)

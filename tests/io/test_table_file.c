@@ -102,10 +102,13 @@ START_TEST(content_comes_back)
     content_fill(&a);
     assert_ok(write_file(&ctx, scratch_path(&s, "t"), &a.file), error);
     content_begin(&b);
-    ck_assert(table_resize(&ctx, &b.other, &other_table_info, 5)); /* rows of before are forgotten */
+    ck_assert(table_resize(&ctx, &b.other, &other_table_info, 5)); /* rows of before are forgotten, */
+    ck_assert(table_resize(&ctx, &b.sample, &sample_table_info, 3));
+    table_row_taken(&b.sample, 2); /* and which of them were free */
     assert_ok(table_file_read(&ctx, s.path, &b.file, &error), error);
     assert_same(&a, &b);
     ck_assert_int_eq(b.other.count, 0);
+    ck_assert_int_eq(b.sample.taken, 0);
     ck_assert_ptr_null(b.bytes[1].data);
     table_file_free_bytes(&ctx, &b.file);
     /* Writing again gives the same file. */
