@@ -217,7 +217,21 @@ static void event_table_of(report *r, load_unit unit)
     }
     html_table_end(&r->page);
     if (rows > shown)
-        html_paragraph(&r->page, "The first %d of %d events; all are in fractures.csv.", (int)shown, (int)rows);
+        html_paragraph(&r->page, "The first %d of %d events%s", (int)shown, (int)rows,
+                       run_fractures_untold(&r->d) > 0 ? " that are in fractures.csv." : "; all are in fractures.csv.");
+}
+
+/* The table of a run that goes on, or was killed, is written in larger lumps than its series. */
+static void tell_untold(report *r)
+{
+    int32_t untold = run_fractures_untold(&r->d), rows = r->d.fractures.rows;
+    if (untold == 0)
+        return;
+    if (rows > 0)
+        html_paragraph(&r->page, "Events after %.6g s are not in fractures.csv: %d of those that the series counts.",
+                       cell(r, "time", rows - 1), (int)untold);
+    else
+        html_paragraph(&r->page, "Of these events none is in fractures.csv yet: the series alone counts them.");
 }
 
 fram_status report_fractures(report *r, fram_error *error)
@@ -227,10 +241,10 @@ fram_status report_fractures(report *r, fram_error *error)
             broke = bent + split;
     int32_t loose = run_fractures(&r->d, FRACTURE_RELEASE);
     double most = 0;
-    if (!r->d.s.ice.breakable && rows == 0)
+    if (!r->d.s.ice.breakable && rows == 0 && broke == 0)
         return FRAM_OK;
     html_section(&r->page, "Fracture");
-    if (rows == 0) {
+    if (rows == 0 && broke == 0) {
         html_paragraph(&r->page, "Floes may break, but none did.");
         return FRAM_OK;
     }
@@ -245,6 +259,8 @@ fram_status report_fractures(report *r, fram_error *error)
     html_grid_begin(&r->page);
     fram_status status = report_series(r, "Broken floes", "floes, cumulative", 1, kinds, 2, true, error);
     html_grid_end(&r->page);
-    event_table_of(r, load_unit_for(most));
+    tell_untold(r);
+    if (rows > 0)
+        event_table_of(r, load_unit_for(most));
     return status;
 }

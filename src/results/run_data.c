@@ -265,12 +265,3 @@ int32_t run_lines_broken(const run_data *d, int32_t vessel)
     int32_t gone = lines_gone_unasked(d, vessel);
     return broken > gone ? broken : gone;
 }
-
-int32_t run_fractures(const run_data *d, int kind)
-{
-    const csv_table_column *c = csv_table_find(&d->fractures, "kind");
-    int32_t count = 0;
-    for (int32_t i = 0; c && i < d->fractures.rows; i++)
-        count += c->value.data[i] == kind;
-    return count;
-}

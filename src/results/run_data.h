@@ -71,8 +71,11 @@ double run_event_until(const run_data *d, int32_t vessel, station_event kind, do
 bool run_event_goes_on(const run_data *d, int32_t vessel, station_event kind, station_event over, double at);
 /* Lines of a vessel that parted, whenever that was, but not those that were let go. */
 int32_t run_lines_broken(const run_data *d, int32_t vessel);
-/* Events of a kind in fractures.csv, enum fracture_kind. */
+/* Events of a kind, enum fracture_kind: those in fractures.csv, or as many as the series has counted since the
+   recording began where these are more.  Of a run that goes on, or was killed, that table often lags behind. */
 int32_t run_fractures(const run_data *d, int kind);
+/* How many of these are not in fractures.csv, of all kinds that the series counts. */
+int32_t run_fractures_untold(const run_data *d);
 /* That the series has the column time[s], with rising times; FRAM_ERROR_INPUT with its path and line, as run_data_read.
  */
 fram_status run_series_check(const csv_table *series, const char *path, fram_error *error);

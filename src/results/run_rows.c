@@ -4,6 +4,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/words.h"
+#include "ice/fracture.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -188,4 +189,46 @@ void run_told(const run_data *d, char out[RUN_TOLD_SIZE])
     }
     if (count > SHOWN)
         snprintf(out + used, RUN_TOLD_SIZE - used, " and %d more", count - SHOWN);
+}
+
+/* ---- what broke ---- */
+
+/* Events of a kind in fractures.csv that are not later than a time. */
+static int32_t listed_fractures(const run_data *d, int kind, double until)
+{
+    const csv_table_column *c = csv_table_find(&d->fractures, "kind"), *when = csv_table_find(&d->fractures, "time");
+    int32_t count = 0;
+    for (int32_t i = 0; c && i < d->fractures.rows; i++)
+        count += c->value.data[i] == kind && !(when && time_is_after(when->value.data[i], until));
+    return count;
+}
+
+/* The channel counts from where the world began, the table from where the recording did. */
+static int32_t counted_fractures(const run_data *d, int kind)
+{
+    const double *time = run_channel(d, "time"), *so_far = NULL;
+    double before = 0;
+    if (kind == FRACTURE_SPLIT || kind == FRACTURE_BENDING)
+        so_far = run_channel(d, kind == FRACTURE_SPLIT ? "splits" : "bendings");
+    if (!so_far || !time || d->series.rows < 1)
+        return 0;
+    if (run_recorded_from(d) > 0)
+        before = so_far[0] - listed_fractures(d, kind, time[0]);
+    double counted = so_far[d->series.rows - 1] - before;
+    return counted > 0 && counted < INT32_MAX ? (int32_t)counted : 0;
+}
+
+int32_t run_fractures(const run_data *d, int kind)
+{
+    int32_t listed = listed_fractures(d, kind, HUGE_VAL), counted = counted_fractures(d, kind);
+    return counted > listed ? counted : listed;
+}
+
+int32_t run_fractures_untold(const run_data *d)
+{
+    static const int kinds[] = {FRACTURE_SPLIT, FRACTURE_BENDING};
+    int32_t untold = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        untold += run_fractures(d, kinds[k]) - listed_fractures(d, kinds[k], HUGE_VAL);
+    return untold;
 }

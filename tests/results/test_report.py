@@ -582,6 +582,36 @@ def check_ice(folder):
     assert "floes are cut from cells of 400 m2 on average" in tables.rows["field"][0], tables.rows["field"]
 
 
+def check_killed(folder):
+    """A run that was killed tells all breaks that its series counts, and which of them fractures.csv lacks."""
+    run = folder / "loose"
+    note, table = run / "run.json", run / "fractures.csv"
+    kept, events = note.read_text(), table.read_text()
+    head, *rows = events.splitlines()
+    kinds, bent = [row.split(",")[head.split(",").index("kind[1]")] for row in rows], events.count("\n") - 2
+    assert kinds.count("2") == bent > 1, kinds
+    note.write_text(json.dumps({**json.loads(kept), "status": "running"}))
+    first = kinds.index("2") + 1
+    for lines, said in ((rows, None), (rows[:first], f"are not in fractures.csv: {bent - 1} of those that the series"),
+                        ([], "Of these events none is in fractures.csv yet")):
+        table.write_text("\n".join([head, *lines]) + "\n")
+        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        page = (run / "report.html").read_text()
+        assert f"<b>{bent} <small></small></b><span>floes that broke</span>" in page, re.findall(".*that broke<", page)
+        assert f"broke: {bent} in bending, 0 by splitting." in page
+        assert (said or "</html>") in page, said
+        assert ("not in fractures.csv" in page or "none is in fractures.csv" in page) == (said is not None), said
+        assert page.count("<td>bending</td>") == len([k for k in kinds[:len(lines)] if k == "2"])
+    # Of a recording that began on the way the series has counted what broke before it.
+    note.write_text(json.dumps({**json.loads(kept), "recorded_from_s": 0.5}))
+    series = run / "series.csv"
+    keep_rows(series, 0.5)
+    move_series(series, 100, "bendings[1]")
+    table.write_text(events)
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    assert f"broke: {bent} in bending" in (run / "report.html").read_text()
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -596,6 +626,7 @@ def main():
         check_water(pathlib.Path(folder), pictures)
         check_late_frames(pathlib.Path(folder))
         check_loose(pathlib.Path(folder))
+        check_killed(pathlib.Path(folder))
         check_ice(pathlib.Path(folder))
         check_peaks(pathlib.Path(folder))
         check_late(pathlib.Path(folder))
