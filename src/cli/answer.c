@@ -86,6 +86,7 @@ static fram_error in_words_of_command(const common_options *common, const fram_e
 
 static void print_error_for_people(const fram_error *e)
 {
+    terminal_clear();
     fputs("fram: ", stderr);
     if (e->file[0]) {
         tell(stderr, "%s", e->file);

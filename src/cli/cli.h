@@ -163,6 +163,20 @@ int refuse_scenario_files(const common_options *common, const command_files *fil
 int refuse_run_folder(const common_options *common, const char *path, const fram_scenario *scenario,
                       const char *folder);
 
+/* --- terminal.c --- */
+
+/* Whether standard error is a terminal whose lines can be drawn over: TERM=dumb and no TERM are none. */
+bool terminal_draws(void);
+/* Whoever writes to standard error while a line may be drawn there clears it first; nothing elsewhere. */
+void terminal_clear(void);
+/* One line of parts: drawn over the last one on a terminal, where those of the highest rank are left out until it is no
+   longer than that is wide; elsewhere whole, with its end. */
+typedef struct line_part {
+    int rank; /* 0: never left out */
+    char text[256];
+} line_part;
+void terminal_line(const line_part *parts, int count);
+
 /* --- session.c --- */
 
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
@@ -187,7 +201,9 @@ int session_open_for(const char *file, const common_options *common, work_view *
 /* Of no beginning in particular, never turned back [s]. */
 double wall_clock(void);
 enum { DURATION_ROOM = 64 }; /* of fram_duration_text */
-/* An estimate in whole seconds to standard error, "3 min 20 s", "less than 1 s", "not known yet" for a NaN. */
+/* An estimate in whole seconds, "3 min 20 s", "less than 1 s", "not known yet" for a NaN; as a text, or to standard
+   error. */
+const char *duration_words(double seconds, char out[DURATION_ROOM]);
 void print_duration(double seconds);
 /* The s of a plural: 1 run, 2 runs. */
 const char *plural(int64_t count);

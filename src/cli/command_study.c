@@ -258,21 +258,19 @@ static void show(void *user, const fram_study_progress *p)
         return;
     view->told = done;
     view->when = p->wall;
-    fprintf(stderr, "%s%lld of %lld runs", view->terminal ? "\r\033[K" : "", (long long)p->done, (long long)p->planned);
+    line_part part[5] = {{.rank = 0}, {.rank = 1}, {.rank = 2}, {.rank = 3}, {.rank = 4}};
+    char words[DURATION_ROOM];
+    snprintf(part[0].text, sizeof part[0].text, "%lld of %lld runs", (long long)p->done, (long long)p->planned);
     if (p->failed > 0)
-        fprintf(stderr, ", %lld failed", (long long)p->failed);
-    if (p->eta > 0) {
-        fputs(", about ", stderr);
-        print_duration(p->eta);
-        fputs(" left", stderr);
-    }
+        snprintf(part[1].text, sizeof part[1].text, ", %lld failed", (long long)p->failed);
+    if (p->eta > 0)
+        snprintf(part[2].text, sizeof part[2].text, ", about %s left", duration_words(p->eta, words));
     if (p->records > 0)
-        fprintf(stderr, "; %lld of %lld worst runs made again with a record", (long long)p->records_done,
-                (long long)p->records);
+        snprintf(part[3].text, sizeof part[3].text, "; %lld of %lld worst runs made again with a record",
+                 (long long)p->records_done, (long long)p->records);
     if (p->waits)
-        tell(stderr, "; %s", p->waits);
-    fputs(view->terminal ? "" : "\n", stderr);
-    fflush(stderr);
+        snprintf(part[4].text, sizeof part[4].text, "; %s", p->waits);
+    terminal_line(part, 5);
 }
 
 static void print_study(const char *folder, const fram_study_result *r, bool dry)
@@ -314,7 +312,7 @@ static int run_study(const common_options *common, const fram_study *study, fram
     int code = own_path(common, program);
     if (code >= 0)
         return code;
-    study_view view = {.terminal = isatty(STDERR_FILENO) == 1, .told = -1};
+    study_view view = {.terminal = terminal_draws(), .told = -1};
     fram_study_result result = {0};
     fram_error error = {0};
     d->program = program;

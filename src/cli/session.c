@@ -15,6 +15,7 @@ static void log_to_stderr(void *user, fram_log_level level, const char *text)
 {
     (void)user;
     static const char *const prefix[] = {"error: ", "warning: ", "", ""};
+    terminal_clear();
     tell(stderr, "%s%s\n", prefix[level], text);
 }
 
@@ -74,22 +75,27 @@ static void work_show(void *user, const char *what, double done, double total)
     if (now - view->begun < QUIET_TIME || now - view->shown < (view->terminal ? TERMINAL_PERIOD : LINE_PERIOD))
         return;
     view->shown = now;
-    fprintf(stderr, "%s%s: ", view->terminal ? "\r\033[K" : "", what);
-    if (total > 0) {
-        fprintf(stderr, "%.0f %%  left ", 100 * done / total);
-        print_duration(done > view->first ? (now - view->begun) * (total - done) / (done - view->first) : (double)NAN);
-    } else {
-        fprintf(stderr, "round %.0f", done);
-    }
+    line_part part[2] = {0};
+    char words[DURATION_ROOM];
+    snprintf(part[0].text, sizeof part[0].text, total > 0 ? "%s: %.0f %%" : "%s: round %.0f", what,
+             total > 0 ? 100 * done / total : done);
+    if (total > 0)
+        snprintf(part[1].text, sizeof part[1].text, "  left %s",
+                 duration_words(done > view->first ? (now - view->begun) * (total - done) / (done - view->first)
+                                                   : (double)NAN,
+                                words));
+    part[1].rank = 1;
+    terminal_line(part, 2);
     /* On a terminal whatever comes next is written over it. */
-    fputs(view->terminal ? "\r" : "\n", stderr);
+    if (view->terminal)
+        fputc('\r', stderr);
     fflush(stderr);
 }
 
 int session_open_reading(const common_options *common, work_view *view, fram_context **context)
 {
     fram_context_definition definition = session_definition(common);
-    *view = (work_view){.terminal = isatty(STDERR_FILENO) == 1};
+    *view = (work_view){.terminal = terminal_draws()};
     definition.work = common->quiet ? NULL : work_show;
     definition.work_user = view;
     return create(common, &definition, context);
@@ -98,7 +104,7 @@ int session_open_reading(const common_options *common, work_view *view, fram_con
 int session_open_making(const common_options *common, work_view *view, fram_context **context)
 {
     fram_context_definition definition = session_definition(common);
-    *view = (work_view){.terminal = isatty(STDERR_FILENO) == 1};
+    *view = (work_view){.terminal = terminal_draws()};
     (void)session_stop_flag();
     definition.work = common->quiet ? NULL : work_show;
     definition.work_user = view;
@@ -140,17 +146,25 @@ const volatile int *session_stop_flag(void)
 
 void progress_begin(progress_view *view)
 {
-    *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1, .shown = wall_clock()};
+    *view = (progress_view){.terminal = terminal_draws(), .last_tenth = -1, .shown = wall_clock()};
 }
 
 const char *plural(int64_t count) { return count == 1 ? "" : "s"; }
 
+const char *duration_words(double seconds, char out[DURATION_ROOM])
+{
+    double whole = floor(seconds + 0.5);
+    if (isnan(seconds) || (seconds > 0 && whole < 1))
+        snprintf(out, DURATION_ROOM, "%s", isnan(seconds) ? "not known yet" : "less than 1 s");
+    else
+        fram_duration_text(whole, out, DURATION_ROOM);
+    return out;
+}
+
 void print_duration(double seconds)
 {
     char text[DURATION_ROOM];
-    double whole = floor(seconds + 0.5);
-    fram_duration_text(whole, text, sizeof text);
-    fputs(isnan(seconds) ? "not known yet" : seconds > 0 && whole < 1 ? "less than 1 s" : text, stderr);
+    fputs(duration_words(seconds, text), stderr);
 }
 
 void progress_show(void *user, const fram_progress *p)
@@ -163,15 +177,14 @@ void progress_show(void *user, const fram_progress *p)
         return;
     view->last_tenth = tenth;
     view->shown = now;
-    if (view->terminal)
-        fputs("\r\033[K", stderr);
-    fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end,
-            p->real_time_factor);
-    print_duration(p->eta);
-    if (!view->terminal)
-        fputc('\n', stderr);
+    line_part part[4] = {{.rank = 0}, {.rank = 1}, {.rank = 2}, {.rank = 0}};
+    char words[DURATION_ROOM];
+    snprintf(part[0].text, sizeof part[0].text, "%5.1f %%", percent);
+    snprintf(part[1].text, sizeof part[1].text, "  t = %.2f of %g s", p->time, p->end);
+    snprintf(part[2].text, sizeof part[2].text, "  real-time factor %.2f", p->real_time_factor);
+    snprintf(part[3].text, sizeof part[3].text, "  left %s", duration_words(p->eta, words));
+    terminal_line(part, 4);
     view->drawn = view->terminal;
-    fflush(stderr);
 }
 
 void progress_end(progress_view *view)
