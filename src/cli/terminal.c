@@ -29,8 +29,8 @@ static int columns_of_terminal(void)
     return !told ? COLUMNS_ELSE : size.ws_col < COLUMNS_LEAST ? COLUMNS_LEAST : size.ws_col;
 }
 
-/* Bytes of a sign and the columns it takes: two from U+3000 on, where the scripts of East Asia stand; what is no UTF-8 is
-   shown as one sign a byte. */
+/* Bytes of a sign and the columns it takes: two from U+3000 on, where the scripts of East Asia stand; what is no UTF-8
+   is shown as one sign a byte. */
 static size_t sign_bytes(const char *sign, int *columns)
 {
     int bytes = utf8_sequence(sign);

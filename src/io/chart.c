@@ -430,7 +430,9 @@ static void draw_stack(cairo_t *page, const chart *charts, int32_t count, int wi
 fram_status chart_svg(context *ctx, const chart *c, int width, int height, text_buffer *out, fram_error *error)
 {
     image_vector v;
-    fram_status status = image_vector_begin(ctx, width, height, &v, error);
+    char title[CHART_WORDS];
+    chart_stack_words(c, 1, title);
+    fram_status status = image_vector_begin(ctx, title, width, height, &v, error);
     if (status != FRAM_OK)
         return status;
     cairo_set_source_rgb(v.page, 1, 1, 1);
@@ -443,7 +445,9 @@ fram_status chart_stack_write(context *ctx, const chart *charts, int32_t count, 
                               fram_error *error)
 {
     image_page page;
-    fram_status status = image_page_begin(ctx, path, width, height * count, &page, error);
+    char title[CHART_WORDS];
+    chart_stack_words(charts, count, title);
+    fram_status status = image_page_begin(ctx, path, title, width, height * count, &page, error);
     if (status != FRAM_OK)
         return status;
     draw_stack(page.pen, charts, count, width, height);

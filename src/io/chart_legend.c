@@ -70,6 +70,24 @@ double chart_legend_more(cairo_t *page, const chart *c, double wide, double high
     return LEGEND_ROW * fmax(fmin(rows_of(page, c, wide) - 1, most), 0);
 }
 
+void chart_stack_words(const chart *charts, int32_t count, char out[CHART_WORDS])
+{
+    size_t n = 0;
+    out[0] = '\0';
+    for (int32_t i = 0; i < count && n < CHART_WORDS; i++) {
+        const chart *c = &charts[i];
+        n += (size_t)snprintf(out + n, CHART_WORDS - n, "%s%s%s", i > 0 ? "; " : "", c->title, c->title[0] ? ": " : "");
+        for (int32_t k = 0; k < c->line_count && c->line_count > 1 && n < CHART_WORDS; k++)
+            n += (size_t)snprintf(out + n, CHART_WORDS - n, "%s%s", c->lines[k].name,
+                                  k + 1 < c->line_count ? ", " : " ");
+        const char *label = c->y_label + (c->y_label[0] == ' ');
+        if (n < CHART_WORDS)
+            n += (size_t)snprintf(out + n, CHART_WORDS - n, "%s", label);
+    }
+    if (count > 0 && n < CHART_WORDS)
+        snprintf(out + n, CHART_WORDS - n, " over %s", charts[count - 1].x_label);
+}
+
 static void draw_sign(cairo_t *page, const chart_line *line, int32_t place, double x, double y)
 {
     bool band = line->style == CHART_BAND;

@@ -1,8 +1,5 @@
 #include "io/html_page.h"
 
-#include "io/base64.h"
-#include "io/utf8.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,17 +33,24 @@ static const char style[] =
     "th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1.5px solid var(--line);"
     "padding:5px 10px 5px 0}\n"
     "td{border-bottom:1px solid var(--line);padding:5px 10px 5px 0;vertical-align:top;overflow-wrap:break-word}\n"
+    "tbody th{font-weight:400;color:inherit;border-bottom:1px solid var(--line);vertical-align:top;"
+    "overflow-wrap:break-word}\n"
     "td.n{text-align:right;white-space:nowrap}th.n{text-align:right}td.v{overflow-wrap:anywhere}\n"
     ".scroll{overflow-x:auto}\n"
     "tr{break-inside:avoid}\n"
     ".grid{display:grid;grid-template-columns:1fr 1fr;gap:16px;margin:12px 0}\n"
-    ".grid figure{margin:0;break-inside:avoid}.grid figure.wide{grid-column:1/-1}\n"
+    "figure{margin:12px 0;break-inside:avoid}.grid figure{margin:0}.grid figure.wide{grid-column:1/-1}\n"
     "figure img{width:100%;height:auto;display:block;border:1px solid var(--line);border-radius:8px}\n"
+    ".contents{columns:2;column-gap:28px;padding-left:18px;margin:14px 0}.contents a{color:var(--blue)}\n"
     "figcaption{font-size:12.5px;color:var(--soft);padding-top:4px}\n"
     "pre{font:11px/1.45 ui-monospace,\"DejaVu Sans Mono\",monospace;background:var(--pale);"
     "border:1px solid var(--line);"
     "border-radius:8px;padding:12px 14px;white-space:pre-wrap;overflow-wrap:anywhere;columns:2;column-gap:28px}\n"
-    "@media(max-width:760px){.grid{grid-template-columns:1fr}body{padding:20px}pre{columns:1}}\n"
+    /* Larger letters of a browser make a page narrow: charts stay readable, and are moved sideways.  Paper has a width
+       of its own. */
+    "@media screen{figure{overflow-x:auto}figure img{min-width:460px}figure.wide img{min-width:900px}}\n"
+    "@media screen and (max-width:1020px){.grid{grid-template-columns:minmax(0,1fr)}}\n"
+    "@media screen and (max-width:760px){body{padding:20px}pre,.contents{columns:1}}\n"
     "@media print{@page{size:A4;margin:14mm}body{padding:0;max-width:none;font-size:10.5pt}h2{margin-top:20pt}"
     ".scroll{overflow:visible}"
     "table{font-size:9pt}.figure b{font-size:15pt}pre{font-size:6.5pt;border:none;padding:0}"
@@ -55,48 +59,93 @@ static const char style[] =
 
 static void add(html_page *p, const char *text) { text_add(p->ctx, &p->text, text); }
 
-void html_escaped(html_page *p, const char *text)
-{
-    for (const char *c = text, *end = c + strlen(c), *next = c; c < end; c = next) {
-        int32_t code = utf8_shown(&next, end);
-        if (code == '&')
-            add(p, "&amp;");
-        else if (code == '<')
-            add(p, "&lt;");
-        else if (code == '>')
-            add(p, "&gt;");
-        else if (code == '"')
-            add(p, "&quot;");
-        else if (code == UTF8_REPLACEMENT)
-            add(p, UTF8_REPLACEMENT_TEXT);
-        else
-            text_add_bytes(p->ctx, &p->text, c, (size_t)(next - c));
-    }
-}
+void html_escaped(html_page *p, const char *text) { text_add_escaped(p->ctx, &p->text, text); }
 
-void html_begin(html_page *p, const char *title, const char *subtitle)
+void html_begin(html_page *p, const char *title, const char *subtitle) { html_begin_named(p, title, title, subtitle); }
+
+void html_begin_named(html_page *p, const char *window, const char *title, const char *subtitle)
 {
     add(p, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
-    html_escaped(p, title);
+    html_escaped(p, window);
     add(p, "</title>\n");
     add(p, style);
-    add(p, "</head>\n<body>\n<header>\n<h1>");
+    add(p, "</head>\n<body>\n<header>\n<h1 dir=\"auto\">");
     html_escaped(p, title);
-    add(p, "</h1>\n<p>");
+    add(p, "</h1>\n<p dir=\"auto\">");
     html_escaped(p, subtitle);
-    add(p, "</p>\n</header>\n");
+    add(p, "</p>\n</header>\n<main>\n");
 }
 
-void html_end(html_page *p) { add(p, "</body>\n</html>\n"); }
+void html_contents(html_page *p) { p->list_at = p->text.count; }
 
-void html_free(html_page *p) { text_free(p->ctx, &p->text); }
+/* What stands behind `at` moves on. */
+static void put_in(html_page *p, int32_t at, const text_buffer *piece)
+{
+    int32_t end = p->text.count;
+    text_add_bytes(p->ctx, &p->text, piece->data, (size_t)piece->count);
+    if (p->text.failed)
+        return;
+    memmove(p->text.data + at + piece->count, p->text.data + at, (size_t)(end - at));
+    memcpy(p->text.data + at, piece->data, (size_t)piece->count);
+}
+
+void html_end(html_page *p)
+{
+    add(p, "</main>\n</body>\n</html>\n");
+    p->text.failed = p->text.failed || p->list.failed;
+    if (p->list_at == 0 || !p->list.data || p->text.failed)
+        return;
+    text_buffer whole = {0};
+    text_format(p->ctx, &whole, "<nav aria-label=\"Contents\"><ul class=\"contents\">\n%s</ul></nav>\n", p->list.data);
+    p->text.failed = whole.failed;
+    if (!whole.failed)
+        put_in(p, p->list_at, &whole);
+    text_free(p->ctx, &whole);
+}
+
+void html_free(html_page *p)
+{
+    text_free(p->ctx, &p->text);
+    text_free(p->ctx, &p->list);
+}
+
+/* Name of a heading for links: small letters, digits, and one dash for all that lies between. */
+enum { LINK_NAME = 96, LINK_ROOM = LINK_NAME + 16 };
+
+static void link_name_of(const html_page *p, const char *title, char out[LINK_ROOM])
+{
+    char name[LINK_NAME] = "", mark[LINK_ROOM + 4];
+    size_t n = 0;
+    for (const char *c = title; *c && n + 1 < sizeof name; c++) {
+        char small = (char)(*c >= 'A' && *c <= 'Z' ? *c - 'A' + 'a' : *c);
+        bool plain = (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
+        if (plain)
+            name[n++] = small;
+        else if (n > 0 && name[n - 1] != '-')
+            name[n++] = '-';
+    }
+    n -= n > 0 && name[n - 1] == '-';
+    name[n] = '\0';
+    snprintf(out, LINK_ROOM, "%s", n > 0 ? name : "section");
+    for (int number = 2;; number++) {
+        snprintf(mark, sizeof mark, "\"#%s\"", out);
+        if (!p->list.data || !strstr(p->list.data, mark))
+            return;
+        snprintf(out, LINK_ROOM, "%s-%d", n > 0 ? name : "section", number);
+    }
+}
 
 void html_section(html_page *p, const char *title)
 {
-    add(p, "<h2>");
+    char name[LINK_ROOM];
+    link_name_of(p, title, name);
+    text_format(p->ctx, &p->text, "<h2 id=\"%s\">", name);
     html_escaped(p, title);
     add(p, "</h2>\n");
+    text_format(p->ctx, &p->list, "<li><a href=\"#%s\">", name);
+    text_add_escaped(p->ctx, &p->list, title);
+    text_add(p->ctx, &p->list, "</a></li>\n");
 }
 
 /* The text of a printf, escaped; longer than any line of a page is cut. */
@@ -170,9 +219,10 @@ void html_table_begin(html_page *p, const char *const *heads, int32_t count)
         add(p, "<thead><tr>");
     p->heads = count < HTML_HEADS_MOST ? count : HTML_HEADS_MOST;
     for (int32_t i = 0; i < count; i++) {
-        add(p, "<th class=\"w\">");
+        add(p, "<th class=\"w\"");
         if (i < p->heads)
-            p->head[i] = p->text.count - 3;
+            p->head[i] = p->text.count - 2;
+        add(p, " scope=\"col\">");
         html_escaped(p, heads[i]);
         add(p, "</th>");
     }
@@ -190,6 +240,14 @@ void html_row_begin(html_page *p)
 {
     p->column = 0;
     add(p, "<tr>");
+}
+
+void html_row_name(html_page *p, const char *text)
+{
+    p->column++;
+    add(p, "<th scope=\"row\">");
+    html_escaped(p, text);
+    add(p, "</th>");
 }
 
 void html_cell(html_page *p, const char *text)
@@ -252,7 +310,7 @@ void html_fact(html_page *p, const char *name, const char *format, ...)
 {
     va_list arguments;
     html_row_begin(p);
-    html_cell(p, name);
+    html_row_name(p, name);
     p->column++;
     add(p, "<td class=\"v\">");
     va_start(arguments, format);
@@ -260,44 +318,6 @@ void html_fact(html_page *p, const char *name, const char *format, ...)
     va_end(arguments);
     add(p, "</td>");
     html_row_end(p);
-}
-
-void html_grid_begin(html_page *p) { add(p, "<div class=\"grid\">\n"); }
-void html_grid_end(html_page *p) { add(p, "</div>\n"); }
-
-fram_status html_chart(html_page *p, const chart *c, bool wide, fram_error *error)
-{
-    return html_chart_named(p, c, c->title, wide, error);
-}
-
-fram_status html_chart_named(html_page *p, const chart *c, const char *name, bool wide, fram_error *error)
-{
-    enum { HALF = 620, WHOLE = 1240, HEIGHT = 400 };
-    text_buffer svg = {0};
-    fram_status status = chart_svg(p->ctx, c, wide ? WHOLE : HALF, HEIGHT, &svg, error);
-    if (status == FRAM_OK) {
-        add(p, wide ? "<figure class=\"wide\"><img alt=\"" : "<figure><img alt=\"");
-        html_escaped(p, name);
-        add(p, "\" src=\"data:image/svg+xml;base64,");
-        base64_text(p->ctx, &p->text, svg.data, (size_t)svg.count);
-        add(p, "\"></figure>\n");
-    } else if (status == FRAM_ERROR_UNSUPPORTED) {
-        html_paragraph(p, "%s: not drawn, for this build has no cairo.", name);
-        status = FRAM_OK;
-    }
-    text_free(p->ctx, &svg);
-    return status;
-}
-
-void html_picture(html_page *p, const void *png, size_t size, const char *caption)
-{
-    add(p, "<figure><img alt=\"");
-    html_escaped(p, caption);
-    add(p, "\" src=\"data:image/png;base64,");
-    base64_text(p->ctx, &p->text, png, size);
-    add(p, "\"><figcaption>");
-    html_escaped(p, caption);
-    add(p, "</figcaption></figure>\n");
 }
 
 void html_verbatim(html_page *p, const char *text)

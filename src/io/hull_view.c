@@ -461,7 +461,7 @@ fram_status hull_view_write(context *ctx, const hull_view *view, const char *pat
     double profile = size.z * scale, plan = size.y * scale;
     int height = (int)(HEAD + 20 + profile + plan + 2 * GAP + LOW_ROW + MARGIN);
     image_page page;
-    fram_status status = image_page_begin(ctx, path, PAGE_WIDTH, height, &page, error);
+    fram_status status = image_page_begin(ctx, path, view->title, PAGE_WIDTH, height, &page, error);
     if (status != FRAM_OK)
         return status;
     d.page = page.pen;

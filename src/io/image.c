@@ -98,9 +98,10 @@ static cairo_status_t collect_text(void *closure, const unsigned char *data, uns
     return v->text.failed ? CAIRO_STATUS_NO_MEMORY : CAIRO_STATUS_SUCCESS;
 }
 
-fram_status image_vector_begin(context *ctx, int width, int height, image_vector *v, fram_error *error)
+fram_status image_vector_begin(context *ctx, const char *title, int width, int height, image_vector *v,
+                               fram_error *error)
 {
-    *v = (image_vector){.ctx = ctx};
+    *v = (image_vector){.ctx = ctx, .title = title};
     cairo_surface_t *surface = cairo_svg_surface_create_for_stream(collect_text, v, width, height);
     v->page = cairo_create(surface);
     cairo_surface_destroy(surface); /* the page holds it */
@@ -112,20 +113,27 @@ fram_status image_vector_begin(context *ctx, int width, int height, image_vector
     return error_memory(error);
 }
 
-/* A picture that is opened alone is to shrink with a narrow window, in the proportions of its viewBox. */
-static void add_shrinking(image_vector *v, text_buffer *out)
+/* A picture that is opened alone is to shrink with a narrow window, in the proportions of its viewBox; and it says what
+   it is. */
+static void add_told(image_vector *v, text_buffer *out)
 {
-    static const char mark[] = "<svg ", style[] = "style=\"max-width:100%;height:auto\" ";
+    static const char mark[] = "<svg ", told[] = "style=\"max-width:100%;height:auto\" role=\"img\" ";
     text_add_bytes(v->ctx, &v->text, "", 1);
-    const char *at = v->text.failed ? NULL : strstr(v->text.data, mark);
-    if (!at) {
+    const char *begin = v->text.failed ? NULL : v->text.data, *at = begin ? strstr(begin, mark) : NULL;
+    const char *inside = at ? strchr(at, '>') : NULL;
+    if (!inside) {
         out->failed = true;
         return;
     }
-    size_t before = (size_t)(at - v->text.data) + sizeof mark - 1;
-    text_add_bytes(v->ctx, out, v->text.data, before);
-    text_add_bytes(v->ctx, out, style, sizeof style - 1);
-    text_add_bytes(v->ctx, out, v->text.data + before, (size_t)v->text.count - 1 - before);
+    at += sizeof mark - 1;
+    inside++;
+    text_add_bytes(v->ctx, out, begin, (size_t)(at - begin));
+    text_add_bytes(v->ctx, out, told, sizeof told - 1);
+    text_add_bytes(v->ctx, out, at, (size_t)(inside - at));
+    text_add(v->ctx, out, "\n<title>");
+    text_add_escaped(v->ctx, out, v->title);
+    text_add(v->ctx, out, "</title>");
+    text_add_bytes(v->ctx, out, inside, (size_t)v->text.count - 1 - (size_t)(inside - begin));
 }
 
 fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error)
@@ -134,7 +142,7 @@ fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *erro
     bool good = cairo_status(v->page) == CAIRO_STATUS_SUCCESS && !v->text.failed;
     cairo_destroy(v->page);
     if (good && out)
-        add_shrinking(v, out);
+        add_told(v, out);
     text_free(v->ctx, &v->text);
     return good && (!out || !out->failed) ? FRAM_OK : error_memory(error);
 }
@@ -145,12 +153,13 @@ static bool wants_svg(const char *path)
     return length >= 4 && strcasecmp(path + length - 4, ".svg") == 0;
 }
 
-fram_status image_page_begin(context *ctx, const char *path, int width, int height, image_page *page, fram_error *error)
+fram_status image_page_begin(context *ctx, const char *path, const char *title, int width, int height, image_page *page,
+                             fram_error *error)
 {
     *page = (image_page){.is_vector = wants_svg(path)};
     if (!page->is_vector)
         return image_begin(width, height, &page->pen, error);
-    fram_status status = image_vector_begin(ctx, width, height, &page->vector, error);
+    fram_status status = image_vector_begin(ctx, title, width, height, &page->vector, error);
     if (status != FRAM_OK)
         return status;
     page->pen = page->vector.page;

@@ -23,23 +23,26 @@ typedef struct image_colour {
 fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);
 /* Write the page to `path` and free it; frees it on failure too. */
 fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_error *error);
-/* A page drawn as SVG text.  The struct must not be moved between the two calls; image_vector_end appends the text to
-   out (nothing when it is NULL) and frees the page. */
+/* A page drawn as SVG text, as a picture that is called as its title says to who cannot see it.  Struct and title must
+   stay where they are between the two calls; image_vector_end appends the text to out (nothing when it is NULL) and
+   frees the page. */
 typedef struct image_vector {
     cairo_t *page;
+    const char *title;
     text_buffer text;
     context *ctx;
 } image_vector;
-fram_status image_vector_begin(context *ctx, int width, int height, image_vector *v, fram_error *error);
+fram_status image_vector_begin(context *ctx, const char *title, int width, int height, image_vector *v,
+                               fram_error *error);
 fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error);
-/* A page for a file: SVG when its name ends in .svg, otherwise PNG.  Not to be moved between begin and end, which
-   writes the file; both end and drop free the page. */
+/* A page for a file: SVG when its name ends in .svg, otherwise PNG, which has no title.  Not to be moved between begin
+   and end, which writes the file; both end and drop free the page. */
 typedef struct image_page {
     cairo_t *pen;
     bool is_vector;
     image_vector vector;
 } image_page;
-fram_status image_page_begin(context *ctx, const char *path, int width, int height, image_page *page,
+fram_status image_page_begin(context *ctx, const char *path, const char *title, int width, int height, image_page *page,
                              fram_error *error);
 fram_status image_page_end(context *ctx, image_page *page, const char *path, fram_error *error);
 void image_page_drop(image_page *page);

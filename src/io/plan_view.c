@@ -298,7 +298,7 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
     int width = 0, height = 0;
     fram_status status = size_page(view, longest, &width, &height, error);
     if (status == FRAM_OK)
-        status = image_page_begin(ctx, path, width, height, &page, error);
+        status = image_page_begin(ctx, path, view->title, width, height, &page, error);
     if (status != FRAM_OK)
         return status;
     plan_view_draw(page.pen, view, width, height);

@@ -171,7 +171,7 @@ static void draw(cairo_t *page, const polar_chart *p)
 fram_status polar_write(context *ctx, const polar_chart *p, const char *path, fram_error *error)
 {
     image_page page;
-    fram_status status = image_page_begin(ctx, path, POLAR_WIDTH, POLAR_HEIGHT, &page, error);
+    fram_status status = image_page_begin(ctx, path, p->title, POLAR_WIDTH, POLAR_HEIGHT, &page, error);
     if (status != FRAM_OK)
         return status;
     draw(page.pen, p);

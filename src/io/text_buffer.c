@@ -49,6 +49,23 @@ void text_add_utf8(context *ctx, text_buffer *b, const char *text)
     }
 }
 
+void text_add_escaped(context *ctx, text_buffer *b, const char *text)
+{
+    for (const char *end = text + strlen(text), *next = text; text < end; text = next) {
+        int32_t code = utf8_shown(&next, end);
+        const char *name = code == '&'                ? "&amp;"
+                           : code == '<'              ? "&lt;"
+                           : code == '>'              ? "&gt;"
+                           : code == '"'              ? "&quot;"
+                           : code == UTF8_REPLACEMENT ? UTF8_REPLACEMENT_TEXT
+                                                      : NULL;
+        if (name)
+            text_add(ctx, b, name);
+        else
+            text_add_bytes(ctx, b, text, (size_t)(next - text));
+    }
+}
+
 void text_real_or_null(context *ctx, text_buffer *b, double value)
 {
     char number[NUMBER_TEXT_SIZE];

@@ -26,6 +26,8 @@ typedef struct json_unit {
 void text_units(context *ctx, text_buffer *b, const json_unit *units, int32_t count);
 /* Bytes that are not UTF-8, as names of files may have, become U+FFFD each. */
 void text_add_utf8(context *ctx, text_buffer *b, const char *text);
+/* The same as HTML and XML write it: escaped, and what cannot be shown (utf8_shown) is U+FFFD too. */
+void text_add_escaped(context *ctx, text_buffer *b, const char *text);
 /* A JSON string, in quotes; with the same of such bytes. */
 void text_quoted(context *ctx, text_buffer *b, const char *text);
 void text_free(context *ctx, text_buffer *b);

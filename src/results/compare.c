@@ -340,7 +340,7 @@ static void number_table(pair *p)
         char name[COMPARE_NAME_SIZE + UNIT_SIZE + 3];
         snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
         html_row_begin(&p->page);
-        html_cell(&p->page, name);
+        html_row_name(&p->page, name);
         (row->is_place ? html_place : html_number)(&p->page, row->a);
         (row->is_place ? html_place : html_number)(&p->page, row->b);
         html_number(&p->page, row->b - row->a);

@@ -119,7 +119,7 @@ static void place_table(management_page *p, const manage_summary *s, const char 
     html_table_begin(&p->html, heads, 7);
     for (int k = 0; k < MANAGE_PLACES; k++) {
         html_row_begin(&p->html);
-        html_cell(&p->html, place_name[k]);
+        html_row_name(&p->html, place_name[k]);
         html_number(&p->html, s->place[k].windows);
         html_number(&p->html, s->place[k].concentration);
         html_number(&p->html, 100 * s->place[k].managed);
@@ -136,7 +136,7 @@ static void load_row(management_page *p, const char *name, load_unit unit, doubl
     char head[64];
     snprintf(head, sizeof head, "%s [%s]", name, unit.name);
     html_row_begin(&p->html);
-    html_cell(&p->html, head);
+    html_row_name(&p->html, head);
     html_number(&p->html, unit.factor * own);
     if (p->os) {
         html_number(&p->html, unit.factor * beside);
@@ -189,7 +189,7 @@ static void alarm_table(management_page *p)
         char text[ARRIVAL_TEXT];
         arrival_text(value[i], text);
         html_row_begin(&p->html);
-        html_cell(&p->html, name[i]);
+        html_row_name(&p->html, name[i]);
         html_cell(&p->html, text);
         html_row_end(&p->html);
     }
@@ -313,8 +313,10 @@ static fram_status plan(management_page *p, fram_error *error)
                       .shape_count = shapes.shapes.count};
     if (status == FRAM_OK)
         status = plan_view_png(m->ctx, &view, PLAN_PIXELS, &png, error);
+    char shows[160];
+    snprintf(shows, sizeof shows, "%s, seen from above: vessels, floes and open water; %s", title, caption);
     if (status == FRAM_OK)
-        html_picture(&p->html, png.data, (size_t)png.count, title);
+        html_picture(&p->html, png.data, (size_t)png.count, shows, title);
     text_free(m->ctx, &png);
     replay_plan_free(m->ctx, &shapes);
     replay_moment_free(m->ctx, &now);

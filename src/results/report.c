@@ -366,6 +366,8 @@ static fram_status compose_report(report *r, fram_error *error)
     fram_status status = report_verdict(r, error);
     if (status == FRAM_OK)
         status = key_figures(r, error);
+    if (scenario_vessel_count(&r->d.s) > 1)
+        html_contents(&r->page);
     scenario_table(r);
     events(r);
     track_table(&r->page, &r->d.note);

@@ -37,7 +37,7 @@ static void book_row(report *r, const char *name, double value, const char *unit
     html_number_text(value, text);
     snprintf(all, sizeof all, "%s %s", text, unit);
     html_row_begin(&r->page);
-    html_cell(&r->page, name);
+    html_row_name(&r->page, name);
     html_cell(&r->page, all);
     html_row_end(&r->page);
 }
@@ -80,7 +80,7 @@ static void mass_balance(report *r)
                  {"ice_mass_lost", -1},   {"ice_mass_crushed", -1}, {"brash_mass", -1}};
     if ((from < 0 && !from_start) || to < 0) {
         html_row_begin(&r->page);
-        html_cell(&r->page, "not accounted for");
+        html_row_name(&r->page, "not accounted for");
         html_cell(&r->page, "unknown: no row of the series is at the time of the last frame");
         html_row_end(&r->page);
         return;

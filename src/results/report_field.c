@@ -8,12 +8,16 @@
 
 enum { MAP_PIXELS = 900, EVENTS_SHOWN = 25 };
 
+/* Whether the record's first frame is its last: then there is nothing to set beside it. */
+static bool has_one_frame(const report *r) { return !(r->d.after.time > r->d.before.time); }
+
 static void field_row(report *r, const char *name, double before, double after)
 {
     html_row_begin(&r->page);
-    html_cell(&r->page, name);
+    html_row_name(&r->page, name);
     html_number(&r->page, before);
-    html_number(&r->page, after);
+    if (!has_one_frame(r))
+        html_number(&r->page, after);
     html_row_end(&r->page);
 }
 
@@ -26,7 +30,7 @@ static void field_table(report *r)
     snprintf(first, sizeof first, "at %g s", a->time);
     snprintf(last, sizeof last, "at %g s", b->time);
     const char *const heads[] = {"ice field", first, last};
-    html_table_begin(&r->page, heads, 3);
+    html_table_begin(&r->page, heads, has_one_frame(r) ? 2 : 3);
     field_row(r, "floes", a->areas.count, b->areas.count);
     field_row(r, "of these fixed", a->fixed, b->fixed);
     field_row(r, "ice area [m2]", a->area, b->area);
@@ -78,7 +82,8 @@ static fram_status sizes(report *r, fram_error *error)
     const field_state *state[2] = {&r->d.before, &r->d.after};
     static const char *const names[2] = {"before", "after"};
     chart_line lines[2];
-    for (int k = 0; k < 2; k++) {
+    const int count = has_one_frame(r) ? 1 : 2;
+    for (int k = 0; k < count; k++) {
         int32_t n = state[k]->areas.count;
         double *part = memory_array(r->ctx, (size_t)n + 1, sizeof *part);
         if (!part || !array_push(r->ctx, &r->kept, part)) {
@@ -90,8 +95,8 @@ static fram_status sizes(report *r, fram_error *error)
         lines[k] = chart_line_make(names[k], state[k]->areas.data, part, n, true);
         lines[k].colour = k + 2;
     }
-    chart c =
-        chart_make("Floe sizes", "share of floes at least this large", "floe area [m2]", "share of floes", lines, 2);
+    chart c = chart_make("Floe sizes", "share of floes at least this large", "floe area [m2]", "share of floes", lines,
+                         count);
     c.log_x = true;
     c.log_y = true;
     return html_chart(&r->page, &c, false, error);
@@ -101,9 +106,13 @@ static fram_status sizes(report *r, fram_error *error)
 
 static fram_status draw_map(report *r, const replay *from, const replay_moment *m, double mark_time, fram_error *error)
 {
+    bool ends = m->time > r->d.note.time - 0.5 * r->d.s.run.time_step;
+    const char *title = !(mark_time > 0) ? "The field at the start"
+                        : ends           ? "The field at the end"
+                                         : "The field at the last frame";
     replay_plan plan = {0};
     text_buffer png = {0};
-    char caption[96];
+    char caption[96], shows[192];
     plan_flows flows = plan_flows_at(r->ctx, &r->d.s, m->time);
     fram_status status = replay_plan_make(from, m, PLAN_COLOUR_PLAIN, 0, 1, 0, mark_time, &plan, error);
     if (status == FRAM_OK)
@@ -112,7 +121,7 @@ static fram_status draw_map(report *r, const replay *from, const replay_moment *
     snprintf(caption, sizeof caption, "t = %g s%s", m->time,
              replay_plan_marks_in(&plan, window) ? "; crosses: where floes broke" : "");
     plan_view view = {.window = window,
-                      .title = mark_time > 0 ? "The field at the end" : "The field at the start",
+                      .title = title,
                       .caption = caption,
                       .shapes = plan.shapes.data,
                       .shape_count = plan.shapes.count,
@@ -124,8 +133,9 @@ static fram_status draw_map(report *r, const replay *from, const replay_moment *
                       .flow_count = flows.count};
     if (status == FRAM_OK)
         status = plan_view_png(r->ctx, &view, MAP_PIXELS, &png, error);
+    snprintf(shows, sizeof shows, "%s, seen from above: vessels, floes and open water; %s", title, caption);
     if (status == FRAM_OK)
-        html_picture(&r->page, png.data, (size_t)png.count, caption);
+        html_picture(&r->page, png.data, (size_t)png.count, shows, caption);
     else if (status == FRAM_ERROR_UNSUPPORTED)
         status = FRAM_OK;
     text_free(r->ctx, &png);
@@ -146,11 +156,12 @@ static fram_status maps(report *r, fram_error *error)
         status = replay_moment_now(&from, &m, error);
     if (status == FRAM_OK)
         status = draw_map(r, &from, &m, 0, error);
+    const bool goes_on = !has_one_frame(r);
     while (status == FRAM_OK && from.has_next)
         status = replay_next(&from, &found, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && goes_on)
         status = replay_moment_now(&from, &m, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && goes_on)
         status = draw_map(r, &from, &m, 1e30, error);
     replay_moment_free(r->ctx, &m);
     replay_close(&from);

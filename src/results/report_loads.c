@@ -138,6 +138,17 @@ static bool picture_may_be_shown(const char *path, const char *png, size_t size)
     return lstat(path, &about) == 0 && S_ISREG(about.st_mode) && png_is_whole(png, size);
 }
 
+static void show_station(report *r, const char *png, size_t size)
+{
+    char shows[256];
+    bool moored = scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring.lines.count > 0;
+    const char *caption =
+        moored ? "Footprint, offsets, heading, loads and lines" : "Footprint, offsets, heading, loads and power";
+    snprintf(shows, sizeof shows, "Station keeping of %s: %s of the run, whose numbers are in the tables above",
+             report_vessel(r).text, caption);
+    html_picture(&r->page, png, size, shows, caption);
+}
+
 static fram_status station_picture(report *r, fram_error *error)
 {
     char path[PATH_ROOM], *png = NULL;
@@ -149,12 +160,9 @@ static fram_status station_picture(report *r, fram_error *error)
     if (access(path, F_OK) != 0 && errno == ENOENT)
         return FRAM_OK;
     status = file_read(r->ctx, path, 64 << 20, &png, &size, error);
-    bool moored = scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring.lines.count > 0;
     bool shown = status == FRAM_OK && picture_may_be_shown(path, png, size);
     if (shown)
-        html_picture(&r->page, png, size,
-                     moored ? "Footprint, offsets, heading, loads and lines"
-                            : "Footprint, offsets, heading, loads and power");
+        show_station(r, png, size);
     else if (status == FRAM_OK)
         log_write(r->ctx, LOG_WARNING, "%s: expected a picture (PNG) that the run drew, found %s: it is left out", path,
                   size == 0 ? "an empty file" : "another file, or a link");

@@ -133,7 +133,7 @@ static void share_table(report *r, const char *what, const char *const *name, co
     html_table_begin(&r->page, heads, 2);
     for (int32_t k = 0; k < parts; k++) {
         html_row_begin(&r->page);
-        html_cell(&r->page, name[k]);
+        html_row_name(&r->page, name[k]);
         html_number(&r->page, 100 * share[k]);
         html_row_end(&r->page);
     }
@@ -186,7 +186,7 @@ static fram_status peak_table(report *r, fram_error *error)
         snprintf(rank, sizeof rank, "%d", (int)i + 1);
         peak_sentence(r->ctx, &r->d, list.peak[i], &words);
         html_row_begin(&r->page);
-        html_cell(&r->page, rank);
+        html_row_name(&r->page, rank);
         html_number(&r->page, list.peak[i]->time);
         html_cell(&r->page, words.data ? words.data : "");
         html_row_end(&r->page);

@@ -41,7 +41,7 @@ void track_table(html_page *page, const run_note *note)
         const run_track *t = &note->tracks.data[i];
         bool known = t->time > 0;
         html_row_begin(page);
-        html_cell(page, t->vessel[0] ? t->vessel : "vessel");
+        html_row_name(page, t->vessel[0] ? t->vessel : "vessel");
         html_number(page, known ? t->largest : (double)NAN);
         html_number(page, known ? t->rms : (double)NAN);
         html_number(page, t->limit);

@@ -55,7 +55,7 @@ static void add_table(html_page *p, const fmu_variable_array *variables, fmu_kin
             continue;
         snprintf(number, sizeof number, "%d", (int)i);
         html_row_begin(p);
-        html_cell(p, v->name);
+        html_row_name(p, v->name);
         html_cell(p, number);
         html_cell(p, v->unit);
         html_cell(p, v->meaning);

@@ -199,13 +199,20 @@ void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed)
     }
 }
 
+static const char *last_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 static void add_head(study_page *p)
 {
-    char text[64];
+    char text[64], window[PATH_ROOM];
     int64_t runs, failed;
     page_count_runs(p, &runs, &failed);
-    const char *slash = strrchr(p->f->s->scenario, '/');
-    html_begin(&p->page, "Study", slash ? slash + 1 : p->f->s->scenario);
+    const char *of = last_name(p->f->s->scenario);
+    snprintf(window, sizeof window, "Study %s of %s", last_name(p->f->s->file), of);
+    html_begin_named(&p->page, window, "Study", of);
     html_figures_begin(&p->page);
     snprintf(text, sizeof text, "%d", (int)p->f->s->conditions);
     html_figure(&p->page, p->f->s->conditions == 1 ? "condition" : "conditions", text, "");
@@ -282,8 +289,8 @@ static void add_table(study_page *p, const bool *has)
              ".wide td.command{white-space:normal;min-width:9em}.wide code{overflow-wrap:anywhere}"
              ".wide code i{font-style:normal;white-space:nowrap}"
              /* Paper does not scroll: sheets lie on their long side. */
-             "@media print{@page{size:A4 landscape}.wide{overflow:visible}.wide table{font-size:8pt}"
-             ".grid{grid-template-columns:1fr 1fr}}</style>\n");
+             "@media print{@page{size:A4 landscape}.wide{overflow:visible}.wide table{font-size:8pt}}"
+             "</style>\n");
     for (int i = 0; i < PAGE_FIGURES; i++) {
         snprintf(names[i], sizeof names[i], "%s [%s]", p->figures[i].name, p->figures[i].unit);
         if (has[i])

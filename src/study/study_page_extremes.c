@@ -117,7 +117,7 @@ static fram_status add_annual(study_page *p, const bool *has, const double *bloc
         for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
             char text[32];
             html_row_begin(&p->page);
-            html_cell(&p->page, figure.name);
+            html_row_name(&p->page, figure.name);
             html_cell(&p->page, figure.unit);
             snprintf(text, sizeof text, "%.6g", x->annual[i]);
             html_cell(&p->page, text);

@@ -164,7 +164,7 @@ static void add_sensitivity_row(study_page *p, const sensitivity_row *row)
 {
     page_figure figure = page_figure_of(p, row->figure);
     html_row_begin(&p->page);
-    html_cell(&p->page, figure.name);
+    html_row_name(&p->page, figure.name);
     html_cell(&p->page, p->f->s->keys.data[row->key]);
     if (p->f->s->design.kind == DESIGN_SOBOL) {
         add_index(p, &row->value[0]);

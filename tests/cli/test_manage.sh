@@ -244,8 +244,8 @@ expect 0 "$FRAM" manage full --beside half
 says "fatigue of line 2" out
 # Under 10 kN all is told in newtons.
 says "line tension 1000 N at most" out
-says "<td>largest line tension [N]</td>" full/manage.html
-says "<td>mean horizontal ice load [kN]</td>" full/manage.html
+says '<th scope="row">largest line tension [N]</th>' full/manage.html
+says '<th scope="row">mean horizontal ice load [kN]</th>' full/manage.html
 grep -q "takes 8 times the damage" full/manage.html || fail "the page does not compare the damages"
 
 # A vessel that met the sheet alone: no loose floe came.

@@ -103,7 +103,7 @@ page = open(sys.argv[1] + "/report.html").read()
 for name, key in (("along X [m]", "offset_x_m"), ("along Y [m]", "offset_y_m"),
                   ("heading [deg]", "heading_deviation_deg")):
     table = page[page.index("deviation from the set"):]
-    row = re.search(r"<tr><td>" + re.escape(name) + r"</td>(.*?)</tr>", table, re.S)
+    row = re.search(r"<tr><th[^>]*>" + re.escape(name) + r"</th>(.*?)</tr>", table, re.S)
     told = [float(c) for c in re.findall(r"<td[^>]*>([^<]*)</td>", row[1])]
     wanted = [j[key][k] for k in ("mean", "deviation", "least", "greatest", "significant")]
     assert all(abs(a - b) <= 1e-3 * abs(b) for a, b in zip(told, wanted)), (name, told, wanted)

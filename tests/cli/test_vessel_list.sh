@@ -51,7 +51,7 @@ for row in rows:
 END
 
 "$FRAM" report "$run" --quiet || fail "the report failed"
-for text in "vessel ship comes within" 'time \[s\]</th><th class="w">vessel</th>' \
+for text in "vessel ship comes within" 'time \[s\]</th><th class="w" scope="col">vessel</th>' \
     "Ice load, vessel icebreaker" "Station keeping, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done
@@ -122,7 +122,8 @@ import base64, re, sys
 page, heads = open(sys.argv[1]).read(), []
 for name in sys.argv[2:]:
     alt = re.escape(f"Ice load along X, averaged, vessel {name}")
-    chart = base64.b64decode(re.search(f'alt="{alt}" src="data:image/svg\\+xml;base64,([^"]+)"', page)[1]).decode()
+    image = re.search(f'alt="{alt}: [^"]*" src="data:image/svg\\+xml;base64,([^"]+)"', page)[1]
+    chart = base64.b64decode(image).decode()
     shapes = dict(re.findall(r'id="(glyph[-0-9]+)">\n<path [^>]* d="([^"]*)"', chart))
     # Title and subtitle.
     heads.append([shapes[g] for g in re.findall(r'href="#(glyph[-0-9]+)" x="[^"]*" y="(?:28|48)"', chart)])

@@ -25,6 +25,14 @@ static void forget_number(char *svg)
     }
 }
 
+/* Of what a picture is called, where such bytes are told in another way than they are drawn. */
+static void forget_title(char *svg)
+{
+    char *begin = strstr(svg, "<title>"), *end = strstr(svg, "</title>");
+    ck_assert(begin && end > begin);
+    memmove(begin, end, strlen(end) + 1);
+}
+
 /* Names of files may be of any bytes, and a buffer may end in the middle of a character. */
 START_TEST(bytes_that_are_no_text)
 {
@@ -39,10 +47,31 @@ START_TEST(bytes_that_are_no_text)
         ck_assert_int_gt(found.count, 1000);
         forget_number(found.data);
         forget_number(expected.data);
+        forget_title(found.data);
+        forget_title(expected.data);
         ck_assert_str_eq(found.data, expected.data);
         text_free(&ctx, &found);
         text_free(&ctx, &expected);
     }
+}
+END_TEST
+
+/* Who cannot see a picture is told what it is: a title, first in it, and escaped. */
+START_TEST(pictures_have_titles)
+{
+    context ctx;
+    text_buffer svg = {0};
+    context_init(&ctx);
+    if (!image_available())
+        return;
+    draw(&ctx, "a <b> & \"c\" \xff\x1b", "load [kN]", &svg);
+    const char *role = strstr(svg.data, "role=\"img\""), *inside = strchr(strstr(svg.data, "<svg "), '>');
+    static const char title[] =
+        ">\n<title>a &lt;b&gt; &amp; &quot;c&quot; \xef\xbf\xbd\xef\xbf\xbd: load [kN] over time "
+        "[s]</title>";
+    ck_assert(role && role < inside);
+    ck_assert_int_eq(strncmp(inside, title, sizeof title - 1), 0);
+    text_free(&ctx, &svg);
 }
 END_TEST
 
@@ -90,4 +119,5 @@ START_TEST(pictures_that_cannot_be_drawn_are_skipped)
 }
 END_TEST
 
-TEST_MAIN("image", bytes_that_are_no_text, long_texts_are_cut, pictures_that_cannot_be_drawn_are_skipped)
+TEST_MAIN("image", bytes_that_are_no_text, pictures_have_titles, long_texts_are_cut,
+          pictures_that_cannot_be_drawn_are_skipped)

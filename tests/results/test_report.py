@@ -81,11 +81,41 @@ def check_heads(page):
     tables = re.findall(r"<thead><tr>(.*?)</tr></thead>\s*<tbody>\s*<tr>(.*?)</tr>", page, re.S)
     seen = set()
     for head, row in tables:
-        heads, cells = ([kind == "n" for kind in re.findall(rf'<{tag}(?: class="(.)")?>', text)]
-                        for tag, text in (("th", head), ("td", row)))
+        heads, cells = ([kind == "n" for kind in re.findall(r'<t[hd](?: class="(.)")?(?: scope="(?:col|row)")?>', text)]
+                        for text in (head, row))
         assert heads == cells, (head, row)
         seen |= set(heads)
     assert len(tables) > 4 and seen == {True, False}, tables
+
+
+def check_structure(page, contents):
+    """What who does not see the page goes by: its main part, headings with names for links, rows with theirs."""
+    assert page.count("<main>") == page.count("</main>") == 1 and page.index("</header>") < page.index("<main>")
+    names = re.findall(r'<h2 id="([a-z0-9-]+)">', page)
+    assert len(names) == page.count("<h2") == len(set(names)) and "ice-load" in " ".join(names), names
+    links = re.findall(r'<li><a href="#([^"]*)">', page)
+    assert links == (names if contents else []), links
+    assert len(re.findall('<th scope="row">', page)) > 40 and '<td>averaged, along X' not in page
+    assert all('scope="' in head for head in re.findall("<th(?: [^>]*)?>", page))
+    assert '<h1 dir="auto">' in page
+
+
+def check_alternatives(page, series):
+    """Charts and plans tell in words what is to be seen."""
+    alternatives = re.findall('alt="([^"]*)"', page)
+    (load,) = [a for a in alternatives if a.startswith("Ice load over time: ")]
+    told = re.fullmatch(r".*: force \[(k?)N\] from (\S+) to (\S+) over time \[s\] from (\S+) to (\S+); "
+                        "along the vessel, each step; along X, averaged; along Y, averaged", load)
+    assert told, load
+    values = [float(row[f"ice_force_{c}[N]"]) / (1000 if told[1] else 1) for row in series
+              for c in ("body_x", "averaged_x", "averaged_y")]
+    for text, value in zip(told.groups()[1:], (min(values), max(values), float(series[0]["time[s]"]),
+                                               float(series[-1]["time[s]"]))):
+        assert abs(float(text) - value) <= 1e-3 * abs(value), (load, value)
+    plans = [a for a in alternatives if a.startswith("The field at the ")]
+    assert len(plans) == 2 and plans[0].startswith("The field at the start, seen from above: ") and any(
+        re.search(r"the end, .*; t = [0-9.]+ s", a) for a in plans), plans
+    assert len(alternatives) == len(set(alternatives)) and min(map(len, alternatives)) > 40, alternatives
 
 
 class Tables(html.parser.HTMLParser):
@@ -129,7 +159,7 @@ def check(name, run, pictures):
     for section in SECTIONS:
         assert section in tables.heads, (name, section, tables.heads)
     for chart in CHARTS if pictures else ():
-        assert f'alt="{chart}"' in page, (name, chart)
+        assert f'alt="{chart}: ' in page, (name, chart)
     first, final = (number(rows[f"in the field at the {w} frame"][0]) for w in ("first", "last"))
     book = {k[:-4]: float(v) * 1e-3 for k, v in last.items() if k.startswith(("ice_mass_", "brash_mass"))}
     moved = (book["ice_mass_entered"] + book["ice_mass_gained"] - book["ice_mass_left"] - book["ice_mass_lost"]
@@ -139,7 +169,8 @@ def check(name, run, pictures):
     assert float(last["fractures[1]"] if "fractures[1]" in last else last["bendings[1]"]) > 0, "nothing broke"
     if pictures:
         check_stack(page, series)
-        assert ('alt="Roll and pitch"' in page) == (name == "feeding")
+        assert ('alt="Roll and pitch: ' in page) == (name == "feeding")
+        check_alternatives(page, series)
     if name == "feeding":
         assert book["ice_mass_entered"] > 0 and book["ice_mass_left"] > 0, book
         assert "Station keeping" in tables.heads and "unbounded field" in rows["domain"][0], rows["domain"]
@@ -158,6 +189,7 @@ def check(name, run, pictures):
     check_channels(series, TRANSIENT[name], rows, {**ROWS, **(MOORED_ROWS if name == "feeding" else TOWED_ROWS)}, page)
     check_breaks(run, rows, page)
     check_heads(page)
+    check_structure(page, contents=False)
     assert CHANGED not in page
     assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
     mean_x, mean_y = (abs(number(rows[f"averaged, along {axis}"][0])) for axis in "XY")
@@ -248,7 +280,7 @@ def check_shares(series, transient, told, parts):
 def check_stack(page, series):
     """Each mechanism that carries something has a band, and none goes from one side of zero to the other: it would
     leave a gap where it does."""
-    data = re.search(r'alt="Ice load by mechanism" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
+    data = re.search(r'alt="Ice load by mechanism: [^"]*" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
     bands = re.findall(r'fill:rgb[^"]*" d="M ([^MZ]*) Z', base64.b64decode(data).decode())
     points = [[[float(x) for x in point.split()] for point in band.split(" L ")] for band in bands]
     heights = [[y for _, y in p] for p in points if len(p) > 4]
@@ -312,7 +344,7 @@ def move_series(series, x, column="position_x[m]"):
 
 def line_height(page, title):
     """Of the highest line in a chart of a page [pixels]."""
-    data = re.search(rf'alt="{title}" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
+    data = re.search(rf'alt="{title}: [^"]*" src="data:image/svg\+xml;base64,([^"]+)"', page).group(1)
     lines = [re.findall(r"[ML] \S+ (\S+)", line) for line in
              re.findall(r' d="(M [^"]*)"', base64.b64decode(data).decode())]
     heights = [max(map(float, line)) - min(map(float, line)) for line in lines if len(line) > 20]
@@ -363,9 +395,9 @@ def check_water(folder, pictures):
     assert tables.rows["told by a program"] == [
         f"the rows above are the scenario's, in place of which were {', '.join(told[:16])} and 184 more"]
     if pictures:
-        assert 'alt="Position"' in page
+        assert 'alt="Position: ' in page
         for chart in ("Histogram of the load", "Exceedance of the load", "Roll and pitch"):
-            assert f'alt="{chart}"' not in page, chart
+            assert f'alt="{chart}: ' not in page, chart
 
 
 def turn_loads(series):
@@ -492,7 +524,7 @@ def check_late(folder):
         band = "The vessel reached the band of the ice field, whose floes nothing pushes aside, at 9 s." in page
         assert band == ("verdict bad" in page) == (lost is not None), (lost, band)
         # A single vessel has no name that a column could tell.
-        assert ('time [s]</th><th class="w">event</th>' in page) == (lost is not None), "heads of the events"
+        assert ('time [s]</th><th class="w" scope="col">event</th>' in page) == (lost is not None), "the events' heads"
     # It is named where the run has written it.
     (run / "station.json").unlink()
     subprocess.run([FRAM, "report", run, "-q"], check=True)
@@ -612,6 +644,39 @@ def check_killed(folder):
     assert f"broke: {bent} in bending" in (run / "report.html").read_text()
 
 
+SHORT = f"""
+title: "\u0645\u0631\u062d\u0628\u0627"
+run: {{duration: 0.1, time_step: 0.02}}
+vessels:
+  - {{name: first, mode: towed, x: -30, speed: 1, {VESSEL}}}
+  - {{name: second, mode: towed, x: 30, speed: 1, {VESSEL}}}
+ice: {{source: floes, floes: [{{x: 20, y: 18, length: 9, width: 9}}]}}
+domain: {{x_min: -60, x_max: 90, y_min: -40, y_max: 40, boundary: open}}
+"""
+
+
+def check_short(folder, pictures):
+    """A run that ends before its second frame has one field to tell; two vessels, a list of sections."""
+    file, run = folder / "short.yaml", folder / "short"
+    file.write_text(SHORT, "utf-8")
+    subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+    # What rounding leaves of nothing.
+    head, *rows = (run / "series.csv").read_text().splitlines()
+    at = [i for i, name in enumerate(head.split(",")) if re.match("first.*ice_force_averaged_[xy]", name)]
+    rows = [",".join("-1.6e-10" if i in at else v for i, v in enumerate(row.split(","))) for row in rows]
+    (run / "series.csv").write_text("\n".join([head, *rows]) + "\n")
+    assert len(at) == 2, head
+    subprocess.run([FRAM, "report", run, "-q"], check=True)
+    page = (run / "report.html").read_text("utf-8")
+    tables = Tables()
+    tables.feed(page)
+    assert tables.rows["floes"] == ["1"] and page.count(">at 0 s<") == 1, tables.rows["floes"]
+    assert tables.rows["averaged, along X"] == ["0"] * 5, tables.rows["averaged, along X"]
+    assert "The field at the end" not in page and "after" not in re.findall('alt="Floe sizes: ([^"]*)"', page)[:1]
+    assert page.count('alt="The field at the start') == (1 if pictures else 0)
+    check_structure(page, contents=True)
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -628,6 +693,7 @@ def main():
         check_loose(pathlib.Path(folder))
         check_killed(pathlib.Path(folder))
         check_ice(pathlib.Path(folder))
+        check_short(pathlib.Path(folder), pictures)
         check_peaks(pathlib.Path(folder))
         check_late(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))

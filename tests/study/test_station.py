@@ -24,6 +24,12 @@ OFFSET, HEADING, LINES = "offset_largest[m]", "heading_deviation_largest[deg]", 
 INTERVAL = {0: (0, 0.602365), 2: (0.067586, 0.932414), 4: (0.397635, 1)}
 
 
+def luminance(colour):
+    """Relative, of sRGB from 0 to 1 (WCAG 2.1)."""
+    linear = [v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in colour]
+    return sum(w * v for w, v in zip((0.2126, 0.7152, 0.0722), linear))
+
+
 class StationTest(StudyTest):
     def setUp(self):
         super().setUp()
@@ -40,6 +46,22 @@ class StationTest(StudyTest):
 
     def page(self, folder):
         return (self.at / folder / "study.html").read_text().replace("\u200b", "")
+
+    def test_maps_can_be_read_and_the_page_has_a_name(self):
+        """Ink has a contrast of 4.5 at least on every cell, as WCAG 2.1 asks for (1.4.3, AA)."""
+        study = self.write("seeds: 2\nvary: {grid: {vessel.station.offset_limit: [0.001, 1000],"
+                           " vessel.speed: [1, 2]}}\n", "limits.yaml")
+        self.fram(study, "-o", self.at / "out")
+        page = self.page("out")
+        self.assertIn("<title>Study limits.yaml of base.yaml</title>", page)
+        ink = re.search("--ink:(#[0-9a-f]{6})", page)[1]
+        cells = re.findall(r"background:color-mix\(in srgb,(#[0-9a-f]{6}) (\d+)%,#fff\)", page)
+        for colour in ("#2e7d4f", "#d1603d"):
+            self.assertGreaterEqual(max(int(part) for c, part in cells if c == colour), 60, colour)
+        for colour, part in cells:
+            mixed = [1 + (int(colour[i:i + 2], 16) / 255 - 1) * int(part) / 100 for i in (1, 3, 5)]
+            self.assertGreaterEqual((luminance(mixed) + 0.05) / (luminance(
+                [int(ink[i:i + 2], 16) / 255 for i in (1, 3, 5)]) + 0.05), 4.5, (colour, part))
 
     def test_runs_are_counted_by_what_is_required(self):
         self.plain()
@@ -230,7 +252,7 @@ class StationTest(StudyTest):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
                                            MOORED[MOORED.index("ice:"):])
         self.fram(self.write("seeds: 2\n"), "-o", self.at / "out")
-        self.assertNotIn("<h2>Station", self.page("out"))
+        self.assertNotIn(">Station</h2>", self.page("out"))
         self.assertFalse((self.at / "out" / "station.csv").exists())
         # One that nothing holds, and that has limits all the same, has not kept them.
         limits = "vessel.station.offset_limit: 2, run.duration: 2.4"

@@ -709,7 +709,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         row = next(r for r in rows if r["figure"] == "load_largest" and r["key"] == "output.averaging_window")
         self.assertLess(float(row["mu"]), 0)
         cells = "<td[^>]*>([^<]*)</td>" * 3
-        shown = re.search("<td>Largest load</td><td>output.averaging_window</td><td>kN</td>" + cells, page).groups()
+        shown = re.search('row">Largest load</th><td>output.averaging_window</td><td>kN</td>' + cells, page).groups()
         for text, name in zip(shown, ("mu_star", "mu", "sigma")):
             value = float(row[name]) / 1000
             self.assertAlmostEqual(float(text), value, delta=0.006 * abs(value))
