@@ -1,18 +1,16 @@
 #include "io/chart_legend.h"
 
 #include "base/transcendental.h"
+#include "io/palette.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* Colour-blind safe (Okabe and Ito 2008). */
-static const double line_colours[CHART_COLOURS][3] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
-                                                      {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00},
-                                                      {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
+_Static_assert(CHART_COLOURS == (int)PALETTE_LINES, "a chart's colours are its palette");
 
 void chart_colour_text(int number, char out[CHART_COLOUR_TEXT])
 {
-    const double *c = line_colours[(number - 1) % CHART_COLOURS];
+    const double *c = palette_lines[(number - 1) % CHART_COLOURS];
     snprintf(out, CHART_COLOUR_TEXT, "#%02x%02x%02x", (unsigned)(255 * c[0] + 0.5), (unsigned)(255 * c[1] + 0.5),
              (unsigned)(255 * c[2] + 0.5));
 }
@@ -27,7 +25,7 @@ static int32_t number_of(const chart_line *line, int32_t place) { return line->c
 
 image_colour chart_colour_of(const chart_line *line, int32_t place)
 {
-    const double *c = line_colours[number_of(line, place) % CHART_COLOURS];
+    const double *c = palette_lines[number_of(line, place) % CHART_COLOURS];
     return (image_colour){c[0], c[1], c[2]};
 }
 

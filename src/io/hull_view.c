@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/image.h"
+#include "io/palette.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -346,14 +347,11 @@ static bool add_pieces(const drawing *d, facet_view *v)
 
 static image_colour piece_colour(int32_t piece, vec3 normal)
 {
-    static const image_colour palette[] = {{0.36, 0.57, 0.78}, {0.90, 0.55, 0.30}, {0.46, 0.70, 0.44},
-                                           {0.80, 0.42, 0.48}, {0.60, 0.50, 0.76}, {0.82, 0.74, 0.36},
-                                           {0.40, 0.70, 0.70}, {0.72, 0.56, 0.44}};
-    enum { COLOURS = sizeof palette / sizeof *palette };
-    image_colour c = piece < 0 ? (image_colour){0.74, 0.77, 0.80} : palette[piece % COLOURS];
+    static const double surface[3] = {0.74, 0.77, 0.80};
+    const double *c = piece < 0 ? surface : palette_pieces[piece % PALETTE_PIECES];
     double light = 0.58 + 0.26 * vec3_dot(normal, eye) + 0.22 * normal.z + 0.16 * normal.y;
     light = fmin(fmax(light, 0.35), 1.18);
-    return (image_colour){fmin(c.r * light, 1), fmin(c.g * light, 1), fmin(c.b * light, 1)};
+    return (image_colour){fmin(c[0] * light, 1), fmin(c[1] * light, 1), fmin(c[2] * light, 1)};
 }
 
 static void paint_solid(const drawing *d, const facet_view *v, double left, double top, double width, double height)

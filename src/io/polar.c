@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/image.h"
+#include "io/palette.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +20,6 @@ enum {
 };
 
 static const image_colour polar_ink = {0.2, 0.2, 0.2}, polar_grid = {0.55, 0.57, 0.60}, beyond = {0.62, 0.62, 0.64};
-/* Colour-blind safe (Okabe and Ito 2008). */
-static const image_colour curve_colours[] = {{0.00, 0.00, 0.00}, {0.00, 0.45, 0.10}, {0.84, 0.37, 0.00}};
 
 static double reach_of(const polar_chart *p) { return p->rings * p->ring_step; }
 
@@ -113,7 +112,8 @@ static void draw_curve(cairo_t *page, const polar_chart *p, int32_t number)
 {
     const double dash[2] = {9, 6};
     const polar_curve *curve = &p->curves[number];
-    image_set_colour(page, curve_colours[number % 3]);
+    const double *colour = palette_curves[number % PALETTE_CURVES];
+    image_set_colour(page, (image_colour){colour[0], colour[1], colour[2]});
     cairo_set_line_width(page, 2.6);
     cairo_set_dash(page, dash, curve->dashed ? 2 : 0, 0);
     cairo_new_path(page);
