@@ -64,6 +64,11 @@ class Site(unittest.TestCase):
                 links += 1
         self.assertGreater(links, 1000)
 
+    def test_a_title_says_what_page_it_is(self):
+        titles = [re.search("<title>(.*?)</title>", path.read_text(encoding="utf-8"))[1] for path in self.pages]
+        self.assertIn("Fram", titles)
+        self.assertNotIn("Fram - Fram", titles)
+
     def test_search_has_every_section(self):
         text = (self.site / "index.js").read_text(encoding="utf-8")
         index = json.loads(text.removeprefix("const pages = ").rstrip().removesuffix(";"))

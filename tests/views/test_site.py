@@ -30,6 +30,30 @@ def go_to(browser, page):
     browser.until(f"location.href === {page.as_uri()!r} && document.readyState === 'complete'", "it does not load")
 
 
+def check_told(browser):
+    """What search finds is told to those who do not see the list."""
+    told = "document.querySelector('[role=status]').textContent"
+    assert browser.run(told) == "Nothing found.", browser.run(told)
+    hits = browser.run(TYPE % "catenary breaking_load turret")
+    assert browser.run(told) == f"{len(hits)} found.", (browser.run(told), len(hits))
+
+
+def check_keys(browser):
+    """Escape ends a search; the first stop of the Tab key leads to the text; where one is, is told."""
+    browser.run(TYPE % "hull")
+    browser.run("document.getElementById('search').focus()")
+    browser.call("Input.dispatchKeyEvent", type="keyDown", key="Escape", code="Escape", windowsVirtualKeyCode=27)
+    ended = browser.run("[document.getElementById('found').hidden, document.getElementById('menu').hidden,"
+                        "document.getElementById('search').value]")
+    assert ended == [True, False, ""], ended
+    first = browser.run("document.querySelector('a, input, summary').hash")
+    assert first and browser.run(f"Boolean(document.querySelector('main{first}'))"), first
+    assert browser.run("[...document.querySelectorAll('[aria-current=page]')].map((a) => a.href)"
+                       ".join() === location.href"), "the menu does not tell where one is"
+    line = "getComputedStyle(document.querySelector('main p a')).textDecorationLine"
+    assert browser.run(line) == "underline", "links of a text are told by their colour alone"
+
+
 def main():
     if not chromium.path():
         skip("Chromium is not installed")
@@ -47,7 +71,8 @@ def main():
                     hits = browser.run(TYPE % key)
                     assert hits[:1] and hits[0].endswith("docs/input-reference.html#" + section), (key, hits)
                 assert browser.run(TYPE % "xyzzyplugh") == []
-                assert browser.run("document.getElementById('found').textContent") == "Nothing found."
+                check_told(browser)
+                check_keys(browser)
                 assert browser.run(TYPE % "") == []
                 assert browser.run("document.getElementById('menu').hidden") is False
                 for page in ("theory", "input-reference"):

@@ -2,7 +2,9 @@
 (function () {
     const field = document.getElementById("search");
     const list = document.getElementById("found");
+    const told = document.getElementById("told"); // read aloud as it changes
     const menu = document.getElementById("menu");
+    const MOST = 20; // that are shown
     const base = document.body.dataset.base;
 
     // A key by its whole name: ice.fracture.brash is a row of the section ice.fracture of the input reference.
@@ -35,7 +37,7 @@
                 const sum = score(words, page.t.toLowerCase(), heading.toLowerCase(), text.toLowerCase());
                 if (sum) found.push({ sum, page, heading, anchor, text, word: words[0] });
             }
-        return found.sort((a, b) => b.sum - a.sum).slice(0, 20);
+        return found.sort((a, b) => b.sum - a.sum).slice(0, MOST);
     }
 
     function show(found) {
@@ -51,18 +53,26 @@
             item.append(link, around);
             list.append(item);
         }
-        if (!found.length) list.append(Object.assign(document.createElement("li"), { textContent: "Nothing found." }));
+        const count = found.length === MOST ? `The best ${MOST}.` : `${found.length} found.`;
+        told.textContent = found.length ? count : "Nothing found.";
     }
 
     field.addEventListener("input", () => {
         const asked = field.value.trim();
         list.hidden = !asked;
         menu.hidden = Boolean(asked);
+        told.textContent = "";
         if (asked) show(search(asked));
+        else list.replaceChildren();
     });
     document.addEventListener("keydown", (event) => {
         if (event.key === "/" && document.activeElement !== field) {
             event.preventDefault();
+            field.focus();
+        } else if (event.key === "Escape" && !list.hidden) {
+            event.preventDefault();
+            field.value = "";
+            field.dispatchEvent(new Event("input"));
             field.focus();
         }
     });

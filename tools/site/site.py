@@ -94,6 +94,11 @@ class Site:
             self.copied.add(path)
         return relative(path, page) + mark + part
 
+    def link(self, page, current):
+        item, told = (" class=here", " aria-current=page") if page == current else ("", "")
+        address = relative(page_name(page), current)
+        return f'<li{item}><a href="{address}"{told}>{html.escape(self.titles[page])}</a></li>'
+
     def menu(self, current):
         groups = {"Documents": []}
         for page in self.pages:
@@ -101,9 +106,7 @@ class Site:
             groups.setdefault(group, []).append(page)
         parts = []
         for group, pages in groups.items():
-            links = "".join(f'<li{" class=here" if page == current else ""}>'
-                            f'<a href="{relative(page_name(page), current)}">{html.escape(self.titles[page])}</a></li>'
-                            for page in pages)
+            links = "".join(self.link(page, current) for page in pages)
             opened = " open" if group == "Documents" or current in pages else ""
             parts.append(f"<details{opened}><summary>{group}</summary><ul>{links}</ul></details>")
         return "".join(parts)
@@ -118,9 +121,11 @@ class Site:
         target = self.output / page_name(page)
         target.parent.mkdir(parents=True, exist_ok=True)
         body = self.body(page)
-        fields = {"TITLE": html.escape(self.titles[page]), "BODY": body, "MENU": self.menu(page),
+        title = self.titles[page]
+        fields = {"HEADING": html.escape(title if title == "Fram" else f"{title} - Fram"),
+                  "BODY": body, "MENU": self.menu(page),
                   "BASE": relative(".", page) + "/"}
-        target.write_text(re.sub(r"@(TITLE|BODY|MENU|BASE)@", lambda field: fields[field[1]], self.frame),
+        target.write_text(re.sub(r"@(HEADING|BODY|MENU|BASE)@", lambda field: fields[field[1]], self.frame),
                           encoding="utf-8")
         return {"t": self.titles[page], "a": page_name(page), "s": self.sections(body)}
 
