@@ -19,15 +19,15 @@ enum { WIDE = 1200, MIDDLE = 680, AXES = 60 };
 static const double sky[3] = {0.87, 0.91, 0.94}, water[3] = {0.18, 0.40, 0.56}, rim[3] = {0.36, 0.45, 0.53};
 static const double ice[3] = {0.95, 0.97, 0.98}, hull[3] = {0.71, 0.25, 0.16}, wall[3] = {0.48, 0.45, 0.42};
 static const double water_cover = 0.86;
-static const image_colour ink = {0.1, 0.1, 0.1}, mark = {0.85, 0.45, 0.05};
+static const image_colour ink = {0.1, 0.1, 0.1}, mark = {0.902, 0.624, 0}, halo = {1, 1, 1};
 /* By record_force_kind, the same as in the playback page. */
 static const struct {
     image_colour colour;
     const char *name;
-} forces[] = {[RECORD_FORCE_ICE] = {{0.76, 0.09, 0.36}, "ice"},
-              [RECORD_FORCE_LINE] = {{0.11, 0.50, 0.23}, "line"},
-              [RECORD_FORCE_THRUSTER] = {{0.42, 0.25, 0.71}, "thruster"},
-              [RECORD_FORCE_HULL] = {{0.55, 0.36, 0.10}, "hull or wall"}};
+} forces[] = {[RECORD_FORCE_ICE] = {{0.800, 0.310, 0.592}, "ice"},
+              [RECORD_FORCE_LINE] = {{0, 0.565, 0.345}, "line"},
+              [RECORD_FORCE_THRUSTER] = {{0.290, 0.063, 0.706}, "thruster"},
+              [RECORD_FORCE_HULL] = {{0.353, 0.227, 0}, "hull or wall"}};
 enum { FORCE_KINDS = sizeof forces / sizeof *forces };
 
 /* ---- camera ---- */
@@ -151,10 +151,23 @@ static fram_status draw_bodies(context *ctx, const video_scene *s, const replay 
 /* ---- what is drawn over it ---- */
 
 /* [pixels] */
-enum { ARROW_WIDTH = 2, ARROW_HEAD = 12 };
+enum { ARROW_WIDTH = 2, ARROW_HEAD = 12, HALO_WIDTH = 2 };
 
-/* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. */
-static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, const solid_view *v,
+/* White round an arrow, which is seen on water, ice and hull alike. */
+static void draw_halo(cairo_t *page, double x0, double y0, double x1, double y1)
+{
+    double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
+    if (!(length > ARROW_WIDTH)) /* nor is the arrow drawn */
+        return;
+    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+    image_set_colour(page, halo);
+    image_arrow(page, x0 - HALO_WIDTH * ux, y0 - HALO_WIDTH * uy, x1 + 2 * HALO_WIDTH * ux, y1 + 2 * HALO_WIDTH * uy,
+                ARROW_WIDTH + 2 * HALO_WIDTH, ARROW_HEAD + 4 * HALO_WIDTH);
+}
+
+/* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. edges: what is white
+   round them, under all of them. */
+static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, const solid_view *v, bool edges,
                         bool used[FORCE_KINDS])
 {
     for (int32_t i = 0; i < r->frame.forces.count && s->arrow > 0; i++) {
@@ -166,9 +179,14 @@ static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, co
             from = vec3_sub(f->point, way);
         }
         used[f->kind] = true;
+        if (!solid_view_place(v, from, &x0, &y0) || !solid_view_place(v, to, &x1, &y1))
+            continue;
+        if (edges) {
+            draw_halo(page, x0, y0, x1, y1);
+            continue;
+        }
         image_set_colour(page, forces[f->kind].colour);
-        if (solid_view_place(v, from, &x0, &y0) && solid_view_place(v, to, &x1, &y1))
-            image_arrow(page, x0, y0, x1, y1, ARROW_WIDTH, ARROW_HEAD);
+        image_arrow(page, x0, y0, x1, y1, ARROW_WIDTH, ARROW_HEAD);
     }
 }
 
@@ -176,12 +194,15 @@ static bool draw_marks(cairo_t *page, const video_scene *s, const replay *r, con
                        const solid_view *v)
 {
     bool any = false;
-    image_set_colour(page, mark);
     for (int32_t i = 0; i < r->fractures.count; i++) {
         const replay_fracture *f = &r->fractures.data[i];
         double x, y;
         if (f->time > m->time || f->time <= m->time - s->mark_time || !solid_view_place(v, f->place, &x, &y))
             continue;
+        image_set_colour(page, ink);
+        cairo_rectangle(page, x - 4, y - 4, 8, 8);
+        cairo_fill(page);
+        image_set_colour(page, mark);
         cairo_rectangle(page, x - 3, y - 3, 6, 6);
         cairo_fill(page);
         any = true;
@@ -299,7 +320,8 @@ fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r
     cairo_rectangle(page, 0, ABOVE, width, h);
     cairo_clip(page);
     cairo_translate(page, 0, ABOVE);
-    draw_forces(page, s, r, &v, used);
+    draw_forces(page, s, r, &v, true, used);
+    draw_forces(page, s, r, &v, false, used);
     bool marked = draw_marks(page, s, r, m, &v);
     cairo_restore(page);
     image_set_colour(page, ink);

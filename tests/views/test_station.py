@@ -106,6 +106,12 @@ GREEN = """((x, y, z) => {
 })"""
 
 
+# The pieces that a line is drawn in: [x, y, z, x, y, z] each.
+STROKES = """(() => { const { station } = fram.scene, all = [...station.ends], n = all.length / station.lines.length;
+    const mine = all.slice(%d * n), size = 6;
+    return Array.from({ length: n / size }, (_, k) => mine.slice(size * k, size * (k + 1))); })()"""
+
+
 def start_of(vessel, along, direction):
     """The place of a line's upper end, seen from above, or further along it, as the vessel is put [m]."""
     heading, x, y, centre = ((math.radians(30), -10, 36, 4), (0, 0, -40, 0))[vessel]
@@ -229,6 +235,13 @@ def check_end(browser):
     assert [t["held"] for t in state["lines"]] == [True, True, False, True, True, True], state["lines"]
     assert all(abs(p[2] + DEPTH) < 1e-6 for p in state["lines"][2]["points"]), state["lines"][2]
     assert near(state["lines"][2]["points"][-1][:2], start_of(0, 140, 290), 0.01)
+    # Drawn with gaps, from its beginning to its end: it is told from the others without its colour.
+    drawn = browser.run(STROKES % 2)
+    assert all(not near(a[3:], b[:3], 1) for a, b in zip(drawn, drawn[1:])), drawn
+    assert near(drawn[0][:3], state["lines"][2]["points"][0], 0.01), drawn
+    assert near(drawn[-1][3:], state["lines"][2]["points"][-1], 0.01), drawn
+    whole = browser.run(STROKES % 0)
+    assert all(near(a[3:], b[:3], 1e-3) for a, b in zip(whole, whole[1:])), whole
     assert [t["works"] for t in state["thrusters"]] == [True, False, True, True, True] and state["gone"] == 2
     assert near(state["thrusters"][1]["at"], before["at"], 3), (state["thrusters"][1], before)
     assert state["legend"] == ["mooring line", "propeller, thruster", "parted or failed"], state["legend"]

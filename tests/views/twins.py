@@ -57,6 +57,9 @@ def check():
     colours = dict(re.findall(r"(\w+): '#(\w+)'", legend[legend.index("FORCE_COLOURS"):].split("\n")[0]))
     words = dict(re.findall(r"(\w+): '([^']+)'", legend[legend.index("FORCE_WORDS"):].split("\n")[0]))
     assert len(kinds) == len(colours) == 4, (kinds, colours)
+    mark = re.search(r"MARK = '#(\w+)'", legend)[1]
+    kinds.append(("MARK", ", ".join(map(str, numbers_after("src/results/video_scene.c", "mark"))), "mark"))
+    colours["mark"] = mark
     for kind, rgb, name in kinds:
         drawn = [int(colours[kind.lower()][k:k + 2], 16) / 255 for k in (0, 2, 4)]
         assert all(abs(a - float(b)) < 0.006 for a, b in zip(drawn, rgb.split(","))), (kind, drawn, rgb)

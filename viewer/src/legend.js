@@ -6,14 +6,18 @@ import { shortened, wrapped } from './text.js';
 const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sans-serif';
 const WIDTH = 204, EDGE = 12, LINE = 18;
 const SWATCH = 14, GAP = 12; // from a swatch to its name, and from a name to the next swatch [px]
-export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5', hull: '#8c5c1a' };
+/** Told apart without red or green too, and on water by their white edge: tests/views/test_colours.py. */
+export const FORCE_COLOURS = { ice: '#cc4f97', line: '#009058', thruster: '#4a10b4', hull: '#5a3a00' };
 /** What a kind is called where that is not its name. */
 const FORCE_WORDS = { hull: 'hull or wall' };
-const MARK = '#d9730d';
+/** Where ice broke, and what is drawn round it. */
+export const MARK = '#e69f00', MARK_EDGE = INK;
+/** Round arrows, lines and propellers. */
+export const HALO = '#ffffff';
 /** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
 export const CHAIN = '#111111', BEHIND = '#7a7f3a';
-/** Of a line that parted, a thruster that failed. */
-export const GONE = '#d62728';
+/** Of a line that parted, which is dashed, and of a thruster that failed. */
+export const GONE = '#000000';
 
 /** The unit in which a force is told, and how many of it a kilonewton has: the rule of src/base/load_unit.c, which
  *  texts and pictures of the library follow; no second one stands in these files.  What is rounded up to the next unit
@@ -205,11 +209,16 @@ function rowsOf(g, list) {
     return rows;
 }
 
+/** list: [colour, name, whether it is dashed], ... */
 function swatches(g, y, list) {
     let x = EDGE;
-    for (const [colour, name] of list) {
+    for (const [colour, name, dashed] of list) {
         g.fillStyle = colour;
         g.fillRect(x, y - 9, 10, 10);
+        if (dashed) {
+            g.fillStyle = HALO;
+            g.fillRect(x + 4, y - 9, 2, 10);
+        }
         g.strokeStyle = '#5b7388';
         g.lineWidth = 0.7;
         g.strokeRect(x, y - 9, 10, 10);

@@ -62,7 +62,7 @@ export class LitFloes {
 
 /** Arrows from point to point, seen through everything, in one drawing. */
 export class Arrows {
-    constructor(scene) {
+    constructor(scene, haloes) {
         const shaft = new THREE.CylinderGeometry(0.5, 0.5, 1, 8).translate(0, 0.5, 0);
         const head = new THREE.ConeGeometry(1.3, 1, 12).translate(0, -0.5, 0);
         const material = () => new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
@@ -73,6 +73,7 @@ export class Arrows {
             part.renderOrder = 4;
             part.count = 0;
             scene.add(part);
+            haloes.add(part);
         }
     }
 

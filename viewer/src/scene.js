@@ -2,7 +2,8 @@
 // water.
 // Frame: X, Y horizontal, Z up, metres, as in Fram.
 import * as THREE from 'three';
-import { FORCE_COLOURS } from './legend.js';
+import { Haloes } from './halo.js';
+import { FORCE_COLOURS, MARK, MARK_EDGE } from './legend.js';
 import { Arrows, HullPressure, LitFloes } from './overlay.js';
 import { hullsOf } from './record.js';
 import { scenarioOf, sizesOf } from './scenario.js';
@@ -34,15 +35,16 @@ export class Scene {
         this.scene.background = new THREE.Color(SKY);
         this.camera = new THREE.PerspectiveCamera(40, 1, this.metre, 20000 * this.metre);
         this.camera.up.set(0, 0, 1);
+        this.haloes = new Haloes(this.scene);
         this.addBodies();
         this.findBoxes(first);
         this.addWaterAndLight();
         this.addArrows();
         this.addMarkers();
         this.addRing();
-        this.station = new Station(this.scene, record, this.water);
+        this.station = new Station(this.scene, record, this.water, this.haloes);
         this.lit = new LitFloes(this.scene);
-        this.peakArrows = new Arrows(this.scene);
+        this.peakArrows = new Arrows(this.scene, this.haloes);
         const hulls = hullsOf(record), { pressure } = record;
         if (hulls[pressure?.vessel]) this.pressure = new HullPressure(this.scene, pressure, hulls[pressure.vessel]);
     }
@@ -86,7 +88,7 @@ export class Scene {
 
     /** Bodies, fractures or both are more than they were. */
     grow() {
-        for (const old of [this.mesh, this.edges, this.markers]) {
+        for (const old of [this.mesh, this.edges, ...this.marks]) {
             this.scene.remove(old);
             old.geometry.dispose();
             old.material.dispose();
@@ -148,6 +150,7 @@ export class Scene {
         this.arrows.renderOrder = 3;
         this.arrows.count = 0;
         this.scene.add(this.arrows);
+        this.haloes.add(this.arrows);
     }
 
     /** Ice pushes: its arrows end where it acts; lines and thrusters pull: theirs begin there.  scale: [m/N] */
@@ -180,11 +183,15 @@ export class Scene {
         const place = fractures.flatMap((f) => [f.place[0], f.place[1], f.place[2] + this.metre]);
         geometry.setAttribute('position', new THREE.Float32BufferAttribute(place, 3));
         geometry.setDrawRange(0, 0);
-        const material = new THREE.PointsMaterial({ color: 0xd9730d, size: 7, sizeAttenuation: false });
-        this.markers = new THREE.Points(geometry, material);
-        this.markers.frustumCulled = false;
-        this.markers.renderOrder = 2;
-        this.scene.add(this.markers);
+        this.marks = [[MARK_EDGE, 10], [MARK, 7]].map(([color, size], k) => {
+            const material = new THREE.PointsMaterial({ color, size, sizeAttenuation: false });
+            const points = new THREE.Points(geometry, material);
+            points.frustumCulled = false;
+            points.renderOrder = 2 + 0.1 * k;
+            this.scene.add(points);
+            return points;
+        });
+        this.markers = this.marks[1];
     }
 
     /** Those of the `span` seconds before `time`; fractures are in the order of time. */
@@ -247,6 +254,7 @@ export class Scene {
     resize(width, height) {
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(width, height);
+        this.haloes.resize(width, height);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
     }

@@ -6,7 +6,8 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
-import { FORCE_COLOURS, GONE } from './legend.js';
+import { Haloes } from './halo.js';
+import { FORCE_COLOURS, GONE, HALO } from './legend.js';
 import { hullsOf } from './record.js';
 import { scenarioOf, sizesOf, vesselsOf } from './scenario.js';
 
@@ -14,11 +15,12 @@ const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one alo
 const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller of full size without a diameter, as the keys say [Pa]
 // Of propellers without keys, as src/sim/build_wash.c and src/sim/build_propulsion.c have them.
 const SPACING = 1.5, DEPTH = 0.6, STERN = 0.45;
+const LINE = 2; // width [px]
 const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be seen
 
 export class Station {
-    /** water: its mesh, at whose edge lines are cut. */
-    constructor(scene, record, water) {
+    /** water: its mesh, at whose edge lines are cut; haloes: what draws them. */
+    constructor(scene, record, water, haloes) {
         const hulls = hullsOf(record);
         const told = scenarioOf(record), vessels = vesselsOf(told);
         this.sizes = sizesOf(told);
@@ -30,7 +32,7 @@ export class Station {
         const box = new THREE.Box3().setFromObject(water);
         this.edge = [box.min, box.max];
         if (this.lines.length) this.addLines(scene);
-        if (this.thrusters.length) this.addDiscs(scene);
+        if (this.thrusters.length) this.addDiscs(scene, haloes);
     }
 
     /** Rows of swatches for the legend. */
@@ -39,25 +41,28 @@ export class Station {
             .filter(([own]) => this.thrusters.some((t) => Boolean(t.own) === own)).map(([, name]) => name);
         const drawn = [[this.lines, FORCE_COLOURS.line, 'mooring line'], [this.thrusters, FORCE_COLOURS.thruster,
             names.join(', ')]].filter(([list]) => list.length).map(([, colour, name]) => [colour, name]);
-        return drawn.length ? [drawn, ...this.gone ? [[[GONE, 'parted or failed']]] : []] : [];
+        return drawn.length ? [drawn, ...this.gone ? [[[GONE, 'parted or failed', true]]] : []] : [];
     }
 
     addLines(scene) {
         this.ends = new Float32Array(6 * SEGMENTS * this.lines.length);
         this.tints = new Float32Array(this.ends.length);
         const geometry = new LineSegmentsGeometry().setPositions(this.ends).setColors(this.tints);
-        const material = new LineMaterial({ vertexColors: true, linewidth: 2,
-            depthTest: false, transparent: true });
-        this.drawnLines = overAll(new LineSegments2(geometry, material), scene);
+        const over = { depthTest: false, transparent: true };
+        this.drawnLines = overAll(new LineSegments2(geometry,
+            new LineMaterial({ ...over, vertexColors: true, linewidth: LINE })), scene);
+        const halo = new LineMaterial({ ...over, color: HALO, linewidth: LINE + 2 * Haloes.WIDTH });
+        overAll(new LineSegments2(geometry, halo), scene).renderOrder = Haloes.under(this.drawnLines);
     }
 
-    addDiscs(scene) {
+    addDiscs(scene, haloes) {
         const blade = new THREE.BoxGeometry(0.18, 0.4, 0.04).rotateY(0.6).translate(0, 0.24, 0);
         const parts = [0, 1, 2, 3].map((k) => blade.clone().rotateZ(k * Math.PI / 2));
         parts.push(new THREE.TorusGeometry(0.5, 0.05, 6, 24), new THREE.CylinderGeometry(0.09, 0.09, 0.2, 8)
             .rotateX(Math.PI / 2));
         const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
         this.discs = overAll(new THREE.InstancedMesh(mergeGeometries(parts), material, this.thrusters.length), scene);
+        haloes.add(this.discs);
     }
 
     /** At the poses of the moment, with the forces of the frame next to it. */
@@ -76,10 +81,11 @@ export class Station {
             line.points = cut(pull ? this.held(line, pull, poses) : [line.foot, line.anchor], ...this.edge);
             this.gone += !pull;
             colour.set(pull ? FORCE_COLOURS.line : GONE);
+            const drawn = pull ? strokes(line.points) : dashes(line.points[0], line.points.at(-1));
             for (let k = 0; k < SEGMENTS; k++) {
-                const last = line.points.length - 1, at = 6 * (SEGMENTS * i + k);
-                line.points[Math.min(k, last)].toArray(this.ends, at);
-                line.points[Math.min(k + 1, last)].toArray(this.ends, at + 3);
+                const at = 6 * (SEGMENTS * i + k), [from, to] = drawn[k];
+                from.toArray(this.ends, at);
+                to.toArray(this.ends, at + 3);
                 colour.toArray(this.tints, at);
                 colour.toArray(this.tints, at + 3);
             }
@@ -282,6 +288,18 @@ function hanging(horizontal, vertical, { weight, stiffness }, way, height) {
         const [x, z] = at(high * k / FREE);
         return [x * along, z * down];
     }), [way, height]];
+}
+
+/** A line of at most SEGMENTS pieces; those that it has not have no length. */
+function strokes(points) {
+    const last = points.length - 1;
+    return Array.from({ length: SEGMENTS }, (_, k) => [points[Math.min(k, last)], points[Math.min(k + 1, last)]]);
+}
+
+/** A straight line that is told from others without its colour. */
+function dashes(from, to) {
+    const at = (k) => from.clone().lerp(to, k / (2 * SEGMENTS - 1));
+    return Array.from({ length: SEGMENTS }, (_, k) => [at(2 * k), at(2 * k + 1)]);
 }
 
 /** What of a line lies between two corners, seen from above: up to where it leaves. */

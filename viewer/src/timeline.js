@@ -1,7 +1,7 @@
 // The timeline: the averaged ice load over time, stacked by mechanism where the page knows them, its largest peaks,
 // marks where floes broke, and a cursor that can be dragged.
 
-import { forceText, secondsText } from './legend.js';
+import { forceText, MARK, MARK_EDGE, secondsText } from './legend.js';
 import { hullsOf } from './record.js';
 import { shortened, wrapped } from './text.js';
 
@@ -136,8 +136,10 @@ export class Timeline {
         const head = this.loads ? this.drawHeads(g, w, h) : 18;
         if (this.loads) this.drawBands(g, h, head);
         else this.drawPlain(g, w, h);
-        g.fillStyle = '#d9730d';
-        for (const t of this.events) g.fillRect(this.x(t) - 0.5, h - 7, 1.5, 7);
+        for (const [colour, edge] of [[MARK_EDGE, 1], [MARK, 0]]) {
+            g.fillStyle = colour;
+            for (const t of this.events) g.fillRect(this.x(t) - 0.5 - edge, h - 7 - edge, 1.5 + 2 * edge, 7 + edge);
+        }
         if (this.loads) this.drawPeaks(g, w, h, head);
         this.back = back;
     }
