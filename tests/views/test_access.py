@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The playback page for those who see, hear or point otherwise, in headless Chromium: arrows that stand out.
+"""The playback page for those who see, hear or point otherwise, in headless Chromium: arrows that stand
+out, colours that are forced, the view without a mouse, what moves by itself, what is read aloud and on paper.
 
 Skipped (77) without Chromium or without the viewer's page.
 """
@@ -74,6 +75,142 @@ def check_edges(browser):
     assert edged and edged > 0.8, f"{edged} of the arrows' pixels have white beside them"
 
 
+BARE = """
+title: Open water
+run: {duration: 2, time_step: 0.1}
+vessel: {mode: towed, speed: 2, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {source: none}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+output: {frame_interval: 0.5}
+"""
+
+
+def emulate(browser, **features):
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": name.replace("_", "-"), "value": value}
+                                                         for name, value in features.items()])
+
+
+def check_forced(browser):
+    """Where a system forces its colours, what is drawn in dark ink keeps its paper, and a list its colours."""
+    browser.run("(fram.pick(fram.record.bodies.find((b) => b.number === 0)),"
+                "fram.peaks.open(fram.peaks.vessel.peaks[0]), fram.pick(fram.picked ?? "
+                "fram.record.bodies.find((b) => b.number === 0)), fram.draw())")
+    swatch = "getComputedStyle(document.querySelector('#peak li'), '::before').backgroundColor"
+    before = browser.run(swatch)
+    emulate(browser, forced_colors="active", prefers_color_scheme="dark")
+    for canvas in ("#timeline", "#history canvas"):
+        paper = browser.run(f"getComputedStyle(document.querySelector('{canvas}')).backgroundColor")
+        assert paper == "rgb(255, 255, 255)", f"under {canvas} is {paper}"
+    assert browser.run(swatch) == before != "rgba(0, 0, 0, 0)", (browser.run(swatch), before)
+    emulate(browser)
+    browser.run("(fram.pick(null), fram.peaks.close())")
+
+
+def press(browser, key, code, number, modifiers=0):
+    text = {"text": key} if len(key) == 1 else {"text": "\r"} if key == "Enter" else {}
+    browser.call("Input.dispatchKeyEvent", type="keyDown", key=key, code=code, windowsVirtualKeyCode=number,
+                 modifiers=modifiers, **text)
+    browser.call("Input.dispatchKeyEvent", type="keyUp", key=key, code=code, windowsVirtualKeyCode=number,
+                 modifiers=modifiers)
+
+
+SHIFT = 8
+SEEN = "[fram.camera.controls.getAzimuthalAngle(), fram.camera.controls.getPolarAngle()," \
+       "fram.camera.controls.getDistance(), ...fram.camera.controls.target]"
+
+
+def check_turning(browser):
+    """With the focus on the view, Shift with arrows turns it, + and - zoom, letters move it, and time stands still."""
+    go(browser, 2)
+    browser.run("document.getElementById('view').focus()")
+    assert browser.run("document.activeElement.id") == "view", "the view cannot have the focus"
+    start = browser.run(SEEN)
+    for key, code, number, modifiers, changed in (
+            ("ArrowLeft", "ArrowLeft", 37, SHIFT, 0), ("ArrowUp", "ArrowUp", 38, SHIFT, 1),
+            ("+", "Equal", 187, SHIFT, 2), ("d", "KeyD", 68, 0, 3), ("w", "KeyW", 87, 0, 4)):
+        before = browser.run(SEEN)
+        press(browser, key, code, number, modifiers)
+        after = browser.run(SEEN)
+        assert abs(after[changed] - before[changed]) > 1e-3, f"{key} changes nothing: {before}"
+        assert changed > 2 or all(abs(a - b) < 1e-6 for k, (a, b) in enumerate(zip(after, before))
+                                  if k != changed), f"{key} changes {before} to {after}"
+    assert browser.run(SEEN)[2] < start[2], "+ does not go nearer"
+    for key, code, number, modifiers in (("a", "KeyA", 65, 0), ("s", "KeyS", 83, 0), ("-", "Minus", 189, 0),
+                                         ("ArrowDown", "ArrowDown", 40, SHIFT),
+                                         ("ArrowRight", "ArrowRight", 39, SHIFT)):
+        press(browser, key, code, number, modifiers)
+    back = browser.run(SEEN)
+    assert all(abs(a - b) < 0.5 for a, b in zip(back, start)), f"there and back leads from {start} to {back}"
+    assert browser.run("fram.time") == 2
+    browser.run("document.getElementById('play').focus()")
+    press(browser, "d", "KeyD", 68)
+    assert browser.run(SEEN) == back, "a letter elsewhere moves the view"
+
+
+def check_picking(browser):
+    """N and P pick floes that are seen, the nearest to the middle first, and what is told of them is read aloud."""
+    browser.run("(fram.pick(null), document.getElementById('view').focus())")
+    picked = []
+    for key, code, number in (("n", "KeyN", 78),) * 3 + (("p", "KeyP", 80),):
+        press(browser, key, code, number)
+        picked.append(browser.run("fram.picked?.number ?? -1"))
+    assert len(set(picked[:3])) == 3 and -1 not in picked and picked[3] == picked[1], picked
+    far = browser.run("""(() => { const { pose } = fram.poses, { x, y } = fram.camera.controls.target;
+        const far = (n) => { const k = 7 * fram.record.bodies.find((b) => b.number === n).index;
+            return Math.hypot(pose[k] - x, pose[k + 1] - y); };
+        return %s.map(far); })()""" % picked[:3])
+    assert far == sorted(far), f"floes are not picked from the middle on: {far}"
+    assert browser.run("document.getElementById('history').ariaLive") == "polite"
+    assert f"Floe {picked[3]}" in browser.run("document.getElementById('history').textContent")
+    press(browser, "Escape", "Escape", 27)
+    assert browser.run("fram.picked") is None
+
+
+def check_peak(browser):
+    """Enter on the timeline leads into the panel of the peak, and closing it back."""
+    browser.run("document.getElementById('timeline').focus()")
+    press(browser, "Enter", "Enter", 13)
+    assert browser.run("document.activeElement.id") == "larger", browser.run("document.activeElement.id")
+    press(browser, "Escape", "Escape", 27)
+    told = browser.run("[document.getElementById('peak').hidden, document.activeElement.id]")
+    assert told == [True, "timeline"], told
+
+
+def check_paper(browser):
+    """On a sheet the buttons and the load follow the scene, whatever the window was."""
+    browser.run("fram.resize = () => {}")  # as on paper, for which nothing is drawn anew
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    browser.call("Emulation.setDeviceMetricsOverride", width=816, height=1056, deviceScaleFactor=1, mobile=False)
+    browser.until("innerWidth === 816", "the window keeps its width")
+    view, foot, ratio = browser.run("""(() => { const box = (q) => document.querySelector(q).getBoundingClientRect();
+        const view = document.getElementById('view'), b = box('#view');
+        return [[b.left, b.right, b.bottom], [box('footer').top, box('footer').bottom],
+                b.width / b.height * view.height / view.width]; })()""")
+    assert abs(foot[0] - view[2]) < 8 and foot[1] <= 1056, f"the view ends at {view[2]}, below is {foot}"
+    assert view[:2] == [0, 816] and abs(ratio - 1) < 0.01, (view, ratio)
+    browser.call("Emulation.setEmulatedMedia", media="")
+    browser.call("Emulation.clearDeviceMetricsOverride")
+    browser.run("delete fram.resize")
+
+
+def check_still(browser, page):
+    """It does not play by itself where things shall not move."""
+    emulate(browser, prefers_reduced_motion="reduce")
+    browser.call("Page.navigate", url=page.as_uri())
+    browser.until("window.fram?.ready", "the page does not get ready")
+    browser.run("new Promise((done) => setTimeout(done, 300))")
+    assert browser.run("[fram.playing, fram.time]") == [False, 0], "it plays"
+    emulate(browser)
+
+
+def check_bare(browser, page):
+    """Without ice nothing is coloured by what it does; the window's title is that of the run."""
+    browser.open(page)
+    told = browser.run("(fram.draw(), document.getElementById('legend').ariaLabel)")
+    assert "vessel" in told and "contact force" not in told and "ice" not in told, told
+    assert browser.run("document.title") == "Open water - Fram playback"
+
+
 def main():
     if not chromium.path():
         skip("Chromium is not installed")
@@ -83,10 +220,12 @@ def main():
         folder = pathlib.Path(name)
         moored = make_page(folder, "moored", MOORED)
         browser.open(moored)
-        for check in (check_edges,):
+        for check in (check_edges, check_forced, check_turning, check_picking, check_peak, check_paper):
             check(browser)
+        check_still(browser, moored)
+        check_bare(browser, make_page(folder, "bare", BARE))
         assert not browser.complaints, browser.complaints
-    print("the playback page is seen")
+    print("the playback page is seen, heard and used without a mouse")
 
 
 main()

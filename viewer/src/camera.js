@@ -3,6 +3,11 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
+const TURN = Math.PI / 24, ZOOM = 0.85, SHIFT = 40; // by a key: [radians], a factor, [px]
+/** With Shift by the place of the key, else by what is written on it. */
+const TURNS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const MOVES = { a: [1, 0], d: [-1, 0], w: [0, 1], s: [0, -1] };
+
 export class Camera {
     /** hull: of the record, or none. */
     constructor(canvas, scene, poses, hull) {
@@ -11,6 +16,18 @@ export class Camera {
         this.poses = poses;
         this.hull = hull;
         this.controls = new OrbitControls(scene.camera, canvas);
+    }
+
+    /** Whether a key turned, moved or zoomed the view. */
+    key({ code, key, shiftKey }) {
+        const { controls } = this, turn = shiftKey && TURNS[code], move = MOVES[key.toLowerCase()];
+        if (turn?.[0]) controls.rotateLeft(TURN * turn[0]);
+        else if (turn) controls.rotateUp(TURN * turn[1]);
+        else if (move) controls.pan(SHIFT * move[0], SHIFT * move[1]);
+        else if (key === '+' || key === '=') controls.dollyIn(ZOOM);
+        else if (key === '-') controls.dollyOut(ZOOM);
+        else return false;
+        return true;
     }
 
     centre() {

@@ -24,6 +24,7 @@ export class History {
         const canvas = '<canvas role="img" aria-label="speed and contact force over time"></canvas>';
         this.panel.innerHTML = `<div></div>${canvas}<button id="whole" hidden></button>`;
         this.rows = new Map(); // by frame
+        this.told = '';
         this.loading = null;
         this.panel.querySelector('button').onclick = () => this.load();
         this.grow();
@@ -32,9 +33,10 @@ export class History {
     /** What the record tells of it by now. */
     grow() {
         const { body } = this, name = body.level ? 'Level ice, tile' : 'Floe';
-        this.panel.firstChild.innerHTML = `<b>${name} ${body.number}</b> ${this.origin()}<br>${short(body.area)} m², ${
+        const told = `<b>${name} ${body.number}</b> ${this.origin()}<br>${short(body.area)} m², ${
             short(body.thickness)} m thick, ${short(body.area * body.thickness * body.density / 1000)} t<br>${
             this.fate()}${body.moves ? '' : '<br>fixed'}`;
+        if (told !== this.told) this.panel.firstChild.innerHTML = this.told = told; // what is new is read aloud
         this.more();
     }
 

@@ -36,6 +36,7 @@ class Player {
         this.dirty = true;
         const told = scenarioOf(record), vessels = vesselsOf(told);
         $('title').textContent = told.title || 'Fram';
+        if (told.title) document.title = `${told.title} - Fram playback`;
         this.sizes = sizesOf(told);
         this.ofVessel = vessels.length > 1 ? ` on ${vessels[0].name}` : ''; // frames tell the force on the first
         this.begin();
@@ -160,6 +161,7 @@ class Player {
             this.poses.grow();
             this.scene.grow();
             this.colours.tabulate();
+            this.setLegend(); // the first ice has come, or the first break
         }
         this.poses.frame = -1;
         if (this.colours.outgrown()) {
@@ -224,15 +226,35 @@ class Player {
         this.pointed = null;
         if (e.ctrlKey || e.altKey || e.metaKey || (e.code !== 'Escape' && target.matches?.(own))) return;
         const { frames } = this.record, [before, after] = this.beside();
+        if (target === $('view') && this.viewKey(e)) { e.preventDefault(); return; }
         if (e.code === 'Space') this.toggle();
         else if (e.code === 'ArrowRight') this.seek(frames[after].time);
         else if (e.code === 'ArrowLeft') this.seek(frames[before].time);
         else if (e.code === 'Home') this.seek(frames[0].time);
         else if (e.code === 'End') this.seek(this.end);
-        else if (e.code === 'Enter' && target === $('timeline')) this.timeline.openNearest(this.time);
+        else if (e.code === 'Enter' && target === $('timeline')) this.openNearest();
         else if (e.code === 'Escape') { this.peaks?.close(); this.pick(null); }
         else return;
         e.preventDefault();
+    }
+
+    /** Whether a key is one of the view's own, which it has with the focus only: letters are typed elsewhere. */
+    viewKey(e) {
+        const step = { n: 1, p: -1 }[e.key.toLowerCase()];
+        if (step) this.pickNext(step);
+        return Boolean(step) || this.camera.key(e);
+    }
+
+    /** Of whoever has no mouse: from the middle of the view outwards, and back. */
+    pickNext(by) {
+        const floes = this.scene.floesFrom(this.camera.controls.target), at = floes.indexOf(this.picked);
+        if (floes.length) this.pick(floes[(Math.max(at, by < 0 ? 0 : -1) + by + floes.length) % floes.length]);
+    }
+
+    /** With the focus, which goes back when the panel is closed. */
+    openNearest() {
+        this.timeline.openNearest(this.time);
+        this.peaks?.focus();
     }
 
     /** The frames before and after the time, which may be that of a frame to rounding. */
@@ -281,9 +303,10 @@ class Player {
     }
 
     setLegend() {
-        const mode = $('colour').value, { kinds } = this.colours, { unit, ends } = this.colours.scale(mode);
-        if (mode === 'age') ends.reverse();
         const ice = this.record.bodies.some((b) => b.material === 'ice');
+        const mode = ice ? $('colour').value : 'plain'; // nothing else has the colour of a number
+        const { kinds } = this.colours, { unit, ends } = this.colours.scale(mode);
+        if (mode === 'age') ends.reverse();
         const keys = [[ice, own({ material: 'ice' }), 'ice'], [this.hull, own({ material: 'hull' }), 'vessel']];
         this.legend.set({
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
@@ -436,7 +459,8 @@ class Player {
     }
 }
 
-/** A page is opened to see the run; with #still at its end it waits for the button. */
+/** A page is opened to see the run; with #still at its end, or where nothing shall move by itself, it waits for the
+ *  button. */
 function playWhenReady(player) {
     if (player.blind) return;
     if (!player.ready) setTimeout(() => playWhenReady(player), 20);
@@ -461,7 +485,8 @@ try {
     // A page without a record follows one that is being written.
     if (record) {
         window.fram = new Player(readRecord(bytesOf(record)));
-        if (location.hash !== '#still') playWhenReady(window.fram);
+        const rest = location.hash === '#still' || matchMedia('(prefers-reduced-motion: reduce)').matches;
+        if (!rest) playWhenReady(window.fram);
     }
     else watch($('record').dataset.beside);
 } catch (e) {

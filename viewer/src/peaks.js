@@ -33,6 +33,8 @@ export class PeakPanel {
         this.change();
     }
 
+    focus() { this.panel.querySelector('button')?.focus(); }
+
     close() {
         if (this.focused) document.getElementById('timeline').focus();
         this.peak = null;

@@ -248,6 +248,19 @@ export class Scene {
         return null;
     }
 
+    /** Floes that are in the view, the nearest to a point first. */
+    floesFrom({ x, y }) {
+        const { pose, shown } = this.poses, at = new THREE.Vector3(), far = new Map();
+        this.camera.updateMatrixWorld();
+        for (const b of this.record.bodies) {
+            if (b.material !== 'ice' || !shown[b.index]) continue;
+            const seen = at.fromArray(pose, 7 * b.index).project(this.camera);
+            if (Math.abs(seen.x) > 1 || Math.abs(seen.y) > 1 || Math.abs(seen.z) > 1) continue;
+            far.set(b, Math.hypot(pose[7 * b.index] - x, pose[7 * b.index + 1] - y));
+        }
+        return [...far.keys()].sort((a, b) => far.get(a) - far.get(b));
+    }
+
     render() { this.renderer.render(this.scene, this.camera); }
 
     /** To pixels of the screen that the window is on now, at the size it is seen at. */
