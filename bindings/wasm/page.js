@@ -4,11 +4,13 @@
 const $ = (id) => document.getElementById(id);
 const parts = JSON.parse($('parts').textContent); // {worker, playback, scenario}: texts
 const workerAddress = URL.createObjectURL(new Blob([parts.worker], { type: 'text/javascript' }));
+const PERIOD = 500; // between two texts of how far a run is [ms]
 let worker = null, begun = null, waiting = [], over = false, links = [], newest = 0;
+let toldAt = -PERIOD, tenths = 0; // what was said of the progress
 
 $('scenario').value = parts.scenario;
-$('run').onclick = run;
-$('stop').onclick = stop;
+for (const [name, does] of [['run', run], ['stop', stop]])
+    $(name).onclick = ({ target }) => { if (target.ariaDisabled !== 'true') does(); };
 window.simulation = { state: 'ready' }; // for whoever looks on: a test, a console
 
 async function run() {
@@ -17,10 +19,10 @@ async function run() {
     const files = await Promise.all(chosen.map(async (f) => ({ name: f.name, bytes: await f.arrayBuffer() })));
     if (mine !== newest) return;
     $('error').textContent = $('warnings').textContent = $('results').textContent = '';
-    $('run').disabled = true;
-    $('stop').disabled = false;
+    allow(true);
     $('progress').removeAttribute('value');
-    say('loading ...');
+    announce('loading ...');
+    [toldAt, tenths] = [-PERIOD, 0];
     window.simulation = { state: 'loading' };
     begun = null;
     waiting = [];
@@ -48,9 +50,9 @@ function openScene() {
 
 /** While the world is made the worker hears nothing: then it is ended without results. */
 function stop() {
-    if (begun) { worker.postMessage({ stop: true }); say('stopping ...'); return; }
+    if (begun) { worker.postMessage({ stop: true }); announce('stopping ...'); return; }
     end();
-    say('stopped before it began');
+    announce('stopped before it began');
     window.simulation.state = 'stopped';
 }
 
@@ -60,8 +62,7 @@ function end() {
     worker = null;
     over = true;
     if (!waiting) $('scene').contentWindow.framEnd();
-    $('run').disabled = false;
-    $('stop').disabled = true;
+    allow(false);
     if (!$('progress').hasAttribute('value')) $('progress').value = 0;
 }
 
@@ -74,17 +75,19 @@ function hear(message) {
     else if (message.begun) {
         begun = simulation.begun = message.begun;
         simulation.state = 'running';
+        announce('running');
     } else if (message.progress) {
         const { time, floes, wall } = message.progress;
         simulation.progress = message.progress;
         $('progress').value = time / begun.duration;
         const pace = (time / wall).toFixed(2);
-        say(`t = ${time.toFixed(1)} of ${begun.duration} s, ${floes} floes, ${pace} times real time`);
+        sayProgress(`t = ${time.toFixed(1)} of ${begun.duration} s, ${floes} floes, ${pace} times real time`,
+            Math.floor(10 * time / begun.duration));
     } else if (message.ended) finish(message.ended, message.files);
 }
 
 function tellWork({ work, done, total }) {
-    say(total > 0 ? `${work} ${Math.round(100 * done / total)} %` : `${work} ...`);
+    sayProgress(total > 0 ? `${work} ${Math.round(100 * done / total)} %` : `${work} ...`, 0);
 }
 
 function show(bytes) {
@@ -95,7 +98,7 @@ function show(bytes) {
 function finish(ended, files) {
     end();
     $('progress').value = ended.time / begun.duration;
-    say(`${ended.stopped ? 'stopped' : 'finished'} at t = ${ended.time.toFixed(2)} s after ${ended.steps} steps`);
+    announce(`${ended.stopped ? 'stopped' : 'finished'} at t = ${ended.time.toFixed(2)} s after ${ended.steps} steps`);
     for (const address of links) URL.revokeObjectURL(address);
     links = [];
     $('results').textContent = 'save ';
@@ -131,3 +134,29 @@ function select(line) {
 }
 
 function say(text) { $('state').textContent = text; }
+
+/** Read aloud too. */
+function announce(text) {
+    say(text);
+    $('heard').textContent = text;
+}
+
+/** Often enough to be read; aloud at each tenth of the run. */
+function sayProgress(text, tenth) {
+    const now = performance.now();
+    if (tenth > tenths) {
+        tenths = tenth;
+        announce(text);
+    } else if (now - toldAt >= PERIOD) {
+        say(text);
+    } else {
+        return;
+    }
+    toldAt = now;
+}
+
+/** Buttons that cannot be used keep the focus: who pressed one by a key stays there. */
+function allow(running) {
+    $('run').ariaDisabled = `${running}`;
+    $('stop').ariaDisabled = `${!running}`;
+}
