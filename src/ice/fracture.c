@@ -7,6 +7,8 @@
 
 fracture_scratch *fracture_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(fracture_scratch)); }
 
+void fracture_scratch_forget(fracture_scratch *s) { s->sheet.all_held = false; }
+
 static void free_floe(context *ctx, floe_work *f)
 {
     array_free(ctx, &f->outline);
@@ -26,6 +28,12 @@ static void free_sheet(context *ctx, sheet_work *w)
     array_free(ctx, &w->touched);
     array_free(ctx, &w->mark);
     array_free(ctx, &w->front);
+    array_free(ctx, &w->parts);
+    array_free(ctx, &w->open);
+    array_free(ctx, &w->part);
+    array_free(ctx, &w->behind);
+    array_free(ctx, &w->reached);
+    array_free(ctx, &w->cut_off);
     array_free(ctx, &w->ring);
     array_free(ctx, &w->snapped_ring);
     polygon_list_free(ctx, &w->remnants);
@@ -364,7 +372,9 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
         status = fracture_trim(&j, patches, &trimmed);
     if (status == FRAM_OK && scratch->sheet.has_changed)
         status = fracture_release(&j);
-    if (status != FRAM_OK)
+    if (status != FRAM_OK) {
+        fracture_scratch_forget(scratch);
         return own_fault(status, error);
+    }
     return (events->count == had && !trimmed) || void_contacts(&j) ? FRAM_OK : error_memory(error);
 }

@@ -99,6 +99,9 @@ typedef ARRAY(fracture_event) fracture_event_array;
 
 typedef struct fracture_scratch fracture_scratch;
 fracture_scratch *fracture_scratch_create(context *ctx);
+/* What is known of the level sheet from step to step belongs to one state: floes become those of another, or somebody
+   else than fracture takes tiles of a sheet that is held, or adds some. */
+void fracture_scratch_forget(fracture_scratch *s);
 void fracture_scratch_free(context *ctx, fracture_scratch *s);
 
 /* Everything that fracture changes. */

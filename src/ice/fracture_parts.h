@@ -174,6 +174,13 @@ typedef struct piece_work {
     vec2_array clean;
 } piece_work;
 
+/* A part of a level sheet, as a search from what changed knows it. */
+typedef struct sheet_part {
+    int32_t joined;      /* the part that it was found to be one with; -1: none */
+    int32_t first, last; /* floe rows that are to be looked at, by sheet.behind; -1: none */
+    int32_t state;       /* PART_... */
+} sheet_part;
+
 /* Level ice. */
 typedef struct sheet_work {
     tile_index index;
@@ -185,6 +192,12 @@ typedef struct sheet_work {
     int32_array front;         /* of a flood */
     tile_range changed;        /* cells in which something broke in this step, */
     bool has_changed;          /* if there are any */
+    bool all_held;             /* every tile is known to hang on an anchored side; no state */
+    ARRAY(sheet_part) parts;   /* that a search found, */
+    int32_array open;          /* those that are neither held nor loose yet, */
+    int32_array part, behind;  /* one per floe row that it reached: its part, and the next in the front of that */
+    int32_array reached;       /* in the order of the search */
+    int32_array cut_off;       /* floe rows of tiles that nothing holds, ascending */
     vec2_array ring;           /* of the tile at hand, global plan */
     vec2_array snapped_ring;
     polygon_list remnants, wedge_parts; /* of that tile */

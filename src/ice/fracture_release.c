@@ -1,14 +1,17 @@
 /* What a level sheet lets go of (docs/decisions/0040): tiles that no chain of seams joins to an anchored side become
-   one floe, which drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what
-   changed is looked at as long as that holds together. */
+   one floe, which drifts.  Where every tile is known to have hung on an anchored side before an event, the search
+   begins at what changed and ends when the smaller parts are known.  Otherwise the whole sheet is searched unless the
+   neighbourhood of the change holds together. */
 #include "ice/fracture_parts.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Cells around those that changed whose tiles must hold together. */
 enum { NEIGHBOURHOOD = 2 };
 /* Marks of floe rows. */
 enum { MARK_NONE = 0, MARK_HELD, MARK_LOOSE };
+enum { PART_OPEN = 0, PART_HELD, PART_LOOSE };
 
 static tile_range grown(const tile_grid *g, tile_range r, int32_t by)
 {
@@ -160,6 +163,180 @@ static bool mark_held(const fracture_job *j)
     return flood(j, &all, MARK_HELD, NULL);
 }
 
+/* Lists the tiles that the whole sheet does not hold. */
+static bool list_loose_everywhere(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    const floe_table *floes = j->state->floes;
+    if (!mark_held(j))
+        return false;
+    array_clear(&s->sheet.cut_off);
+    for (int32_t row = 0; row < s->sheet.mark.count; row++)
+        if (s->sheet.mark.data[row] == MARK_NONE && floes->body[row] >= 0 && floes->tile[row] != 0 &&
+            !array_push(j->ctx, &s->sheet.cut_off, row))
+            return false;
+    return true;
+}
+
+/* ---- the search from a change ---- */
+
+/* Every part that came loose has a tile among those in and around the cells that changed: any other tile hangs as it
+   did.  So parts are grown from these, a tile of each in turn, until they meet, end, or reach an anchored side.  What
+   is cut off is known when its tiles are exhausted, whatever lies on the other side. */
+
+static int32_t part_root(sheet_work *w, int32_t part)
+{
+    while (w->parts.data[part].joined >= 0)
+        part = w->parts.data[part].joined;
+    return part;
+}
+
+/* The tile becomes the last in the front of a part. */
+static bool add_to_part(const fracture_job *j, int32_t row, int32_t part)
+{
+    sheet_work *w = &j->scratch->sheet;
+    sheet_part *p = &w->parts.data[part];
+    w->mark.data[row] = MARK_HELD;
+    w->part.data[row] = part;
+    w->behind.data[row] = -1;
+    if (p->last >= 0)
+        w->behind.data[p->last] = row;
+    else
+        p->first = row;
+    p->last = row;
+    return array_push(j->ctx, &w->reached, row);
+}
+
+/* Two parts are one, held if either is; returns the root. */
+static int32_t join_parts(sheet_work *w, int32_t a, int32_t b)
+{
+    sheet_part *to = &w->parts.data[a < b ? a : b], *from = &w->parts.data[a < b ? b : a];
+    from->joined = a < b ? a : b;
+    to->state = to->state == PART_HELD || from->state == PART_HELD ? PART_HELD : PART_OPEN;
+    if (from->first >= 0 && to->last >= 0)
+        w->behind.data[to->last] = from->first;
+    else if (from->first >= 0)
+        to->first = from->first;
+    to->last = from->last >= 0 ? from->last : to->last;
+    return from->joined;
+}
+
+static bool start_parts(const fracture_job *j)
+{
+    sheet_work *w = &j->scratch->sheet;
+    tile_sheet_view v = fracture_sheet_view(j);
+    tile_range around = grown(v.grid, w->changed, 1);
+    int32_t rows = v.floes->count;
+    array_clear(&w->parts);
+    array_clear(&w->reached);
+    array_clear(&w->open);
+    if (!start_marks(j) || !array_resize(j->ctx, &w->part, rows) || !array_resize(j->ctx, &w->behind, rows))
+        return false;
+    for (int32_t k = around.row_first; k <= around.row_last; k++)
+        for (int32_t i = around.column_first; i <= around.column_last; i++)
+            for (int32_t row = first_in_cell(&v, i, k); row >= 0; row = v.index->next.data[row])
+                if (!array_push(j->ctx, &w->open, w->parts.count) ||
+                    !array_push(j->ctx, &w->parts, ((sheet_part){-1, -1, -1, PART_OPEN})) ||
+                    !add_to_part(j, row, w->parts.count - 1))
+                    return false;
+    return true;
+}
+
+/* All tiles of a cell that a seam joins to this one come to its part; *part stays its root. */
+static bool grow_into(const fracture_job *j, int32_t row, int32_t other, int32_t *part)
+{
+    sheet_work *w = &j->scratch->sheet;
+    tile_sheet_view v = fracture_sheet_view(j);
+    for (; other >= 0; other = v.index->next.data[other]) {
+        bool marked = w->mark.data[other] != MARK_NONE;
+        int32_t of = marked ? part_root(w, w->part.data[other]) : -1;
+        if (of == *part || !(tile_seam(&v, row, other) > v.grid->least_seam))
+            continue;
+        if (marked)
+            *part = join_parts(w, *part, of);
+        else if (!add_to_part(j, other, *part))
+            return false;
+    }
+    return true;
+}
+
+/* The first tile in the front of a part is looked at. */
+static bool grow_part(const fracture_job *j, int32_t part)
+{
+    sheet_work *w = &j->scratch->sheet;
+    tile_sheet_view v = fracture_sheet_view(j);
+    sheet_part *p = &w->parts.data[part];
+    int32_t row = p->first;
+    if (row < 0) {
+        p->state = PART_LOOSE;
+        return true;
+    }
+    p->first = w->behind.data[row];
+    p->last = p->first >= 0 ? p->last : -1;
+    int32_t column = (v.floes->tile[row] - 1) % v.grid->columns, line = (v.floes->tile[row] - 1) / v.grid->columns;
+    tile_range all = {0, v.grid->columns - 1, 0, v.grid->rows - 1}, own = {column, column, line, line};
+    if (on_anchored_side(v.grid, &own) && tile_is_anchored(&v, row)) {
+        p->state = PART_HELD;
+        return true;
+    }
+    const int32_t step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (int k = 0; k < 4; k++)
+        if (holds(&all, column + step[k][0], line + step[k][1]) &&
+            !grow_into(j, row, first_in_cell(&v, column + step[k][0], line + step[k][1]), &part))
+            return false;
+    return true;
+}
+
+/* Drops what is no longer open; whether a part is known to be held. */
+static bool keep_open(sheet_work *w)
+{
+    int32_t kept = 0;
+    bool held = false;
+    for (int32_t i = 0; i < w->open.count; i++) {
+        const sheet_part *p = &w->parts.data[w->open.data[i]];
+        held = held || (p->joined < 0 && p->state == PART_HELD);
+        if (p->joined < 0 && p->state == PART_OPEN)
+            w->open.data[kept++] = w->open.data[i];
+    }
+    w->open.count = kept;
+    return held;
+}
+
+static int compare_loose_rows(const void *a, const void *b) { return *(const int32_t *)a - *(const int32_t *)b; }
+
+/* Lists the tiles that a change let go of, when all hung on an anchored side before it.  One part does so still, the
+   way of a tile to that side having left the cells that changed for the last time somewhere around them, unless these
+   lie on the side itself: it need not be followed there once it is the only one left. */
+static bool list_loose_near(const fracture_job *j)
+{
+    sheet_work *w = &j->scratch->sheet;
+    bool one_is_held = !on_anchored_side(&j->settings->tiles, &w->changed), held = false;
+    if (!start_parts(j))
+        return false;
+    while (w->open.count > 1 || (w->open.count == 1 && (held || !one_is_held))) {
+        for (int32_t i = 0; i < w->open.count; i++) {
+            const sheet_part *p = &w->parts.data[w->open.data[i]];
+            if (p->joined < 0 && p->state == PART_OPEN && !grow_part(j, w->open.data[i]))
+                return false;
+        }
+        held = keep_open(w) || held;
+    }
+    array_clear(&w->cut_off);
+    for (int32_t i = 0; i < w->reached.count; i++) {
+        int32_t row = w->reached.data[i];
+        if (w->parts.data[part_root(w, w->part.data[row])].state != PART_LOOSE)
+            continue;
+        w->mark.data[row] = MARK_NONE;
+        if (!array_push(j->ctx, &w->cut_off, row))
+            return false;
+    }
+    if (w->cut_off.count > 1)
+        qsort(w->cut_off.data, (size_t)w->cut_off.count, sizeof *w->cut_off.data, compare_loose_rows);
+    return true;
+}
+
+/* ---- letting go ---- */
+
 /* Tiles of which cleaning had made two lie over one another lose that once they are one floe; what corners that are put
    on a seam move is in here too [m2]. */
 static double area_merged(const fracture_job *j)
@@ -193,7 +370,7 @@ static fram_status gather_loose(const fracture_job *j)
     return fracture_gather(j->ctx, s, rings, MOTION_DYNAMIC, 0, 0) ? FRAM_OK : error_memory(j->error);
 }
 
-static fram_status let_go(const fracture_job *j)
+static fram_status let_go(const fracture_job *j, bool *broke)
 {
     fracture_scratch *s = j->scratch;
     fram_status status = gather_loose(j);
@@ -207,55 +384,66 @@ static fram_status let_go(const fracture_job *j)
         .area_lost = merged > 0 ? merged : 0,
         .area_gained = merged < 0 ? -merged : 0,
         .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z}};
-    bool broke;
     status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
-                            (birth_terms){.least = 1, .most = HUGE_VAL}, &event, &broke);
-    if (status != FRAM_OK || !broke)
+                            (birth_terms){.least = 1, .most = HUGE_VAL}, &event, broke);
+    if (status != FRAM_OK || !*broke)
         return status;
     return array_push(j->ctx, j->events, event) ? FRAM_OK : error_memory(j->error);
 }
 
-/* Every part that came loose becomes a floe.  Parts are found first, since floes that are made reuse rows. */
-static fram_status release_loose(const fracture_job *j)
+/* Every part of the tiles that are listed becomes a floe, by their lowest rows; *all_gone stays where each did. */
+static fram_status release_loose(const fracture_job *j, bool *all_gone)
 {
     fracture_scratch *s = j->scratch;
-    const floe_table *floes = j->state->floes;
     tile_range all = {0, j->settings->tiles.columns - 1, 0, j->settings->tiles.rows - 1};
-    for (int32_t row = 0; row < s->sheet.mark.count; row++) {
-        if (s->sheet.mark.data[row] != MARK_NONE || floes->body[row] < 0 || floes->tile[row] == 0)
+    for (int32_t i = 0; i < s->sheet.cut_off.count; i++) {
+        int32_t row = s->sheet.cut_off.data[i];
+        if (s->sheet.mark.data[row] != MARK_NONE)
             continue;
         array_clear(&s->sheet.touched);
         s->sheet.mark.data[row] = MARK_LOOSE;
         if (!array_push(j->ctx, &s->sheet.front, row) || !flood(j, &all, MARK_LOOSE, &s->sheet.touched))
             return error_memory(j->error);
-        fram_status status = let_go(j);
+        bool broke = false;
+        fram_status status = let_go(j, &broke);
         if (status != FRAM_OK)
             return status;
+        *all_gone = *all_gone && broke;
         /* What was made stands in rows that were marked, or behind them, and is of no sheet. */
-        if (!tile_index_build(j->ctx, &s->sheet.index, &j->settings->tiles, floes))
+        if (!tile_index_build(j->ctx, &s->sheet.index, &j->settings->tiles, j->state->floes))
             return error_memory(j->error);
     }
     return FRAM_OK;
 }
 
+/* The sheet of a scratch that knows of none is looked at as a whole once; that of one that drifts, whose cells come and
+   go, each time. */
+static fram_status release_from_sheet(const fracture_job *j)
+{
+    sheet_work *w = &j->scratch->sheet;
+    bool known = w->all_held, together = false;
+    w->all_held = false;
+    if (!known && !hangs_together(j, &together))
+        return error_memory(j->error);
+    if (together)
+        return FRAM_OK;
+    if (!(known ? list_loose_near(j) : list_loose_everywhere(j)))
+        return error_memory(j->error);
+    bool all_gone = true;
+    fram_status status = release_loose(j, &all_gone);
+    w->all_held = status == FRAM_OK && all_gone && !j->settings->tiles.drifts;
+    return status;
+}
+
 fram_status fracture_release(const fracture_job *j)
 {
-    fracture_scratch *s = j->scratch;
-    bool together;
     /* A trim that was refused after all has touched the sheet, and left no index. */
     fram_status status = fracture_sheet_index(j);
+    if (status == FRAM_OK)
+        status = release_from_sheet(j);
     if (status != FRAM_OK)
         return status;
-    if (!hangs_together(j, &together))
-        return error_memory(j->error);
-    if (!together) {
-        if (!mark_held(j))
-            return error_memory(j->error);
-        status = release_loose(j);
-        if (status != FRAM_OK)
-            return status;
-    }
     tile_sheet_view v = fracture_sheet_view(j);
-    tile_mark_seams(&v, j->state->shapes, grown(v.grid, s->sheet.changed, 1));
+    tile_mark_seams(&v, j->state->shapes, grown(v.grid, j->scratch->sheet.changed, 1));
     return FRAM_OK;
 }

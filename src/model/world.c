@@ -184,6 +184,7 @@ uint64_t world_hash(const world *w)
 void world_forget(world *w)
 {
     collision_scratch_forget(w->scratch.collision);
+    fracture_scratch_forget(w->scratch.fracture);
     w->scratch.step = 0;
     w->scratch.rest_seen = (rest_seen){0};
     w->shapes.is_counted = false;

@@ -231,6 +231,7 @@ static inline void fracture_rig_remove_all(fracture_rig *r)
     for (int32_t i = 0; i < r->floes.count; i++)
         if (r->floes.body[i] >= 0)
             floe_remove(&r->bodies, &r->shapes, &r->floes, i);
+    fracture_scratch_forget(r->scratch);
     ck_assert_int_eq(shape_compact(&r->ctx, &r->shapes), FRAM_OK);
 }
 

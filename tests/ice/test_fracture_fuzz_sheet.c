@@ -118,4 +118,67 @@ START_TEST(fuzzed_bites)
 }
 END_TEST
 
-TEST_MAIN("fracture_fuzz_sheet", fuzzed_bites)
+/* ---- the search from what changed, against that of the whole sheet ---- */
+
+static uint64_t sheet_hash(const fracture_rig *r)
+{
+    uint64_t hash = table_hash(&r->bodies, &body_table_info, 1);
+    hash = table_hash(&r->floes, &floe_table_info, hash);
+    hash = table_hash(&r->shapes.shapes, &shape_table_info, hash);
+    hash = table_hash(&r->shapes.pieces, &piece_table_info, hash);
+    return table_hash(&r->shapes.vertices, &shape_vertex_table_info, hash);
+}
+
+/* The next place of a channel that goes round, or of bites anywhere. */
+static vec2 next_bite(const fracture_rig *r, random_stream *s, box2 plan, bool round, vec2 centre, double radius,
+                      int turn)
+{
+    if (!round || random_unit(s) < 0.1)
+        return random_place(r, s, plan);
+    double angle = turn * 1.2 / radius;
+    return (vec2){centre.x + radius * real_cos(angle), centre.y + radius * real_sin(angle)};
+}
+
+/* The same bites on two sheets, of which one forgets before each that all of its tiles hung on something. */
+START_TEST(a_search_from_a_change_finds_what_the_whole_one_does)
+{
+    const box2 plan = {{-40, -30}, {40, 30}};
+    long sheets = getenv("FRAM_TEST_SHORT") ? 8 : 30, releases = 0, large = 0;
+    fracture_rig r[2];
+    for (int k = 0; k < 2; k++)
+        fracture_rig_make(&r[k]);
+    for (uint32_t id = 0; id < sheets; id++) {
+        random_stream s = random_begin(7, 5, id), again = s;
+        for (int k = 0; k < 2; k++)
+            fracture_rig_remove_all(&r[k]);
+        if (!random_sheet(&r[0], &s, plan) || !random_sheet(&r[1], &again, plan))
+            continue;
+        bool round = random_unit(&s) < 0.6;
+        vec2 centre = {random_uniform(&s, -40, 40), random_uniform(&s, -30, 30)};
+        double radius = random_uniform(&s, 5, 25);
+        for (int turn = 0; turn < 150 && sheet_count(&r[0], true) > 0; turn++) {
+            vec2 place = next_bite(&r[0], &s, plan, round, centre, radius, turn);
+            double area = random_power_law(&s, 1e-2, 8, 0);
+            fracture_scratch_forget(r[1].scratch);
+            for (int k = 0; k < 2; k++) {
+                ck_assert(sheet_load(&r[k], place, 1e7, area));
+                fracture_rig_break(&r[k]);
+            }
+            ck_assert_uint_eq(sheet_hash(&r[0]), sheet_hash(&r[1]));
+            for (int32_t i = 0; i < r[0].events.count; i++) {
+                const fracture_event *e = &r[0].events.data[i];
+                releases += e->kind == FRACTURE_RELEASE;
+                large += e->kind == FRACTURE_RELEASE && e->parent_area > 100;
+            }
+            for (int k = 0; k < 2; k++)
+                sheet_clear_pieces(&r[k]);
+        }
+    }
+    printf("%ld releases, %ld of more than 100 m2\n", releases, large);
+    ck_assert(releases > 20 && large > 2);
+    for (int k = 0; k < 2; k++)
+        fracture_rig_free(&r[k]);
+}
+END_TEST
+
+TEST_MAIN("fracture_fuzz_sheet", fuzzed_bites, a_search_from_a_change_finds_what_the_whole_one_does)
