@@ -287,6 +287,32 @@ static fram_status look_at_row(context *ctx, overlay *o, const feeding_world *w,
     return FRAM_OK;
 }
 
+/* What places may be off by for rounding, as a part of the tile. */
+static const double PLACE_ROUNDING = 1e-6;
+
+/* The list is made anew when the sheet has moved on by the width of the band, so that the whole pattern is walked once
+   in so many steps.  Where a floe changes to the other side of the window it is as far from it there. */
+static bool list_near(context *ctx, const feeding_world *w, vec2 by)
+{
+    const feeding_table *f = w->feeding;
+    feeding_near *near = w->near;
+    near->way += fabs(by.x) + fabs(by.y);
+    if (near->is_known && near->way <= f->band[0])
+        return true;
+    near->is_known = false;
+    array_clear(&near->row);
+    double margin = f->band[0] + PLACE_ROUNDING * (f->tile[0].x + f->tile[0].y);
+    for (int32_t row = 0; row < w->pattern->count; row++) {
+        bool concerned = w->pattern->state[row] != PATTERN_OUTSIDE || feeding_lives(w, row) ||
+                         feeding_reaches(w, feeding_place(w, row), w->pattern->radius[row], margin);
+        if (concerned && !array_push(ctx, &near->row, row))
+            return false;
+    }
+    near->way = 0;
+    near->is_known = true;
+    return true;
+}
+
 fram_status feeding_step(context *ctx, overlay *o, const feeding_world *w, double dt, fram_error *error)
 {
     if (w->feeding->count == 0)
@@ -295,10 +321,12 @@ fram_status feeding_step(context *ctx, overlay *o, const feeding_world *w, doubl
     vec2 before = f->displacement[0], by = vec2_scale(f->velocity[0], dt), moved = vec2_add(before, by);
     f->displacement[0] = vec2_make(wrap(moved.x, f->tile[0].x), wrap(moved.y, f->tile[0].y));
     sort_floes(w);
+    if (!list_near(ctx, w, by))
+        return error_memory(error);
     vec2_array scratch[2] = {{0}, {0}};
     fram_status status = feeding_copies_step(ctx, w, before, by, error);
-    for (int32_t row = 0; row < w->pattern->count && status == FRAM_OK; row++)
-        status = look_at_row(ctx, o, w, row, scratch, error);
+    for (int32_t i = 0; i < w->near->row.count && status == FRAM_OK; i++)
+        status = look_at_row(ctx, o, w, w->near->row.data[i], scratch, error);
     array_free(ctx, &scratch[0]);
     array_free(ctx, &scratch[1]);
     return status;

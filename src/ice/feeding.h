@@ -68,6 +68,15 @@ TABLE_DECLARE(pattern_copy, PATTERN_COPY_FIELDS)
 #define PATTERN_VERTEX_FIELDS(X) X(point, vec2, FIELD_F64, 2, "m", "about the centroid of its outline")
 TABLE_DECLARE(pattern_vertex, PATTERN_VERTEX_FIELDS)
 
+/* Floes of the pattern that the next steps may concern: all others show nothing, and are farther from the window than
+   the sheet has moved on since these were listed.  No state; is_known becomes false when the tables become those of
+   another. */
+typedef struct feeding_near {
+    int32_array row; /* ascending */
+    double way;      /* of the sheet since [m] */
+    bool is_known;
+} feeding_near;
+
 /* Everything that feeding reads and changes. */
 typedef struct feeding_world {
     feeding_table *feeding;
@@ -79,7 +88,8 @@ typedef struct feeding_world {
     floe_table *floes;
     const broad_table *boxes; /* of the vessel, to keep clear of */
     int32_t *next_number;
-    double *left; /* mass that left [kg] */
+    double *left;       /* mass that left [kg] */
+    feeding_near *near; /* for steps only */
 } feeding_world;
 
 typedef struct feeding_definition {

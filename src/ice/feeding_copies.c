@@ -78,6 +78,7 @@ static void take_back(const feeding_world *w)
         if (c->tiles_x[i] == 0 && c->tiles_y[i] == 0) {
             w->pattern->body[c->row[i]] = c->body[i];
             w->pattern->generation[c->row[i]] = c->generation[i];
+            w->near->is_known = false; /* the floe may not be listed, and lives again */
             continue;
         }
         table_move_row(c, &pattern_copy_table_info, kept++, i);
@@ -88,7 +89,8 @@ static void take_back(const feeding_world *w)
 fram_status feeding_copies_step(context *ctx, const feeding_world *w, vec2 before, vec2 moved, fram_error *error)
 {
     follow_copies(w, before, moved);
-    for (int32_t row = 0; row < w->pattern->count; row++) {
+    for (int32_t i = 0; i < w->near->row.count; i++) {
+        int32_t row = w->near->row.data[i];
         if (!feeding_lives(w, row))
             continue;
         tiles jump = jump_of(w, row, before, moved);

@@ -21,8 +21,9 @@ bool feeding_reaches(const feeding_world *w, vec2 place, double radius, double m
 fram_status feeding_make_floe(context *ctx, overlay *o, const feeding_world *w, int32_t row, polygon outline,
                               fram_error *error);
 polygon feeding_outline(const feeding_world *w, int32_t row);
-/* The sheet moved by `moved` from the displacement `before`: where another copy of a floe is nearest to the window now,
-   the body of the one before is kept among the copies, and one whose copy is back is that of the floe again. */
+/* The sheet moved by `moved` from the displacement `before`, and what is near is listed: where another copy of a floe
+   is nearest to the window now, the body of the one before is kept among the copies, and one whose copy is back is that
+   of the floe again. */
 fram_status feeding_copies_step(context *ctx, const feeding_world *w, vec2 before, vec2 moved, fram_error *error);
 
 #endif

@@ -109,6 +109,7 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.wash);
     array_free(ctx, &w->scratch.wash_force);
     array_free(ctx, &w->scratch.fractures);
+    array_free(ctx, &w->scratch.feeding_near.row);
     if (w->scratch.collision)
         collision_scratch_free(ctx, w->scratch.collision);
     if (w->scratch.crushing)
@@ -187,6 +188,7 @@ void world_forget(world *w)
     fracture_scratch_forget(w->scratch.fracture);
     w->scratch.step = 0;
     w->scratch.rest_seen = (rest_seen){0};
+    w->scratch.feeding_near.is_known = false;
     w->shapes.is_counted = false;
 }
 

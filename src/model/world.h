@@ -140,6 +140,7 @@ typedef struct world {
         fracture_event_array fractures;
         solver_report solver;
         rest_seen rest_seen;
+        feeding_near feeding_near;
         collision_scratch *collision;
         crushing_scratch *crushing;
         fracture_scratch *fracture;

@@ -18,7 +18,8 @@ feeding_world feed_world(world *w)
                            .floes = &w->floes,
                            .boxes = &w->boxes,
                            .next_number = w->clock.next_floe,
-                           .left = w->clock.ice_left};
+                           .left = w->clock.ice_left,
+                           .near = &w->scratch.feeding_near};
 }
 
 drift_world feed_sheet(const model *m, world *w)

@@ -295,6 +295,39 @@ START_TEST(copies_of_floes_are_state)
 }
 END_TEST
 
+/* Floes enter, leave, linger and are found again to the same bits where all of the pattern is looked at in each step.
+ */
+START_TEST(what_is_near_is_all_that_matters)
+{
+    scene k;
+    fram_error error = {0};
+    int32_t rows[32], most = 0;
+    int lingered = 0, returned = 0, steps = getenv("FRAM_TEST_SHORT") ? 1500 : 4000;
+    scene_open_with(&k, alone, long_tile, 1);
+    pin_floes(&k.w, rows, 32);
+    world all = {0};
+    assert_ok(world_copy(&k.ctx, &k.w, &all, &error), error);
+    k.m.drift_given = true;
+    for (int i = 0; i < steps; i++) {
+        double t = (double)i / steps, along = real_sin(6 * PI * t);
+        k.m.drift = vec2_make(1.5 * along, t < 0.5 ? 0 : 0.4 * real_cos(9 * PI * t));
+        k.m.media.current = vec3_make(k.m.drift.x, k.m.drift.y, 0);
+        int32_t copies = k.w.pattern_copies.count;
+        all.scratch.feeding_near.is_known = false;
+        scene_steps(&k, 1);
+        assert_ok(world_step(&k.ctx, &k.m, &all, &error), error);
+        ck_assert_uint_eq(world_hash(&k.w), world_hash(&all));
+        lingered += k.w.pattern_copies.count > copies;
+        returned += k.w.pattern_copies.count < copies;
+        most = k.w.scratch.feeding_near.row.count > most ? k.w.scratch.feeding_near.row.count : most;
+    }
+    ck_assert(lingered > 0 && returned > 0 && k.w.feeding.entered_floes[0] > 100);
+    ck_assert_int_lt(most, k.w.pattern.count);
+    world_free(&k.ctx, &all);
+    scene_close(&k);
+}
+END_TEST
+
 /* ---- around a vessel ---- */
 
 static void outline_of(const world *w, int32_t body, vec2 out[64], polygon *p)
@@ -599,6 +632,6 @@ END_TEST
 
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, the_tile_is_longer_by_floes_of_the_populations,
           hours_of_drift_keep_the_field, floes_that_linger_leave_no_holes, copies_of_floes_are_state,
-          drift_turns_and_reverses, driven_ice_presses, a_hull_that_meets_the_band_is_told, cut_at_the_vessel,
-          open_water_is_clear, concave_floes_beside_a_vessel_stay, refusals_name_their_key,
-          a_vessel_in_the_band_is_named)
+          what_is_near_is_all_that_matters, drift_turns_and_reverses, driven_ice_presses,
+          a_hull_that_meets_the_band_is_told, cut_at_the_vessel, open_water_is_clear,
+          concave_floes_beside_a_vessel_stay, refusals_name_their_key, a_vessel_in_the_band_is_named)
