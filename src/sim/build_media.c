@@ -1,7 +1,7 @@
 #include "sim/build_media.h"
 
 #include "io/velocity_file.h"
-#include "sim/sanity_parts.h"
+#include "sim/usual.h"
 
 #include <math.h>
 
@@ -31,7 +31,7 @@ typedef struct history_rule {
 
 static void warn_of_speed(context *ctx, const scenario *s, const history_rule *r, double fastest)
 {
-    double most = sanity_usual_of(s, r->constant).most;
+    double most = usual_range_of(s, r->constant).most;
     if (fastest > most)
         log_write(ctx, LOG_WARNING, "%s: %s goes up to %.4g m/s, more than %.3g: give m/s, not knots, km/h or cm/s",
                   r->key, r->file, fastest, most);

@@ -4,7 +4,6 @@
 #include "ice/field_pack.h"
 #include "io/csv_read.h"
 #include "io/template_file.h"
-#include "sim/sanity_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -303,8 +302,8 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
 static void tell_left_out_of_file(context *ctx, const scenario *s, const size_law *law)
 {
     double area = s->ice.smallest_floe_area, across = sqrt(4 / PI * area), part = size_law_part(law, across);
-    if (s->ice.populations.data[0].size == SIZE_HISTOGRAM && !s->sizes && part > SANITY_LEFT_OUT)
-        log_write(ctx, LOG_WARNING, SANITY_LAW_CUT, area, across, part, 0, s->run.scale);
+    if (s->ice.populations.data[0].size == SIZE_HISTOGRAM && !s->sizes && part > POPULATION_LEFT_OUT)
+        log_write(ctx, LOG_WARNING, POPULATION_LAW_CUT, area, across, part, 0, s->run.scale);
 }
 
 fram_status draw_managed(context *ctx, const scenario *s, world *w, field_request request, drawn_ice *out,

@@ -7,6 +7,14 @@
 /* The law of size that the keys of a population tell; a histogram is in its file, and has no bins here. */
 size_law population_size_law(const scenario_population *p);
 
+/* Part of the mean floe, or of all floes, from which on what is left out is ice that was asked for. */
+#define POPULATION_LEFT_OUT 0.1
+/* Of the least area [m2], its diameter [m], the part that has less, the population's number and run.scale. */
+#define POPULATION_LAW_CUT                                                                                    \
+    "ice.smallest_floe_area: %.4g m2, %.3g m across, leaves out %.2g of the floes that the law of size of "   \
+    "ice.populations[%d] asks for, and those that are made are larger than it says; give a smaller area, or " \
+    "the run.scale (%g) by which it is found"
+
 /* A generator of fields names the member of its own request: the key that it came from, with its place. */
 void name_ice_request(const scenario *s, fram_error *error);
 

@@ -78,7 +78,7 @@ static fram_status find_curve(context *ctx, const scenario *s, const scenario_mo
     return FRAM_OK;
 }
 
-/* Lines of full size carry 50 kN or more (sanity.c); a table that goes up to less than this is one of kN [N]. */
+/* Lines of full size carry 50 kN or more (usual.c); a table that goes up to less than this is one of kN [N]. */
 #define TENSION_LEAST 1e4
 
 static void warn_of_curve(context *ctx, const scenario *s, const vessel_entry *entry, int32_t item,

@@ -6,7 +6,7 @@
 #include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_packed.h"
-#include "sim/sanity_parts.h"
+#include "sim/usual.h"
 
 #include <math.h>
 
@@ -89,7 +89,7 @@ static void log_notes(context *ctx, const import_rings *rings, const import_fiel
 /* Of thicknesses that stand in the file, as of ice.thickness. */
 static void tell_thickness(context *ctx, const scenario *s, const import_field *field)
 {
-    const sanity_range usual = sanity_usual(s, USUAL_THICKNESS_LEAST, USUAL_THICKNESS_MOST, 1);
+    const usual_range usual = usual_range_of(s, "ice.thickness");
     const range_text range = range_text_of(usual.least, usual.most, 3);
     int32_t beyond = 0, first = -1;
     for (int32_t i = 0; i < field->thickness.count; i++) {

@@ -184,7 +184,7 @@ static void tell_thruster(const teller *t, int32_t i)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_thruster *p = &v->thrusters.data[i];
-    const sanity_range usual = sanity_usual(t->s, POWER_LEAST, POWER_MOST, 0.5);
+    const usual_range usual = usual_range_at_scale(t->s, POWER_LEAST, POWER_MOST, 0.5);
     double ratio = automatic_or(p->power, (double)NAN) / thruster_largest_thrust(p);
     if (ratio < usual.least || ratio > usual.most)
         sanity_say(t->tell, t->to,
@@ -281,7 +281,7 @@ static void tell_propulsion(const teller *t)
                    t->e->path, p->steering_x, v->hull.length);
     tell_helm(t);
     double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
-    const sanity_range usual = sanity_usual(t->s, DISC_LEAST, DISC_MOST, 1);
+    const usual_range usual = usual_range_at_scale(t->s, DISC_LEAST, DISC_MOST, 1);
     if (!is_automatic(d) && (disc > usual.most || disc < usual.least))
         sanity_say(t->tell, t->to,
                    "%s.propulsion.propeller_diameter: %.4g m leaves %.3g kPa of bollard pull on the disc, 20 to 100 "
@@ -304,7 +304,7 @@ static void tell_station(const teller *t)
         sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m by %.4g m",
                    t->e->path, ahead ? "x" : "y", x, y, v->hull.length, v->hull.beam);
     bool lines = v->mooring.lines.count > 0;
-    if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, sanity_at_scale(t->s, 0.5)))
+    if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, usual_at_scale(t->s, 0.5)))
         sanity_say(t->tell, t->to,
                    "%s.speed: a vessel on station begins with %.4g m/s: speed is that of the start, of a drift give "
                    "environment.current_speed or domain.drift_speed",

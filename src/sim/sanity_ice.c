@@ -59,7 +59,7 @@ static void tell_left_out(const teller *t, const char *key, double area)
     const scenario_ice *i = &t->s->ice;
     bool mean_floe = i->source == ICE_VORONOI && i->populations.count == 0;
     double wedge = wedge_of(t);
-    if (mean_floe && area > SANITY_LEFT_OUT * i->mean_floe_area)
+    if (mean_floe && area > POPULATION_LEFT_OUT * i->mean_floe_area)
         sanity_say(t->tell, t->to,
                    "ice.%s: %.4g m2 is %.2g of the mean floe, %.4g m2: ice that is asked for is left out; give a "
                    "smaller area, or the run.scale (%g) by which it is found",
@@ -81,8 +81,9 @@ static void tell_law_cut(const teller *t)
     for (int32_t k = 0; i->source == ICE_VORONOI && k < i->populations.count; k++) {
         const size_law law = population_size_law(&i->populations.data[k]);
         double part = law.kind == SIZE_HISTOGRAM || size_law_fault(&law) ? 0 : size_law_part(&law, across);
-        if (part > SANITY_LEFT_OUT)
-            sanity_say(t->tell, t->to, SANITY_LAW_CUT, i->smallest_floe_area, across, part, (int)k, t->s->run.scale);
+        if (part > POPULATION_LEFT_OUT)
+            sanity_say(t->tell, t->to, POPULATION_LAW_CUT, i->smallest_floe_area, across, part, (int)k,
+                       t->s->run.scale);
     }
 }
 

@@ -2,9 +2,9 @@
 #ifndef SIM_SANITY_PARTS_H
 #define SIM_SANITY_PARTS_H
 
-#include "base/transcendental.h"
 #include "model/scenario_schema.h"
 #include "sim/sanity.h"
+#include "sim/usual.h"
 
 typedef struct teller {
     const scenario *s;
@@ -63,23 +63,8 @@ static inline double sanity_about_mass(const scenario *s, const scenario_vessel 
    floe, of which something is known before it is drawn (sanity_ice.c). */
 double sanity_least_band(const scenario *s);
 
-/* Longer than any ship, full size [m]. */
-#define VESSEL_LONGEST 500.0
-
 /* Of three poles alike, of either observer, called once in `interval` s [rad/s]. */
 double sanity_observer_bandwidth(const scenario *s, const scenario_positioning *p, double interval);
-
-/* Thickness of floes and sheets of full size [m]. */
-#define USUAL_THICKNESS_LEAST 0.02
-#define USUAL_THICKNESS_MOST 6
-
-/* Part of the mean floe, or of all floes, from which on what is left out is ice that was asked for. */
-#define SANITY_LEFT_OUT 0.1
-/* Of the least area [m2], its diameter [m], the part that has less, the population's number and run.scale. */
-#define SANITY_LAW_CUT                                                                                        \
-    "ice.smallest_floe_area: %.4g m2, %.3g m across, leaves out %.2g of the floes that the law of size of "   \
-    "ice.populations[%d] asks for, and those that are made are larger than it says; give a smaller area, or " \
-    "the run.scale (%g) by which it is found"
 
 /* Whether some ice takes the strength that is a member of the ice's keys: not where all populations have their own.
    True of any other member. */
@@ -92,25 +77,5 @@ double sanity_own_thickness(const scenario_ice *i, const world *made);
 /* The crushing pressure on an area of ice of a strength [Pa], and the words that say so after the strength. */
 enum { SANITY_ON_AREA = 80 };
 double sanity_pressure_on(const scenario_ice *i, double strength, double area, char words[SANITY_ON_AREA]);
-
-/* What goes with a power of the scale has that of full size at the default one. */
-static inline double sanity_at_scale(const scenario *s, double power) { return real_pow(scenario_size(s), power); }
-
-/* By which part a bound is known that goes with the scale: one that would be 0.005 is 0.005000000000000001. */
-#define SANITY_SCALE_ROUNDED 1e-9
-
-/* What a number usually is, from bounds of full size of which one goes with a power of the scale (usual_values in
-   sanity.c); a range about zero is the same on both sides. */
-typedef struct sanity_range {
-    double least, most;
-} sanity_range;
-static inline sanity_range sanity_usual(const scenario *s, double least, double most, double power)
-{
-    double factor = sanity_at_scale(s, power), high = most * fmax(1, factor) * (1 + SANITY_SCALE_ROUNDED);
-    double low = least * fmin(1, factor) - SANITY_SCALE_ROUNDED * fabs(least);
-    return (sanity_range){least == -most ? -high : low, high};
-}
-/* That of a key of the table there, without indices. */
-sanity_range sanity_usual_of(const scenario *s, const char *key);
 
 #endif

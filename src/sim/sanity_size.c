@@ -18,8 +18,8 @@ static void tell_scale(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     /* Over the default scale the longest ship is the longest model that a tank takes, 17 m. */
-    double scale = t->s->run.scale, longest = VESSEL_LONGEST / scenario_default_scale();
-    if (scale < scenario_default_scale() && v->hull.length <= VESSEL_LONGEST && v->hull.length > longest * scale)
+    double scale = t->s->run.scale, longest = USUAL_LENGTH_MOST / scenario_default_scale();
+    if (scale < scenario_default_scale() && v->hull.length <= USUAL_LENGTH_MOST && v->hull.length > longest * scale)
         sanity_say(t->tell, t->to,
                    "run.scale: %g is that of a tank, where hulls measure up to %.3g m, and %s is %.4g m long: "
                    "thresholds of the ice, thrusters and controllers have the defaults of a model; leave it out, or "

@@ -134,7 +134,7 @@ static void tell_line(const teller *t, int32_t i)
     if (l->count > 1 && fabs(l->spacing_deg) < 1e-9)
         sanity_say(t->tell, t->to, "%s.mooring.lines[%d].spacing_deg: %d lines lie one upon another at 0 degrees apart",
                    t->e->path, (int)i, (int)l->count);
-    double own_weight = OWN_WEIGHT * fmin(1, sanity_at_scale(t->s, 1)) * l->weight;
+    double own_weight = OWN_WEIGHT * fmin(1, usual_at_scale(t->s, 1)) * l->weight;
     if (l->kind == LINE_CATENARY && automatic_or(l->breaking_load, HUGE_VAL) < own_weight)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].weight: a line of %.4g N/m parts under %.3g m of itself: give N/m", t->e->path,
@@ -210,9 +210,9 @@ static bool tell_leg(const teller *t, int32_t i)
     const scenario_path_point *to = &t->e->keys->path.data[i], *from = to - 1;
     double x = to->x - from->x, y = to->y - from->y, time = to->time - from->time;
     double speed = sqrt(x * x + y * y) / time;
-    double most = FASTEST_LEG * fmax(1, sanity_at_scale(t->s, 0.5));
+    double most = FASTEST_LEG * fmax(1, usual_at_scale(t->s, 0.5));
     double turn = fabs(to->heading_deg - from->heading_deg) / time;
-    double fastest = FASTEST_TURN * fmax(1, sanity_at_scale(t->s, -0.5));
+    double fastest = FASTEST_TURN * fmax(1, usual_at_scale(t->s, -0.5));
     if (time > 0 && speed <= most && turn > fastest)
         sanity_say(
             t->tell, t->to,
@@ -324,7 +324,7 @@ bool sanity_drags_as_ahead(const scenario *s, const scenario_vessel *v, double a
     const scenario_environment *n = &s->environment;
     bool faces = v->current_coefficients.table.count == 0 && v->current_coefficients.table_file[0] == '\0';
     return faces && n->water && v->hull.form != HULL_CONE && !is_damped_in_sway(&v->hydrodynamics) &&
-           n->hull_drag.water_form < SIDE_LEAST && across >= ACROSS_LEAST * sanity_at_scale(s, 0.5);
+           n->hull_drag.water_form < SIDE_LEAST && across >= ACROSS_LEAST * usual_at_scale(s, 0.5);
 }
 
 vec3 sanity_start(const scenario *s, int32_t vessel, const world *made)

@@ -10,8 +10,8 @@
 #include "sim/matrix_check.h"
 #include "sim/meeting_check.h"
 #include "sim/rest_tell.h"
-#include "sim/sanity_parts.h"
 #include "sim/turning_tell.h"
+#include "sim/usual.h"
 #include "sim/wall_check.h"
 
 #include <math.h>
@@ -279,7 +279,7 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
     const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    const sanity_range usual = sanity_usual_of(s, "vessel.hull.length");
+    const usual_range usual = usual_range_of(s, "vessel.hull.length");
     const range_text range = range_text_of(usual.least, usual.most, 3);
     if (p->length > usual.most)
         log_write(ctx, LOG_WARNING,
@@ -313,7 +313,7 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
                   "move it down by the draught",
                   e->path, p->draught, p->beam);
-    const sanity_range deck = sanity_usual_of(s, "vessel.hull.freeboard");
+    const usual_range deck = usual_range_of(s, "vessel.hull.freeboard");
     if (p->freeboard < deck.least)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull ends %.3g m above its z = 0, the design waterline, and no deck is lower than "
