@@ -177,7 +177,7 @@ static bool is_held(const manage_run *m, double time)
 }
 
 /* Mean velocity of the vessel about a moment. */
-static vec2 vessel_way(const manage_run *m, int32_t i)
+static vec2 steady_velocity(const manage_run *m, int32_t i)
 {
     int32_t a = i, b = i;
     const manage_moment *all = m->moments.data;
@@ -197,7 +197,7 @@ static void find_updrift(manage_run *m)
 {
     for (int32_t i = 0; i < m->moments.count; i++) {
         manage_moment *now = &m->moments.data[i];
-        vec2 come = is_held(m, now->time) ? now->velocity : vec2_sub(now->velocity, vessel_way(m, i));
+        vec2 come = is_held(m, now->time) ? now->velocity : vec2_sub(now->velocity, steady_velocity(m, i));
         now->speed = vec2_length(come);
         if (drifts(m, now->speed))
             now->updrift = vec2_scale(come, -1 / now->speed);

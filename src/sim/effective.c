@@ -4,7 +4,7 @@
 #include "io/velocity_file.h"
 #include "model/scenario_vessel.h"
 #include "model/scenario_words.h"
-#include "sim/wall_check.h"
+#include "sim/vessel_speed.h"
 
 #include <math.h>
 #include <stdio.h>

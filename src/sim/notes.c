@@ -15,7 +15,7 @@
 #include "sim/recording.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
-#include "sim/wall_check.h"
+#include "sim/vessel_speed.h"
 
 #include <stdio.h>
 

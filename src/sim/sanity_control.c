@@ -2,7 +2,7 @@
 #include "base/transcendental.h"
 #include "sim/build_station.h"
 #include "sim/sanity_parts.h"
-#include "sim/wall_check.h"
+#include "sim/vessel_speed.h"
 #include "vessel/propulsion.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "base/number_text.h"
 #include "sim/ice_kinds.h"
 #include "sim/sanity_parts.h"
-#include "sim/wall_check.h"
+#include "sim/vessel_speed.h"
 #include "vessel/plane_motion.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "sim/build_propulsion.h"
 #include "sim/propulsion_forces.h"
 #include "sim/turning.h"
-#include "sim/wall_check.h"
+#include "sim/vessel_speed.h"
 
 #include <math.h>
 #include <stdio.h>
