@@ -97,10 +97,10 @@ static fram_status measure_step(context *ctx, const model *m, world *w, int64_t 
                                 bench_result *r, fram_error *error)
 {
     stopwatch clock = {.last = clock_processor()};
-    double wall = clock_wall(), cpu = clock.last;
+    double wall_time = clock_wall(), cpu = clock.last;
     fram_status status = world_step_watched(ctx, m, w, &(step_watch){stage_done, &clock}, error);
     times[TIME_CPU * steps + row] = clock_processor() - cpu;
-    times[TIME_WALL * steps + row] = clock_wall() - wall;
+    times[TIME_WALL * steps + row] = clock_wall() - wall_time;
     for (int i = 0; i < STAGE_COUNT; i++)
         r->share[i] += clock.part[i];
     times[TIME_FORCES * steps + row] = clock.part[STAGE_FORCES];

@@ -11,8 +11,8 @@ typedef struct pace {
 } pace;
 
 /* A pace begins all zero, and counts from the first call on, which follows the first step.  Expected wall time from the
-   simulated `time` to `end` [s], asked at `wall` seconds after the start; NaN as long as it is not known, which is in
-   the second after. */
-double pace_left(pace *p, double wall, double time, double end);
+   simulated `time` to `end` [s], asked at `wall_time` seconds after the start; NaN as long as it is not known, which is
+   in the second after. */
+double pace_left(pace *p, double wall_time, double time, double end);
 
 #endif

@@ -439,13 +439,13 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
     return good ? append(r, BLOCK_FRACTURES, error) : error_memory(error);
 }
 
-fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
+fram_status recorder_step(recorder *r, world *w, double wall_time, fram_error *error)
 {
     int64_t step = w->clock.step[0];
     fram_status status = FRAM_OK;
     bool known = step > 0 && w->scratch.step == step; /* a state that was loaded holds nothing of its last step */
     if (known && step % r->series_every == 0) {
-        series_row(r->ctx, &r->layout, w, wall, r->row.data);
+        series_row(r->ctx, &r->layout, w, wall_time, r->row.data);
         status = csv_append(&r->series, r->row.data, error);
     }
     if (status == FRAM_OK && known)

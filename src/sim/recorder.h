@@ -44,7 +44,7 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
    fourth, eighth ... time when as many bodies, lines and thrusters as there are now would else fill the record beyond
    nine tenths of its limit over the run (sim/frame_size.h); the rest is for what stands between frames.  This depends
    on the state alone, so a resumed run records the same frames. */
-fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error);
+fram_status recorder_step(recorder *r, world *w, double wall_time, fram_error *error);
 /* The files of the streams. */
 enum { RECORDER_STREAMS = 3 };
 void recorder_streams(recorder *r, file_writer *out[RECORDER_STREAMS]);

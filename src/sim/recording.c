@@ -98,10 +98,10 @@ static fram_status draw_numbered_plan(recording *r, fram_error *error)
     return draw_plan(r, name, error);
 }
 
-static fram_status write_what_is_due(recording *r, double step_wall, fram_error *error)
+static fram_status write_what_is_due(recording *r, double step_wall_time, fram_error *error)
 {
     int64_t step = r->w->clock.step[0];
-    fram_status status = recorder_step(&r->recorder, r->w, step_wall, error);
+    fram_status status = recorder_step(&r->recorder, r->w, step_wall_time, error);
     if (status == FRAM_OK && r->picture_every > 0 && step % r->picture_every == 0)
         status = draw_numbered_plan(r, error);
     if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step != r->stop_step)
@@ -340,12 +340,12 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
     return status;
 }
 
-fram_status recording_step(recording *r, double step_wall, fram_error *error)
+fram_status recording_step(recording *r, double step_wall_time, fram_error *error)
 {
     double began = clock_wall();
-    time_ranks_add(&r->steps, step_wall);
+    time_ranks_add(&r->steps, step_wall_time);
     r->good_until = r->w->clock.time[0];
-    fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
+    fram_status status = as_failure(write_what_is_due(r, step_wall_time, error), error);
     r->record_time += clock_wall() - began;
     return status;
 }

@@ -75,8 +75,8 @@ fram_status recording_begin(recording *r, world *w, fram_error *error);
    of then, run.json says that it is running, and the state as it once went wrong is gone. */
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
 fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
-/* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */
-fram_status recording_step(recording *r, double step_wall, fram_error *error);
+/* After each step: streams, pictures and checkpoints when due.  step_wall_time: time that the step took [s]. */
+fram_status recording_step(recording *r, double step_wall_time, fram_error *error);
 /* A checkpoint of now, on the disk when this returns; those that are due come there while the run goes on. */
 fram_status recording_checkpoint(recording *r, fram_error *error);
 /* Of now. */

@@ -54,11 +54,12 @@ static void show_progress(run *r, bool last)
     if (!r->options->progress || (!last && now - r->drawn < PROGRESS_PERIOD))
         return;
     r->drawn = now;
-    double time = r->world.clock.time[0], done = time - r->record.began_at, wall = now - r->record.started;
-    run_progress p = {.time = time, .end = (double)r->record.end_step * r->record.s->run.time_step, .wall = wall};
+    double time = r->world.clock.time[0], done = time - r->record.began_at;
+    double wall_time = now - r->record.started;
+    run_progress p = {.time = time, .end = (double)r->record.end_step * r->record.s->run.time_step, .wall = wall_time};
     double stop = (double)r->record.stop_step * r->record.s->run.time_step;
-    p.real_time_factor = wall > 0 ? done / wall : 0;
-    p.eta = pace_left(&r->pace, wall, time, stop);
+    p.real_time_factor = wall_time > 0 ? done / wall_time : 0;
+    p.eta = pace_left(&r->pace, wall_time, time, stop);
     r->options->progress(r->options->progress_user, &p);
 }
 

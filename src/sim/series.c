@@ -231,7 +231,7 @@ static count_channels counts_of(const world *w)
     W("solver_iterations", "1", w->scratch.solver.iterations)         \
     W("overlap_mean", "m", w->scratch.solver.mean_depth)              \
     W("overlap_max", "m", w->scratch.solver.max_depth)                \
-    W("step_wall_time", "s", wall)
+    W("step_wall_time", "s", wall_time)
 
 /* In the order of one vessel's run; several vessels come one after the other behind what is the world's. */
 typedef struct series_column {
@@ -320,7 +320,7 @@ void series_layout_free(context *ctx, series_layout *l)
 #define NO_VALUE(name, unit, value)
 
 /* Of the world, and with it of the first vessel where vessels have no names. */
-static int32_t put_world(const context *ctx, const world *w, double wall, bool with_vessel, double *out)
+static int32_t put_world(const context *ctx, const world *w, double wall_time, bool with_vessel, double *out)
 {
     count_channels n = counts_of(w);
     int32_t k = 0;
@@ -356,9 +356,9 @@ static int32_t put_equipment(const world *w, int32_t vessel, double *out)
     return k;
 }
 
-void series_row(const context *ctx, const series_layout *l, const world *w, double wall, double *out)
+void series_row(const context *ctx, const series_layout *l, const world *w, double wall_time, double *out)
 {
-    int32_t k = put_world(ctx, w, wall, !l->named, out);
+    int32_t k = put_world(ctx, w, wall_time, !l->named, out);
     for (int32_t v = 0; v < w->vessels.count; v++) {
         if (l->named)
             k += put_vessel(w, v, out + k);

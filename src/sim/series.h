@@ -23,8 +23,8 @@ typedef struct series_layout {
 /* Columns of a vessel that is not there are 0. */
 fram_status series_columns(context *ctx, const scenario *s, series_layout *out, fram_error *error);
 void series_layout_free(context *ctx, series_layout *l);
-/* One row, of as many values as there are columns.  wall: time that the step took [s]. */
-void series_row(const context *ctx, const series_layout *l, const world *w, double wall, double *out);
+/* One row, of as many values as there are columns.  wall_time: what the step took [s]. */
+void series_row(const context *ctx, const series_layout *l, const world *w, double wall_time, double *out);
 
 /* Columns of the table of broken floes, at most. */
 enum { FRACTURE_ROOM = 64 };
