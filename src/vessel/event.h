@@ -5,17 +5,17 @@
 #include "base/table.h"
 
 typedef enum station_event {
-    EVENT_LINE_BREAK = 0,   /* a line's tension exceeded its breaking load; value: tension [N] */
-    EVENT_LINE_RELEASE,     /* a line was let go at its given time; value: tension [N] */
-    EVENT_THRUSTER_FAILURE, /* value: thrust it had [N] */
-    EVENT_POSITION_LOST,    /* the offset came to exceed its limit; value: offset [m] */
-    EVENT_POSITION_REGAINED,
-    EVENT_HEADING_LOST, /* the heading came to deviate by more than its limit; value: deviation [rad] */
-    EVENT_HEADING_REGAINED,
-    EVENT_BESET,         /* the ice stopped a ship that pushes; value: net thrust [N] */
-    EVENT_RAM,           /* it has backed and comes again; value: how far it backed [m] */
-    EVENT_APPROACH,      /* another vessel is going to be nearer than the limit; value: predicted distance [m] */
-    EVENT_APPROACH_OVER, /* value: least distance that there was [m] */
+    EVENT_LINE_BREAK = 0,    /* a line's tension exceeded its breaking load; value: tension [N] */
+    EVENT_LINE_RELEASE,      /* a line was let go at its given time; value: tension [N] */
+    EVENT_THRUSTER_FAILURE,  /* value: thrust it had [N] */
+    EVENT_POSITION_LOST,     /* the offset came to exceed its limit; value: offset [m] */
+    EVENT_POSITION_REGAINED, /* it came well within it again; value: offset [m] */
+    EVENT_HEADING_LOST,      /* the heading came to deviate by more than its limit; value: deviation [rad] */
+    EVENT_HEADING_REGAINED,  /* it came well within it again; value: deviation [rad] */
+    EVENT_BESET,             /* the ice stopped a ship that pushes; value: net thrust [N] */
+    EVENT_RAM,               /* it has backed and comes again; value: how far it backed [m] */
+    EVENT_APPROACH,          /* another vessel is going to be nearer than the limit; value: predicted distance [m] */
+    EVENT_APPROACH_OVER,     /* value: least distance that there was [m] */
     EVENT_WALL,      /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
     EVENT_OFF_TRACK, /* a ship that drives itself came off its track; value: track error [m] */
     EVENT_ON_TRACK,  /* it is back; value: largest track error until then [m] */

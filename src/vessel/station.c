@@ -91,19 +91,29 @@ fram_status station_add(context *ctx, const station_definition *d, int32_t vesse
 
 /* ---- deviation ---- */
 
-static bool book(context *ctx, event_table *events, bool beyond, bool within, int bit, station_event lost, double time,
-                 double value, int32_t row, uint8_t *flags)
+/* What is watched of a limit, and how its flag stands in `lost` of the station. */
+typedef struct limit_watch {
+    int bit;
+    station_event lost, regained;
+    double leave, back; /* lost beyond the one, regained within the other, which is less */
+} limit_watch;
+
+static limit_watch limit_watch_of(int bit, station_event lost, station_event regained, double limit)
 {
-    bool is_lost = (*flags >> bit & 1) != 0;
-    if (!is_lost && beyond) {
-        *flags = (uint8_t)(*flags | 1u << bit);
-        return event_add(ctx, events, lost, time, row, -1, value);
-    }
-    if (is_lost && within) {
-        *flags = (uint8_t)(*flags & ~(1u << bit));
-        return event_add(ctx, events, (station_event)(lost + 1), time, row, -1, value);
-    }
-    return true;
+    return (limit_watch){bit, lost, regained, limit, REGAINED * limit};
+}
+
+/* Books what came to pass of a limit.  value: what is told, whose size is held against it.  false: no memory. */
+static bool book(context *ctx, event_table *events, const limit_watch *l, double value, const station_moment *now,
+                 station_table *s, int32_t row)
+{
+    double size = fabs(value);
+    uint8_t flag = (uint8_t)(1u << l->bit);
+    bool is_lost = (s->lost[row] & flag) != 0;
+    if (is_lost ? !(size < l->back) : !(size > l->leave))
+        return true;
+    s->lost[row] ^= flag;
+    return event_add(ctx, events, is_lost ? l->regained : l->lost, now->time, row, -1, value);
 }
 
 /* Whether the vessel's own controller turns it about its origin: on lines alone, or with the bow against the ice, what
@@ -139,11 +149,10 @@ static bool watch(context *ctx, station_table *s, int32_t row, const station_mom
 {
     s->offset[row] = station_deviation(s, row, now->time, vessels, bodies, path);
     double offset = sqrt(s->offset[row].x * s->offset[row].x + s->offset[row].y * s->offset[row].y);
-    double off = s->offset[row].z, turn = fabs(off);
-    return book(ctx, events, offset > s->offset_limit[row], offset < REGAINED * s->offset_limit[row], 0,
-                EVENT_POSITION_LOST, now->time, offset, row, &s->lost[row]) &&
-           book(ctx, events, turn > s->heading_limit[row], turn < REGAINED * s->heading_limit[row], 1,
-                EVENT_HEADING_LOST, now->time, off, row, &s->lost[row]);
+    const limit_watch position = limit_watch_of(0, EVENT_POSITION_LOST, EVENT_POSITION_REGAINED, s->offset_limit[row]);
+    const limit_watch heading = limit_watch_of(1, EVENT_HEADING_LOST, EVENT_HEADING_REGAINED, s->heading_limit[row]);
+    return book(ctx, events, &position, offset, now, s, row) &&
+           book(ctx, events, &heading, s->offset[row].z, now, s, row);
 }
 
 /* ---- control ---- */
