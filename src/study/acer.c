@@ -16,6 +16,9 @@ enum { LEVELS_LEAST = 5 };
 /* Powers that the law may have: below the tail is heavier, above it is lighter than of anything that was seen. */
 #define POWER_LEAST 0.5
 #define POWER_MOST 5.0
+/* A fit this near to one of them would have gone on beyond it. */
+#define POWER_NEAR_LEAST 0.05
+#define POWER_NEAR_MOST 0.1
 /* The law's origin lies below the first level by the exponential of this, in widths of the levels. */
 #define PLACE_LEAST (-5.0)
 #define PLACE_MOST 2.5
@@ -280,6 +283,11 @@ double acer_level(const acer_tail *tail, double step, double time, double expone
 {
     double fall = real_log(tail->q * time / (step * exponent)) / tail->a;
     return fall > 0 ? tail->b + real_pow(fall, 1 / tail->c) : tail->b;
+}
+
+bool acer_is_at_bound(const acer_tail *tail)
+{
+    return tail->c < POWER_LEAST + POWER_NEAR_LEAST || tail->c > POWER_MOST - POWER_NEAR_MOST;
 }
 
 /* ---- bootstrap over batches ---- */

@@ -42,6 +42,9 @@ double acer_effective_batches(const acer_rates *r);
 bool acer_fit(const acer_rates *r, acer_tail *out);
 /* Where the greatest value in a time [s] stays below with the probability exp(-exponent). */
 double acer_level(const acer_tail *tail, double step, double time, double exponent);
+/* Whether the power of the law is at a bound of those that were tried: its form is not determined. */
+bool acer_is_at_bound(const acer_tail *tail);
+
 /* What the draws of a bootstrap say of the fit: a tail that goes on as it begins is the same by all of its levels and
    by their upper half alone. */
 typedef struct acer_doubt {

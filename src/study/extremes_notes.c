@@ -146,7 +146,7 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
             ask->duration / time);
     doubt_interval(out, &out->most_probable);
     bool rates = out->method == EXTREME_ACER || out->method == EXTREME_UPCROSSING;
-    if (rates && (out->tail.c < 0.55 || out->tail.c > 4.9))
+    if (rates && acer_is_at_bound(&out->tail))
         say(out, "The power of the tail, %.2g, is at the bound of what was tried: its form is not determined.",
             out->tail.c);
     if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && ask->fit == FIT_LIKELIHOOD &&
