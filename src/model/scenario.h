@@ -34,6 +34,8 @@ typedef enum domain_boundary { DOMAIN_WALLS = 0, DOMAIN_OPEN, DOMAIN_FEEDING } d
 enum { SCENARIO_TEXT_SIZE = 512 };
 /* Of one vessel: mooring lines, those of a count each, and thrusters. */
 enum { VESSEL_LINES_MOST = 64, VESSEL_THRUSTERS_MOST = 32 };
+/* The largest seed, 2^53 - 1: a double tells it from its neighbours. */
+#define SCENARIO_SEED_MOST 9007199254740991
 typedef char scenario_text[SCENARIO_TEXT_SIZE];
 
 /* Types of the members that the rows' specs stand for. */

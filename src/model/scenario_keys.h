@@ -40,7 +40,7 @@
 #define SCENARIO_RUN_KEYS(X)                                                                                         \
     X(duration, REAL(60, 0, 1e7), "s", "simulated time")                                                             \
     X(time_step, REAL(0.01, 1e-7, 10), "s", "fixed time step")                                                       \
-    X(seed, INTEGER(1, 0, 9007199254740991), "1", "seed of everything random; same scenario and seed, same bits")    \
+    X(seed, INTEGER(1, 0, SCENARIO_SEED_MOST), "1", "seed of everything random; same scenario and seed, same bits")  \
     X(scale, REAL(30, 0.01, 1e3), "1",                                                                               \
       "scaling factor lambda of full size to ice tank; 1 is tank size. Sets the defaults of thresholds")             \
     X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                                \

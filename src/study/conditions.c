@@ -96,9 +96,13 @@ fram_status study_number(const study_source *r, const yaml_node *node, double lo
 {
     bool quoted = node->kind == YAML_SCALAR && node->quoted;
     double value = 0;
-    if (!study_number_is(r, node, &value) || !(value >= lo && value <= hi))
-        return study_refuse(r, node, "expected a number from %.10g to %.10g%s, found %s", lo, hi,
+    if (!study_number_is(r, node, &value) || !(value >= lo && value <= hi)) {
+        char least[NUMBER_TEXT_SIZE], most[NUMBER_TEXT_SIZE];
+        real_to_text(lo, least);
+        real_to_text(hi, most);
+        return study_refuse(r, node, "expected a number from %s to %s%s, found %s", least, most,
                             quoted ? " without quotes" : "", study_found(r, node).text);
+    }
     *out = value;
     return FRAM_OK;
 }

@@ -1,4 +1,5 @@
 /* Conditions that are designs of sensitivity: points of Sobol's and Morris's schemes within the ranges of keys. */
+#include "model/scenario.h"
 #include "study/conditions.h"
 #include "study/sensitivity.h"
 
@@ -71,7 +72,7 @@ static fram_status read_design(const study_source *r, const yaml_node *node, stu
         if (strcmp(name, "count") == 0)
             status = study_whole(r, k, kind == DESIGN_MORRIS ? 2 : 10, STUDY_CONDITIONS_MOST, &count);
         else if (strcmp(name, "seed") == 0)
-            status = study_whole(r, k, 0, 1e15, &seed);
+            status = study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &seed);
         else if (strcmp(name, "keys") == 0)
             keys = k;
         else if (strcmp(name, "levels") == 0 && kind == DESIGN_MORRIS)

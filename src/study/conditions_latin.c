@@ -1,5 +1,6 @@
 /* Conditions that are a Latin hypercube: ranges of keys in strata, and lists of values that are met equally often. */
 #include "base/random.h"
+#include "model/scenario.h"
 #include "study/conditions.h"
 #include "study/key_names.h"
 
@@ -107,7 +108,7 @@ fram_status study_latin_read(const study_source *r, const yaml_node *node)
         if (strcmp(name, "count") == 0)
             status = study_whole(r, k, 1, STUDY_CONDITIONS_MOST, &count);
         else if (strcmp(name, "seed") == 0)
-            status = study_whole(r, k, 0, 1e15, &seed);
+            status = study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &seed);
         else if (strcmp(name, "keys") == 0)
             keys = k;
         else

@@ -94,7 +94,7 @@ static fram_status read_seeds_member(const study_source *r, const yaml_node *k, 
     if (strcmp(name, "confidence") == 0)
         return study_number(r, k, 0.01, 0.9999, &s->confidence);
     if (strcmp(name, "first") == 0)
-        return study_whole(r, k, 0, 1e15, &s->first);
+        return study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &s->first);
     bool least = strcmp(name, "least") == 0, most = strcmp(name, "most") == 0;
     if (!least && !most)
         return study_unknown(r, k, names, sizeof names / sizeof *names);
@@ -132,6 +132,11 @@ static fram_status read_seeds(const study_source *r, const yaml_node *node)
                                   : "more than `least` seeds take mean_within, largest_within or extreme_within");
     if (s->most < s->least)
         return study_refuse(r, node, "expected most from least on, found %d and %d", (int)s->most, (int)s->least);
+    if (s->first > SCENARIO_SEED_MOST - (s->most - 1))
+        return study_refuse(r, node,
+                            "expected first up to %lld, so that the last of %d seeds is at most %lld, found %lld",
+                            (long long)SCENARIO_SEED_MOST - (s->most - 1), (int)s->most, (long long)SCENARIO_SEED_MOST,
+                            (long long)s->first);
     return FRAM_OK;
 }
 

@@ -212,6 +212,37 @@ START_TEST(slips_are_told_with_their_remedy)
 }
 END_TEST
 
+/* Seeds of runs and of designs are those of run.seed, whose largest is 2^53 - 1. */
+START_TEST(seeds_go_as_far_as_those_of_a_scenario)
+{
+    static const struct {
+        const char *text, *said; /* NULL: it is taken */
+    } cases[] = {
+        {"seeds: {least: 2, first: 9007199254740990}\n", NULL},
+        {"seeds: {least: 2, first: 9007199254740991}\n", "expected first up to 9007199254740990"},
+        {"seeds: {least: 1, first: 9007199254740991}\n", NULL},
+        {"seeds: {least: 1, first: 9007199254740992}\n", "from 0 to 9007199254740991, found 9007199254740992"},
+        {"vary: {latin: {count: 2, seed: 9007199254740991, keys: {ice.thickness: [1, 2]}}}\n", NULL},
+        {"vary: {latin: {count: 2, seed: 9007199254740992, keys: {ice.thickness: [1, 2]}}}\n", "to 9007199254740991"},
+        {"vary: {morris: {count: 2, seed: 9007199254740991, keys: {ice.thickness: [1, 2]}}}\n", NULL},
+        {"vary: {sobol: {count: 16, seed: 9007199254740992, keys: {ice.thickness: [1, 2]}}}\n", "to 9007199254740991"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[160];
+        context ctx;
+        fram_error error = {0};
+        study s = {0};
+        context_init(&ctx);
+        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", cases[i].text);
+        fram_status status = study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error);
+        ck_assert_int_eq(status, cases[i].said ? FRAM_ERROR_INPUT : FRAM_OK);
+        if (cases[i].said)
+            ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
+        else
+            study_free(&ctx, &s);
+    }
+}
+END_TEST
+
 /* What the command takes for a time, by the list that tests/study/test_statistics.py reads. */
 START_TEST(times_are_those_of_the_command)
 {
@@ -243,5 +274,5 @@ START_TEST(times_are_those_of_the_command)
 END_TEST
 
 TEST_MAIN("condition_table", times_are_those_of_the_command, tables_of_any_program_are_read, hours_are_no_key,
-          what_is_unclear_is_refused_at_its_place, slips_are_told_with_their_remedy, memory_runs_out,
-          hours_fill_a_leap_year_and_no_more)
+          what_is_unclear_is_refused_at_its_place, slips_are_told_with_their_remedy,
+          seeds_go_as_far_as_those_of_a_scenario, memory_runs_out, hours_fill_a_leap_year_and_no_more)
