@@ -418,7 +418,7 @@ static void assert_stage(context *ctx, const model *m, const world *w, int stage
     char text[INVARIANT_TEXT] = "";
     if (stage == STAGE_SOLVE)
         assert_invariant(ctx, w, contact_invariant_broken(w, text), text);
-    if (stage == STAGE_STRAYS)
+    if (stage == STAGE_EDGE)
         assert_invariant(ctx, w, world_invariant_broken(m, w, text), text);
 }
 #endif
@@ -429,7 +429,7 @@ static fram_status run_stages(context *ctx, const model *m, world *w, const step
     static const stage stages[STAGE_COUNT] = {
         [STAGE_FORCES] = external_forces, [STAGE_DETECTION] = detect_contacts, [STAGE_CRUSHING] = limit_crushing,
         [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_FRACTURE] = break_floes,
-        [STAGE_INTEGRATION] = integrate,  [STAGE_STRAYS] = cross_edge,
+        [STAGE_INTEGRATION] = integrate,  [STAGE_EDGE] = cross_edge,
     };
 #ifndef NDEBUG
     world_poison_scratch(w);

@@ -8,16 +8,17 @@
    faster than the speed limit; the world then stands as it went wrong. */
 fram_status world_step(context *ctx, const model *m, world *w, fram_error *error);
 
-/* The stages of a step in their order. */
+/* The stages of a step in their order.  Those with a number are the mechanics, as documents count them; those without
+   keep account of what they did. */
 typedef enum step_stage {
-    STAGE_FORCES,
-    STAGE_DETECTION,
-    STAGE_CRUSHING,
-    STAGE_SOLVE,
-    STAGE_LOADS,
-    STAGE_FRACTURE,
-    STAGE_INTEGRATION,
-    STAGE_STRAYS,
+    STAGE_FORCES,      /* 1: forces from outside, at the old state */
+    STAGE_DETECTION,   /* 2: broad phase, narrow phase */
+    STAGE_CRUSHING,    /* 3: patches, and the most that contacts carry */
+    STAGE_SOLVE,       /* 4: the new velocities */
+    STAGE_LOADS,       /* what the ice did to the vessels, from the solved contacts, before floes break */
+    STAGE_FRACTURE,    /* 5: floes that break under the solved contacts */
+    STAGE_INTEGRATION, /* 6: the new places, then their correction; whether all is still sound is looked at here */
+    STAGE_EDGE,        /* what leaves the domain and what is fed, shapes that nobody has, what falls asleep */
     STAGE_COUNT
 } step_stage;
 
