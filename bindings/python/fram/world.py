@@ -97,6 +97,7 @@ class View:
         self._keep: Optional[_Keep] = world._keep
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._number = 0  # of the changes when the arrays were found
+        self._columns: "dict[str, np.ndarray]" = {}  # as they were found
 
     def _look(self) -> None:
         """Finds the arrays where they are now."""
@@ -108,64 +109,55 @@ class View:
         count = room.slots
         for column, (dtype, width) in _VIEW_COLUMNS.items():
             shape = (count, width) if width > 1 else (count,)
-            setattr(self, "_" + column, np.asarray(_Memory(self._keep, getattr(room, column), shape, dtype))
-                    if count else _frozen(np.empty(shape, dtype)))
+            self._columns[column] = (np.asarray(_Memory(self._keep, getattr(room, column), shape, dtype))
+                                     if count else _frozen(np.empty(shape, dtype)))
         self._changes, self._number = room.changes, room.changes[0]
 
     def _forget(self) -> None:
         """The world is closed."""
         self._keep, self._changes, self._number = None, _NEVER, 0
-        for column in _VIEW_COLUMNS:
-            setattr(self, "_" + column, None)
+        self._columns.clear()
+
+    def _fresh(self, column: str) -> np.ndarray:
+        """The array of a column, where it is now."""
+        if self._changes[0] != self._number:
+            self._look()
+        return self._columns[column]
 
     @property
     def lives(self) -> np.ndarray:
         """0 where nobody is."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._lives
+        return self._fresh("lives")
 
     @property
     def generation(self) -> np.ndarray:
         """Of the bodies: another one in the same slot has another."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._generation
+        return self._fresh("generation")
 
     @property
     def mass(self) -> np.ndarray:
         """[kg]"""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._mass
+        return self._fresh("mass")
 
     @property
     def position(self) -> np.ndarray:
         """Centre of mass, global [m]; 3 columns."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._position
+        return self._fresh("position")
 
     @property
     def orientation(self) -> np.ndarray:
         """Quaternion w, x, y, z; 4 columns."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._orientation
+        return self._fresh("orientation")
 
     @property
     def velocity(self) -> np.ndarray:
         """Global [m/s]; 3 columns."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._velocity
+        return self._fresh("velocity")
 
     @property
     def angular_velocity(self) -> np.ndarray:
         """Global [rad/s]; 3 columns."""
-        if self._changes[0] != self._number:
-            self._look()
-        return self._angular_velocity
+        return self._fresh("angular_velocity")
 
 
 @dataclass(frozen=True)
