@@ -5,7 +5,7 @@
 
    `warm` is one after the other with the caches as they come; `cold` after walking through as much other memory as the
    other stages of a step do.  `air`: with wind on the dry surfaces too, which the peers' model does not have. */
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "base/random.h"
 #include "fluid/fluid.h"
 

@@ -1,7 +1,7 @@
 /* Fluid forces on a vessel's hull: the mesh as it is, and its triangles cut into four again and again.
 
        hull_bench HULL [STEP_MS]        HULL: a mesh file; STEP_MS: what a step takes, to tell the share */
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "base/pool.h"
 #include "base/random.h"
 #include "fluid/hull_load.h"

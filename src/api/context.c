@@ -2,7 +2,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "base/lent_threads.h"
 #include "base/pool.h"
 #include "fram/version.h"

@@ -1,6 +1,6 @@
 #include "io/key_words.h"
 
-#include "base/words.h"
+#include "base/name_search.h"
 
 #include <stddef.h>
 #include <stdio.h>

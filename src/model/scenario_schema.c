@@ -1,7 +1,7 @@
 /* The descriptors of scenario_keys.h, and what is asked of them. */
 #include "model/scenario_schema.h"
+#include "base/name_search.h"
 #include "base/transcendental.h"
-#include "base/words.h"
 #include <string.h>
 
 /* Choices are read and written as int32_t. */

@@ -55,8 +55,8 @@ int32_t section_find(const scenario_section *section, const char *name);
 /* A key of a section of the scenario, both of which there are: for what is no scenario and keeps to the same default or
    range. */
 const scenario_key *scenario_key_find(const char *section, const char *name);
-/* The key whose name is nearest to a misspelt one (base/words.h), or else the first that begins with it and a low line;
-   NULL when none is near. */
+/* The key whose name is nearest to a misspelt one (base/name_search.h), or else the first that begins with it and a low
+   line; NULL when none is near. */
 const char *section_nearest(const scenario_section *section, const char *name);
 /* The first key that is called so up to a low line, x_min for x; NULL when there is none. */
 const char *section_begun(const scenario_section *section, const char *name);

@@ -3,7 +3,7 @@
 #include "results/run_data.h"
 
 #include "base/channel_statistics.h"
-#include "base/words.h"
+#include "base/name_search.h"
 #include "ice/fracture.h"
 
 #include <math.h>

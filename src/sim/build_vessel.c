@@ -6,8 +6,8 @@
 #include "sim/build_propulsion.h"
 #include "sim/build_station.h"
 #include "sim/vessel_check.h"
-#include "vessel/path.h"
 #include "vessel/plane_motion.h"
+#include "vessel/prescribed_path.h"
 
 /* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
    ships; of what is wider than long yaw goes by the beam.  Roll and yaw are no more than any body has with the others.

@@ -3,7 +3,7 @@
 #include "base/transcendental.h"
 #include "sim/feed.h"
 #include "sim/media_now.h"
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 #include <stdio.h>
 

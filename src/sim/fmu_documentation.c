@@ -1,6 +1,6 @@
 #include "sim/fmu_documentation.h"
 
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "fram/version.h"
 #include "io/html_page.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/approach_watch.h"
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 #include <math.h>
 

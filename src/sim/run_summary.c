@@ -1,6 +1,6 @@
 #include "sim/run_summary.h"
 
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "fram/version.h"
 #include "io/run_note.h"
 #include "sim/run_inputs.h"

@@ -16,7 +16,7 @@
 #include "sim/station_forces.h"
 #include "sim/wall_check.h"
 #include "sim/wash.h"
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 #include <assert.h>
 #include <stdio.h>

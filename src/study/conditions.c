@@ -4,7 +4,7 @@
 #include "io/file.h"
 #include "study/condition_table.h"
 #include "study/key_names.h"
-#include "study/words.h"
+#include "study/meanings.h"
 
 #include <math.h>
 #include <stdarg.h>

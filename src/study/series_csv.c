@@ -1,7 +1,7 @@
 #include "study/series_csv.h"
 
+#include "base/name_search.h"
 #include "base/number_text.h"
-#include "base/words.h"
 #include "io/csv_cell.h"
 #include "io/csv_read.h"
 #include "io/file.h"

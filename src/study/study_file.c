@@ -4,9 +4,9 @@
 #include "io/file.h"
 #include "io/scenario_file.h"
 #include "study/conditions.h"
+#include "study/meanings.h"
 #include "study/run_row.h"
 #include "study/study_extremes.h"
-#include "study/words.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "study/study_record.h"
 
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "base/hash.h"
 #include "base/number_text.h"
 #include "fram/version.h"

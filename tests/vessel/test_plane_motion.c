@@ -2,7 +2,7 @@
 #include "supply_ship.h"
 
 #include "vessel/observer.h"
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 static const mat3 coupled = {{{6e6, 2e5, -3e6}, {2e5, 9e6, 4e7}, {-3e6, 4e7, 5e9}}};
 

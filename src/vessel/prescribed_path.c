@@ -1,4 +1,4 @@
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 #include <float.h>
 

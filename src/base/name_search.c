@@ -1,4 +1,4 @@
-#include "base/words.h"
+#include "base/name_search.h"
 
 #include <stdbool.h>
 #include <string.h>

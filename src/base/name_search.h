@@ -1,6 +1,6 @@
 /* Which known name a misspelt one is nearest to, for messages: one measure and one limit for all of them. */
-#ifndef BASE_WORDS_H
-#define BASE_WORDS_H
+#ifndef BASE_NAME_SEARCH_H
+#define BASE_NAME_SEARCH_H
 
 /* Longer names are near to none. */
 enum { NAME_LENGTH_MOST = 80 };

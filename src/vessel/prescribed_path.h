@@ -1,6 +1,6 @@
 /* A driven hull or towing carriage on a prescribed path.  Knows neither ice nor files. */
-#ifndef VESSEL_PATH_H
-#define VESSEL_PATH_H
+#ifndef VESSEL_PRESCRIBED_PATH_H
+#define VESSEL_PRESCRIBED_PATH_H
 
 #include "vessel/reference.h"
 #include "vessel/vessel.h"

@@ -2,7 +2,7 @@
 #include "scene.h"
 
 #include "sim/ice_loads.h"
-#include "vessel/path.h"
+#include "vessel/prescribed_path.h"
 
 #include <stdio.h>
 
@@ -115,4 +115,5 @@ START_TEST(at_rest_in_the_ice)
 }
 END_TEST
 
-TEST_MAIN("path", driven_hull, towed_hull, places_between_points, at_rest_in_the_ice, begins_inside_the_walls)
+TEST_MAIN("prescribed_path", driven_hull, towed_hull, places_between_points, at_rest_in_the_ice,
+          begins_inside_the_walls)

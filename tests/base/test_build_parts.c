@@ -1,5 +1,5 @@
 /* What a build says of itself. */
-#include "base/build.h"
+#include "base/build_parts.h"
 #include "fram/version.h"
 #include "testing.h"
 #include <stdio.h>
@@ -30,4 +30,4 @@ START_TEST(version_is_its_three_numbers)
 }
 END_TEST
 
-TEST_MAIN("build", parts_name_what_the_build_cannot_do_without, compiler_is_named, version_is_its_three_numbers)
+TEST_MAIN("build_parts", parts_name_what_the_build_cannot_do_without, compiler_is_named, version_is_its_three_numbers)

@@ -1,5 +1,5 @@
 /* What this build is made of; see build.h. */
-#include "base/build.h"
+#include "base/build_parts.h"
 
 /* Each part is ", name version" when it is in, so that a list begins at its third character. */
 #ifdef FRAM_HAVE_CAIRO

@@ -1,6 +1,6 @@
-#include "study/words.h"
+#include "study/meanings.h"
 
-#include "base/words.h"
+#include "base/name_search.h"
 
 #include <stdbool.h>
 #include <string.h>
