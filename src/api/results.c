@@ -82,7 +82,7 @@ fram_status(fram_report)(fram_context *c, const char *run, const char *output, b
         status = RESULT_CHECK(result, size, fram_result, error);
     if (status != FRAM_OK)
         return status;
-    status = report_write(&c->inner, run, output, scenario_notes, with_paths, error);
+    status = report_write(&c->inner, run, output, notes_take, with_paths, error);
     if (status == FRAM_OK)
         status = path_given_or(output, run, "report.html", report.path, error);
     return answer(status, &report, result, size);

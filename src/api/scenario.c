@@ -23,7 +23,7 @@ static fram_status fill(context *ctx, fram_scenario *s, fram_error *error)
         status = scenario_hash(ctx, &s->inner, s->hash, error);
     if (status != FRAM_OK)
         return status;
-    scenario_notes(ctx, &s->inner, &s->notes);
+    notes_take(ctx, &s->inner, &s->notes);
     return s->text.failed || s->notes.failed ? error_memory(error) : FRAM_OK;
 }
 

@@ -100,7 +100,7 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, stu
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    const build_look made = scenario_tells_when_made(&one) ? scenario_log_warnings : NULL;
+    const build_look made = notes_ask_what_was_made(&one) ? notes_log_warnings : NULL;
     status = bench_looks(ctx, &one, made, looks_after, LOOKS, found, &build, error);
     if (status == FRAM_OK) {
         step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);

@@ -227,7 +227,7 @@ fram_status fram_world_notes(const fram_world *w, char **text, fram_error *error
     if (status != FRAM_OK)
         return status;
     context *ctx = &w->scenario->context->inner;
-    scenario_notes_made(ctx, &w->scenario->inner, &w->base->model, &w->inner, &notes);
+    notes_take_made(ctx, &w->scenario->inner, &w->base->model, &w->inner, &notes);
     world_end_reading(w);
     if (notes.failed) {
         text_free(ctx, &notes);

@@ -1,5 +1,6 @@
-/* The record of a run: an append-only file of typed, checksummed blocks.  What the blocks hold is the recorder's
-   business.
+/* The record of a run: an append-only file of typed, checksummed blocks.  What the blocks hold is told in
+   io/record_layout.h; the recorder (sim/recorder.h) writes it, within a recording (sim/recording.h), which is all that
+   is written of a run.
 
    Layout, all numbers in the byte order of the machine that wrote it:
      head    "FRAMREC\n", u32 version, u32 0x01020304, u32 0, u32 crc of the 20 bytes before

@@ -31,9 +31,10 @@
                  f32 mean and largest pressure [Pa], time of that [s]; per triangle i32 panel; per triangle f32 x y z
                  of its corners (ship coordinates less the centre of mass: the frame of block 2)
 
-   Types 3, 5 and 8 were births and frames of earlier layouts and are not written any more, nor read. Type 11 was a
-   frame with contact forces as half floats of kN, which end at 65.5 MN; it is read. Solids are announced by block 2 and
-   take part in frames when they move. */
+   Types 3, 5 and 8 are of earlier layouts: known, so that such a record is refused by what it is and not as a damaged
+   or an empty one (record_check_block), and their numbers are not given again. Type 11 was a frame with contact forces
+   as half floats of kN, which end at 65.5 MN; it is read. Solids are announced by block 2 and take part in frames when
+   they move. */
 #ifndef IO_RECORD_LAYOUT_H
 #define IO_RECORD_LAYOUT_H
 
@@ -43,10 +44,10 @@
 enum {
     BLOCK_SCENARIO = 1,
     BLOCK_SOLID = 2,
-    BLOCK_EARLIER_BIRTHS = 3,
+    BLOCK_EARLIER_BIRTHS = 3, /* without density and numbers of floes */
     BLOCK_DEATHS = 4,
-    BLOCK_EARLIER_FRAME = 5,
-    BLOCK_TOUCHED_FRAME = 8, /* of an earlier layout too */
+    BLOCK_EARLIER_FRAME = 5, /* poses of 20 bytes, no forces */
+    BLOCK_TOUCHED_FRAME = 8, /* a contact force with each pose, 0 too */
     BLOCK_FRACTURES = 6,
     BLOCK_BIRTHS = 7,
     BLOCK_FORCES = 9,

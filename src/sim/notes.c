@@ -290,7 +290,7 @@ static void take_notes(const note_taker *n, const scenario *s)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");
 }
 
-void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out)
+void notes_take_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out)
 {
     media_history files = {0};
     bool is_read = m || build_media(ctx, s, &files, NULL) == FRAM_OK;
@@ -299,14 +299,14 @@ void scenario_notes_made(context *ctx, const scenario *s, const model *m, const 
     media_history_free(ctx, &files);
 }
 
-void scenario_notes(context *ctx, const scenario *s, text_buffer *out) { scenario_notes_made(ctx, s, NULL, NULL, out); }
+void notes_take(context *ctx, const scenario *s, text_buffer *out) { notes_take_made(ctx, s, NULL, NULL, out); }
 
-void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made)
+void notes_log_warnings(context *ctx, const scenario *s, const model *m, const world *made)
 {
-    scenario_notes_made(ctx, s, m, made, NULL);
+    notes_take_made(ctx, s, m, made, NULL);
 }
 
-bool scenario_tells_when_made(const scenario *s)
+bool notes_ask_what_was_made(const scenario *s)
 {
     const ice_drift current = scenario_current(s);
     bool tells = s->ice.source == ICE_FILE || !ice_drift_is_of_keys(&current);

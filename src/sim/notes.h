@@ -8,14 +8,14 @@
 #include "model/world.h"
 
 /* A line each, those of warnings begin with "warning: ". */
-void scenario_notes(context *ctx, const scenario *s, text_buffer *out);
+void notes_take(context *ctx, const scenario *s, text_buffer *out);
 /* The same, by what was made of it where keys do not tell that.  m, made: its model, and its world before the first
    step; NULL: none. */
-void scenario_notes_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out);
+void notes_take_made(context *ctx, const scenario *s, const model *m, const world *made, text_buffer *out);
 /* The warnings alone, to the log. */
-void scenario_log_warnings(context *ctx, const scenario *s, const model *m, const world *made);
+void notes_log_warnings(context *ctx, const scenario *s, const model *m, const world *made);
 /* Whether some of what is warned of is known when the world is made: how thick the floes of a file are, which current a
    file has, and where a vessel on its mooring begins. */
-bool scenario_tells_when_made(const scenario *s);
+bool notes_ask_what_was_made(const scenario *s);
 
 #endif

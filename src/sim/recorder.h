@@ -1,6 +1,7 @@
-/* The recorder reads the world and writes the streams of a run: series.csv (one row a step, or every csv_interval) and
-   record.fram (frames for playback), and fractures.csv (one row a broken floe).  It never changes what moves.  The
-   blocks of the record are those of io/record_layout.h. */
+/* The recorder reads the world and writes the streams of a run, as the part of a recording (sim/recording.h) that does
+   so in each step: series.csv (one row a step, or every csv_interval) and record.fram (the record: frames for playback,
+   a file of io/record.h), and fractures.csv (one row a broken floe).  It never changes what moves.  The blocks of the
+   record are those of io/record_layout.h. */
 #ifndef SIM_RECORDER_H
 #define SIM_RECORDER_H
 

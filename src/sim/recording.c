@@ -281,7 +281,7 @@ fram_status recording_prepare(recording *r, fram_error *error)
     return status == FRAM_OK ? run_folder_refuse_inputs(r->folder, r->inputs.data, error) : status;
 }
 
-fram_status recording_prepare_again(recording *r, fram_error *error)
+fram_status recording_prepare_resume(recording *r, fram_error *error)
 {
     fram_status status = run_folder_lock(r->folder, &r->lock, error);
     if (status == FRAM_OK)
@@ -326,7 +326,7 @@ static fram_status restore_peaks(recording *r, fram_error *error)
     return status == FRAM_OK ? await_peaks(r, error) : error_memory(error);
 }
 
-fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error)
+fram_status recording_resume(recording *r, const recorder_lengths *lengths, fram_error *error)
 {
     fram_status status = recorder_continue(r->ctx, r->s, r->folder, lengths, &r->recorder, error);
     r->open = status == FRAM_OK;

@@ -1,6 +1,7 @@
 /* A world that is recorded: the folder of its run with time series, record, checkpoints, pictures and run.json, whoever
    steps it: the loop of sim/run.h, or a program through the public interface.  What stands in the folder after the same
-   steps is the same, but for wall times. */
+   steps is the same, but for wall times.  A recording has a recorder (sim/recorder.h) for the streams, of which one is
+   the record (io/record.h). */
 #ifndef SIM_RECORDING_H
 #define SIM_RECORDING_H
 
@@ -64,17 +65,27 @@ typedef struct run_result {
    folder whose name is too long. */
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, const recording_options *options,
                            recording *r, fram_error *error);
+
+/* ---- one that starts: recording_prepare, then recording_begin ---- */
+
 /* What can be told before the world is made: that the folder may be written (a USAGE error when it is not empty,
    without `force`), and what the inputs are.  Nothing is touched. */
 fram_status recording_prepare(recording *r, fram_error *error);
-/* The folder's lock and the inputs, to continue what stands in it. */
-fram_status recording_prepare_again(recording *r, fram_error *error);
 /* Folder and streams of a world that stands where its recording begins, and the first frame where one is due. */
 fram_status recording_begin(recording *r, world *w, fram_error *error);
-/* The newest good checkpoint into an empty world; then the streams are cut to what they held then, the peaks are those
-   of then, run.json says that it is running, and the state as it once went wrong is gone. */
+
+/* ---- one that resumes: recording_prepare_resume, recording_read_state, then recording_resume ---- */
+
+/* The folder's lock and the inputs, to continue what stands in it. */
+fram_status recording_prepare_resume(recording *r, fram_error *error);
+/* The newest good checkpoint into an empty world, and how long the streams were then. */
 fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
-fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
+/* The streams are cut to those lengths, the peaks are those of then, run.json says that it is running, and the state as
+   it once went wrong is gone. */
+fram_status recording_resume(recording *r, const recorder_lengths *lengths, fram_error *error);
+
+/* ---- both ---- */
+
 /* After each step: streams, pictures and checkpoints when due.  step_wall_time: time that the step took [s]. */
 fram_status recording_step(recording *r, double step_wall_time, fram_error *error);
 /* A checkpoint of now, on the disk when this returns; those that are due come there while the run goes on. */

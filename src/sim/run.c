@@ -115,24 +115,24 @@ static void run_free(run *r)
 /* ---- start ---- */
 
 /* What is told of an endless field is of the tile that it repeats; in the domain there are other floes. */
-static void log_ice(const run *r, const field_report *report)
+static void log_ice(const run *r, const field_report *ice)
 {
     bool tile = r->record.s->domain.boundary == DOMAIN_FEEDING && !r->model.sheet.drifts;
-    int32_t floes = tile ? world_floe_count(&r->world) : report->floes;
+    int32_t floes = tile ? world_floe_count(&r->world) : ice->floes;
     char more[80] = "";
-    if (report->floes <= 0)
+    if (ice->floes <= 0)
         return;
     if (tile)
-        snprintf(more, sizeof more, " (%d in the tile that repeats, concentration %.4f of it)", (int)report->floes,
-                 report->concentration);
-    else if (report->concentration > 0)
-        snprintf(more, sizeof more, ", concentration %.4f", report->concentration);
+        snprintf(more, sizeof more, " (%d in the tile that repeats, concentration %.4f of it)", (int)ice->floes,
+                 ice->concentration);
+    else if (ice->concentration > 0)
+        snprintf(more, sizeof more, ", concentration %.4f", ice->concentration);
     log_write(r->ctx, LOG_INFO, "%d floe%s%s", (int)floes, floes == 1 ? "" : "s", more);
 }
 
-static void log_start(const run *r, const field_report *report)
+static void log_start(const run *r, const field_report *ice)
 {
-    log_ice(r, report);
+    log_ice(r, ice);
     for (int32_t i = 0; i < r->model.vessels.count; i++) {
         const vessel_model *v = &r->model.vessels.data[i];
         log_write(r->ctx, LOG_INFO, "%s%s displaces %.6g t", v->name[0] ? "vessel " : "the hull", v->name,
@@ -141,14 +141,14 @@ static void log_start(const run *r, const field_report *report)
 }
 
 /* The stop flag of the run stands for that of the context while the world is made. */
-static fram_status make_world(run *r, field_report *report, fram_error *error)
+static fram_status make_world(run *r, field_report *ice, fram_error *error)
 {
     const volatile int *stop = r->ctx->stop;
     if (r->options->stop)
         r->ctx->stop = r->options->stop;
     fram_status status = build_model(r->ctx, r->record.s, &r->model, error);
     if (status == FRAM_OK)
-        status = build_world(r->ctx, r->record.s, &r->model, &r->world, report, error);
+        status = build_world(r->ctx, r->record.s, &r->model, &r->world, ice, error);
     r->ctx->stop = stop;
     return status;
 }
@@ -157,21 +157,21 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
                       fram_error *error)
 {
     run r;
-    field_report report = {0};
+    field_report ice = {0};
     fram_status status = run_init(ctx, s, options, &r, error);
     if (status == FRAM_OK)
         status = recording_prepare(&r.record, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK) {
-        bool when_made = scenario_tells_when_made(s);
-        status = make_world(&r, &report, error);
+        bool when_made = notes_ask_what_was_made(s);
+        status = make_world(&r, &ice, error);
         /* Of a scenario that is refused the error alone is told: what else is odd about it can be told when it is made.
          */
         if (status == FRAM_OK)
-            scenario_log_warnings(ctx, s, when_made ? &r.model : NULL, when_made ? &r.world : NULL);
+            notes_log_warnings(ctx, s, when_made ? &r.model : NULL, when_made ? &r.world : NULL);
     }
     if (status == FRAM_OK) {
-        log_start(&r, &report);
+        log_start(&r, &ice);
         status = recording_begin(&r.record, &r.world, error);
         if (status == FRAM_OK)
             status = drive(&r, result, error);
@@ -202,7 +202,7 @@ static fram_status resume_world(run *r, run_result *result, fram_error *error)
     if (status == FRAM_OK)
         status = check_stop(r, error);
     if (status == FRAM_OK)
-        status = recording_continue(&r->record, &lengths, error);
+        status = recording_resume(&r->record, &lengths, error);
     if (status != FRAM_OK)
         return status;
     log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
@@ -221,7 +221,7 @@ fram_status run_resume(context *ctx, const run_options *options, run_result *res
     run r;
     status = run_init(ctx, &s, options, &r, error);
     if (status == FRAM_OK)
-        status = recording_prepare_again(&r.record, error);
+        status = recording_prepare_resume(&r.record, error);
     if (status == FRAM_OK)
         status = build_model(ctx, &s, &r.model, error);
     if (status == FRAM_OK)
