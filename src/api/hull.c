@@ -4,7 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "base/transcendental.h"
-#include "io/hull_mend.h"
+#include "io/hull_file.h"
 #include "io/hull_view.h"
 #include "io/path.h"
 #include "model/scenario_schema.h"

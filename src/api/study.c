@@ -5,7 +5,6 @@
 #include "api/handles.h"
 #include "sim/bench_looks.h"
 #include "sim/notes.h"
-#include "sim/recording.h"
 #include "sim/scene_size.h"
 #include "study/extent.h"
 #include "study/processes.h"

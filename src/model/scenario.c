@@ -150,6 +150,11 @@ int64_t scenario_steps_of(double interval, double time_step)
     return steps < 1 ? 1 : steps;
 }
 
+int64_t scenario_interval_steps(double interval, double time_step)
+{
+    return interval > 0 ? scenario_steps_of(interval, time_step) : 0;
+}
+
 /* The most steps that loads are averaged over. */
 enum { AVERAGING_STEPS_MOST = 1000000 };
 

@@ -140,6 +140,8 @@ static inline bool ice_drift_is_of_keys(const ice_drift *d) { return !d->file[0]
 /* The step whose time is nearest to one [s]; steps of an interval [s], one at least. */
 int64_t scenario_step_at(double time, double time_step);
 int64_t scenario_steps_of(double interval, double time_step);
+/* The same of an interval that may be 0, for never: 0 steps then. */
+int64_t scenario_interval_steps(double interval, double time_step);
 /* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
 vec3 scenario_velocity(double speed, double direction_deg);
 

@@ -2,7 +2,6 @@
 #include "results/manage.h"
 
 #include "base/load_unit.h"
-#include "base/number_text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,5 @@
 #include "results/playback_explained.h"
 
-#include "base/number_text.h"
 #include "io/chart.h"
 #include "io/record_layout.h"
 #include "results/mechanism_curve.h"

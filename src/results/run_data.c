@@ -2,7 +2,6 @@
 
 #include "base/channel_statistics.h"
 #include "base/sort.h"
-#include "io/file.h"
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_ice.h"

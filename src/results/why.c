@@ -1,7 +1,7 @@
 #include "results/why.h"
 
+#include "base/load_unit.h"
 #include "base/number_text.h"
-#include "results/report_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,6 @@
 
 #include "base/load_unit.h"
 #include "results/replay_plan.h"
-#include "results/report_parts.h"
 #include "results/why_labels.h"
 
 #include "io/file.h"

@@ -4,7 +4,6 @@
 #include "sim/bench_measure.h"
 #include "sim/build.h"
 #include "sim/known_flow.h"
-#include "sim/recording.h"
 
 #include <math.h>
 

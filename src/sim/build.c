@@ -2,7 +2,6 @@
 
 #include "sim/approach_watch.h"
 #include "sim/build_feeding.h"
-#include "sim/build_ice.h"
 #include "sim/build_keep_out.h"
 #include "sim/build_vessel.h"
 #include "sim/scene_size.h"

@@ -2,7 +2,6 @@
 
 #include "base/transcendental.h"
 #include "io/hull_file.h"
-#include "model/scenario_schema.h"
 #include "vessel/hydrostatics.h"
 
 #include <stdio.h>

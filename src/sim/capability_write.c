@@ -1,7 +1,6 @@
 /* A capability plot as files: tables for programs, a chart for people. */
 #include "sim/capability.h"
 
-#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/image.h"

@@ -2,7 +2,6 @@
 
 #include "base/number_text.h"
 #include "fram/version.h"
-#include "sim/recording.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,11 +8,6 @@
 
 #include <string.h>
 
-int64_t interval_steps(double interval, double time_step)
-{
-    return interval > 0 ? scenario_steps_of(interval, time_step) : 0;
-}
-
 /* The middle of a domain that is farther from 0 than it is long, in whole metres. */
 static vec2 origin_of(const scenario_domain *d)
 {
@@ -24,10 +19,10 @@ static vec2 origin_of(const scenario_domain *d)
 
 static void set_intervals(recorder *r, const scenario *s)
 {
-    r->series_every = interval_steps(s->output.csv_interval, s->run.time_step);
+    r->series_every = scenario_interval_steps(s->output.csv_interval, s->run.time_step);
     if (r->series_every == 0)
         r->series_every = 1;
-    r->frame_every = interval_steps(s->output.frame_interval, s->run.time_step);
+    r->frame_every = scenario_interval_steps(s->output.frame_interval, s->run.time_step);
     r->time_step = s->run.time_step;
     if (r->frame_every > 0)
         r->frames_most = s->run.duration / (r->time_step * (double)r->frame_every);

@@ -53,7 +53,4 @@ void recorder_streams(recorder *r, file_writer *out[RECORDER_STREAMS]);
 fram_status recorder_flush(recorder *r, fram_error *error);
 fram_status recorder_close(recorder *r, fram_error *error);
 
-/* A time interval as a number of steps: at least 1, 0 for 0. */
-int64_t interval_steps(double interval, double time_step);
-
 #endif

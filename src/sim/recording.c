@@ -255,8 +255,8 @@ fram_status recording_init(context *ctx, const scenario *s, const char *folder, 
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     r->end_step = scenario_step_at(s->run.duration, dt);
-    r->checkpoint_every = interval_steps(s->output.checkpoint_interval, dt);
-    r->picture_every = interval_steps(s->output.picture_interval, dt);
+    r->checkpoint_every = scenario_interval_steps(s->output.checkpoint_interval, dt);
+    r->picture_every = scenario_interval_steps(s->output.picture_interval, dt);
     return FRAM_OK;
 }
 

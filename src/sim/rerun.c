@@ -6,7 +6,6 @@
 #include "sim/checkpoint.h"
 #include "sim/ice_loads.h"
 #include "sim/peak_watch.h"
-#include "sim/recording.h"
 #include "sim/rerun_check.h"
 #include "sim/rerun_step.h"
 #include "sim/run_folder.h"

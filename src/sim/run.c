@@ -1,14 +1,11 @@
 #include "sim/run.h"
 
 #include "base/clock.h"
-#include "base/pool.h"
 #include "io/scenario_file.h"
-#include "model/scenario_vessel.h"
 #include "sim/build.h"
 #include "sim/notes.h"
 #include "sim/pace.h"
 #include "sim/recording.h"
-#include "sim/run_folder.h"
 #include "sim/step.h"
 #include "sim/wall_check.h"
 

@@ -1,6 +1,5 @@
 #include "base/number_text.h"
 #include "ice/feeding.h"
-#include "ice/floe.h"
 #include "ice/material.h"
 #include "sim/build_level.h"
 #include "sim/build_model.h"

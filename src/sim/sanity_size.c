@@ -2,7 +2,6 @@
    the scale of a tank beside a ship.  See sim/sanity.h. */
 #include "base/load_unit.h"
 #include "sim/sanity_parts.h"
-#include "sim/vessel_check.h"
 
 #include <math.h>
 

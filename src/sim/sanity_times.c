@@ -1,6 +1,5 @@
 /* Times of a run and of what it writes: those that leave nothing to see, and those that steps round; see sim/sanity.h.
  */
-#include "sim/recording.h"
 #include "sim/sanity_parts.h"
 
 #include <stdio.h>
@@ -38,7 +37,7 @@ static void tell_rounded(const teller *t, const char *key, double interval, int6
 
 static void tell_rounded_interval(const teller *t, const char *key, double interval, double least_steps)
 {
-    tell_rounded(t, key, interval, interval_steps(interval, t->s->run.time_step), least_steps);
+    tell_rounded(t, key, interval, scenario_interval_steps(interval, t->s->run.time_step), least_steps);
 }
 
 static void tell_all_rounded(const teller *t)
@@ -58,7 +57,8 @@ static void tell_few_rows(const teller *t)
     double interval = t->s->output.csv_interval;
     if (!(interval > 0))
         return;
-    int64_t steps = scenario_step_at(r->duration, r->time_step), rows = steps / interval_steps(interval, r->time_step);
+    int64_t steps = scenario_step_at(r->duration, r->time_step),
+            rows = steps / scenario_interval_steps(interval, r->time_step);
     char number[16] = "no";
     if (rows >= LEAST_ROWS || steps <= LEAST_ROWS)
         return;
@@ -71,7 +71,8 @@ static void tell_few_rows(const teller *t)
 /* When the first row after the transient comes [s]: rows come every so many steps from the start on. */
 static double first_row_that_counts(const scenario *s)
 {
-    const int64_t given = interval_steps(s->output.csv_interval, s->run.time_step), every = given > 0 ? given : 1;
+    const int64_t given = scenario_interval_steps(s->output.csv_interval, s->run.time_step),
+                  every = given > 0 ? given : 1;
     const double left_out = floor(s->run.transient / s->run.time_step * (1 + ROUNDING));
     return (floor(left_out / (double)every) + 1) * (double)every * s->run.time_step;
 }

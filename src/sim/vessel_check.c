@@ -3,7 +3,6 @@
 #include "base/number_text.h"
 #include "base/transcendental.h"
 #include "geometry/polygon.h"
-#include "model/scenario_schema.h"
 #include "sim/build_hull.h"
 #include "sim/build_ice.h"
 #include "sim/build_vessel.h"

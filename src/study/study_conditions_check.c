@@ -2,7 +2,6 @@
    worst runs are chosen, and that no key is given twice. */
 #include "study/study_file.h"
 
-#include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/station_results.h"
 #include "study/run_row.h"
