@@ -5,6 +5,7 @@ Rules (CONTRIBUTING.md says why):
   - a room includes itself and rooms on lower floors; the command includes fram/ and itself; a room below the API
     includes of the public headers only those in SHARED_HEADERS;
   - a test of a room obeys the floor of its room; it may include headers beside it and in tests/;
+  - results and study do not include what FORBIDDEN lists, nor what builds a world who judges it;
   - a library's header is included only in the room that owns the library;
   - files of src/ that include each other in a circle are one module, and one of their headers says so: "one module
     with" and the names of the others;
@@ -46,6 +47,13 @@ FLOOR = {
     "api": 10,
     "cli": 11,
 }
+# What a room does not include though its floor would let it: docs/architecture.md says what it must not know.
+FORBIDDEN = {
+    "results": {"model/model.h", "model/world.h"},
+    "study": {"model/world.h", "sim/build.h", "sim/run.h", "sim/step.h"},
+}
+# Headers that those who build a world do not include: they know nothing of who judges it.
+BUILDING, JUDGING = "src/sim/build", "sim/sanity"
 # Public headers that rooms below the API share: the words for failures, and the version.
 SHARED_HEADERS = {"fram/error.h", "fram/version.h"}
 # Which rooms may include a library's headers.
@@ -108,6 +116,10 @@ def include_breach(path, bracket, target):
             return None if head == "cli" else f'"{target}": the command includes fram/ and cli/ only'
         if head != room and FLOOR[head] >= FLOOR[room]:
             return f'"{target}": {room} is on floor {FLOOR[room]}, {head} on floor {FLOOR[head]}'
+        if place == "src" and target in FORBIDDEN.get(room, ()):
+            return f'"{target}": {room} must not know it'
+        if str(path).startswith(BUILDING) and target.startswith(JUDGING):
+            return f'"{target}": what builds a world knows nothing of who judges it'
         return None
     if place == "tests" and (((ROOT / path).parent / target).exists() or (ROOT / "tests" / target).exists()):
         return None

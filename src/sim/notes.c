@@ -5,6 +5,7 @@
 #include "base/transcendental.h"
 #include "ice/fracture.h"
 #include "model/scenario_vessel.h"
+#include "sim/build.h"
 #include "sim/build_media.h"
 #include "sim/build_model.h"
 #include "sim/effective.h"
@@ -312,4 +313,13 @@ bool notes_ask_what_was_made(const scenario *s)
         tells = vessel_begins_at_equilibrium(v) || sanity_asks_of_vaning(v) || sanity_asks_of_place(s, i);
     }
     return tells;
+}
+
+fram_status notes_build_check(context *ctx, const scenario *s, hull_store *store, fram_error *error)
+{
+    bool when_made = notes_ask_what_was_made(s);
+    fram_status status = build_check(ctx, s, store, when_made ? notes_log_warnings : NULL, error);
+    if (!when_made && status == FRAM_OK)
+        notes_log_warnings(ctx, s, NULL, NULL);
+    return status;
 }

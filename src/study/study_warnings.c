@@ -1,6 +1,5 @@
 #include "study/study_warnings.h"
 
-#include "sim/build.h"
 #include "sim/notes.h"
 #include "sim/sanity.h"
 #include "study/study_file.h"
@@ -120,10 +119,7 @@ fram_status study_build_check(study_warnings *w, int32_t condition, const scenar
     context telling = study_warnings_of(w, condition);
     w->fresh = true;
     look_at_keys(w, one);
-    bool when_made = notes_ask_what_was_made(one);
-    fram_status status = build_check(&telling, one, store, when_made ? notes_log_warnings : NULL, error);
-    if (!when_made && status == FRAM_OK)
-        notes_log_warnings(&telling, one, NULL, NULL);
+    fram_status status = notes_build_check(&telling, one, store, error);
     if (status == FRAM_ERROR_INPUT)
         study_place_error(w->s, condition, error);
     return status;

@@ -152,6 +152,18 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/floe.c:1: ", said)
         self.assertIn("tests/fluid/test_drag.c:1: ", said)
 
+    def test_what_a_room_must_not_know_though_it_stands_above(self):
+        for room, header in (("results", "model/world.h"), ("study", "model/world.h"), ("study", "sim/step.h")):
+            with self.subTest(room=room, header=header):
+                self.plant(f"src/{room}/table.c", f'#include "base/vec.h"\n#include "{header}"\n')
+                self.assertEqual(self.rooms(), f'src/{room}/table.c:2: "{header}": {room} must not know it\n')
+                self.plant(f"src/{room}/table.c", '#include "model/scenario.h"\n')
+        self.plant("tests/results/test_table.c", '#include "model/world.h"\n')
+        self.plant("src/sim/run.c", '#include "model/world.h"\n#include "sim/sanity.h"\n')
+        self.assertEqual(self.rooms(), "")
+        self.plant("src/sim/build_ice.c", '#include "sim/sanity_parts.h"\n')
+        self.assertIn("src/sim/build_ice.c:1: ", self.rooms())
+
     def test_the_command_sees_only_the_public_headers(self):
         self.plant("src/cli/main.c", '#include "sim/world.h"\n')
         self.plant("src/sim/run.c", '#include "fram/fram.h"\n')
