@@ -28,7 +28,7 @@ KNOWS = {
     "vessel": "hull, mooring, thrusters, control",
     "model": "scenario and world: plain data",
     "io": "files to plain data and back",
-    "sim": "scenario to world, the step, runs",
+    "sim": "scenario to world and its slips, the step, runs, re-runs",
     "results": "finished runs read again",
     "study": "conditions, seeds, many runs, summaries",
     "api": "implements include/fram",
