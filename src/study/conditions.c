@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "io/file.h"
+#include "model/scenario.h"
 #include "study/condition_table.h"
 #include "study/key_names.h"
 #include "study/meanings.h"
@@ -328,6 +329,33 @@ static fram_status read_list(const study_source *r, const yaml_node *node)
         if (status == FRAM_OK)
             status = c == first ? add_first_condition(r, c) : add_later_condition(r, first, c);
     }
+    return status;
+}
+
+/* ---- what is drawn ---- */
+
+fram_status study_drawn_read(const study_source *r, const yaml_node *node, int32_t count_least, int32_t levels_most,
+                             drawn_head *out)
+{
+    static const char *const names[] = {"count", "seed", "keys", "levels"};
+    size_t known = sizeof names / sizeof *names - (levels_most > 0 ? 0 : 1);
+    out->keys = NULL, out->count = 0, out->seed = 1;
+    fram_status status = study_expect(r, node, YAML_MAPPING, "count, keys and, if wanted, seed");
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+        const char *name = study_key(r, k);
+        if (strcmp(name, "count") == 0)
+            status = study_whole(r, k, count_least, STUDY_CONDITIONS_MOST, &out->count);
+        else if (strcmp(name, "seed") == 0)
+            status = study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &out->seed);
+        else if (strcmp(name, "keys") == 0)
+            out->keys = k;
+        else if (strcmp(name, "levels") == 0 && levels_most > 0)
+            status = study_whole(r, k, 2, levels_most, &out->levels);
+        else
+            status = study_unknown(r, k, names, known);
+    }
+    if (status == FRAM_OK && (!out->keys || out->count == 0))
+        status = study_refuse(r, node, "%s is missing", out->keys ? "count" : "keys");
     return status;
 }
 

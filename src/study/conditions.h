@@ -58,6 +58,16 @@ fram_status study_range(const study_source *r, const yaml_node *node, key_range 
 /* The next value of the conditions: that part of the way, 0 to 1, from the lower end of a range to the upper one. */
 fram_status study_add_part(const study_source *r, key_range range, double part);
 
+/* What is drawn at random is told alike: how many points, by which seed, of which keys. */
+typedef struct drawn_head {
+    int64_t count, seed; /* seed: 1 where none is given */
+    int64_t levels;      /* unchanged where none are given */
+    const yaml_node *keys;
+} drawn_head;
+/* count: from count_least on.  levels: from 2 to levels_most; 0: there are none. */
+fram_status study_drawn_read(const study_source *r, const yaml_node *node, int32_t count_least, int32_t levels_most,
+                             drawn_head *out);
+
 /* Designs of sensitivity: `vary: {sobol: ...}` and `vary: {morris: ...}`. */
 fram_status study_sobol_read(const study_source *r, const yaml_node *node);
 fram_status study_morris_read(const study_source *r, const yaml_node *node);

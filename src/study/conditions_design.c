@@ -1,9 +1,6 @@
 /* Conditions that are designs of sensitivity: points of Sobol's and Morris's schemes within the ranges of keys. */
-#include "model/scenario.h"
 #include "study/conditions.h"
 #include "study/sensitivity.h"
-
-#include <string.h>
 
 /* A range of its own width, whose key is added. */
 static fram_status read_range(const study_source *r, const yaml_node *k)
@@ -61,33 +58,16 @@ static fram_status read_ranges(const study_source *r, const yaml_node *node)
 
 static fram_status read_design(const study_source *r, const yaml_node *node, study_design_kind kind)
 {
-    static const char *const names[] = {"count", "seed", "keys", "levels"};
-    const yaml_node *keys = NULL;
-    int64_t count = 0, seed = 1, levels = 4;
-    fram_status status = FRAM_OK;
-    if (node->kind != YAML_MAPPING)
-        return study_refuse(r, node, "expected count, keys and, if wanted, seed");
-    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
-        const char *name = study_key(r, k);
-        if (strcmp(name, "count") == 0)
-            status = study_whole(r, k, kind == DESIGN_MORRIS ? 2 : 10, STUDY_CONDITIONS_MOST, &count);
-        else if (strcmp(name, "seed") == 0)
-            status = study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &seed);
-        else if (strcmp(name, "keys") == 0)
-            keys = k;
-        else if (strcmp(name, "levels") == 0 && kind == DESIGN_MORRIS)
-            status = study_whole(r, k, 2, SENSITIVITY_LEVELS_MOST, &levels);
-        else
-            status = study_unknown(r, k, names, kind == DESIGN_MORRIS ? 4 : 3);
-    }
+    bool morris = kind == DESIGN_MORRIS;
+    drawn_head head = {.levels = 4};
+    fram_status status = study_drawn_read(r, node, morris ? 2 : 10, morris ? SENSITIVITY_LEVELS_MOST : 0, &head);
     if (status != FRAM_OK)
         return status;
-    if (!keys || count == 0)
-        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
-    if (levels % 2 != 0)
-        return study_refuse(r, node, "expected an even number of levels, found %d", (int)levels);
-    r->out->design = (study_design){.kind = kind, .count = (int32_t)count, .levels = (int32_t)levels, .seed = seed};
-    status = read_ranges(r, keys);
+    if (head.levels % 2 != 0)
+        return study_refuse(r, node, "expected an even number of levels, found %d", (int)head.levels);
+    r->out->design =
+        (study_design){.kind = kind, .count = (int32_t)head.count, .levels = (int32_t)head.levels, .seed = head.seed};
+    status = read_ranges(r, head.keys);
     if (status == FRAM_OK)
         status = draw_points(r);
     return status == FRAM_OK ? write_values(r) : status;

@@ -1,6 +1,5 @@
 /* Conditions that are a Latin hypercube: ranges of keys in strata, and lists of values that are met equally often. */
 #include "base/random.h"
-#include "model/scenario.h"
 #include "study/conditions.h"
 #include "study/key_names.h"
 
@@ -96,28 +95,12 @@ static fram_status fill_latin(const study_source *r, const yaml_node *node, int6
     return status;
 }
 
-static const char *const latin_names[] = {"count", "seed", "keys"};
-
 fram_status study_latin_read(const study_source *r, const yaml_node *node)
 {
-    const yaml_node *keys = NULL;
-    int64_t count = 0, seed = 1;
-    fram_status status = study_expect(r, node, YAML_MAPPING, "count, keys and, if wanted, seed");
-    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
-        const char *name = study_key(r, k);
-        if (strcmp(name, "count") == 0)
-            status = study_whole(r, k, 1, STUDY_CONDITIONS_MOST, &count);
-        else if (strcmp(name, "seed") == 0)
-            status = study_whole(r, k, 0, (double)SCENARIO_SEED_MOST, &seed);
-        else if (strcmp(name, "keys") == 0)
-            keys = k;
-        else
-            status = study_unknown(r, k, latin_names, sizeof latin_names / sizeof *latin_names);
-    }
+    drawn_head head = {0};
+    fram_status status = study_drawn_read(r, node, 1, 0, &head);
     if (status != FRAM_OK)
         return status;
-    if (!keys || count == 0)
-        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
-    r->out->conditions = (int32_t)count;
-    return fill_latin(r, keys, seed);
+    r->out->conditions = (int32_t)head.count;
+    return fill_latin(r, head.keys, head.seed);
 }

@@ -197,7 +197,10 @@ START_TEST(slips_are_told_with_their_remedy)
         {"set: {vessel: {}}\n", "vessel", "expected one value of the key, found a mapping"},
         {"vary: {list: [{vessel: {speed: 2}}]}\n", "vessel", "found a mapping; write vessel.speed: 2"},
         {"vary: {grid: {vessel: {speed: [1, 2]}}}\n", "vessel", "found a mapping; write vessel.speed: [...]"},
-        {"vary: {latin: {count: 2, keys: {ice: {thickness: [1, 2]}}}}\n", "ice", "write ice.thickness: [...]"}};
+        {"vary: {latin: {count: 2, keys: {ice: {thickness: [1, 2]}}}}\n", "ice", "write ice.thickness: [...]"},
+        {"vary: {morris: {}}\n", "morris", "expected count, keys and, if wanted, seed, which is not empty"},
+        {"vary: {latin: {count: 2, levels: 4}}\n", "levels", "count, seed or keys"},
+        {"vary: {sobol: {count: 16}}\n", "sobol", "keys is missing"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[160];
         context ctx;
