@@ -146,8 +146,8 @@ def check_words(browser):
             return document.getElementById('peak').innerText; }})()""")
         assert f": {text}." in panel, f"the end {name} of a chain is {text!r}: {panel}"
     browser.run("fram.peaks.open(fram.peaks.vessel.peaks[1])")
-    told = (SOURCE / "src/io/chart_legend.c").read_text(encoding="utf-8")
-    told = told[told.index("line_colours"):]
+    told = (SOURCE / "src/io/palette.c").read_text(encoding="utf-8")
+    told = told[told.index("palette_lines"):]
     palette = re.findall(r"\{(0\.\d+), (0\.\d+), (0\.\d+)\}", told[:told.index(";")])
     drawn = [[int(c[k:k + 2], 16) for k in (1, 3, 5)] for c in browser.run("fram.loads.colours")]
     assert len(ends) == 9 and len(drawn) == 8 == len(palette), (ends, drawn, palette)
