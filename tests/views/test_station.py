@@ -279,7 +279,8 @@ def check_study_printed(browser, folder):
     subprocess.run([FRAM, "study", folder / "study.yaml", "-o", folder / "study", "--quiet"], check=True,
                    stdout=subprocess.DEVNULL)
     browser.call("Page.navigate", url=(folder / "study" / "study.html").as_uri())
-    browser.until("document.readyState === 'complete' && document.title.startsWith('Study ')", "a study's page does not load")
+    browser.until("document.readyState === 'complete' && document.title.startsWith('Study ')",
+                  "a study's page does not load")
     # Without shrinking the page as a whole, at the width of its own paper less the margins of 14 mm.
     sheet = base64.b64decode(browser.call("Page.printToPDF", preferCSSPageSize=True)["data"])
     points = float(re.search(rb"/MediaBox ?\[0 0 ([0-9.]+)", sheet)[1])
