@@ -73,7 +73,7 @@ static fram_status find(const why *y, const fram_why_definition *d, const peak_d
 static fram_status compute_again(context *ctx, const why *y, double time, const peak_detail *kept, rerun_result *again,
                                  why_check *checked, fram_error *error)
 {
-    const bool steered = kept && y->run.note.told.count > 0;
+    const bool steered = y->run.note.told.count > 0;
     fram_error reason = {0};
     fram_status status =
         rerun_moment(ctx, y->run.folder, time, steered ? run_recorded_from(&y->run) : 0, y->vessel, again, &reason);
@@ -86,11 +86,12 @@ static fram_status compute_again(context *ctx, const why *y, double time, const 
                                .same = again->same.load,
                                .half_step = {again->half_step.load, again->half_step.wrong},
                                .accurate = {again->accurate.load, again->accurate.wrong}};
-    else if (status == FRAM_ERROR_INPUT && steered)
+    const bool is_hindered = kept && steered && status == FRAM_ERROR_INPUT && again->untold;
+    if (is_hindered)
         snprintf(checked->hindrance, sizeof checked->hindrance, "%s", reason.message);
-    else if (error)
+    else if (status != FRAM_OK && error)
         *error = reason;
-    return status == FRAM_ERROR_INPUT && steered ? FRAM_OK : status;
+    return is_hindered ? FRAM_OK : status;
 }
 
 static fram_status explain(context *ctx, const why *y, const fram_why_definition *d, text_buffer *out,

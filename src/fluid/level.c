@@ -161,7 +161,8 @@ typedef struct level_list {
 } level_list;
 
 /* Outlines of as many points are one kind; of longer ones those within a quarter of an octave. */
-enum { ALONE = 24, OCTAVES = 16, KINDS = ALONE + 1 + 4 * OCTAVES };
+enum { ALONE = 24, OCTAVES = 8, KINDS = ALONE + 1 + 4 * OCTAVES };
+_Static_assert(PRISM_MOST_POINTS <= 16 << OCTAVES, "kinds for outlines of all lengths");
 _Static_assert(ALONE >= 16 && ALONE < 32, "the first octave of the longer ones is from 16 to 31");
 
 static int kind_of_points(int32_t points)
@@ -171,8 +172,7 @@ static int kind_of_points(int32_t points)
     int octave = 0;
     for (int32_t rest = points >> 5; rest > 0; rest >>= 1)
         octave++;
-    int kind = ALONE + 1 + 4 * octave + (int)(points >> (octave + 2) & 3);
-    return kind < KINDS ? kind : KINDS - 1;
+    return ALONE + 1 + 4 * octave + (int)(points >> (octave + 2) & 3);
 }
 
 /* Those that are served have their loads.  Dynamic bodies that are no prisms go to rest; returns how many they are. */
@@ -189,7 +189,7 @@ static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t fi
         kind[at] = -1;
         if (has_load || !body_is_dynamic(t, slot))
             continue;
-        if (shape < 0 || s->kind[shape] != SHAPE_PRISM) {
+        if (shape < 0 || s->kind[shape] != SHAPE_PRISM || s->outline_count[shape] > PRISM_MOST_POINTS) {
             rest[left++] = slot;
             continue;
         }

@@ -33,7 +33,8 @@ static size_t size_of(const prism_rooms *r) { return (size_t)r->points * NUMBERS
 
 bool prism_rooms_make(context *ctx, const shape_table *shapes, prism_rooms *out)
 {
-    out->points = prism_most_crossed(prism_points(longest(shapes))) + 1;
+    int32_t points = prism_points(longest(shapes));
+    out->points = prism_most_crossed(points < PRISM_MOST_POINTS ? points : PRISM_MOST_POINTS) + 1;
     out->memory = memory_resize(ctx, NULL, (size_t)context_threads(ctx) * size_of(out) + LINE);
     return out->memory != NULL;
 }

@@ -1,5 +1,5 @@
-/* Memory for the outlines of batches: each thread has a room, as long as the longest outline that there is asks for.
-   Inside fluid; knows no kernel. */
+/* Memory for the outlines of batches: each thread has a room, as long as the longest outline that a batch may take asks
+   for. Inside fluid; knows no kernel. */
 #ifndef FLUID_PRISM_ROOM_H
 #define FLUID_PRISM_ROOM_H
 
@@ -21,6 +21,10 @@ typedef struct prism_rooms {
     int32_t points; /* most of an outline, with its crossings and its first one again */
     void *memory;
 } prism_rooms;
+
+/* Points of the longest outline that a batch takes: a room has two megabytes then.  Floes of longer ones are walked
+   over face by face. */
+enum { PRISM_MOST_POINTS = 2048 };
 
 /* Points that the outline of a tilted floe may have, crossings of its rims with the water plane among them.  It depends
    on the floe alone. */

@@ -145,6 +145,8 @@ static bool add_floe(const prism_work *w, int32_t slot, tilted_batch *b, tilted_
 {
     polygon outline = shape_outline(w->shapes, w->bodies->shape[slot]);
     vec2 room[2 * PRISM_FEW_VERTICES];
+    if (outline.count > PRISM_MOST_POINTS)
+        return false;
     water_line line = line_of(w, slot);
     rim r = rim_begin(b, l->count);
     if (!make_rim(&line, prism_outline(outline.vertex, outline.count, room), prism_points(outline.count), &r))

@@ -151,6 +151,14 @@ static void write_object(note_writer *w, const note_member *members, size_t coun
 
 /* ---- lists ---- */
 
+/* Each of a list takes hundreds of bytes, of a damaged or forged text's two. */
+static fram_status check_room(note_reader *r, int32_t count)
+{
+    if (count < RUN_NOTE_ITEMS_MOST)
+        return FRAM_OK;
+    return json_walk_refuse(&r->walk, "", r->error, "expected a list of %d at most", (int)RUN_NOTE_ITEMS_MOST);
+}
+
 static const note_member file_members[] = {TEXT_OF(run_note_file, "sha256", digest, NOTE_TEXT),
                                            TEXT_OF(run_note_file, "file", path, NOTE_TEXT)};
 
@@ -165,7 +173,9 @@ static fram_status read_files(note_reader *r, run_note *n)
     json_loop loop = json_walk_into(&r->walk, JSON_ARRAY, r->error);
     while (json_walk_next(&r->walk, &loop, r->error)) {
         run_note_file file = {0};
-        loop.status = read_object(r, file_members, MEMBERS_OF(file_members), &file);
+        loop.status = check_room(r, n->files.count);
+        if (loop.status == FRAM_OK)
+            loop.status = read_object(r, file_members, MEMBERS_OF(file_members), &file);
         if (loop.status == FRAM_OK && !array_push(r->ctx, &n->files, file))
             loop.status = error_memory(r->error);
     }
@@ -189,7 +199,9 @@ static fram_status read_events(note_reader *r, run_note *n)
     json_loop loop = json_walk_into(&r->walk, JSON_ARRAY, r->error);
     while (json_walk_next(&r->walk, &loop, r->error)) {
         run_event event = {0};
-        loop.status = read_object(r, event_members, MEMBERS_OF(event_members), &event);
+        loop.status = check_room(r, n->events.count);
+        if (loop.status == FRAM_OK)
+            loop.status = read_object(r, event_members, MEMBERS_OF(event_members), &event);
         if (loop.status == FRAM_OK && !array_push(r->ctx, &n->events, event))
             loop.status = error_memory(r->error);
     }
@@ -212,7 +224,9 @@ static fram_status read_tracks(note_reader *r, run_note *n)
     json_loop loop = json_walk_into(&r->walk, JSON_ARRAY, r->error);
     while (json_walk_next(&r->walk, &loop, r->error)) {
         run_track track = {0};
-        loop.status = read_object(r, track_members, MEMBERS_OF(track_members), &track);
+        loop.status = check_room(r, n->tracks.count);
+        if (loop.status == FRAM_OK)
+            loop.status = read_object(r, track_members, MEMBERS_OF(track_members), &track);
         if (loop.status == FRAM_OK && !array_push(r->ctx, &n->tracks, track))
             loop.status = error_memory(r->error);
     }

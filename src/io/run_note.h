@@ -10,6 +10,9 @@
 
 /* Bytes that a run.json has at most. */
 enum { RUN_NOTE_MOST = 1 << 26 };
+/* Files, events and tracks that one tells at most: more than any scenario has files and vessels, and a run notes
+   events. */
+enum { RUN_NOTE_ITEMS_MOST = 10000 };
 
 /* A file that the scenario names. */
 typedef struct run_note_file {

@@ -6,6 +6,7 @@
 #include "results/report.h"
 #include "results/run_channels.h"
 #include "results/run_data.h"
+#include "results/station_results.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -137,20 +138,21 @@ static void name_row(const pair *p, size_t i, const char *vessel, char out[COMPA
         snprintf(out + n, COMPARE_NAME_SIZE - (size_t)n, "%s", name);
 }
 
-/* Whether a vessel has what the channel is of: lines, thrusters, a station that it keeps. */
-static bool has_what_tells(const scenario_vessel *v, const char *channel)
+/* Whether a vessel has what the channel is of: lines, thrusters, a place that it may keep, by its gear or a program's:
+   no ship under way. */
+static bool has_what_tells(const scenario *s, int32_t vessel, const char *channel)
 {
-    bool lines = v->mooring.lines.count > 0;
+    const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
     if (strcmp(channel, "line_tension_max") == 0)
-        return lines;
+        return v->mooring.lines.count > 0;
     if (strcmp(channel, "thruster_power") == 0)
         return v->thrusters.count > 0;
     if (strncmp(channel, "offset_", 7) == 0)
-        return v->mode == VESSEL_FREE && (lines || v->positioning.active);
+        return v->mode == VESSEL_FREE && (station_has_results(s, vessel) || !vessel_drives_itself(v));
     return true;
 }
 
-/* Of none of the two runs' vessels: 0 in both, which is told of nobody. */
+/* Of none of the two runs' vessels. */
 static bool is_of_neither(const pair *p, size_t i, const char *vessel)
 {
     for (int k = 0; k < 2; k++) {
@@ -158,7 +160,7 @@ static bool is_of_neither(const pair *p, size_t i, const char *vessel)
         int32_t v = *vessel ? scenario_find_vessel(s, vessel) : 0;
         if (v < 0 || v >= scenario_vessel_count(s))
             continue;
-        if (has_what_tells(scenario_vessel_entry(s, v).keys, rows[i].channel))
+        if (has_what_tells(s, v, rows[i].channel))
             return false;
     }
     return true;

@@ -15,6 +15,10 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
 /* Looks at what was made of a scenario: at its world before the first step, or at a part of that. */
 typedef void (*build_look)(context *ctx, const scenario *s, const model *m, const world *made);
 
+/* The same; look: at what stands before the ice, which may take long, is made. */
+fram_status build_world_looked_at(context *ctx, const scenario *s, const model *m, world *w, build_look look,
+                                  field_report *report, fram_error *error);
+
 /* The vessels and their stations alone, and floes that are listed, as build_world makes them, and then nothing of it:
    for what cannot be, a hull in a band that is given too, and for the warnings in the log.  store: of hulls, may be
    NULL (build_hull.h).  look: at that world, which holds no other ice; NULL: none. */

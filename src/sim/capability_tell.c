@@ -82,7 +82,7 @@ void capability_tell_growth(context *ctx, const capability *c)
                  l->growth_most);
     log_write(ctx, LOG_WARNING,
               "measured ice loads were still building up, and limits are too high: at %.3g m/s, at which %.3g m of ice "
-              "came in %.6g s, those of the second half of what counts are %s; measure twice as long (--measure %.6g), "
+              "came in %.6g s, those of the second half of what counts are %s; measure twice as long (%.6g s), "
               "until both halves agree",
               l->growth_speed, l->growth_speed * c->options.measure, c->options.measure, factors,
               2 * c->options.measure);

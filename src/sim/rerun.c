@@ -49,7 +49,11 @@ static fram_status step_once(const rerun *r, const model *m, world *w, fram_erro
 static fram_status step_same(rerun *r, const model *m, world *w, fram_error *error)
 {
     fram_status status = step_once(r, m, w, error);
-    return status == FRAM_OK ? rerun_check_step(&r->check, w, error) : status;
+    if (status != FRAM_OK)
+        return status;
+    status = rerun_check_step(&r->check, w, error);
+    r->out->untold = status == FRAM_ERROR_INPUT;
+    return status;
 }
 
 /* By another method, which may go wrong where the run did not: that is an answer.  The time is the end of the step that
@@ -204,6 +208,7 @@ static fram_status go_back(rerun *r, const model *m, fram_error *error)
     r->out->start = w.clock.time[0];
     if (r->out->start < r->known_from - 0.5 * m->time_step) {
         world_free(r->ctx, &w);
+        r->out->untold = true;
         return error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "time",
                          "it was recorded from %g s on, what it was told until then stands in no file, and no "
                          "checkpoint of it is a second and an averaging window before %g s",

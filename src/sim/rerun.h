@@ -19,6 +19,7 @@ typedef struct rerun_result {
     double first, last; /* the largest loads are those of windows that end from the one to the other [s] */
     rerun_method half_step, accurate; /* with half the time step, with the accurate solver */
     rerun_method same;                /* as the run was made */
+    bool untold; /* it could not be computed as it was: what a program told the run stands in no file */
 } rerun_result;
 
 /* The state of a run at or before a time, of its nearest checkpoint or as it was built, into an empty world.

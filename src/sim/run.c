@@ -36,8 +36,8 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
         r->record.stop_step = scenario_step_at(options->until, s->run.time_step);
     else if (options->until > s->run.duration * (1 + 1e-9))
         log_write(ctx, LOG_WARNING,
-                  "until %.10g s: the run ends at run.duration, %.10g s; a longer one is a run of its own (--set "
-                  "run.duration) or a program's, which loads a checkpoint and steps on",
+                  "until %.10g s: the run ends at run.duration, %.10g s; a longer one is a run of its own with another "
+                  "run.duration, or a program's, which loads a checkpoint and steps on",
                   options->until, s->run.duration);
     return FRAM_OK;
 }
@@ -137,6 +137,14 @@ static void log_start(const run *r, const field_report *ice)
     }
 }
 
+/* What vessels cannot be is told alone; what is odd beside it as soon as they stand, before the ice, which may take
+   long and be refused for a reason that a warning names. */
+static void tell_before_ice(context *ctx, const scenario *s, const model *m, const world *made)
+{
+    (void)m, (void)made;
+    notes_log_warnings(ctx, s, NULL, NULL);
+}
+
 /* The stop flag of the run stands for that of the context while the world is made. */
 static fram_status make_world(run *r, field_report *ice, fram_error *error)
 {
@@ -145,7 +153,10 @@ static fram_status make_world(run *r, field_report *ice, fram_error *error)
         r->ctx->stop = r->options->stop;
     fram_status status = build_model(r->ctx, r->record.s, &r->model, error);
     if (status == FRAM_OK)
-        status = build_world(r->ctx, r->record.s, &r->model, &r->world, ice, error);
+        status = build_world_looked_at(r->ctx, r->record.s, &r->model, &r->world,
+                                       notes_ask_what_was_made(r->record.s) ? NULL : tell_before_ice, ice, error);
+    if (status == FRAM_OK && notes_ask_what_was_made(r->record.s))
+        notes_log_warnings(r->ctx, r->record.s, &r->model, &r->world);
     r->ctx->stop = stop;
     return status;
 }
@@ -159,14 +170,8 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     if (status == FRAM_OK)
         status = recording_prepare(&r.record, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
-    if (status == FRAM_OK) {
-        bool when_made = notes_ask_what_was_made(s);
+    if (status == FRAM_OK)
         status = make_world(&r, &ice, error);
-        /* Of a scenario that is refused the error alone is told: what else is odd about it can be told when it is made.
-         */
-        if (status == FRAM_OK)
-            notes_log_warnings(ctx, s, when_made ? &r.model : NULL, when_made ? &r.world : NULL);
-    }
     if (status == FRAM_OK) {
         log_start(&r, &ice);
         status = recording_begin(&r.record, &r.world, error);

@@ -89,7 +89,7 @@ ice: {source: voronoi, concentration: 0.5, mean_floe_area: 60, thickness: 0.4}
 END
 expect 0 "$FRAM" capability growing.yaml -o growing --measure 40 --directions 4 --speed-step 0.2 --speed-most 0.2
 says 'measured ice loads were still building up, and limits are too high: at 0.2 m/s, at which 8 m of ice' err
-says '--measure 80' err
+says 'measure twice as long (80 s)' err
 python3 -c 'import json; j = json.load(open("growing/capability.json"))
 assert j["ice_load_growth"] > 1.25 and j["ice_load_growth_speed_m_s"] == 0.2, j
 j = json.load(open("'"$scratch"'/a/capability.json"))

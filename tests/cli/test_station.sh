@@ -255,4 +255,16 @@ printf 'offset[m],tension[N]\n\n-20,1e5\n0,3e5\n-1,6e5\n' >line.csv
 expect 2 "$FRAM" run "$scratch/scene.yaml" -o refused
 says 'line.csv:5: offset: expected more metres than in the point before, found -1' err
 
+# Offsets are compared of who may keep a place, by a program too, and of no ship under way.
+for wind in 0 10; do
+    expect 0 "$FRAM" run "$FRAM_SOURCE/scenes/free_vessel.yaml" -o "free$wind" -q --set run.duration=2 \
+        --set run.transient=0.5 --set environment.wind_speed=$wind
+    expect 0 "$FRAM" run "$FRAM_SOURCE/scenes/demo.yaml" -o "under_way$wind" -q --set run.duration=2 \
+        --set run.transient=0.5 --set ice.source=none --set environment.wind_speed=$wind
+done
+expect 0 "$FRAM" compare free0 free10
+says 'offset along X, standard deviation' out
+expect 0 "$FRAM" compare under_way0 under_way10
+grep 'offset' out && fail "offsets of a ship under way"
+
 finish "events on station are named"

@@ -97,4 +97,27 @@ START_TEST(what_is_written_is_read)
 }
 END_TEST
 
-TEST_MAIN("run_note", what_is_written_is_read)
+/* Two bytes of a text become hundreds in memory. */
+START_TEST(long_lists_are_refused)
+{
+    static const char *const lists[] = {"inputs", "events", "tracks"};
+    scratch s = scratch_make();
+    context_init(&ctx);
+    for (int k = 0; k < 3; k++) {
+        run_note n;
+        FILE *file = fopen(scratch_path(&s, "run.json"), "w");
+        ck_assert_ptr_nonnull(file);
+        fprintf(file, "{\"%s\": [{}", lists[k]);
+        for (int i = 0; i < RUN_NOTE_ITEMS_MOST; i++)
+            fputs(",{}", file);
+        fputs("]}\n", file);
+        fclose(file);
+        ck_assert_int_eq(run_note_read(&ctx, s.folder, &n, &error), FRAM_ERROR_INPUT);
+        ck_assert_ptr_nonnull(strstr(error.message, "a list of 10000 at most"));
+        run_note_free(&ctx, &n);
+    }
+    scratch_remove(&s, "run.json");
+}
+END_TEST
+
+TEST_MAIN("run_note", what_is_written_is_read, long_lists_are_refused)

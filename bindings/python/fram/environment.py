@@ -136,7 +136,7 @@ class StationKeeping:
                  offset_limit: float = float("inf"), reward: Callable[[World], float] = station_reward):
         self._scenario = one_of("scenario", scenario, Scenario)
         self._limit = _limit("offset_limit", offset_limit, "0 or more")
-        self._reward = call_of("reward", reward) or station_reward
+        self._reward = station_reward if reward is None else call_of("reward", reward)
         self._seed: Optional[int] = None
         self._first = scenario.world()
         inputs = self._first.inputs
