@@ -20,7 +20,8 @@ static const char *const far_units[] = {"m", "m/s", "s", "1", "rad", "rad/s", "m
 
 /* Where a rule of `nothing beyond` is not meant. */
 typedef enum real_kind {
-    REAL_ENDLESS, /* infinity means that there is no such limit, or that it never comes; never NaN */
+    REAL_ENDLESS, /* not under 0; infinity means that there is no such limit, or that it never comes */
+    REAL_SETTING, /* any number, infinity too */
     REAL_POSITIVE /* finite, and not under 0, in every row */
 } real_kind;
 
@@ -32,13 +33,19 @@ static const struct real_rule {
     {"station", "offset_limit", REAL_ENDLESS},
     {"station", "heading_limit", REAL_ENDLESS},
     {"line", "breaking_load", REAL_ENDLESS},
-    {"propulsion", "settings", REAL_ENDLESS}, /* a speed: as fast as it goes; a track error: no limit */
+    {"propulsion", "settings", REAL_SETTING}, /* a speed: as fast as it goes; a track error: no limit */
     /* "never" */
     {"line", "release_time", REAL_ENDLESS},
     {"thruster", "failure_time", REAL_ENDLESS},
     /* springs that push where they should pull feed a world with energy, and sizes are some */
     {"joint", "stiffness", REAL_POSITIVE},
     {"joint", "damping", REAL_POSITIVE},
+    {"line", "stiffness", REAL_POSITIVE},
+    {"line", "length", REAL_POSITIVE},
+    {"line", "weight", REAL_POSITIVE},
+    {"thruster", "time_constant", REAL_POSITIVE},
+    {"thruster", "speed_rate", REAL_POSITIVE},
+    {"thruster", "turn_rate", REAL_POSITIVE},
     {"shape", "half_height", REAL_POSITIVE},
     {"shape", "radius", REAL_POSITIVE},
     {"shape", "plan_radius", REAL_POSITIVE},
@@ -77,7 +84,7 @@ static real_range range_of(const table_info *table, const field_info *field)
         const struct real_rule *rule = &real_rules[i];
         if (strcmp(rule->table, table->name) != 0 || strcmp(rule->column, field->name) != 0)
             continue;
-        range = rule->kind == REAL_ENDLESS ? (real_range){-HUGE_VAL, HUGE_VAL} : (real_range){0, most};
+        range = (real_range){rule->kind == REAL_SETTING ? -HUGE_VAL : 0, rule->kind == REAL_POSITIVE ? most : HUGE_VAL};
     }
     return range;
 }

@@ -282,13 +282,19 @@ static void add_halves(measured_loads *m, int32_t k, double from, const double h
     }
 }
 
+/* A speed counts whose loads are this part of the largest one's: a single touch late in a run grows without end. */
+static const double COUNTS = 0.1;
+
 /* Of one direction chance alone makes halves differ; of all at a speed it does so less. */
 static void find_growth(const measured_loads *m, capability_loads *l)
 {
+    double largest = 0;
+    for (int32_t k = 0; k < m->speeds; k++)
+        largest = fmax(largest, m->half[k][0] + m->half[k][1]);
     l->growth = 0;
     for (int32_t k = 0; k < m->speeds; k++) {
         double growth = growth_of(m->half[k]);
-        if (!(growth > l->growth))
+        if (!(growth > l->growth) || m->half[k][0] + m->half[k][1] < COUNTS * largest)
             continue;
         l->growth = growth;
         l->growth_speed = (k + 1) * m->speed_step;

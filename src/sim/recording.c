@@ -245,6 +245,14 @@ static fram_status start_streams(recording *r, fram_error *error)
     return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
 }
 
+/* What no picture could be drawn into is told before the first step. */
+static fram_status refuse_other_pictures(const recording *r, fram_error *error)
+{
+    char folder[PATH_ROOM];
+    fram_status status = path_join(r->folder, "pictures", folder, error);
+    return status == FRAM_OK ? folder_refuse_other(folder, error) : status;
+}
+
 /* ---- from outside ---- */
 
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, const recording_options *options,
@@ -257,7 +265,7 @@ fram_status recording_init(context *ctx, const scenario *s, const char *folder, 
     r->end_step = scenario_step_at(s->run.duration, dt);
     r->checkpoint_every = scenario_interval_steps(s->output.checkpoint_interval, dt);
     r->picture_every = scenario_interval_steps(s->output.picture_interval, dt);
-    return FRAM_OK;
+    return r->picture_every > 0 ? refuse_other_pictures(r, error) : FRAM_OK;
 }
 
 /* With overrides another scenario would stand where it was read from. */

@@ -29,7 +29,7 @@ static bool is_range(const study_source *r, const yaml_node *node)
     if (node->kind != YAML_SEQUENCE || node->count != 2)
         return node->kind != YAML_SEQUENCE || node->count == 0;
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
-    return key || study_number_is(r, lo, &end) || study_number_is(r, hi, &end);
+    return study_number_is(r, lo, &end) && study_number_is(r, hi, &end);
 }
 
 /* `[ends of a range]`, `[a, list, of, values]`, or `{values: [...]}`, as two numbers that are no range are written. */

@@ -290,5 +290,5 @@ void extremes_doubt_series(extreme_result *out, const series_set *s)
         "(leave its start out?).",
         fabs(b.mean - a.mean) / deviation);
     if (!out->answered)
-        say(out, "Its time scale, by which blocks and batches go, is that of this change. %s", refusal);
+        say(out, "Its time scale, by which blocks and batches go, may be that of this change. %s", refusal);
 }

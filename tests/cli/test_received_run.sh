@@ -105,7 +105,7 @@ ln -s "$PWD/far" g/pictures
 ln -s "$PWD/far" g/vtk
 ln -s "$PWD/far" g/video
 ln -s "$PWD/far" g/playback-frames
-expect 1 "$FRAM" run scene.yaml -o g --force -q
+expect 2 "$FRAM" run scene.yaml -o g --force -q
 says "g/pictures" err
 all_there "run --force"
 

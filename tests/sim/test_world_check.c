@@ -266,6 +266,9 @@ START_TEST(what_no_spring_and_no_size_can_be_is_found)
     k.w.thrusters.failure_time[0] = (double)INFINITY;
     assert_sound(&k);
     FOUND(&k, stations.offset_limit[0], bits((double)NAN), "station[0].offset_limit");
+    FOUND(&k, lines.release_time[0], bits(-(double)INFINITY), "line[0].release_time");
+    FOUND(&k, lines.stiffness[0], bits(-1e12), "line[0].stiffness");
+    FOUND(&k, thrusters.time_constant[0], bits(-1), "thruster[0].time_constant");
     scene_close(&k);
 }
 END_TEST

@@ -76,8 +76,9 @@ def _read_text(path: pathlib.Path) -> str:
 
 def _read_object(path: pathlib.Path) -> dict[str, Any]:
     """A JSON object in a file."""
+    text = _read_text(path)
     try:
-        found = json.loads(_read_text(path))
+        found = json.loads(text)
     except json.JSONDecodeError as error:
         raise InputError("input", f"expected a JSON object: {error.msg}", file=str(path), line=error.lineno,
                          column=error.colno) from error
