@@ -8,17 +8,21 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What would hold the vessel better, of what it has. */
+/* What would hold the vessel better, of what it has and what somebody orders. */
 static const char *station_remedy(const verdict *v)
 {
     const scenario_vessel *keys = scenario_vessel_entry(&v->r->d.s, v->r->vessel).keys;
-    bool thrusters = keys->thrusters.count > 0, lines = keys->mooring.lines.count > 0;
+    bool lines = keys->mooring.lines.count > 0, thrusters = keys->thrusters.count > 0 && keys->positioning.active;
+    if (v->r->d.note.told.count > 0)
+        return "Examine the loads at that time (fram why), and what the program that steered the run did.";
     if (thrusters && lines)
         return "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.";
     if (thrusters)
         return "Examine the loads at that time (fram why); consider more thrust or ice management.";
     if (lines)
         return "Examine the loads at that time (fram why); consider stiffer lines or ice management.";
+    if (keys->thrusters.count > 0)
+        return "Examine the loads at that time (fram why): nobody gives its thrusters orders (vessel.positioning).";
     return "Examine the loads at that time (fram why): nothing holds the vessel there, neither lines nor thrusters.";
 }
 

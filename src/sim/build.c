@@ -89,18 +89,22 @@ static fram_status build_before_ice(context *ctx, const scenario *s, const model
     return status;
 }
 
-fram_status build_world_looked_at(context *ctx, const scenario *s, const model *m, world *w, build_look look,
-                                  field_report *report, fram_error *error)
+fram_status build_world_begin(context *ctx, const scenario *s, const model *m, world *w, fram_error *error)
 {
-    *report = (field_report){0};
     fram_status status = build_before_ice(ctx, s, m, w, error);
     if (status != FRAM_OK)
         return status;
     status = add_walls(ctx, s, w, error);
-    if (status == FRAM_OK && look)
-        look(ctx, s, m, w);
-    if (status == FRAM_OK)
-        status = name_ice(s, build_field(ctx, s, m, w, report, error), error);
+    if (status != FRAM_OK)
+        world_free(ctx, w);
+    return status;
+}
+
+fram_status build_world_ice(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
+                            fram_error *error)
+{
+    *report = (field_report){0};
+    fram_status status = name_ice(s, build_field(ctx, s, m, w, report, error), error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;
@@ -109,7 +113,9 @@ fram_status build_world_looked_at(context *ctx, const scenario *s, const model *
 fram_status build_world(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error)
 {
-    return build_world_looked_at(ctx, s, m, w, NULL, report, error);
+    *report = (field_report){0};
+    fram_status status = build_world_begin(ctx, s, m, w, error);
+    return status == FRAM_OK ? build_world_ice(ctx, s, m, w, report, error) : status;
 }
 
 /* Floes of a list are a thousand at most and made at once: what is wrong with their places is known without a run. */

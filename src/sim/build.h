@@ -12,12 +12,14 @@
 fram_status build_world(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error);
 
+/* The same in two: what stands before the ice, and then the ice, which may take long.  Without success there is no
+   world any more. */
+fram_status build_world_begin(context *ctx, const scenario *s, const model *m, world *w, fram_error *error);
+fram_status build_world_ice(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
+                            fram_error *error);
+
 /* Looks at what was made of a scenario: at its world before the first step, or at a part of that. */
 typedef void (*build_look)(context *ctx, const scenario *s, const model *m, const world *made);
-
-/* The same; look: at what stands before the ice, which may take long, is made. */
-fram_status build_world_looked_at(context *ctx, const scenario *s, const model *m, world *w, build_look look,
-                                  field_report *report, fram_error *error);
 
 /* The vessels and their stations alone, and floes that are listed, as build_world makes them, and then nothing of it:
    for what cannot be, a hull in a band that is given too, and for the warnings in the log.  store: of hulls, may be

@@ -152,6 +152,11 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
     const capability_options *o = &c->options;
     text_format(ctx, b, "{\n  \"ice_load\": \"%s\",\n", ice_load_source(c));
     add_member(ctx, b, "measuring_time_s", c->loads.measured ? o->measure : (double)NAN);
+    /* Growth from nothing is infinite, and stands as null. */
+    text_format(ctx, b, "  \"ice_load_still_building\": %s,\n",
+                !c->loads.measured        ? "null"
+                : capability_builds_up(c) ? "true"
+                                          : "false");
     add_member(ctx, b, "ice_load_growth", c->loads.measured ? c->loads.growth : (double)NAN);
     add_member(ctx, b, "ice_load_growth_speed_m_s", c->loads.measured ? c->loads.growth_speed : (double)NAN);
     add_member(ctx, b, "wind_speed_m_s", c->wind_speed);

@@ -137,12 +137,24 @@ static void log_start(const run *r, const field_report *ice)
     }
 }
 
-/* What vessels cannot be is told alone; what is odd beside it as soon as they stand, before the ice, which may take
-   long and be refused for a reason that a warning names. */
-static void tell_before_ice(context *ctx, const scenario *s, const model *m, const world *made)
+/* What vessels cannot be is told alone.  What is odd beside it is told as soon as they stand, before the ice, which may
+   take long and be refused for a reason that a warning names; some of it when all is made. */
+static fram_status make_told(run *r, field_report *ice, fram_error *error)
 {
-    (void)m, (void)made;
-    notes_log_warnings(ctx, s, NULL, NULL);
+    const scenario *s = r->record.s;
+    bool when_made = notes_ask_what_was_made(s);
+    fram_status status = build_model(r->ctx, s, &r->model, error);
+    if (status == FRAM_OK)
+        status = build_world_begin(r->ctx, s, &r->model, &r->world, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!when_made)
+        notes_log_warnings(r->ctx, s, NULL, NULL);
+    status = build_world_ice(r->ctx, s, &r->model, &r->world, ice, error);
+    bool made = status == FRAM_OK;
+    if (when_made)
+        notes_log_warnings(r->ctx, s, made ? &r->model : NULL, made ? &r->world : NULL);
+    return status;
 }
 
 /* The stop flag of the run stands for that of the context while the world is made. */
@@ -151,12 +163,7 @@ static fram_status make_world(run *r, field_report *ice, fram_error *error)
     const volatile int *stop = r->ctx->stop;
     if (r->options->stop)
         r->ctx->stop = r->options->stop;
-    fram_status status = build_model(r->ctx, r->record.s, &r->model, error);
-    if (status == FRAM_OK)
-        status = build_world_looked_at(r->ctx, r->record.s, &r->model, &r->world,
-                                       notes_ask_what_was_made(r->record.s) ? NULL : tell_before_ice, ice, error);
-    if (status == FRAM_OK && notes_ask_what_was_made(r->record.s))
-        notes_log_warnings(r->ctx, r->record.s, &r->model, &r->world);
+    fram_status status = make_told(r, ice, error);
     r->ctx->stop = stop;
     return status;
 }

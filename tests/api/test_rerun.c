@@ -135,6 +135,21 @@ static void remove_rows(void)
 
 static const char *const no_checkpoints[] = {"output.checkpoint_interval=0"};
 
+/* Words of the run's own scenario.yaml become others, of as many letters. */
+static void change_scenario(const char *from, const char *to)
+{
+    char path[400], text[20000];
+    snprintf(path, sizeof path, "%s/scenario.yaml", run);
+    FILE *file = fopen(path, "r+");
+    ck_assert_ptr_nonnull(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    const char *at = strstr(text, from);
+    ck_assert_ptr_nonnull(at);
+    ck_assert_int_eq(fseek(file, at - text, SEEK_SET), 0);
+    fputs(to, file);
+    fclose(file);
+}
+
 START_TEST(steered)
 {
     open_all();
@@ -155,6 +170,9 @@ START_TEST(steered)
     assert_told("\"computed_again\": null, \"hindrance\": \"at t = 1.52 s");
     as_json = false;
     assert_ok(why(1, 0), e);
+    /* What else stands in the way is no word of the program. */
+    change_scenario("seed: 1", "seed: 2");
+    assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "was changed since the run was made");
     close_all();
 }
 END_TEST

@@ -91,9 +91,9 @@ expect 0 "$FRAM" capability growing.yaml -o growing --measure 40 --directions 4 
 says 'measured ice loads were still building up, and limits are too high: at 0.2 m/s, at which 8 m of ice' err
 says 'measure twice as long (80 s)' err
 python3 -c 'import json; j = json.load(open("growing/capability.json"))
-assert j["ice_load_growth"] > 1.25 and j["ice_load_growth_speed_m_s"] == 0.2, j
+assert j["ice_load_still_building"] is True and j["ice_load_growth"] > 1.25 and j["ice_load_growth_speed_m_s"] == 0.2, j
 j = json.load(open("'"$scratch"'/a/capability.json"))
-assert j["ice_load_growth"] is None, j' || fail "how much loads grew"
+assert j["ice_load_growth"] is None and j["ice_load_still_building"] is None, j' || fail "how much loads grew"
 # The formula measures nothing, however long.
 expect 2 "$FRAM" capability mixed.yaml -o "$scratch/b" --formula --measure 3
 says '--measure: expected none with the formula' err

@@ -24,20 +24,8 @@ import numpy as np
 
 import fram
 from fram import _library
+from scenes import FREE, TOWED
 
-TOWED = """
-run: {duration: 0.4, time_step: 0.02}
-vessel: {mode: towed, x: -26, speed: 3, ramp: 0.1, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
-ice: {source: floes, thickness: 0.5, floes: [{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}
-domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}
-output: {frame_interval: 0.1}
-"""
-FREE = """
-run: {duration: 2, time_step: 0.05}
-vessel: {mode: free, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}, thrusters: [{x: 18}, {x: -18}]}
-ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
-domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
-"""
 PACKED = FREE.replace(
     "{concentration: 0.3, mean_floe_area: 64,",
     "{source: packed, concentration: 0.85, populations: [{size: power, diameter_min: 6, diameter_max: 20}],"
@@ -573,6 +561,15 @@ class Environment(unittest.TestCase):
             environment.reset()
 
     def test_what_it_is_made_of(self):
+        class Rewards(list):
+            """Empty, and so false in truth, but callable."""
+
+            def __call__(self, world):
+                return 42.0
+
+        with fram.StationKeeping(self.scenario, interval=0.1, reward=Rewards()) as environment:
+            environment.reset()
+            self.assertEqual(environment.step(environment.action_space.sample())[1], 42.0)
         one = fram.StationKeeping(self.scenario, actions="thruster_1_order", observations="offset_x", interval=0.12)
         self.assertEqual((one.actions, one.observations), (("thruster_1_order",), ("offset_x",)))
         self.assertAlmostEqual(one.interval, 0.1)

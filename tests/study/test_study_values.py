@@ -46,6 +46,12 @@ class Values(StudyTest):
         self.fram(self.write(study % (4, both)), "-o", self.at / "other")
         self.assertNotEqual([row["title"] for row in rows], [row["title"] for row in self.rows("other")])
 
+    def test_two_of_which_one_is_a_word_are_no_range(self):
+        study = "set: {run.duration: 0.1, run.transient: 0}\nvary:\n  latin: {count: 4, keys: {vessel.hull.freeboard: "
+        self.fram(self.write(study + "[auto, 2.5]}}\n"), "-o", self.at / "words")
+        counts = collections.Counter(row["vessel.hull.freeboard"] for row in self.rows("words"))
+        self.assertEqual(counts, {"auto": 2, "2.5": 2})
+
     def test_lists_that_are_none_are_refused(self):
         latin = "vary:\n  latin: {count: 4, keys: {%s}}\n"
         self.refused(latin % "vessel.mode: towed", "study.yaml:3: vessel.mode: expected a list of values")
