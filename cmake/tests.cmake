@@ -51,6 +51,22 @@ function(fram_link_quickly program)
     endif()
 endfunction()
 
+# Links a program to a room and what stands below it, or to all rooms where there is none of that name.  Programs of
+# sanitized builds share one library of all rooms: with the rooms inside, each would take 25 to 50 MB.
+function(fram_link_rooms program room)
+    if(FRAM_SANITIZE)
+        target_link_libraries(${program} PRIVATE fram_shared ${fram_parts})
+        target_link_options(${program} PRIVATE -Wl,-z,now) # a name looked up at its first call leaves its traces
+    elseif(TARGET room_${room})
+        target_link_libraries(${program} PRIVATE room_${room})
+    else()
+        target_link_libraries(${program} PRIVATE fram_objects)
+    endif()
+    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+        target_link_options(${program} PRIVATE -Wl,--strip-debug) # the debug build has them
+    endif()
+endfunction()
+
 # The interpreter itself: what is found may be a script that looks for it anew at every start, in ten times the time,
 # and tests start it thousands of times.
 find_package(Python3 COMPONENTS Interpreter QUIET)
@@ -84,13 +100,9 @@ if(FRAM_TESTS)
             # The unit is opened as importers do.
             add_dependencies(${program} fram_fmu)
         endif()
-        if(TARGET room_${room})
-            target_include_directories(${program} PRIVATE src include)
-            target_link_libraries(${program} PRIVATE room_${room} PkgConfig::check)
-        else()
-            target_link_libraries(${program} PRIVATE fram_objects PkgConfig::check)
-        endif()
-        target_include_directories(${program} PRIVATE tests)
+        target_include_directories(${program} PRIVATE src include tests)
+        fram_link_rooms(${program} ${room})
+        target_link_libraries(${program} PRIVATE PkgConfig::check)
         # As for kernels: vectors pass between static functions only.  A test is compiled without optimisation, in a
         # third of the time: what it calls stands in the library, optimised, and no bit depends on how it was compiled.
         target_compile_options(${program} PRIVATE -Wno-psabi -O0)
@@ -131,8 +143,8 @@ foreach(source ${fuzzers})
     get_filename_component(program "${source}" NAME_WE)
     string(REGEX REPLACE "^fuzz_" "" name "${program}")
     add_executable(${program} "${source}" fuzz/memory_file.c)
-    target_include_directories(${program} PRIVATE fuzz)
-    target_link_libraries(${program} PRIVATE fram_objects)
+    target_include_directories(${program} PRIVATE src include fuzz)
+    fram_link_rooms(${program} all)
     fram_link_quickly(${program})
     add_dependencies(fuzz_targets ${program})
     set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/fuzz")
