@@ -48,7 +48,7 @@ def shown(folder, columns, *words, term="xterm"):
 
 def drawn(text):
     """What stood in a line at some time."""
-    return [line for line in re.split(r"\r\033\[K|[\r\n]+", text) if line]
+    return [line for line in re.split(r"(?:\r\033\[K|\r|\n)+", text) if line]
 
 
 def check_run(folder):
