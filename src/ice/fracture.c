@@ -79,6 +79,7 @@ void fracture_scratch_free(context *ctx, fracture_scratch *s)
     polygon_list_free(ctx, &s->piece.outlines);
     polygon_list_free(ctx, &s->piece.pair);
     polygon_list_free(ctx, &s->piece.joined);
+    array_free(ctx, &s->piece.welded);
     polygon_list_free(ctx, &s->piece.parts);
     array_free(ctx, &s->piece.clean);
     array_free(ctx, &s->broken);

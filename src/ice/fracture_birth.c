@@ -348,8 +348,12 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
         status = dust_of(j, &dust);
     double budget = fmin(MOST_BOOKED * parent_area, terms.most) - dust;
     /* What comes loose may be dust itself: nothing holds it. */
-    if (status != FRAM_OK || s->piece.rows.count < terms.least || (budget < 0 && terms.least > 1))
+    if (status != FRAM_OK || s->piece.rows.count < terms.least)
         return status;
+    if (budget < 0 && terms.least > 1) {
+        log_write(j->ctx, LOG_DEBUG, "a break is put off: %.3g m2 of it are too small to be floes", dust);
+        return FRAM_OK;
+    }
     bool sound;
     status = clean_pieces(j, budget, &sound);
     if (status != FRAM_OK || !sound)

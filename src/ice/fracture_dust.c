@@ -7,8 +7,8 @@
 /* Boundaries nearer than this part of a ring's size are the same. */
 static const double SAME_BOUNDARY = 1e-7;
 
-/* Corners of a union nearer than this part of its size, or than some rounding of places far from the origin, are one
-   corner: far over rounding, and so little that the centroid does not notice. */
+/* Corners nearer than this part of a ring's size, or than some rounding of places far from the origin, are one corner:
+   far over rounding, and so little that the centroid does not notice. */
 static const double SAME_CORNER = 1e-9, SAME_ROUNDING = 4;
 
 /* A union has the area of its parts, but for this part of it, and rounding of places along its boundary. */
@@ -68,13 +68,81 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
     return best;
 }
 
+static double corner_reach(polygon p)
+{
+    return fmax(SAME_CORNER * polygon_perimeter(p), SAME_ROUNDING * polygon_rounding(p));
+}
+
+/* The corner of p that a place is, within reach; the place itself where there is none. */
+static vec2 corner_at(polygon p, vec2 place, double reach)
+{
+    vec2 found = place;
+    for (int32_t i = 0; i < p.count; i++) {
+        double distance = vec2_length(vec2_sub(p.vertex[i], place));
+        if (distance <= reach) {
+            reach = distance;
+            found = p.vertex[i];
+        }
+    }
+    return found;
+}
+
+/* The corner of p on the edge from a to b that comes first after `along` [m]; false where none does. */
+static bool corner_on_edge(polygon p, vec2 a, vec2 b, double reach, double *along, vec2 *found)
+{
+    vec2 edge = vec2_sub(b, a);
+    double length = vec2_length(edge), first = length - reach;
+    bool any = false;
+    for (int32_t i = 0; i < p.count && length > 0; i++) {
+        vec2 from = vec2_sub(p.vertex[i], a);
+        double at = vec2_dot(from, edge) / length;
+        if (at > *along + reach && at < first && fabs(vec2_cross(edge, from)) <= reach * length) {
+            first = at;
+            *found = p.vertex[i];
+            any = true;
+        }
+    }
+    *along = first;
+    return any;
+}
+
+/* A piece with the corners of another where these are its own but for rounding, or lie on its edges.  Pieces are cut
+   from their parent one by one: a side that two share may have ends that differ in the last bit, and is longer for one
+   of them where a third begins.  United as they are they would touch, not be one. */
+static bool weld(context *ctx, polygon piece, polygon to, double reach, vec2_array *out)
+{
+    array_clear(out);
+    for (int32_t i = 0; i < piece.count; i++) {
+        vec2 from = corner_at(to, piece.vertex[i], reach), found;
+        vec2 next = corner_at(to, piece.vertex[i + 1 < piece.count ? i + 1 : 0], reach);
+        if (!array_push(ctx, out, from))
+            return false;
+        for (double along = 0; corner_on_edge(to, from, next, reach, &along, &found);)
+            if (!array_push(ctx, out, found))
+                return false;
+    }
+    return true;
+}
+
+/* Two pieces, each with the corners of the other, in piece.pair. */
+static bool pair_up(context *ctx, fracture_scratch *s, polygon a, polygon b)
+{
+    piece_work *w = &s->piece;
+    double reach = fmax(corner_reach(a), corner_reach(b));
+    polygon_list_clear(&w->pair);
+    return weld(ctx, a, b, reach, &w->welded) &&
+           polygon_list_push(ctx, &w->pair, (polygon){w->welded.data, w->welded.count}) &&
+           weld(ctx, b, polygon_list_get(&w->pair, 0), reach, &w->welded) &&
+           polygon_list_push(ctx, &w->pair, (polygon){w->welded.data, w->welded.count});
+}
+
 /* Corners of a union that differ by rounding become one.  Its spikes stay, which are ice, unless they are none but
    rounding's: then it is sound only without them.  false: no memory. */
 static bool merge_corners(context *ctx, fracture_scratch *s, polygon *ring, double area, bool *sound)
 {
     polygon joined = *ring;
-    double size = polygon_perimeter(joined), rounding = polygon_rounding(joined);
-    double corner = fmax(SAME_CORNER * size, SAME_ROUNDING * rounding), same = SAME_AREA * area + rounding * size;
+    double corner = corner_reach(joined);
+    double same = SAME_AREA * area + polygon_rounding(joined) * polygon_perimeter(joined);
     *sound = false;
     for (int turn = 0; turn < 2 && !*sound; turn++) {
         if (!(turn == 0 ? polygon_merge(ctx, joined, corner, NULL, &s->piece.clean)
@@ -90,10 +158,9 @@ fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, in
                            fram_error *error)
 {
     *joined = false;
-    polygon_list_clear(&s->piece.pair);
     polygon_list_clear(&s->piece.joined);
-    if (!polygon_list_push(ctx, &s->piece.pair, polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring)) ||
-        !polygon_list_push(ctx, &s->piece.pair, polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring)))
+    if (!pair_up(ctx, s, polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring),
+                 polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring)))
         return error_memory(error);
     fram_status status = overlay_union(plane, &s->piece.pair, &s->piece.joined, error);
     if (status == FRAM_ERROR_MEMORY)

@@ -170,6 +170,7 @@ typedef struct piece_work {
     cut_piece_array rows;
     polygon_list outlines;     /* rings of the rows, and of what became of them */
     polygon_list pair, joined; /* two siblings, and their union */
+    vec2_array welded;         /* one of the two, with the corners of the other */
     polygon_list parts;        /* convex parts of a ring */
     vec2_array clean;
 } piece_work;

@@ -325,6 +325,49 @@ START_TEST(breaking_ice_is_mirrored)
 }
 END_TEST
 
+/* A ship towed along x, or along y, into a sheet whose small pieces join others. */
+static void coarse_text(char out[TEXT_SIZE], double side, bool turned)
+{
+    double x = 0, y = side;
+    snprintf(out, TEXT_SIZE,
+             "run: {duration: 10, time_step: 0.02, scale: 20}\n"
+             "vessel:\n  mode: towed\n  x: %.17g\n  y: %.17g\n  heading_deg: %d\n  speed: 1.3\n"
+             "  hull: {form: icebreaker, length: 45, beam: 11, draught: 4}\n"
+             "ice: {source: level, thickness: 0.4, breakable: true, smallest_floe_area: 1, level: {%c_min: 32}}\n"
+             "domain: {x_min: %d, x_max: %d, y_min: %d, y_max: %d, boundary: open}\n",
+             turned ? -y : x, turned ? x : y, turned ? 90 : 0, turned ? 'y' : 'x', turned ? -50 : -60, turned ? 50 : 80,
+             turned ? -60 : -50, turned ? 80 : 50);
+}
+
+static int steps_to_break(const char *text, int *pieces)
+{
+    scene k;
+    int steps = 0;
+    scene_open(&k, text);
+    for (; steps < 400 && k.w.scratch.fractures.count == 0; steps++)
+        scene_steps(&k, 1);
+    ck_assert_int_eq(k.w.scratch.fractures.count, 1);
+    *pieces = k.w.scratch.fractures.data[0].pieces;
+    scene_close(&k);
+    return steps;
+}
+
+/* Pieces that are cut one by one from a sheet that lies along x or along y differ by other roundings, and so break and
+   join as they do there. */
+START_TEST(a_turned_sheet_breaks_in_the_same_step)
+{
+    char text[TEXT_SIZE];
+    for (int i = 0; i < 12; i++) {
+        int pieces, turned_pieces;
+        coarse_text(text, 1 + 0.5 * i, false);
+        int steps = steps_to_break(text, &pieces);
+        coarse_text(text, 1 + 0.5 * i, true);
+        ck_assert_int_eq(steps_to_break(text, &turned_pieces), steps);
+        ck_assert_int_eq(turned_pieces, pieces);
+    }
+}
+END_TEST
+
 /* ---- ice that melts ---- */
 
 /* A ship whose sides melt level ice that they have bent, all lengths times lambda; heat: that of melting; exponent: of
@@ -377,4 +420,5 @@ START_TEST(melting_ice_scaled)
 END_TEST
 
 TEST_MAIN("symmetry", scaling_by_four, scaling_by_sixteen, moving_hull_equals_moving_ice, mirrored_scene, turned_scene,
-          stations_turned_and_scaled, a_ship_under_way_scaled, breaking_ice_is_mirrored, melting_ice_scaled)
+          stations_turned_and_scaled, a_ship_under_way_scaled, breaking_ice_is_mirrored,
+          a_turned_sheet_breaks_in_the_same_step, melting_ice_scaled)
