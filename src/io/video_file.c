@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/temporary.h"
+#include "io/text_buffer.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -26,9 +27,11 @@ static void forget_video(video_file *v)
         close(v->socket);
     if (v->words >= 0)
         close(v->words);
+    if (v->theirs >= 0)
+        close(v->theirs);
     memory_free(v->ctx, v->path);
     memory_free(v->ctx, v->temporary);
-    *v = (video_file){.socket = -1, .words = -1};
+    *v = (video_file){.socket = -1, .words = -1, .theirs = -1};
 }
 
 /* An errno value, 0 when it runs: it reads from `frames` and says what it has to say to `words`.  A process group of
@@ -68,12 +71,12 @@ static fram_status start(video_file *v, char *const *arguments, fram_error *erro
         return file_error(error, v->path, "make a pipe", errno);
     }
     v->words = words[0];
-    /* Nobody reads its words before its end: what has no room is lost, and it does not wait. */
+    v->theirs = words[1];
+    /* Its words are read between frames: what has no room until then is lost, and it does not wait. */
     (void)fcntl(words[1], F_SETFL, O_NONBLOCK);
     pid_t process = 0;
     int code = spawn(ends[1], words[1], arguments, &process);
     close(ends[1]);
-    close(words[1]);
     v->process = (int)process;
     if (code == 0)
         return FRAM_OK;
@@ -87,7 +90,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
 {
     static const char protocol[] = "file:";
     int descriptor = -1;
-    *v = (video_file){.ctx = ctx, .socket = -1, .words = -1, .path = memory_string(ctx, path)};
+    *v = (video_file){.ctx = ctx, .socket = -1, .words = -1, .theirs = -1, .path = memory_string(ctx, path)};
     fram_status status = v->path ? atomic_file_check(path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = temporary_file(ctx, path, &v->temporary, &descriptor, error);
@@ -136,40 +139,94 @@ static bool wait_for(video_file *v)
     return WIFEXITED(how) && WEXITSTATUS(how) == 0;
 }
 
-/* What it said, when it has ended, in one line; it knows the file by the name that it has until it is whole. */
-static void take_words(const video_file *v, char *out, size_t room)
+/* Joins what it has said since to the last of its words; to_end: waits until nobody holds its standard error. */
+static void hear(video_file *v, bool to_end)
+{
+    char said[VIDEO_SAID];
+    if (to_end && v->theirs >= 0) { /* from now on they are read as they come, and it may wait */
+        (void)fcntl(v->theirs, F_SETFL, 0);
+        close(v->theirs);
+        v->theirs = -1;
+    }
+    for (;;) {
+        ssize_t got = recv(v->words, said, sizeof said, to_end ? 0 : MSG_DONTWAIT);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return;
+        int kept = v->said_count, room = VIDEO_SAID - (int)got;
+        if (kept > room) {
+            memmove(v->said, v->said + (kept - room), (size_t)room);
+            v->said_more = true;
+            kept = room;
+        }
+        memcpy(v->said + kept, said, (size_t)got);
+        v->said_count = kept + (int)got;
+    }
+}
+
+/* A line of its words.  It knows the file by the name that it has until it is whole. */
+static void put_line(const video_file *v, const char *line, const char *end, text_buffer *out)
 {
     static const char protocol[] = "file:";
-    char said[2048];
-    ssize_t length = recv(v->words, said, sizeof said - 1, MSG_DONTWAIT);
-    size_t own = strlen(v->temporary), used = 0;
-    said[length > 0 ? length : 0] = '\0';
-    for (const char *at = said; *at && used + 1 < room;) {
-        const char *name = strncmp(at, protocol, sizeof protocol - 1) == 0 ? at + sizeof protocol - 1 : at;
-        if (strncmp(name, v->temporary, own) == 0) {
-            int put = snprintf(out + used, room - used, "%s", v->path);
-            used = put > 0 && (size_t)put < room - used ? used + (size_t)put : room - 1;
-            at = name + own;
-        } else if (*at == '\n') {
-            for (; *at == '\n'; at++)
-                ;
-            if (*at)
-                out[used++] = ';';
-            if (*at && used + 1 < room)
-                out[used++] = ' ';
+    size_t own = strlen(v->temporary), skip = sizeof protocol - 1;
+    while (line < end) {
+        size_t left = (size_t)(end - line);
+        size_t before = left >= skip && memcmp(line, protocol, skip) == 0 ? skip : 0;
+        if (left - before >= own && memcmp(line + before, v->temporary, own) == 0) {
+            text_add(v->ctx, out, v->path);
+            line += before + own;
         } else {
-            out[used++] = *at++;
+            text_add_bytes(v->ctx, out, line++, 1);
         }
     }
-    out[used] = '\0';
 }
+
+/* Its last words, in one line: where they have no room, without the first lines.  The reason stands at the end. */
+static void take_words(const video_file *v, char *out, size_t room)
+{
+    static const char left_out[] = "... ", between[] = "; ";
+    text_buffer b = {0};
+    const char *at = v->said, *end = v->said + v->said_count, *stop = memchr(at, '\n', (size_t)(end - at));
+    if (v->said_more && stop)
+        at = stop;
+    for (; at < end; at = stop + (stop < end)) {
+        stop = memchr(at, '\n', (size_t)(end - at));
+        stop = stop ? stop : end;
+        if (stop > at && b.count > 0)
+            text_add(v->ctx, &b, between);
+        put_line(v, at, stop, &b);
+    }
+    const char *text = b.data && !b.failed ? b.data : "", *from = text;
+    size_t length = strlen(text), most = room - sizeof left_out;
+    if (length > most) {
+        from += length - most;
+        const char *line = strstr(from, between);
+        from = line ? line + strlen(between) : from;
+        while (((unsigned char)*from & 0xC0) == 0x80) /* no part of a character */
+            from++;
+    }
+    snprintf(out, room, "%s%s", from > text || v->said_more ? left_out : "", from);
+    text_free(v->ctx, &b);
+}
+
+enum { TOLD_ROOM = 400 };
 
 /* When it has ended. */
 static fram_status refuse_ended(const video_file *v, const char *what, fram_error *error)
 {
-    char words[400];
+    char words[TOLD_ROOM];
     take_words(v, words, sizeof words);
     return error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "%s%s%s", what, words[0] ? ": " : "", words);
+}
+
+/* It made the video, and said something. */
+static void tell_words(const video_file *v)
+{
+    char words[TOLD_ROOM];
+    take_words(v, words, sizeof words);
+    if (words[0])
+        log_write(v->ctx, LOG_WARNING, "%s: ffmpeg made the video, and said: %s", v->path, words);
 }
 
 /* It takes no more: it has ended, or is ended. */
@@ -177,6 +234,7 @@ static fram_status refuse_video(video_file *v, const char *what, fram_error *err
 {
     kill((pid_t)v->process, SIGTERM);
     (void)wait_for(v);
+    hear(v, false);
     return refuse_ended(v, what, error);
 }
 
@@ -192,6 +250,7 @@ fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_err
         at += sent;
         size -= (size_t)sent;
     }
+    hear(v, false);
     return FRAM_OK;
 }
 
@@ -200,8 +259,11 @@ fram_status video_end(video_file *v, fram_error *error)
     close(v->socket);
     v->socket = -1;
     fram_status status = FRAM_OK;
+    hear(v, true);
     if (wait_for(v)) {
         status = atomic_file_adopt(v->ctx, v->temporary, v->path, error);
+        if (status == FRAM_OK)
+            tell_words(v);
     } else {
         unlink(v->temporary);
         status = refuse_ended(v, "ffmpeg could not make the video", error);

@@ -4,12 +4,20 @@
 
 #include "base/context.h"
 
+#include <stdbool.h>
+
+enum { VIDEO_SAID = 2048 };
+
 typedef struct video_file {
     context *ctx;
     char *path, *temporary;
     int socket; /* to ffmpeg's standard input */
     int words;  /* from its standard error */
+    int theirs; /* that end of it, until the last frame is sent */
     int process;
+    char said[VIDEO_SAID]; /* the last of its words so far */
+    int said_count;
+    bool said_more; /* before them */
 } video_file;
 
 /* FRAM_ERROR_UNSUPPORTED when ffmpeg cannot be started.  width and height: even. */
@@ -17,7 +25,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
                         fram_error *error);
 /* One frame of width x height pixels of 4 bytes: blue, green, red, unused. */
 fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_error *error);
-/* Wait for ffmpeg and give the file its name. */
+/* Wait for ffmpeg and give the file its name.  What an ffmpeg said that made the video all the same is a warning. */
 fram_status video_end(video_file *v, fram_error *error);
 void video_abandon(video_file *v);
 

@@ -4,7 +4,9 @@
 #include "scratch.h"
 
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 enum { WIDTH = 64, HEIGHT = 48, FRAMES = 3 };
 
@@ -86,4 +88,50 @@ START_TEST(no_room_for_the_file)
 }
 END_TEST
 
-TEST_MAIN("video_file", two_at_once, no_room_for_the_file)
+/* The words of a program of ours in ffmpeg's place: 300 lines and then why it ended as it did. */
+static void say_as_ffmpeg(scratch *s, const char *last, int code)
+{
+    char text[600];
+    snprintf(text, sizeof text,
+             "#!/bin/sh\n/bin/cat >/dev/null\nfor n in $(seq 300); do echo \"line $n of $n\" >&2; done\n"
+             "for file; do :; done\n: >\"${file#file:}\"\necho \"%s\" >&2\nexit %d\n",
+             last, code);
+    scratch_write(scratch_path(s, "ffmpeg"), text, strlen(text));
+    ck_assert_int_eq(chmod(s->path, 0700), 0);
+}
+
+static void keep_warning(void *user, log_level level, const char *text)
+{
+    if (level == LOG_WARNING)
+        snprintf(user, 500, "%s", text);
+}
+
+/* The last of its words are told, in whole lines, of a video that could not be made and of one that could. */
+START_TEST(last_words_are_told)
+{
+    for (int code = 0; code < 2; code++) {
+        context ctx;
+        fram_error e = {0};
+        video_file video;
+        scratch s = scratch_make();
+        char path[400], told[500] = "", reason[400];
+        context_init(&ctx);
+        ctx.log = keep_warning;
+        ctx.log_user = told;
+        say_as_ffmpeg(&s, "$file: the reason", code);
+        snprintf(path, sizeof path, "%s:%s", s.folder, getenv("PATH"));
+        ck_assert_int_eq(setenv("PATH", path, 1), 0);
+        assert_ok(video_begin(&ctx, scratch_path(&s, "said.mp4"), WIDTH, HEIGHT, 10, &video, &e), e);
+        snprintf(reason, sizeof reason, "; line 300 of 300; %s: the reason", s.path);
+        put_frames(&video);
+        ck_assert_int_eq(video_end(&video, &e), code ? FRAM_ERROR_IO : FRAM_OK);
+        const char *text = code ? e.message : told, *cut = strstr(text, ": ... line "), *end = strstr(text, reason);
+        ck_assert_msg(cut && end && strlen(end) == strlen(reason), "%d: %s", code, text);
+        ck_assert(code == 1 || strstr(told, "said.mp4: ffmpeg made the video, and said: ... line ") != NULL);
+        ck_assert_int_eq(unlink(scratch_path(&s, "said.mp4")), code ? -1 : 0);
+        scratch_remove(&s, "ffmpeg");
+    }
+}
+END_TEST
+
+TEST_MAIN("video_file", two_at_once, no_room_for_the_file, last_words_are_told)
