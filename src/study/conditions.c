@@ -47,6 +47,9 @@ fram_status study_refuse_kind(const study_source *r, const yaml_node *node, cons
 {
     char key[160];
     const yaml_node *below = node;
+    const scenario_key *own = key_of_path(study_key(r, node));
+    if (own && own->kind != KEY_SECTION && own->kind != KEY_LIST) /* there are no keys in it */
+        return study_refuse(r, node, "expected %s, found %s", expected, study_found(r, node).text);
     int used = snprintf(key, sizeof key, "%.60s", study_key(r, node));
     while (below->kind == YAML_MAPPING && study_child(r, below) && used < (int)sizeof key) {
         below = study_child(r, below);

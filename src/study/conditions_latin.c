@@ -32,14 +32,29 @@ static bool is_range(const study_source *r, const yaml_node *node)
     return study_number_is(r, lo, &end) && study_number_is(r, hi, &end);
 }
 
+/* What stands under `values`, alone; NULL where nothing does. */
+static fram_status find_values(const study_source *r, const yaml_node *node, const yaml_node **out)
+{
+    const yaml_node *beside = NULL, *first = node->kind == YAML_MAPPING ? study_child(r, node) : NULL;
+    *out = NULL;
+    for (const yaml_node *k = first; k; k = study_next(r, k))
+        *(strcmp(study_key(r, k), "values") == 0 ? out : &beside) = k;
+    if (*out && beside)
+        return study_refuse(r, beside, "expected nothing beside values, as %s: {values: [0.6, 1.1]}",
+                            study_key(r, node));
+    return FRAM_OK;
+}
+
 /* `[ends of a range]`, `[a, list, of, values]`, or `{values: [...]}`, as two numbers that are no range are written. */
 static fram_status read_latin_key(const study_source *r, const yaml_node *node, latin_key *out)
 {
-    const yaml_node *only = node->kind == YAML_MAPPING && node->count == 1 ? study_child(r, node) : NULL;
-    bool listed = only && strcmp(study_key(r, only), "values") == 0;
+    const yaml_node *listed;
+    fram_status status = find_values(r, node, &listed);
+    if (status != FRAM_OK)
+        return status;
     if (!listed && is_range(r, node))
         return study_range(r, node, &out->range);
-    out->values = listed ? only : node;
+    out->values = listed ? listed : node;
     return study_expect(r, out->values, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
 }
 

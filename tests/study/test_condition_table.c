@@ -199,6 +199,9 @@ START_TEST(slips_are_told_with_their_remedy)
         {"vary: {grid: {vessel: {speed: [1, 2]}}}\n", "vessel", "found a mapping; write vessel.speed: [...]"},
         {"vary: {latin: {count: 2, keys: {ice: {thickness: [1, 2]}}}}\n", "ice", "write ice.thickness: [...]"},
         {"vary: {morris: {}}\n", "morris", "expected count, keys and, if wanted, seed, which is not empty"},
+        {"vary: {latin: {count: 2, keys: {ice.thickness: {values: [1, 2], seed: 2}}}}\n", "seed",
+         "expected nothing beside values, as ice.thickness: {values: [0.6, 1.1]}"},
+        {"vary: {latin: {count: 2, keys: {ice.thickness: {value: [1, 2]}}}}\n", "ice.thickness", "as [0.5, 1.5], found a mapping"},
         {"vary: {latin: {count: 2, levels: 4}}\n", "levels", "count, seed or keys"},
         {"vary: {sobol: {count: 16}}\n", "sobol", "keys is missing"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -211,6 +214,7 @@ START_TEST(slips_are_told_with_their_remedy)
         ck_assert_int_eq(study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error), FRAM_ERROR_INPUT);
         ck_assert_str_eq(error.key, cases[i].key);
         ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
+        ck_assert_msg(!strstr(error.message, "write ice.thickness."), "there is no such key: %s", error.message);
     }
 }
 END_TEST
