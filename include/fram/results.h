@@ -28,6 +28,9 @@ FRAM_API bool fram_run_has_file(const char *run, const char *path);
 /* Whether a path names a stream: a descriptor of this program (/dev/stdout, /dev/fd/3), wherever it leads, a pipe or a
    device.  What is written there goes behind what was, and nothing can stand beside it; false without a path. */
 FRAM_API bool fram_path_is_stream(const char *path);
+/* Whether a file, or a folder, that is not there yet can be made where its path says.  FRAM_ERROR_INPUT says what is in
+   the way, as the function would that is to write there: asked before long work. */
+FRAM_API fram_status fram_path_check_place(const char *path, bool folder, fram_error *error);
 
 /* ---- Formats of other programs ---- */
 

@@ -92,6 +92,12 @@ bool fram_run_has_file(const char *run, const char *path) { return run && path &
 
 bool fram_path_is_stream(const char *path) { return path && fill_is_stream(path); }
 
+fram_status fram_path_check_place(const char *path, bool folder, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"path", path});
+    return status == FRAM_OK ? path_check_place(path, folder, error) : status;
+}
+
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
                       double to, const char *output, fram_error *error)
 {

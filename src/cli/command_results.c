@@ -278,7 +278,8 @@ int command_video(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     d.force = common.force;
-    const command_files files = {.runs = {run}, .outputs = {{"--output", d.output, d.pictures ? NULL : VIDEO_ENDINGS}}};
+    const command_files files = {.runs = {run},
+                                 .outputs = {{"--output", d.output, d.pictures ? FOLDER_OUTPUT : VIDEO_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

@@ -80,10 +80,12 @@ static bool is_of_another_kind(const output_file *o)
            !has_ending(o->path, o->endings);
 }
 
+static bool is_folder(const output_file *o) { return o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0; }
+
 /* A folder with something in it, which is to be written into; one that cannot be listed is for the writer to refuse. */
 static bool is_filled_folder(const output_file *o)
 {
-    DIR *folder = o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0 ? opendir(o->path) : NULL;
+    DIR *folder = is_folder(o) ? opendir(o->path) : NULL;
     bool filled = false;
     for (const struct dirent *e; !filled && folder && (e = readdir(folder));)
         filled = strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
@@ -99,39 +101,6 @@ static bool is_too_long(const char *path)
     return lstat(path, &about) != 0 && errno == ENAMETOOLONG;
 }
 
-/* 0, or an errno value of the folder that a file or folder which is not there yet is to be made in: it would be told
-   when all is computed, too. */
-static int folder_failure(const char *path)
-{
-    char above[PATH_MAX] = ".";
-    size_t length = strlen(path);
-    struct stat about;
-    if (lstat(path, &about) == 0 || length >= sizeof above)
-        return 0;
-    while (length > 0 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    if (length > 0)
-        snprintf(above, sizeof above, "%.*s", (int)length, path);
-    if (stat(above, &about) != 0)
-        return errno;
-    if (!S_ISDIR(about.st_mode))
-        return ENOTDIR;
-    return access(above, W_OK | X_OK) == 0 ? 0 : errno;
-}
-
-/* As its writer tells it. */
-static int refuse_place(const common_options *common, const output_file *o, int failure)
-{
-    bool folder = o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0;
-    fram_error error = {.status = FRAM_ERROR_INPUT};
-    snprintf(error.file, sizeof error.file, "%s", o->path);
-    snprintf(error.message, sizeof error.message, "cannot %s: %s", folder ? "make the folder" : "open for writing",
-             strerror(failure));
-    return answer_error(common, &error);
-}
-
 static bool is_input(const command_files *files, const char *path)
 {
     for (int i = 0; i < FILES_ROOM; i++) {
@@ -143,14 +112,15 @@ static bool is_input(const command_files *files, const char *path)
 
 int refuse_outputs(const common_options *common, const command_files *files)
 {
+    fram_error error = {0};
     for (int i = 0; i < FILES_ROOM; i++) {
         const output_file *o = &files->outputs[i];
         if (!o->path)
             continue;
         if (is_too_long(o->path))
             return answer_usage(common, o->option, "expected a shorter name: the file system does not take this one");
-        if (*o->path && folder_failure(o->path))
-            return refuse_place(common, o, folder_failure(o->path));
+        if (*o->path && fram_path_check_place(o->path, is_folder(o), &error) != FRAM_OK)
+            return answer_error(common, &error);
         if (is_input(files, o->path))
             return answer_usage(common, o->option, is_read);
         for (int k = 0; k < i; k++) {

@@ -26,6 +26,22 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
     return error_set(error, name ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
 }
 
+fram_status file_place_error(fram_error *error, const char *path, const char *attempt, int number)
+{
+    size_t length = strlen(path);
+    while (length > 0 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    if (number != ENOENT || length == 0)
+        return file_error(error, path, attempt, number);
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                     "cannot %s: the folder %.*s is not there; make it, or give another name", attempt,
+                     length < 250 ? (int)length : 250, path);
+}
+
 uint32_t file_crc(uint32_t crc, const void *data, size_t size)
 {
     return size > 0 ? (uint32_t)crc32_z(crc, data, size) : crc; /* crc32_z begins anew at NULL */

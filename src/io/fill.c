@@ -110,5 +110,5 @@ fram_status fill_open(context *ctx, const char *path, int *descriptor, fram_erro
         return FRAM_OK;
     if (errno == EINTR)
         return error_set(error, FRAM_INTERRUPTED, path, 0, NULL, "interrupted while waiting for a reader of the pipe");
-    return file_error(error, path, "open for writing", errno);
+    return file_place_error(error, path, "open for writing", errno);
 }

@@ -44,7 +44,7 @@ fram_status folder_make_own(const char *path, fram_error *error)
 {
     if (mkdir(path, 0777) == 0)
         return FRAM_OK;
-    return errno == EEXIST ? folder_refuse_other(path, error) : file_error(error, path, "make the folder", errno);
+    return errno == EEXIST ? folder_refuse_other(path, error) : file_place_error(error, path, "make the folder", errno);
 }
 
 fram_status folder_refuse_other(const char *path, fram_error *error)

@@ -63,7 +63,7 @@ static fram_status make(context *ctx, const char *path, char **name, int *descri
         return FRAM_OK;
     memory_free(ctx, *name);
     *name = NULL;
-    return file_error(error, path, "open for writing", failure);
+    return file_place_error(error, path, "open for writing", failure);
 }
 
 fram_status temporary_file(context *ctx, const char *path, char **name, int *descriptor, fram_error *error)

@@ -351,7 +351,7 @@ static fram_status make_pictures(video *v, const char *folder, int64_t *frames, 
     if (status == FRAM_OK && !empty && !v->options->force)
         status = folder_refuse(v->path, error);
     if (status == FRAM_OK && mkdir(v->path, 0777) != 0 && errno != EEXIST)
-        status = file_error(error, v->path, "make the folder", errno);
+        status = file_place_error(error, v->path, "make the folder", errno);
     if (status == FRAM_OK && !empty)
         status = remove_later_pictures(v, error);
     if (status == FRAM_OK)

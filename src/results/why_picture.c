@@ -234,17 +234,6 @@ fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const 
     return status;
 }
 
-/* The picture's folder can be written into; a device needs none. */
-static fram_status check_folder(const char *path, fram_error *error)
-{
-    char folder[PATH_ROOM];
-    const char *slash = strrchr(path, '/');
-    if (!slash || access(path, F_OK) == 0)
-        return FRAM_OK;
-    snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
-    return access(folder, W_OK | X_OK) == 0 ? FRAM_OK : file_error(error, path, "open for writing", errno);
-}
-
 fram_status why_picture_check(const why *y, const char *path, fram_error *error)
 {
     replay r;
@@ -254,5 +243,5 @@ fram_status why_picture_check(const why *y, const char *path, fram_error *error)
     if (status != FRAM_OK)
         return status;
     replay_close(&r);
-    return check_folder(path, error);
+    return path_check_place(path, false, error);
 }

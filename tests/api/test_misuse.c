@@ -323,6 +323,10 @@ START_TEST(exports_and_reports)
     ck_assert(fram_run_has_file(run, own) && !fram_run_has_file(NULL, own) && !fram_run_has_file(run, NULL));
     ck_assert(!fram_path_is_stream(NULL) && !fram_path_is_stream(own) && !fram_path_is_stream(run));
     ck_assert(fram_path_is_stream("/dev/null") && fram_path_is_stream("/dev/fd/2"));
+    ck_assert_int_eq(fram_path_check_place(NULL, false, &e), FRAM_ERROR_USAGE);
+    assert_ok(fram_path_check_place(own, false, &e), e);
+    assert_fails(fram_path_check_place("none/there/x", true, &e), e, FRAM_ERROR_INPUT,
+                 "cannot make the folder: the folder none/there is not there; make it");
     close_all();
 }
 END_TEST

@@ -236,6 +236,7 @@ for words in "view absent --page viewer.html -o none/x.html" "report absent -o n
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words
     says "/x" err
+    [[ $words = *plain.txt* ]] || says "the folder none is not there; make it, or give another name" err
     same "$(grep -c . err)" 1 "lines about $words"
 done
 

@@ -589,7 +589,7 @@ PY
     expect 0 python3 "$FRAM_SOURCE/tests/cli/pixels.py" hulls model*/video/frame-000000.png
     # A folder with something in it is left alone; by force a shorter series leaves nothing of a longer one.
     expect 2 "$FRAM" video run --pictures --fps 1 --width 480 --height 360 -o frames
-    says "the folder is not empty" err
+    says "names a folder that is not empty" err
     [ "$(find frames -type f | wc -l)" = 7 ] || fail "the folder was written into: $(ls frames)"
     touch frames/mine
     expect 0 "$FRAM" video run --pictures --fps 1 --width 480 --height 360 -o frames --force

@@ -389,7 +389,8 @@ START_TEST(replacing_a_folder_leaves_nothing_behind)
     ck_assert_int_eq(rmdir(s.path), 0);
     ck_assert_int_eq(rmdir(s.folder), 0);
     assert_fails(atomic_file_write(&ctx, "", "y", 1, &error), error, FRAM_ERROR_INPUT, "found an empty text");
-    assert_fails(atomic_file_write(&ctx, "/no/such/folder/a", "y", 1, &error), error, FRAM_ERROR_INPUT, "No such file");
+    assert_fails(atomic_file_write(&ctx, "/no/such/folder/a", "y", 1, &error), error, FRAM_ERROR_INPUT,
+                 "the folder /no/such/folder is not there; make it");
     ck_assert_str_eq(error.file, "/no/such/folder/a");
 }
 END_TEST

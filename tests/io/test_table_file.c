@@ -289,7 +289,8 @@ START_TEST(files_that_are_not_there)
     content b;
     content_begin(&b);
     assert_fails(table_file_read(&ctx, "/no/such/file", &b.file, &error), error, FRAM_ERROR_INPUT, "No such file");
-    assert_fails(write_file(&ctx, "/no/such/file", &b.file), error, FRAM_ERROR_INPUT, "No such file");
+    assert_fails(write_file(&ctx, "/no/such/file", &b.file), error, FRAM_ERROR_INPUT,
+                 "the folder /no/such is not there");
     if (access("/dev/full", W_OK) == 0) {
         ck_assert_int_ne(write_file(&ctx, "/dev/full/x", &b.file), FRAM_OK);
     }
