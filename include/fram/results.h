@@ -77,7 +77,8 @@ typedef struct fram_comparison_row {
 typedef struct fram_comparison {
     const fram_comparison_row *rows;
     int count;
-    bool same_scenario, same_state; /* by hash, the files that a scenario names too; not of a run that was told */
+    bool same_scenario, same_state; /* by hash, the files that a scenario names too; runs that were told the same
+                                       things (told_a) are where they ended in the same state, or are one */
     void *inside;
     bool only_files_differ; /* the scenarios are the same but for what is in the files that they name */
     bool same_as_read; /* not by hash, but as this Fram reads both: another one made a run, or scenario.yaml was changed
@@ -88,6 +89,7 @@ typedef struct fram_comparison {
     bool only_told_differs;      /* the scenarios are the same but for that, or may be: its numbers stand in no file */
     double counted_from;         /* statistics of both are of what is after it, since the recording of one began late
                                     [s]; 0: each after its transient */
+    bool no_time_shared;         /* one ended before the other was recorded: no statistics are of both */
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,

@@ -179,7 +179,8 @@ fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b,
                                   .told_a = in->result.told[0],
                                   .told_b = in->result.told[1],
                                   .only_told_differs = in->result.only_told_differs,
-                                  .counted_from = in->result.counted_from};
+                                  .counted_from = in->result.counted_from,
+                                  .no_time_shared = in->result.no_time_shared};
     result_give(comparison, size, &full);
     return FRAM_OK;
 }

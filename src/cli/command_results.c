@@ -173,6 +173,8 @@ static void print_compared(const fram_comparison *c)
         print_number(row->b - row->a, row->unit, 4);
         putchar('\n');
     }
+    if (c->no_time_shared)
+        printf("no time is of both: one run ended before the other was recorded, from %.6g s on\n", c->counted_from);
     if (c->told_a[0])
         printf("told A by a program, in place of its scenario's: %s\n", c->told_a);
     if (c->told_b[0])
@@ -208,6 +210,7 @@ static void print_comparison(const common_options *common, const fram_comparison
     json_text(&j, "told_a", c->told_a);
     json_text(&j, "told_b", c->told_b);
     json_real(&j, "counted_from", c->counted_from);
+    json_boolean(&j, "no_time_shared", c->no_time_shared);
     json_open_list(&j, "rows");
     for (int i = 0; i < c->count; i++) {
         json_open(&j, NULL);

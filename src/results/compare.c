@@ -2,6 +2,7 @@
 #include "base/load_unit.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
+#include "io/path.h"
 #include "model/scenario_vessel.h"
 #include "results/report.h"
 #include "results/run_channels.h"
@@ -107,6 +108,8 @@ static void find_spans(pair *p)
     }
     if (late)
         p->from[0] = p->from[1] = p->result->counted_from = fmax(p->from[0], p->from[1]);
+    for (int k = 0; k < 2 && late; k++)
+        p->result->no_time_shared |= !time_is_after(p->d[k].note.time, p->from[k]);
 }
 
 /* Where the last row is not of the end, what was then is not told as of the end. */
@@ -234,21 +237,36 @@ static bool same_files(const run_note *a, const run_note *b)
     return same;
 }
 
+/* Without an end there is no final state. */
+static bool same_states(const run_data *d)
+{
+    return strcmp(d[0].note.state_hash, d[1].note.state_hash) == 0 && !run_is_open(&d[0]);
+}
+
+/* What a program told a run stands in place of the scenario, and with which numbers in no file: of two runs that were
+   told the same things it shows in their ends. */
+static bool told_the_same(const run_data *d)
+{
+    const text_buffer *a = &d[0].note.told, *b = &d[1].note.told;
+    bool names = a->count == b->count && (a->count == 0 || memcmp(a->data, b->data, (size_t)a->count) == 0);
+    return names && (a->count == 0 || same_states(d) || path_is_same(d[0].folder, d[1].folder));
+}
+
 /* The hash has files by their names alone; what is in them is told beside it.  A run of a Fram that lacked a key has
-   another hash than one of the same scenario by this: there is what this one reads of both.  What a program told a run
-   stands in place of the scenario, and with which numbers in no file. */
+   another hash than one of the same scenario by this: there is what this one reads of both. */
 static void compare_scenarios(const run_data *d, compare_result *out)
 {
     const run_note *a = &d[0].note, *b = &d[1].note;
     bool noted = strcmp(a->scenario_hash, b->scenario_hash) == 0;
     bool names = noted || strcmp(d[0].scenario_hash, d[1].scenario_hash) == 0;
-    bool files = same_files(a, b), steered = a->told.count > 0 || b->told.count > 0;
+    bool files = same_files(a, b), told = told_the_same(d);
     for (int k = 0; k < 2; k++)
         run_told(&d[k], out->told[k]);
-    out->same_scenario = noted && files && !steered;
-    out->same_as_read = names && files && !noted && !steered;
-    out->only_files_differ = names && !files && !steered;
-    out->only_told_differs = names && files && steered;
+    out->same_scenario = noted && files && told;
+    out->same_as_read = names && files && !noted && told;
+    out->only_files_differ = names && !files && told;
+    out->only_told_differs = names && files && !told;
+    out->same_state = same_states(d);
     out->changed_a = d[0].is_changed;
     out->changed_b = d[1].is_changed;
 }
@@ -267,9 +285,6 @@ static void find_rows(pair *p)
             find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_name(s, v));
     }
     compare_scenarios(p->d, p->result);
-    p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
-    /* Without an end there is no final state. */
-    p->result->same_state = p->result->same_state && !run_is_open(&p->d[0]);
 }
 
 /* ---- page ---- */
@@ -333,6 +348,9 @@ static fram_status overlay_charts(pair *p, const overlay *o, fram_error *error)
 static void number_table(pair *p)
 {
     char span[64] = "after the transient";
+    if (p->result->no_time_shared)
+        html_paragraph(&p->page, "No time is of both: one run ended before the other was recorded, from %.6g s on.",
+                       p->result->counted_from);
     if (p->result->counted_from > 0)
         snprintf(span, sizeof span, "after %.6g s, of what both recorded", p->result->counted_from);
     const char *const heads[] = {span, "A", "B", "B - A", "B / A"};

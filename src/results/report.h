@@ -24,12 +24,14 @@ enum { COMPARE_ROWS_MOST = 1280 }; /* of runs that share none of their vessels *
 typedef struct compare_result {
     compare_row row[COMPARE_ROWS_MOST];
     int32_t count;
-    bool same_scenario, same_state; /* by their hashes, of the files that a scenario names too; not a steered run's */
+    bool same_scenario, same_state; /* by their hashes, of the files that a scenario names too; where a program told
+                                       them the same things and not with the same end, not */
     bool only_files_differ;         /* the scenarios are the same but for those */
     bool changed_a, changed_b;      /* scenario.yaml, or by another Fram: run_data.is_changed */
     bool only_told_differs;         /* or may: what a program told one of them, or both */
     bool same_as_read;              /* not by the hashes of the runs, but as this program reads both */
     char told[2][RUN_TOLD_SIZE];    /* what a program told A and B in place of the scenario, "": nothing */
+    bool no_time_shared;            /* one ended before the other was recorded: nothing is of both */
     double counted_from;            /* statistics of both are from then on [s]; 0: each from after its transient */
 } compare_result;
 /* The numbers; output: also a page with the numbers and plots of both, NULL: none. */

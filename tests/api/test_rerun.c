@@ -538,12 +538,26 @@ START_TEST(compared_from_where_both_are_recorded)
             ck_assert_double_eq(row_of(&c, numbers[i], false), row_of(&c, numbers[i], true));
         ck_assert((row_of(&c, "x at the end", false) == row_of(&c, "x at the end", true)) == (told < 0));
         fram_comparison_free(ctx, &c);
+        assert_ok(fram_compare(ctx, run, run, NULL, &c, &e), e);
+        ck_assert(c.same_scenario && !c.only_told_differs); /* with itself it is the same, told or not */
+        fram_comparison_free(ctx, &c);
     }
     unrecorded = 0;
     record(no_checkpoints, 1, -1);
     fram_comparison c;
     assert_ok(fram_compare(ctx, whole, run, NULL, &c, &e), e);
-    ck_assert(c.counted_from == 0 && c.same_scenario && c.same_state);
+    ck_assert(c.counted_from == 0 && c.same_scenario && c.same_state && !c.no_time_shared);
+    fram_comparison_free(ctx, &c);
+    /* One that ended before the other was recorded. */
+    steps = 50;
+    record(no_checkpoints, 1, -1);
+    ck_assert_int_eq(rename(run, map), 0);
+    steps = 150;
+    unrecorded = 75;
+    record(no_checkpoints, 1, -1);
+    unrecorded = 0;
+    assert_ok(fram_compare(ctx, map, run, page, &c, &e), e);
+    ck_assert(c.no_time_shared && run_file_has("page.html", "No time is of both"));
     fram_comparison_free(ctx, &c);
     close_all();
 }
