@@ -343,6 +343,16 @@ fram_status json_walk_number_or_null(json_walk *w, double *value, fram_error *er
     return json_walk_skip(w, error);
 }
 
+fram_status json_walk_text_or_null(json_walk *w, char *text, size_t room, fram_error *error)
+{
+    json_kind kind;
+    fram_status status = json_walk_kind(w, &kind, error);
+    if (status != FRAM_OK || kind != JSON_NULL)
+        return status == FRAM_OK ? json_walk_text(w, text, room, error) : status;
+    text[0] = '\0';
+    return json_walk_skip(w, error);
+}
+
 fram_status json_walk_skip(json_walk *w, fram_error *error)
 {
     json_kind kind;

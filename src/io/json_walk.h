@@ -54,6 +54,8 @@ bool json_walk_next(json_walk *w, json_loop *loop, fram_error *error);
 bool json_walk_next_member(json_walk *w, json_loop *loop, char *key, size_t room, fram_error *error);
 /* A string, in the same way. */
 fram_status json_walk_text(json_walk *w, char *text, size_t room, fram_error *error);
+/* The same, or null, which is an empty text: none. */
+fram_status json_walk_text_or_null(json_walk *w, char *text, size_t room, fram_error *error);
 /* A number; one that overflows is refused. */
 fram_status json_walk_number(json_walk *w, double *value, fram_error *error);
 /* The same, or null, which is NaN. */

@@ -105,7 +105,7 @@ static fram_status read_member(note_reader *r, const note_member *m, void *of)
     if (m->kind == NOTE_LIST)
         return m->list->read(r, of);
     if (m->kind == NOTE_TEXT || m->kind == NOTE_NAME)
-        return json_walk_text(&r->walk, (char *)of + m->offset, m->room, r->error);
+        return json_walk_text_or_null(&r->walk, (char *)of + m->offset, m->room, r->error);
     fram_status status = json_walk_number_or_null(&r->walk, &value, r->error);
     if (status == FRAM_OK)
         memcpy((char *)of + m->offset, &value, sizeof value);

@@ -1,5 +1,6 @@
 #include "model/world_invariants.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* Lengths of unit vectors and quaternions are right to this; they are normalised each step. */
@@ -26,9 +27,12 @@ static bool body_broken(const world *w, int32_t i, char text[INVARIANT_TEXT])
         return broken(text, "body", i, "its quaternion is no unit one", square);
     if (b->motion[i] == MOTION_DYNAMIC && !(b->mass[i] > 0))
         return broken(text, "body", i, "it moves freely without mass", b->mass[i]);
+    /* Added inertia may be a rounding of what was published under 0, but takes none of the body's own away. */
     sym3 j = b->inertia[i];
-    if (b->motion[i] == MOTION_DYNAMIC && !(j.xx > 0 && j.yy > 0 && j.zz > 0))
-        return broken(text, "body", i, "it turns freely without inertia", fmin(j.xx, fmin(j.yy, j.zz)));
+    vec3 added = b->added_inertia[i];
+    double least = fmin(j.xx + fmin(added.x, 0), fmin(j.yy + fmin(added.y, 0), j.zz + fmin(added.z, 0)));
+    if (b->motion[i] == MOTION_DYNAMIC && !(least > 0))
+        return broken(text, "body", i, "it turns freely without inertia", least);
     int32_t shape = b->shape[i];
     if (shape >= 0 && (shape >= w->shapes.shapes.count || w->shapes.shapes.kind[shape] == SHAPE_NONE))
         return broken(text, "body", i, "its shape is not there", shape);

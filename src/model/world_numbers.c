@@ -58,7 +58,18 @@ static const struct real_rule {
     {"broad", "travel", REAL_POSITIVE},
     {"held_drag", "half", REAL_POSITIVE},
     {"held_drag", "reach", REAL_POSITIVE},
+    /* masses, and what pushes or costs by its size alone */
     {"body", "mass", REAL_POSITIVE},
+    {"body", "added_mass", REAL_POSITIVE},
+    {"drift", "mass", REAL_POSITIVE},
+    {"thruster", "ahead", REAL_POSITIVE},
+    {"thruster", "astern", REAL_POSITIVE},
+    {"thruster", "forbidden_half", REAL_POSITIVE},
+    {"thruster", "cost", REAL_POSITIVE},
+    {"thruster", "full_power", REAL_POSITIVE},
+    {"station", "lever", REAL_POSITIVE},
+    {"station", "feed_time", REAL_POSITIVE},
+    {"station", "noise", REAL_POSITIVE},
 };
 enum { REAL_RULES = sizeof real_rules / sizeof *real_rules };
 

@@ -275,7 +275,8 @@ static fram_status make_folder(const char *path, bool own, fram_error *error)
 {
     if (own)
         return folder_make_own(path, error);
-    return mkdir(path, 0777) != 0 && errno != EEXIST ? file_place_error(error, path, "make the folder", errno) : FRAM_OK;
+    return mkdir(path, 0777) != 0 && errno != EEXIST ? file_place_error(error, path, "make the folder", errno)
+                                                     : FRAM_OK;
 }
 
 /* "floes_000012.vtp" */

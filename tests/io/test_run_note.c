@@ -120,4 +120,22 @@ START_TEST(long_lists_are_refused)
 }
 END_TEST
 
-TEST_MAIN("run_note", what_is_written_is_read, long_lists_are_refused)
+/* As by an editor of JSON that has none for an empty text. */
+START_TEST(null_is_no_text)
+{
+    static const char text[] = "{\"title\": null, \"events\": [{\"kind\": \"ram\", \"vessel\": null}], \"steps\": 3}\n";
+    scratch s = scratch_make();
+    run_note n;
+    context_init(&ctx);
+    scratch_write(scratch_path(&s, "run.json"), text, strlen(text));
+    assert_ok(run_note_read(&ctx, s.folder, &n, &error), error);
+    ck_assert_str_eq(n.title, "");
+    ck_assert_int_eq(n.events.count, 1);
+    ck_assert_str_eq(n.events.data[0].vessel, "");
+    assert_bits(n.steps, 3);
+    run_note_free(&ctx, &n);
+    scratch_remove(&s, "run.json");
+}
+END_TEST
+
+TEST_MAIN("run_note", what_is_written_is_read, long_lists_are_refused, null_is_no_text)

@@ -257,6 +257,10 @@ START_TEST(what_no_spring_and_no_size_can_be_is_found)
     FOUND(&k, vessels.length[0], bits(1e13), "vessel[0].length");
     FOUND(&k, vessels.tow_ramp[0], bits((double)INFINITY), "vessel[0].tow_ramp");
     FOUND(&k, clock.work_crushed[0], bits(-1e61), "clock[0].work_crushed");
+    int32_t hull = k.w.vessels.body[0];
+    char mass[40];
+    snprintf(mass, sizeof mass, "body[%d].added_mass", (int)hull);
+    FOUND(&k, bodies.added_mass[hull].y, bits(-1), mass);
     scene_close(&k);
     /* Infinity where it means that there is none. */
     scene_open(&k, moored);
