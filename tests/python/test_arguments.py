@@ -14,13 +14,14 @@ import numpy as np
 import fram
 from scenes import FREE, TOWED
 
+HALF = "\ud800"  # half a pair of surrogates, which no text for C and no path has
 EMPTY, PAIR = [], (1, 2)  # of no numbers, and of two
-PARTS = [object(), 1j, [None], [[1, 2], [3]], {1: 2}, b"\0", "a\0b", np.array("x"),
+PARTS = [object(), 1j, [None], [[1, 2], [3]], {1: 2}, b"\0", "a\0b", HALF, np.array("x"),
          np.array(["2020-01-01"], "M8[D]"), dict]
 NUMBERS = [*PARTS, "abc", "5", None, EMPTY, PAIR, 10**400]
 NUMBERS_OR_NONE = [wrong for wrong in NUMBERS if wrong is not None]
 WHOLE = [*NUMBERS, 1.5, float("nan"), 2**70, -2**70]
-TEXTS = [wrong for wrong in PARTS if not isinstance(wrong, (str, bytes))] + [None, 5, 2.5, [], "a\0b"]
+TEXTS = [wrong for wrong in PARTS if not isinstance(wrong, (str, bytes))] + [None, 5, 2.5, [], "a\0b", HALF]
 FLAGS = [*NUMBERS, 2, 1.5]
 CALLS = [object(), 5, "abc", [], True]
 ANY = object()  # what may be given is not to be told by its kind
@@ -140,7 +141,8 @@ class Arguments(unittest.TestCase):
         self.assert_each_refused(e.step, {}, {"action": [wrong for wrong in NUMBERS if wrong is not PAIR]})
         bounds = [wrong for wrong in NUMBERS if wrong is not EMPTY and wrong is not PAIR]
         self.assert_each_refused(fram.Box, {"low": 0, "high": 1}, {"low": bounds, "high": bounds,
-                                                                   "dtype": ["abc", str, object, complex, 5]})
+                                                                   "dtype": ["abc", str, object, complex, 5, HALF,
+                                                                             "\udcff", "f8,\0"]})
         self.assert_refused("high", fram.Box, [0, 0], [1, 1, 1])
         box = fram.Box(0, 1)
         self.assert_each_refused(box.seed, {}, {

@@ -18,7 +18,7 @@ class Box:
     def __init__(self, low, high, dtype=np.float64):
         try:
             dtype = np.dtype(dtype)
-        except TypeError:
+        except (TypeError, ValueError):  # UnicodeError too
             raise refuse("dtype", "a type of real numbers", dtype) from None
         if dtype.kind not in "biuf":
             raise refuse("dtype", "a type of real numbers", dtype)

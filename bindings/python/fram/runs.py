@@ -17,7 +17,7 @@ from typing import IO, Any, Iterator, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from ._arguments import absolute_of, list_of, names_of, number_of, numbers_of, path_of, refuse
-from ._library import FileError, InputError, encoded_of, ffi, lib, new_error, text_of
+from ._library import FileError, InputError, ffi, lib, new_error, text_of
 from .context import Context, context_of, default_context
 
 try:
@@ -230,7 +230,7 @@ class Run:
         """The columns of series.csv or fractures.csv as numpy arrays."""
         if not isinstance(table, str):
             raise refuse("table", 'the name of a table, as "series" or "fractures"', table)
-        encoded_of("table", os.fsencode(table))
+        path_of("table", table)
         return _read_table(self.folder / f"{table}.csv")[0]
 
     @property
