@@ -9,6 +9,7 @@
 #include "io/csv_read.h"
 #include "sim/build.h"
 #include "sim/build_ice.h"
+#include "sim/capability_growth.h"
 #include "sim/capability_mirror.h"
 #include "sim/ice_loads.h"
 #include "sim/step.h"
@@ -201,23 +202,6 @@ static vec3 significant_load(const load_history *h, double after)
     return vec3_scale(mean, fmax(significant, size) / size);
 }
 
-/* Means along the mean load, of the first and the second half of what counts. */
-static void load_halves(const load_history *h, double after, double half[2])
-{
-    int32_t count = h->time.count, first = first_time_after(h->time.data, count, after), middle = (first + count) / 2;
-    const double *force[2] = {h->force[0].data, h->force[1].data};
-    double mean[2][2] = {{0, 0}, {0, 0}};
-    half[0] = half[1] = 0;
-    if (first == count || !force[0] || !force[1])
-        return;
-    for (int32_t i = first; i < count; i++)
-        for (int axis = 0; axis < 2; axis++)
-            mean[i >= middle][axis] += force[axis][i] / (i >= middle ? count - middle : middle - first);
-    double x = mean[0][0] + mean[1][0], y = mean[0][1] + mean[1][1], size = sqrt(x * x + y * y);
-    for (int k = 0; k < 2; k++)
-        half[k] = size > 0 ? (mean[k][0] * x + mean[k][1] * y) / size : 0;
-}
-
 /* Which of the runs failed, before why. */
 static void name_run(double from, double speed, fram_error *error)
 {
@@ -228,7 +212,7 @@ static void name_run(double from, double speed, fram_error *error)
 }
 
 static fram_status measure(context *ctx, const scenario *s, double from, double speed, capability *c, vec3 *load,
-                           double half[2], fram_error *error)
+                           load_halves *half, fram_error *error)
 {
     const scenario d = driven(s, from, speed);
     load_history h = {0};
@@ -241,7 +225,9 @@ static fram_status measure(context *ctx, const scenario *s, double from, double 
         model_free(ctx, &m);
     }
     if (status == FRAM_OK) {
-        load_halves(&h, UNCOUNTED * c->options.measure, half); /* first: what follows turns the history */
+        /* first: what follows turns the history */
+        *half = load_halves_find(h.time.data, h.force[0].data, h.force[1].data, h.time.count,
+                                 UNCOUNTED * c->options.measure);
         *load = significant_load(&h, UNCOUNTED * c->options.measure);
     } else if (status != FRAM_INTERRUPTED && error)
         name_run(from, speed, error);
@@ -257,51 +243,8 @@ typedef struct measured_loads {
     int32_t directions, speeds;
     double speed_step;
     vec3 load[CAPABILITY_MEASURED * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
-    double half[MEASURED_SPEEDS][2];                  /* load_halves, summed over the runs at a speed [N] */
-    struct {
-        double from, growth; /* of the direction with the largest one */
-    } most[MEASURED_SPEEDS];
+    load_halves half[CAPABILITY_MEASURED * MEASURED_SPEEDS]; /* 0 where a load is another's mirrored */
 } measured_loads;
-
-/* How much larger the second half is: 1 where there is none, infinite where only the second has any. */
-static double growth_of(const double half[2])
-{
-    if (half[0] > 0)
-        return half[1] / half[0];
-    return half[1] > 0 ? HUGE_VAL : 1;
-}
-
-static void add_halves(measured_loads *m, int32_t k, double from, const double half[2])
-{
-    double growth = growth_of(half);
-    m->half[k][0] += half[0];
-    m->half[k][1] += half[1];
-    if (growth > m->most[k].growth) {
-        m->most[k].growth = growth;
-        m->most[k].from = from;
-    }
-}
-
-/* A speed counts whose loads are this part of the largest one's: a single touch late in a run grows without end. */
-static const double COUNTS = 0.1;
-
-/* Of one direction chance alone makes halves differ; of all at a speed it does so less. */
-static void find_growth(const measured_loads *m, capability_loads *l)
-{
-    double largest = 0;
-    for (int32_t k = 0; k < m->speeds; k++)
-        largest = fmax(largest, m->half[k][0] + m->half[k][1]);
-    l->growth = 0;
-    for (int32_t k = 0; k < m->speeds; k++) {
-        double growth = growth_of(m->half[k]);
-        if (!(growth > l->growth) || m->half[k][0] + m->half[k][1] < COUNTS * largest)
-            continue;
-        l->growth = growth;
-        l->growth_speed = (k + 1) * m->speed_step;
-        l->growth_most = m->most[k].growth;
-        l->growth_from = m->most[k].from;
-    }
-}
 
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
@@ -325,12 +268,10 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
                 *load = vec3_make(other.x, -other.y, -other.z);
                 continue;
             }
-            double half[2];
-            fram_status status = measure(ctx, s, from, speed, c, load, half, error);
+            fram_status status = measure(ctx, s, from, speed, c, load, &m->half[i * m->speeds + k], error);
             if (status != FRAM_OK)
                 return status;
             c->loads.runs_done++;
-            add_halves(m, k, from, half);
             log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %s, sway %s, yaw %s MN m", degrees(from),
                       speed, load_text_of(load->x, 4).text, load_text_of(load->y, 4).text,
                       plain_text_of(load->z * 1e-6, 4).text);
@@ -352,7 +293,7 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
     m.speed_step = l->speed_step * l->speeds / m.speeds;
     l->measured = m.directions;
     fram_status status = measure_all(ctx, s, c, &m, error);
-    find_growth(&m, l);
+    load_growth_find(m.half, m.directions, m.speeds, m.speed_step, l);
     for (int32_t i = 0; i < l->rows && status == FRAM_OK; i++)
         for (int32_t k = 0; k < l->speeds; k++)
             l->ice[i * l->speeds + k] = capability_ice_between(m.load, m.directions, m.speeds, m.speed_step,

@@ -1,5 +1,6 @@
 /* Measured ice loads that were still building up are told, with by how much, at which speed, and what to do. */
 #include "sim/capability.h"
+#include "sim/capability_growth.h"
 #include "testing.h"
 
 #include <stdio.h>
@@ -43,4 +44,61 @@ START_TEST(growth_is_told)
 }
 END_TEST
 
-TEST_MAIN("capability growth", growth_is_told)
+/* Two halves of a run that count, of so many values each, along a direction. */
+static void check_halves(double first, double second, double expected_first, double expected_second)
+{
+    enum { COUNT = 90, AFTER = 30 };
+    double time[COUNT], x[COUNT], y[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        double size = i < AFTER ? 1e9 : i < (AFTER + COUNT) / 2 ? first : second;
+        time[i] = i + 1;
+        x[i] = 0.6 * size;
+        y[i] = -0.8 * size;
+    }
+    const load_halves half = load_halves_find(time, x, y, COUNT, AFTER);
+    ck_assert_double_eq_tol(half.first, expected_first, 1e-9);
+    ck_assert_double_eq_tol(half.second, expected_second, 1e-9);
+}
+
+/* A load that turned round was there: it has not grown from nothing. */
+START_TEST(halves_have_sizes)
+{
+    check_halves(2, 3, 2, 3);
+    check_halves(-2, 3, 2, 3);
+    check_halves(-3, 2, 3, 2);
+    check_halves(0, 5, 0, 5);
+    check_halves(0, 0, 0, 0);
+}
+END_TEST
+
+START_TEST(what_is_small_does_not_count)
+{
+    enum { SPEEDS = 2, DIRECTIONS = 3 };
+    static const struct {
+        load_halves half[DIRECTIONS * SPEEDS]; /* by direction, at both speeds */
+        double growth, speed, most, from_deg;
+    } rows[] = {
+        /* The larger growth, and of its directions the one that grows most. */
+        {{{50, 50}, {20, 40}, {50, 50}, {10, 60}, {50, 50}, {20, 20}}, 2.4, 1, 6, 120},
+        /* A direction of under a tenth of the largest one's load does not count: one that only just touched. */
+        {{{50, 50}, {40, 60}, {50, 50}, {0, 9}, {50, 50}, {40, 40}}, 109.0 / 80, 1, 1.5, 0},
+        {{{50, 50}, {40, 60}, {50, 50}, {0, 11}, {50, 50}, {40, 40}}, 111.0 / 80, 1, HUGE_VAL, 120},
+        /* Nor does a speed of under a tenth. */
+        {{{1, 8}, {50, 50}, {1, 8}, {50, 50}, {1, 8}, {50, 50}}, 1, 1, 1, 0},
+        {{{1, 10}, {50, 50}, {1, 10}, {50, 50}, {1, 10}, {50, 50}}, 10, 0.5, 10, 0},
+        /* Halves of the others' mirrored loads are none. */
+        {{{0, 9}, {0, 90}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}, HUGE_VAL, 0.5, HUGE_VAL, 0},
+        {{{0, 0}}, 1, 0.5, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        capability_loads l = {.measured = DIRECTIONS};
+        load_growth_find(rows[i].half, DIRECTIONS, SPEEDS, 0.5, &l);
+        ck_assert_msg(l.growth == rows[i].growth && l.growth_speed == rows[i].speed, "%d: %g at %g", (int)i, l.growth,
+                      l.growth_speed);
+        ck_assert_msg(l.growth_most == rows[i].most && fabs(degrees(l.growth_from) - rows[i].from_deg) < 1e-9,
+                      "%d: most %g from %g", (int)i, l.growth_most, degrees(l.growth_from));
+    }
+}
+END_TEST
+
+TEST_MAIN("capability growth", growth_is_told, halves_have_sizes, what_is_small_does_not_count)
