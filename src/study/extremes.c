@@ -414,8 +414,7 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     out->sample = (int32_t)(exceedances < INT32_MAX ? exceedances : INT32_MAX);
     /* To the nearest: series that are a little shorter than a batch are hardly less. */
     if (floor(acer_effective_batches(rates) + 0.5) < ACER_BATCHES_LEAST)
-        return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 series or batches of 20 "
-                                    "time scales, of which ones much shorter than the others count as parts");
+        return extremes_refuse_scales(out);
     if (out->sample < LAW_VALUES_LEAST)
         return extremes_refuse_few(out);
     if (!acer_fit(rates, &out->tail))
@@ -489,7 +488,5 @@ fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method
         status = answer_blocks(&w);
     if (status == FRAM_OK && out->answered)
         extremes_doubt(out, ask, w.time);
-    if (status == FRAM_OK)
-        extremes_doubt_series(out, s);
-    return status;
+    return status == FRAM_OK ? extremes_doubt_series(ctx, out, ask, s, error) : status;
 }

@@ -80,6 +80,7 @@ typedef struct extreme_result {
     char note[EXTREME_NOTE]; /* sentences; "" when there is nothing to say */
     threshold_row stability[STABILITY_MOST];
     int32_t stability_rows;
+    bool too_few_scales; /* without an answer, since the data are too few time scales long */
 } extreme_result;
 
 /* Of one or several realizations of a stationary process.  FRAM_ERROR_MEMORY; FRAM_INTERRUPTED while a bootstrap draws

@@ -3,17 +3,16 @@
 #include "base/load_unit.h"
 #include "base/number_text.h"
 #include "base/transcendental.h"
+#include "study/steadiness.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* From here on a doubt is told: duration over data, half an interval over the level, difference of the halves' means in
-   standard deviations of it, by Student's t of 14 degrees of freedom once in 700 times by chance. */
+/* From here on a doubt is told: duration over data, half an interval over the level. */
 #define FAR 20.0
 #define WIDE 0.25
-#define UNSTEADY 4.0
 /* Twice the logarithm of a ratio of likelihoods: of chi-squared with one degree of freedom exceeded once in 20 times.
  */
 #define RATIO 3.841458820694124
@@ -75,6 +74,13 @@ fram_status extremes_refuse_few(extreme_result *out)
     say(out, "No answer: %d %s are too few, at least %d are needed: run longer, or more seeds%s.", (int)out->sample,
         what[out->method], (int)LAW_VALUES_LEAST, less[out->method] ? less[out->method] : "");
     return FRAM_OK;
+}
+
+fram_status extremes_refuse_scales(extreme_result *out)
+{
+    out->too_few_scales = true;
+    return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 series or batches of 20 time "
+                                "scales, of which ones much shorter than the others count as parts");
 }
 
 fram_status extremes_refuse_short(extreme_result *out)
@@ -247,40 +253,33 @@ void extremes_doubt_tail(extreme_result *out, const acer_doubt *doubt)
             digits_of(doubt->upper, scale_of(out)), doubt->upper);
 }
 
-/* Mean and sum of squares about it of the means of the batches of one half of every part. */
-enum { HALF_BATCHES = 8 };
-typedef struct half_means {
-    double mean, square;
-    int32_t count;
-} half_means;
-
-static half_means means_of_half(const series_set *s, int half)
+/* Whether what stands in the way of an answer may come of the time scale, by which goes what is not asked for. */
+static bool goes_by_scale(const extreme_result *out, const extreme_request *ask)
 {
-    half_means h = {0, 0, 0};
-    for (int32_t p = 0; p < s->count; p++) {
-        int32_t length = s->parts[p].count / (2 * HALF_BATCHES);
-        for (int32_t b = half * HALF_BATCHES; length > 0 && b < (half + 1) * HALF_BATCHES; b++) {
-            double mean = 0;
-            for (int64_t i = (int64_t)b * length; i < (int64_t)(b + 1) * length; i++)
-                mean += s->parts[p].value[i] / length;
-            /* Welford (1962). */
-            double before = mean - h.mean;
-            h.mean += before / ++h.count;
-            h.square += before * (mean - h.mean);
-        }
+    switch (out->method) {
+    case EXTREME_GUMBEL:
+    case EXTREME_GEV:
+        return !(ask->block > 0);
+    case EXTREME_POT:
+        return !(ask->separation > 0);
+    case EXTREME_ACER:
+        return out->too_few_scales || ask->order == 0;
+    case EXTREME_UPCROSSING:
+        return out->too_few_scales;
+    default:
+        return false;
     }
-    return h;
 }
 
-void extremes_doubt_series(extreme_result *out, const series_set *s)
+fram_status extremes_doubt_series(context *ctx, extreme_result *out, const extreme_request *ask, const series_set *s,
+                                  fram_error *error)
 {
-    half_means a = means_of_half(s, 0), b = means_of_half(s, 1);
-    if (a.count < 2 || b.count < 2)
-        return;
-    double variance = (a.square + b.square) / (a.count + b.count - 2);
-    double deviation = sqrt(variance * (1.0 / a.count + 1.0 / b.count));
-    if (!(fabs(b.mean - a.mean) > UNSTEADY * deviation))
-        return;
+    double deviations = 0;
+    if (!out->answered && !goes_by_scale(out, ask))
+        return FRAM_OK;
+    fram_status status = halves_differ(ctx, s, &deviations, error);
+    if (status != FRAM_OK || !(deviations > 0))
+        return status;
     char refusal[sizeof out->note];
     memcpy(refusal, out->note, sizeof refusal);
     if (!out->answered)
@@ -288,7 +287,8 @@ void extremes_doubt_series(extreme_result *out, const series_set *s)
     say(out,
         "The means of the two halves differ by %.2g times what their batches scatter: the series is not stationary "
         "(leave its start out?).",
-        fabs(b.mean - a.mean) / deviation);
+        deviations);
     if (!out->answered)
         say(out, "Its time scale, by which blocks and batches go, may be that of this change. %s", refusal);
+    return FRAM_OK;
 }

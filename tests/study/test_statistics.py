@@ -248,6 +248,15 @@ class Statistics(unittest.TestCase):
                                "steep.csv")
             note = self.fram("extremes", steep, "--channel", "x", "--method", method)["methods"][0]["note"]
             self.assertRegex(note, "^The means of the two halves differ .* not stationary .* of this change. No answer")
+        # Not where it is what was asked for that stands in the way.
+        slow = self.write("time,x\n" + "".join(f"{i},{(i * 7919 % 100) / 50 + i / 5000}\n" for i in range(2000)),
+                          "slow.csv")
+        words = ("extremes", slow, "--channel", "x", "--method")
+        self.assertIn("not stationary", self.fram(*words, "gumbel", "--block", "20")["methods"][0]["note"])
+        for asked in (("gumbel", "--block", "900"), ("gev", "--block", "900"),
+                      ("pot", "--separation", "900", "--threshold", "2")):
+            note = self.fram(*words, *asked)["methods"][0]["note"]
+            self.assertRegex(note, "^No answer: .* too few")
         maxima = self.write("x\n" + "\n".join(map(str, sample())) + "\n", "m.csv")
         note = self.fram("extremes", maxima, "--channel", "x", "--maxima", "--block", "60", "--duration", "1a",
                          "--method", "gumbel")["methods"][0]["note"]
