@@ -4,16 +4,15 @@
 #include "base/clock.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/path.h"
 #include "study/capture.h"
 #include "study/no_answer.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* Tasks of an array, by Slurm's own default limit (MaxArraySize 1001); of all, when nothing else is asked. */
@@ -149,8 +148,8 @@ fram_status slurm_begin(context *ctx, const slurm_options *options, const char *
     text_format(ctx, &path, "%s/slurm", all->folder);
     if (status == FRAM_OK && path.failed)
         status = error_memory(error);
-    if (status == FRAM_OK && mkdir(path.data, 0777) != 0 && errno != EEXIST)
-        status = file_error(error, path.data, "make the folder", errno);
+    if (status == FRAM_OK)
+        status = folder_make_own(path.data, error);
     text_free(ctx, &path);
     if (status == FRAM_OK)
         cancel_earlier(all);

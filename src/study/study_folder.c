@@ -17,7 +17,7 @@
 #include "study/study_record.h"
 #include "study/study_warnings.h"
 
-#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -123,19 +123,40 @@ static void sweep(const char *path)
     closedir(dir);
 }
 
+/* A link to a folder, which a run would be made in; one to a file is replaced by the file (path_claim). */
+static bool leads_to_folder(DIR *dir, const char *name)
+{
+    struct stat about;
+    return fstatat(dirfd(dir), name, &about, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(about.st_mode) &&
+           fstatat(dirfd(dir), name, &about, 0) == 0 && S_ISDIR(about.st_mode);
+}
+
+fram_status study_folder_make(context *ctx, const char *path, fram_error *error)
+{
+    fram_status status = folder_make_own(path, error);
+    DIR *dir = status == FRAM_OK ? folder_open_own(path) : NULL;
+    int failure;
+    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name; name = folder_next(dir, &failure)) {
+        if (!leads_to_folder(dir, name))
+            continue;
+        text_buffer b = {0};
+        text_format(ctx, &b, "%s/%s", path, name);
+        status = b.failed ? error_memory(error) : folder_refuse_other(b.data, error);
+        text_free(ctx, &b);
+        break;
+    }
+    if (dir)
+        closedir(dir);
+    if (status == FRAM_OK)
+        sweep(path);
+    return status;
+}
+
 static fram_status make_folder(const study_folder *f, const char *name, const char *under, fram_error *error)
 {
     text_buffer b = {0};
     text_format(f->ctx, &b, under ? "%s/%s/%s" : "%s/%s", f->path, name, under);
-    fram_status status = FRAM_OK;
-    if (b.failed)
-        status = error_memory(error);
-    else if (mkdir(b.data, 0777) == 0)
-        status = FRAM_OK;
-    else if (errno == EEXIST)
-        sweep(b.data);
-    else
-        status = file_error(error, b.data, "make the folder", errno);
+    fram_status status = b.failed ? error_memory(error) : study_folder_make(f->ctx, b.data, error);
     text_free(f->ctx, &b);
     return status;
 }

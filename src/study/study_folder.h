@@ -46,6 +46,9 @@ fram_status study_folder_check_inputs(const study_folder *f, fram_error *error);
 /* Processes at a time: `jobs` where that is not 0, else the cores of this machine, or as many as its memory holds. */
 int study_folder_jobs(const study_folder *f, int jobs);
 
+/* One of the study's own folders is made, or is there and swept of what programs that were killed left.
+   FRAM_ERROR_INPUT where it is a link, or holds one to a folder, which may lead anywhere (io/folder.h). */
+fram_status study_folder_make(context *ctx, const char *path, fram_error *error);
 /* "DIR/runs/ID/SEED" and an ending, to be freed; NULL without memory. */
 char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending);
 /* "DIR/conditions/ID.yaml", to be freed. */

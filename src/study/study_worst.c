@@ -10,11 +10,9 @@
 #include "study/processes.h"
 #include "study/study_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* Between frames of a run whose scenario asks for none [s]. */
@@ -179,7 +177,7 @@ static void remove_run(const study_folder *f, const char *name)
 static void prune(worst_work *w)
 {
     char *path = path_of(w->f, "", "");
-    DIR *dir = path ? opendir(path) : NULL;
+    DIR *dir = path ? folder_open_own(path) : NULL;
     memory_free(w->f->ctx, path);
     if (!dir)
         return;
@@ -439,10 +437,7 @@ static fram_status find_entries(worst_work *w, const condition_rows *conditions,
 static fram_status make_worst_folder(const worst_work *w, fram_error *error)
 {
     char *path = path_of(w->f, "", "");
-    fram_status status = !path ? error_memory(error)
-                         : mkdir(path, 0777) == 0 || errno == EEXIST
-                             ? FRAM_OK
-                             : file_error(error, path, "make the folder", errno);
+    fram_status status = !path ? error_memory(error) : study_folder_make(w->f->ctx, path, error);
     memory_free(w->f->ctx, path);
     return status;
 }

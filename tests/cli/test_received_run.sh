@@ -123,6 +123,23 @@ for folder in st/runs/*; do echo "runs/${folder##*/}/1.log"; done >>names
 while read -r name; do ln -sf "$PWD/notes.txt" "st/$name"; done <names
 expect 0 "$FRAM" study study.yaml -o st -q
 cmp -s notes.txt kept.txt || fail "a study went through a link"
+# Its folders are no links, nor the folders of its runs in them; its own may be one.
+id=$(basename "$(echo st/runs/* | cut -d' ' -f1)")
+for folder in runs conditions "runs/$id" "runs/$id/1"; do
+    rm -rf away sent
+    cp -r st sent
+    if [ -e "sent/$folder" ]; then mv "sent/$folder" away; else mkdir away; fi
+    touch away/mine.0123456789abcdef.new
+    rm -f sent/runs/*/1.row
+    ln -s "$PWD/away" "sent/$folder"
+    find away >before
+    expect 2 "$FRAM" study study.yaml -o sent -q
+    says "sent/$folder: expected a folder to write into, found a link: remove it, or move it away" err
+    find away | cmp -s - before || fail "a study wrote or removed through $folder"
+done
+rm -rf sent away
+ln -s st sent
+expect 0 "$FRAM" study study.yaml -o sent -q
 
 # A link that a user names outside of the run is gone through, as ever.
 received
