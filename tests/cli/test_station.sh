@@ -230,6 +230,36 @@ expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=60 \
 expect 0 "$FRAM" report two
 says 'consider stiffer lines or ice management' two/report.html
 grep -F 'more thrust' two/report.html && fail "thrust for a vessel without thrusters"
+# What would hold a vessel better goes by what it has and who orders it: nobody, its own system, lines too, a program.
+advice() { # SENTENCE KEYS
+    cat >held.yaml <<END
+run: {duration: 0.4, time_step: 0.1}
+vessel:
+  mode: free
+  hull: {form: box, length: 60, beam: 14, draught: 4, freeboard: 3}
+  station: {offset_limit: 1e-6}
+  $2
+ice: {source: none}
+domain: {boundary: open}
+environment: {current_speed: 1, current_direction_deg: 90}
+END
+    expect 0 "$FRAM" run held.yaml -o held --force -q
+    expect 0 "$FRAM" report held -q
+    says "Examine the loads at that time (fram why)$1" held/report.html
+    same "$(grep -o 'Examine the loads' held/report.html | wc -l)" 1 "advice"
+}
+thruster='thrusters: [{kind: azimuth, x: 20, thrust: 1e5}]' ordered='positioning: {active: true}'
+line='mooring:
+    depth: 50
+    lines: [{kind: spring, count: 2, spacing_deg: 180, distance: 99, stiffness: 1e4, pretension: 1e3}]'
+advice ': nobody gives its thrusters orders (vessel.positioning).' "$thruster"
+advice '; consider more thrust or ice management.' "$thruster"$'\n  '"$ordered"
+advice '; consider more thrust, stiffer lines or ice management.' "$thruster"$'\n  '"$ordered"$'\n  '"$line"
+advice '; consider stiffer lines or ice management.' "$thruster"$'\n  '"$line"
+advice ': nothing holds the vessel there, neither lines nor thrusters.' ''
+sed -i 's/"told": \[\]/"told": ["thruster_1_order"]/' held/run.json
+expect 0 "$FRAM" report held -q
+says 'Examine the loads at that time (fram why), and what the program that steered the run did.' held/report.html
 # An event that names a vessel at length is broken before the charts.
 expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.approach.limit=1e5 \
     --set vessels.weak.name=a_vessel_of_24_letters-1
