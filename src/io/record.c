@@ -273,6 +273,16 @@ void record_tell_damage(const record_reader *r, const char *consequence)
         log_write(r->ctx, LOG_WARNING, "%s: %s; %s", r->path, r->damage, consequence);
 }
 
+fram_status record_refuse_frameless(const record_reader *r, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, r->path, 0, NULL,
+                     r->damage[0]
+                         ? "the record holds no whole frame before what is damaged or unfinished: wait where the "
+                           "run goes on, or run the scenario again"
+                         : "the record holds no frame: there is one each output.frame_interval, none if that is "
+                           "0; shorten it, or record for longer");
+}
+
 void record_seek(record_reader *r, uint64_t offset) { r->position = offset; }
 
 void record_reader_close(record_reader *r)

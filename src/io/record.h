@@ -63,11 +63,6 @@ typedef struct record_reader {
     char damage[160]; /* why reading stopped before the end of the file; empty otherwise */
 } record_reader;
 
-/* What a reader says that needs one. */
-#define RECORD_WITHOUT_FRAME                                                                                        \
-    "the record holds no frame: there is one each output.frame_interval, none if that is 0; shorten it, or record " \
-    "for longer"
-
 /* FRAM_ERROR_INPUT when it is not a record of this version and byte order. */
 fram_status record_open(context *ctx, const char *path, record_reader *r, fram_error *error);
 /* The next block.  found is false at the end of the file and at the first damaged or unfinished block: the reader's
@@ -75,6 +70,8 @@ fram_status record_open(context *ctx, const char *path, record_reader *r, fram_e
 fram_status record_next(record_reader *r, record_block *block, bool *found, fram_error *error);
 /* Warn in the log of what stopped the reading before the end of the file, if something did, and what follows. */
 void record_tell_damage(const record_reader *r, const char *consequence);
+/* What a reader says that needs a frame and found none in the whole record. */
+fram_status record_refuse_frameless(const record_reader *r, fram_error *error);
 /* Go to a block whose offset is known. */
 void record_seek(record_reader *r, uint64_t offset);
 void record_reader_close(record_reader *r);

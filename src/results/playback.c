@@ -280,7 +280,7 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
     size_t size = 0;
     fram_status status = measure_record(r, &m, error);
     if (status == FRAM_OK && m.frames == 0)
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, RECORD_WITHOUT_FRAME);
+        status = record_refuse_frameless(r, error);
     if (status == FRAM_OK)
         status = read_viewer(ctx, options->viewer, &page, &size, error);
     if (status != FRAM_OK)

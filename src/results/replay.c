@@ -351,7 +351,7 @@ fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error 
     fram_status status = replay_open_any(ctx, folder, r, error);
     if (status != FRAM_OK || r->has_next)
         return status;
-    status = wrong(r, RECORD_WITHOUT_FRAME, error);
+    status = record_refuse_frameless(&r->reader, error);
     replay_close(r);
     return status;
 }

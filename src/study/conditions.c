@@ -43,21 +43,27 @@ study_found_text study_found(const study_source *r, const yaml_node *node)
     return f;
 }
 
+/* Whether the key of a scenario has no keys in it. */
+static bool is_leaf(const char *path)
+{
+    const scenario_key *key = key_of_path(path);
+    return key && key->kind != KEY_SECTION && key->kind != KEY_LIST;
+}
+
 fram_status study_refuse_kind(const study_source *r, const yaml_node *node, const char *expected)
 {
     char key[160];
     const yaml_node *below = node;
-    const scenario_key *own = key_of_path(study_key(r, node));
-    if (own && own->kind != KEY_SECTION && own->kind != KEY_LIST) /* there are no keys in it */
-        return study_refuse(r, node, "expected %s, found %s", expected, study_found(r, node).text);
     int used = snprintf(key, sizeof key, "%.60s", study_key(r, node));
-    while (below->kind == YAML_MAPPING && study_child(r, below) && used < (int)sizeof key) {
+    while (below->kind == YAML_MAPPING && study_child(r, below) && used < (int)sizeof key && !is_leaf(key)) {
         below = study_child(r, below);
         used += snprintf(key + used, sizeof key - (size_t)used, ".%.60s", study_key(r, below));
     }
     if (below == node)
         return study_refuse(r, node, "expected %s, found %s", expected, study_found(r, node).text);
-    const char *value = below->kind == YAML_SCALAR ? yaml_text(r->tree, below->value) : "[...]";
+    const char *value = below->kind == YAML_SCALAR    ? yaml_text(r->tree, below->value)
+                        : below->kind == YAML_MAPPING ? "{...}"
+                                                      : "[...]";
     return study_refuse(r, node, "expected %s, found a mapping; write %s: %.40s", expected, key, value);
 }
 

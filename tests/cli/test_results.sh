@@ -498,6 +498,12 @@ expect 2 "$FRAM" extremes rare
 says "the load is made of ice_force_averaged_x and ice_force_averaged_y" err
 grep -q "did you mean load" err && fail "the name that was asked for is offered: $(cat err)"
 
+# A record that is cut in its first frame is not one without frames, which a shorter interval would have.
+cp -r run cut
+head -c 2000 run/record.fram >cut/record.fram
+expect 2 "$FRAM" export cut --vtk -o cut/shown
+says "holds no whole frame before what is damaged or unfinished: wait where the run goes on, or run the scenario" err
+
 # Two runs.
 expect 0 "$FRAM" compare run run --json
 holds '"same_state":true' out
