@@ -2,6 +2,7 @@
 #include "results/manage.h"
 
 #include "base/load_unit.h"
+#include "base/number_text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,8 +78,8 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
         text_format(ctx, out, "; the largest that came, at %.4g s", s->largest_time);
     text_add(ctx, out, "\n");
     if (s->empty > 0 && !isnan(s->first_time))
-        text_format(ctx, out, "no ice before the vessel until %.4g s, which the means count: give run.transient %.4g\n",
-                    s->first_time, s->first_time);
+        text_format(ctx, out, "no ice before the vessel until %.4g s, which the means count: give run.transient %s\n",
+                    s->first_time, least_text_of(s->first_time, 4).text);
     tell_time(ctx, "time until the nearest unmanaged ice arrives, least, median", s->alarm_least, s->alarm_median, out);
     tell_time(ctx, "time until the largest unmanaged ice arrives, least, median", s->warning_least, s->warning_median,
               out);

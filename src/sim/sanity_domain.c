@@ -3,6 +3,7 @@
 #include "sim/sanity_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* What a vessel turns about in a field of floes, global: amidships, or its turret.  Beyond the edge of a drifting sheet
    there is open water, not a band: there the ship is looked at as it lies.  reach: from there along X and Y; a vessel
@@ -26,22 +27,51 @@ static vec2 turns_about(const scenario *scene, const scenario_vessel *v, vec3 st
 /* Of a reach [m]: what is missing to it by rounding. */
 #define ROOM_ROUNDED 1e-9
 
-/* Nearest edge of a fed domain within the reach of the vessel, turned any way it may be: the band moves floes through
-   the hull. */
+/* A side of the domain: how near it is, and how near the vessel reaches, its own edge of the band on the way [m]. */
+typedef struct domain_side {
+    const char *key;
+    double room, reach;
+    double bound; /* where it should stand at the nearest */
+    bool upper;
+} domain_side;
+
+/* "domain.y_min -72.2 or less and domain.y_max 72.2 or more": of all sides that are too near. */
+static void list_bounds(const domain_side *sides, char *out, size_t size)
+{
+    size_t used = 0;
+    for (int i = 0; i < 4 && used < size; i++) {
+        const domain_side *d = &sides[i];
+        if (!(d->reach - d->room > ROOM_ROUNDED * d->reach))
+            continue;
+        double slack = ROOM_ROUNDED * d->reach;
+        const bound_text bound = d->upper ? least_text_of(d->bound - slack, 4) : most_text_of(d->bound + slack, 4);
+        used += (size_t)snprintf(out + used, size - used, "%sdomain.%s %s or %s", used > 0 ? " and " : "", d->key,
+                                 bound.text, d->upper ? "more" : "less");
+    }
+}
+
+/* Edges of a fed domain within the reach of the vessel, turned any way it may be: the band moves floes through the
+   hull. */
 static void tell_room(const teller *t, const vessel_entry *e, vec3 start)
 {
     const scenario_domain *d = &t->s->domain;
-    vec2 reach, at = turns_about(t->s, e->keys, start, &reach), edge = domain_edges_from(d, at);
+    vec2 reach, at = turns_about(t->s, e->keys, start, &reach);
     double band = sanity_least_band(t->s);
-    bool along_x = reach.x - edge.x > reach.y - edge.y;
-    double most = along_x ? reach.x : reach.y, room = (along_x ? edge.x : edge.y) - band;
-    if (d->boundary == DOMAIN_FEEDING && most - room > ROOM_ROUNDED * most)
-        sanity_say(t->tell, t->to,
-                   "domain: its edge%s is %.4g m %s %s, which reaches %.4g m%s; enlarge the domain by %s m or more "
-                   "on that side",
-                   band > 0 ? " with the band" : "", fabs(room), room < 0 ? "short of" : "from", e->path, most,
-                   e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it",
-                   least_text_of((most - room) * (1 - ROOM_ROUNDED), 3).text);
+    const domain_side sides[] = {
+        {"x_min", at.x - d->x_min - band, reach.x, at.x - reach.x - band, false},
+        {"x_max", d->x_max - at.x - band, reach.x, at.x + reach.x + band, true},
+        {"y_min", at.y - d->y_min - band, reach.y, at.y - reach.y - band, false},
+        {"y_max", d->y_max - at.y - band, reach.y, at.y + reach.y + band, true},
+    };
+    const domain_side *near = sides;
+    for (int i = 1; i < 4; i++)
+        near = sides[i].reach - sides[i].room > near->reach - near->room ? &sides[i] : near;
+    char bounds[4 * (NUMBER_TEXT_SIZE + 24)] = "";
+    list_bounds(sides, bounds, sizeof bounds);
+    if (d->boundary == DOMAIN_FEEDING && bounds[0])
+        sanity_say(t->tell, t->to, "domain: its edge%s is %.4g m %s %s, which reaches %.4g m%s; take %s",
+                   band > 0 ? " with the band" : "", fabs(near->room), near->room < 0 ? "short of" : "from", e->path,
+                   near->reach, e->keys->mode == VESSEL_FREE ? " as it turns" : " towards it", bounds);
 }
 
 static bool is_judged_by_domain(const scenario *s, const scenario_vessel *v)

@@ -206,7 +206,7 @@ static fram_status check_parallel(const hull_particulars *p, const hull_lines *l
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
                      "no parallel body is left at the %s (z = %g m): the bow reaches aft to x = %g m, the stern "
-                     "forward to x = %g m; enlarge parallel_midbody (%g), stem_angle or stern_angle",
+                     "forward to x = %g m; enlarge parallel_midbody (%g), or the angle of stem or stern",
                      end.name, end.z, fore, aft, p->parallel_midbody);
 }
 
@@ -222,7 +222,7 @@ static fram_status check_block(const hull_particulars *p, fram_error *error)
         return error_value(error, "block_coefficient", "1, that of a box, or none: a finer hull takes another form",
                            asked);
     return hull_block_refuse(least, most, asked,
-                             "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller "
+                             "a steeper stem or stern, less flare or more parallel_midbody, a smaller "
                              "one the opposite",
                              error);
 }

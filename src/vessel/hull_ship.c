@@ -273,9 +273,11 @@ static fram_status check_room(const hull_particulars *p, fram_error *error)
                          "entrance and run at least %.3g; enlarge length%s%s",
                          1 - longest - LEAST_SHIP_PARALLEL, shortest,
                          !rakes  ? ""
-                         : angle ? ", stem_angle, stern_angle"
-                                 : ", stem_angle or stern_angle",
-                         angle ? " or entrance_angle" : "");
+                         : angle ? ", the angle of stem, stern"
+                                 : ", or the angle of stem or stern",
+                         !angle  ? ""
+                         : rakes ? " or entrance"
+                                 : " or the angle of entrance");
     if (isnan(parallel) || (1 - parallel >= shortest && 1 - parallel <= longest))
         return FRAM_OK;
     const range_text range = range_text_of(1 - longest, 1 - shortest, 3);
@@ -308,8 +310,8 @@ fram_status hull_ship_check(const hull_particulars *p, fram_error *error)
     if (asked >= least && asked <= most)
         return FRAM_OK;
     return hull_block_refuse(least, most, asked,
-                             "steeper stem_angle or stern_angle, a wider transom, a smaller bilge_radius or a larger "
-                             "entrance_angle, a smaller one the opposite; parallel_midbody is best left out",
+                             "a steeper stem or stern, a wider transom, a smaller bilge_radius or a larger angle of "
+                             "entrance, a smaller one the opposite; parallel_midbody is best left out",
                              error);
 }
 

@@ -407,4 +407,19 @@ wide=$(sed -n 's/.*radius of 605 m.* take \([0-9.]*\) m or more.*/\1/p' err)
 expect 0 "$FRAM" check helm.yaml $broad --set vessel.propulsion.rudder_area=1 \
     --set vessel.propulsion.pattern.width="${wide:-0}"
 grep -e 'pattern.width' -e 'does not stop a turn' err && fail "a width of $wide m is told as the least, and too small"
+# Edges of a fed domain that are too near to a vessel are told by their keys, with values that are far enough.
+cat >near.yaml <<'END'
+run: {duration: 5}
+vessel: {mode: towed, speed: 1, y: 3, hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}}
+ice: {source: voronoi, concentration: 0.7, mean_floe_area: 9000, thickness: 0.5}
+domain: {x_min: -70, x_max: 130, y_min: -50, y_max: 50, boundary: feeding, drift_speed: 0.5}
+END
+expect 0 "$FRAM" check near.yaml
+near=$(grep -o 'its edge with the band is .*; take domain.*' err)
+bounds=$(grep -oE 'domain\.[xy]_m[a-z]+ -?[0-9.e+]+' <<<"$near" | sed 's/ /=/')
+same "$(cut -d= -f1 <<<"$bounds" | tr '\n' ' ')" "domain.x_min domain.y_min domain.y_max " "edges that are too near"
+for bound in $bounds; do set -- "$@" --set "$bound"; done
+expect 0 "$FRAM" check near.yaml "$@"
+grep "its edge with the band" err && fail "edges that were told are too near: $bounds"
+
 finish "what cannot be is refused, what will be is told"

@@ -196,9 +196,9 @@ START_TEST(refusals)
         {"bilge_radius", "0.95 of the draught", 0.8, NAN, NAN, NAN, NAN, 12, NAN},
         {"transom", "narrower than the bilges", 0.8, NAN, NAN, NAN, NAN, 5, 0.1},
         {"transom", "share of the beam", 0.8, NAN, NAN, NAN, NAN, NAN, 1},
-        {"length", "enlarge length, stem_angle or stern_angle", 0.8, 3, NAN, NAN, NAN, NAN, NAN},
-        {"length", "enlarge length or entrance_angle", 0.8, NAN, 12, NAN, NAN, NAN, NAN},
-        {"length", "stern_angle or entrance_angle", 0.8, 10, 20, NAN, NAN, NAN, NAN},
+        {"length", "enlarge length, or the angle of stem or stern", 0.8, 3, NAN, NAN, NAN, NAN, NAN},
+        {"length", "enlarge length or the angle of entrance", 0.8, NAN, 12, NAN, NAN, NAN, NAN},
+        {"length", "the angle of stem, stern or entrance", 0.8, 10, 20, NAN, NAN, NAN, NAN},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         hull_particulars p = ship(bad[i].block);
