@@ -4,6 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "io/fill.h"
+#include "io/folder.h"
 #include "io/path.h"
 #include "results/export.h"
 #include "results/manage.h"
@@ -95,7 +96,7 @@ bool fram_path_is_stream(const char *path) { return path && fill_is_stream(path)
 fram_status fram_path_check_place(const char *path, bool folder, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"path", path});
-    return status == FRAM_OK ? path_check_place(path, folder, error) : status;
+    return status == FRAM_OK ? folder_check_place(path, folder, error) : status;
 }
 
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,

@@ -80,12 +80,12 @@ static bool is_of_another_kind(const output_file *o)
            !has_ending(o->path, o->endings);
 }
 
-static bool is_folder(const output_file *o) { return o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0; }
+static bool is_for_folder(const output_file *o) { return o->endings && strcmp(o->endings, FOLDER_OUTPUT) == 0; }
 
 /* A folder with something in it, which is to be written into; one that cannot be listed is for the writer to refuse. */
 static bool is_filled_folder(const output_file *o)
 {
-    DIR *folder = is_folder(o) ? opendir(o->path) : NULL;
+    DIR *folder = is_for_folder(o) ? opendir(o->path) : NULL;
     bool filled = false;
     for (const struct dirent *e; !filled && folder && (e = readdir(folder));)
         filled = strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
@@ -119,7 +119,7 @@ int refuse_outputs(const common_options *common, const command_files *files)
             continue;
         if (is_too_long(o->path))
             return answer_usage(common, o->option, "expected a shorter name: the file system does not take this one");
-        if (*o->path && fram_path_check_place(o->path, is_folder(o), &error) != FRAM_OK)
+        if (*o->path && fram_path_check_place(o->path, is_for_folder(o), &error) != FRAM_OK)
             return answer_error(common, &error);
         if (is_input(files, o->path))
             return answer_usage(common, o->option, is_read);

@@ -105,3 +105,26 @@ fram_status folder_refuse(const char *path, fram_error *error)
     return error_set(error, FRAM_ERROR_USAGE, path, 0, "folder",
                      "the folder is not empty; name another one, or allow that the results in it are overwritten");
 }
+
+fram_status folder_check_place(const char *path, bool folder, fram_error *error)
+{
+    char above[PATH_ROOM] = ".";
+    size_t length = strlen(path);
+    struct stat about;
+    int failure = 0;
+    if (lstat(path, &about) == 0 || length >= sizeof above)
+        return FRAM_OK;
+    while (length > 0 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    if (length > 0)
+        snprintf(above, sizeof above, "%.*s", (int)length, path);
+    if (stat(above, &about) != 0)
+        failure = errno;
+    else if (!S_ISDIR(about.st_mode))
+        failure = ENOTDIR;
+    else if (access(above, W_OK | X_OK) != 0)
+        failure = errno;
+    return failure ? file_place_error(error, path, folder ? "make the folder" : "open for writing", failure) : FRAM_OK;
+}

@@ -1,6 +1,5 @@
 #include "io/path.h"
 
-#include "io/file.h"
 #include "io/run_files.h"
 
 #include <errno.h>
@@ -107,29 +106,6 @@ fram_status path_given_or(const char *given, const char *folder, const char *nam
         return folder ? path_take(folder, given, error) : FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL,
                      "expected a path of less than %d bytes, found a longer one", (int)PATH_ROOM);
-}
-
-fram_status path_check_place(const char *path, bool folder, fram_error *error)
-{
-    char above[PATH_ROOM] = ".";
-    size_t length = strlen(path);
-    struct stat about;
-    int failure = 0;
-    if (lstat(path, &about) == 0 || length >= sizeof above)
-        return FRAM_OK;
-    while (length > 0 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    if (length > 0)
-        snprintf(above, sizeof above, "%.*s", (int)length, path);
-    if (stat(above, &about) != 0)
-        failure = errno;
-    else if (!S_ISDIR(about.st_mode))
-        failure = ENOTDIR;
-    else if (access(above, W_OK | X_OK) != 0)
-        failure = errno;
-    return failure ? file_place_error(error, path, folder ? "make the folder" : "open for writing", failure) : FRAM_OK;
 }
 
 bool path_absolute(const char *path, char *out, size_t size)

@@ -34,9 +34,6 @@ fram_status path_refuse_long(const char *given, const char *path, fram_error *er
    the run in the folder is made of, and is claimed there (path_take).  folder NULL: there is none. */
 fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],
                           fram_error *error);
-/* Whether a file, or a folder, that is not there yet can be made where its path says: asked before the work, and told
-   as its writer would. */
-fram_status path_check_place(const char *path, bool folder, fram_error *error);
 /* The path from the root, as the working folder is now, so that it lasts when that changes; false, and an empty text,
    where it does not fit or the working folder is gone. */
 bool path_absolute(const char *path, char *out, size_t size);

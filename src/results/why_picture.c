@@ -5,13 +5,11 @@
 #include "results/replay_plan.h"
 #include "results/why_labels.h"
 
-#include "io/file.h"
+#include "io/folder.h"
 #include "io/path.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { LONGEST_SIDE = 1400 };
 
@@ -243,5 +241,5 @@ fram_status why_picture_check(const why *y, const char *path, fram_error *error)
     if (status != FRAM_OK)
         return status;
     replay_close(&r);
-    return path_check_place(path, false, error);
+    return folder_check_place(path, false, error);
 }
