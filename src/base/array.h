@@ -11,8 +11,9 @@
         int32_t count, capacity; \
     }
 
-/* The one array of indices, named here so that rooms can hand it to one another. */
+/* The one array of indices, and that of bytes, named here so that rooms can hand them to one another. */
 typedef ARRAY(int32_t) int32_array;
+typedef ARRAY(unsigned char) byte_array;
 
 /* Room for at least `wanted` elements; false when there is no memory (the array is then unchanged). */
 #define array_reserve(ctx, a, wanted) \

@@ -1,4 +1,5 @@
-/* What the blocks of a run's record hold: the one rule that the recorder writes by and the replay reads by.
+/* What the blocks of a run's record hold: the one rule that the recorder writes by and the replay reads by, through
+   io/record_blocks.h.
 
    Blocks of the record, numbers in the byte order of its head; poses are packed as io/record_pose.h says, 16 bytes.
    Places (of poses, cracks and points of forces) are told from an origin near the domain, since f32 has no millimetres

@@ -1,78 +1,9 @@
 #include "results/replay.h"
 
-#include "io/record_pose.h"
 #include "results/run_record.h"
 
 #include <math.h>
 #include <string.h>
-
-/* ---- a block, read from front to back ---- */
-
-/* A payload is sound to its checksum, yet lengths in it are believed only as far as it reaches. */
-typedef struct cursor {
-    const unsigned char *at, *end;
-    bool unsound; /* something beyond the end was asked for (zeros were given), or what was read cannot be */
-} cursor;
-
-static void take(cursor *c, void *out, size_t size)
-{
-    if ((size_t)(c->end - c->at) < size) {
-        c->unsound = true;
-        memset(out, 0, size);
-        return;
-    }
-    memcpy(out, c->at, size);
-    c->at += size;
-}
-static int32_t take_i32(cursor *c)
-{
-    int32_t v;
-    take(c, &v, sizeof v);
-    return v;
-}
-/* Numbers of a record are finite: a run that is not stops before it writes. */
-static double finite(cursor *c, double v)
-{
-    c->unsound = c->unsound || !isfinite(v);
-    return v;
-}
-static double take_f32(cursor *c)
-{
-    float v;
-    take(c, &v, sizeof v);
-    return finite(c, (double)v);
-}
-static double take_f64(cursor *c)
-{
-    double v;
-    take(c, &v, sizeof v);
-    return finite(c, v);
-}
-static vec3 take_vec3(cursor *c)
-{
-    double x = take_f32(c), y = take_f32(c), z = take_f32(c);
-    return vec3_make(x, y, z);
-}
-static vec3 at_origin(const replay *r, vec3 place)
-{
-    return vec3_make(place.x + r->origin.x, place.y + r->origin.y, place.z);
-}
-/* Whether the pose is marked. */
-static bool take_pose(const replay *r, cursor *c, vec3 *position, quat *orientation)
-{
-    unsigned char packed[RECORD_POSE_SIZE];
-    take(c, packed, sizeof packed);
-    record_pose_unpack(packed, position, orientation);
-    *position = at_origin(r, *position);
-    return record_pose_is_marked(packed);
-}
-/* Room for `count` things of `size` bytes each is left. */
-static bool reaches(cursor *c, int32_t count, size_t size)
-{
-    if (count < 0 || (size_t)count > (size_t)(c->end - c->at) / size)
-        c->unsound = true;
-    return !c->unsound;
-}
 
 /* ---- bodies ---- */
 
@@ -96,115 +27,120 @@ static bool add_body(replay *r, const replay_body *b)
     return array_push(r->ctx, &r->bodies, *b);
 }
 
-static replay_body new_body(const replay *r, cursor *c)
+static replay_body new_body(const replay *r, record_stream *s, int32_t slot)
 {
-    replay_body b = {.slot = take_i32(c), .born = r->frames_read};
+    replay_body b = {.slot = slot, .born = r->frames_read};
     b.number = b.parent = b.vessel = -1;
-    (void)take_i32(c); /* generation */
-    if (b.slot < 0 || b.slot >= SLOTS_MOST)
-        c->unsound = true;
+    s->unsound = s->unsound || slot < 0 || slot >= SLOTS_MOST;
     return b;
 }
 
-static bool read_solid(replay *r, cursor *c)
+static bool read_solid(replay *r, record_stream *s)
 {
-    replay_body b = new_body(r, c);
+    record_solid told = {0};
+    record_stream_solid(s, &told);
+    replay_body b = new_body(r, s, told.slot);
     b.material = MATERIAL_HULL;
     b.moves = b.solid = true;
     b.vessel = r->vessels++;
-    b.vertex_count = take_i32(c);
-    b.face_count = take_i32(c);
+    b.vertex_count = told.vertices;
+    b.face_count = told.faces;
     b.vertex_first = r->points.count;
     b.face_first = r->faces.count / 3;
-    if (!reaches(c, b.vertex_count, 12))
-        return true;
-    for (int32_t i = 0; i < b.vertex_count; i++) {
-        if (!array_push(r->ctx, &r->points, take_vec3(c)))
+    for (int32_t i = 0; i < b.vertex_count && !s->unsound; i++) {
+        vec3 point = {0, 0, 0};
+        record_stream_point(s, &point);
+        if (!array_push(r->ctx, &r->points, point))
             return false;
     }
-    if (!reaches(c, b.face_count, 12))
-        return true;
-    for (int32_t i = 0; i < 3 * b.face_count; i++) {
-        int32_t v = take_i32(c);
-        c->unsound = c->unsound || v < 0 || v >= b.vertex_count;
-        if (!array_push(r->ctx, &r->faces, v))
-            return false;
+    for (int32_t i = 0; i < b.face_count && !s->unsound; i++) {
+        int32_t corner[3] = {0, 0, 0};
+        record_stream_face(s, corner);
+        for (int k = 0; k < 3; k++) {
+            s->unsound = s->unsound || corner[k] < 0 || corner[k] >= b.vertex_count;
+            if (!array_push(r->ctx, &r->faces, corner[k]))
+                return false;
+        }
     }
-    return c->unsound || add_body(r, &b);
+    return s->unsound || add_body(r, &b);
 }
 
-static bool read_birth(replay *r, cursor *c)
+static bool read_birth(replay *r, record_stream *s)
 {
-    unsigned char kind[4];
-    replay_body b = new_body(r, c);
-    take(c, kind, sizeof kind);
-    b.material = kind[0] < MATERIALS ? kind[0] : MATERIAL_WALL;
-    b.moves = kind[1] != 0;
-    b.breakable = kind[2] != 0;
-    b.level = kind[3] != 0;
-    b.thickness = take_f32(c);
-    b.density = take_f32(c);
-    b.number = take_i32(c);
-    b.parent = take_i32(c);
-    b.vertex_count = take_i32(c);
+    record_birth told = {0};
+    record_stream_birth(s, &told);
+    replay_body b = new_body(r, s, told.slot);
+    b.material = told.material < MATERIALS ? told.material : MATERIAL_WALL;
+    b.moves = told.moves;
+    b.breakable = told.breakable;
+    b.level = told.level;
+    b.thickness = told.thickness;
+    b.density = told.density;
+    b.number = told.number;
+    b.parent = told.parent;
+    b.vertex_count = told.vertices;
     b.vertex_first = r->outlines.count;
-    c->unsound = c->unsound || b.vertex_count < 3;
-    if (!reaches(c, b.vertex_count, 8))
+    s->unsound = s->unsound || b.vertex_count < 3;
+    if (s->unsound)
         return true;
     for (int32_t i = 0; i < b.vertex_count; i++) {
-        double x = take_f32(c), y = take_f32(c);
-        if (!array_push(r->ctx, &r->outlines, vec2_make(x, y)))
+        vec2 corner = {0, 0};
+        record_stream_corner(s, &corner);
+        if (!array_push(r->ctx, &r->outlines, corner))
             return false;
     }
     if (!b.moves)
-        (void)take_pose(r, c, &b.position, &b.orientation);
+        record_stream_pose(s, &b.position, &b.orientation);
     b.area = polygon_area(replay_outline(r, &b));
-    return c->unsound || add_body(r, &b);
+    return s->unsound || add_body(r, &b);
 }
 
-static bool read_births(replay *r, cursor *c)
+static bool read_births(replay *r, record_stream *s)
 {
+    int32_t count = 0;
     bool good = true;
-    for (int32_t n = take_i32(c); n > 0 && good && !c->unsound; n--)
-        good = read_birth(r, c);
+    for (record_stream_count(s, &count); count > 0 && good && !s->unsound; count--)
+        good = read_birth(r, s);
     return good;
+}
+
+static void read_deaths(replay *r, record_stream *s)
+{
+    int32_t count = 0;
+    for (record_stream_count(s, &count); count > 0 && !s->unsound; count--) {
+        int32_t slot = -1;
+        record_stream_slot(s, &slot);
+        remove_slot(r, slot);
+    }
 }
 
 /* ---- frames ---- */
 
-static bool read_fractures(replay *r, cursor *c)
+static bool read_fractures(replay *r, record_stream *s)
 {
-    int32_t count = take_i32(c);
-    (void)take_i32(c);
-    for (int32_t i = 0; i < count && !c->unsound; i++) {
-        replay_fracture f = {.time = take_f64(c)};
-        f.kind = take_i32(c);
-        f.floe = take_i32(c);
-        f.pieces = take_i32(c);
-        (void)take_i32(c);
-        f.place = at_origin(r, take_vec3(c));
-        f.load = take_f32(c);
-        f.crack_length = take_f32(c);
-        f.area = take_f32(c);
-        if (!c->unsound && !array_push(r->ctx, &r->fractures, f))
+    int32_t count = 0;
+    record_stream_padded_count(s, &count);
+    for (int32_t i = 0; i < count && !s->unsound; i++) {
+        record_fracture f = {0};
+        record_stream_fracture(s, &f);
+        if (!s->unsound && !array_push(r->ctx, &r->fractures, f))
             return false;
     }
     return true;
 }
 
-static bool read_forces(replay *r, cursor *c)
+static bool read_forces(replay *r, record_stream *s)
 {
-    int32_t count = take_i32(c);
-    (void)take_i32(c);
+    int32_t count = 0;
+    record_stream_padded_count(s, &count);
     array_clear(&r->next.forces);
-    for (int32_t i = 0; i < count && !c->unsound; i++) {
-        int32_t kind = take_i32(c), which = take_i32(c);
-        vec3 point = at_origin(r, take_vec3(c)), force = take_vec3(c);
-        c->unsound = c->unsound || kind < RECORD_FORCE_ICE || kind > RECORD_FORCE_HULL;
-        if (record_force_pushes((record_force_kind)kind))
+    for (int32_t i = 0; i < count && !s->unsound; i++) {
+        record_force f = {.kind = RECORD_FORCE_ICE};
+        record_stream_force(s, &f);
+        int32_t which = f.which;
+        if (record_force_pushes(f.kind))
             which = which >= 0 && which < r->at_slot.count ? r->at_slot.data[which] : -1;
-        if (!c->unsound &&
-            !array_push(r->ctx, &r->next.forces, (replay_force){(record_force_kind)kind, which, point, force}))
+        if (!s->unsound && !array_push(r->ctx, &r->next.forces, (replay_force){f.kind, which, f.point, f.force}))
             return false;
     }
     return true;
@@ -215,7 +151,7 @@ static bool read_forces(replay *r, cursor *c)
 static double birth_of(const replay *r, const replay_body *b, const replay_frame *f)
 {
     for (int32_t i = r->fractures.count - 1; i >= 0 && f->number > 0 && b->parent >= 0; i--) {
-        const replay_fracture *broke = &r->fractures.data[i];
+        const record_fracture *broke = &r->fractures.data[i];
         if (!(broke->time > r->frame.time))
             break;
         if (broke->floe == b->parent)
@@ -224,40 +160,37 @@ static double birth_of(const replay *r, const replay_body *b, const replay_frame
     return f->time;
 }
 
-/* Poses come by ascending slot of the bodies that move; those that stand still are added.  halves: contact forces are
-   those of an earlier layout. */
-static bool read_frame(replay *r, cursor *c, bool halves)
+/* Poses come by ascending slot of the bodies that move; those that stand still are added. */
+static bool read_frame(replay *r, record_stream *s, uint32_t type)
 {
     replay_frame *f = &r->next;
-    take(c, &f->step, sizeof f->step);
-    f->time = take_f64(c);
-    double x = take_f64(c), y = take_f64(c), z = take_f64(c);
-    f->ice_force = vec3_make(x, y, z);
+    record_frame_head head = {0};
+    record_stream_frame(s, &head);
+    f->step = head.step;
+    f->time = head.time;
+    f->ice_force = head.ice_force;
     f->number = r->frames_read++;
-    int32_t count = take_i32(c), found = 0;
-    (void)take_i32(c);
+    int32_t found = 0;
     array_clear(&f->poses);
     for (int moving = 1; moving >= 0; moving--) {
-        for (int32_t slot = 0; slot < r->at_slot.count && !c->unsound; slot++) {
+        for (int32_t slot = 0; slot < r->at_slot.count && !s->unsound; slot++) {
             int32_t body = r->at_slot.data[slot];
             if (body < 0 || r->bodies.data[body].moves != (moving == 1))
                 continue;
             replay_body *b = &r->bodies.data[body];
-            replay_pose p = {.body = body, .position = b->position, .orientation = b->orientation};
-            uint16_t touched = 0;
+            record_moving m = {b->position, b->orientation, 0};
             if (moving) {
-                if (take_pose(r, c, &p.position, &p.orientation))
-                    take(c, &touched, sizeof touched);
-                p.contact_force = halves ? real_from_half(touched) * 1e3 : record_force_unpack(touched);
+                record_stream_moving(s, type, &m);
                 found++;
             }
             if (b->born == f->number)
                 b->birth = birth_of(r, b, f);
+            replay_pose p = {body, m.position, m.orientation, {0, 0, 0}, m.contact_force};
             if (!array_push(r->ctx, &f->poses, p))
                 return false;
         }
     }
-    c->unsound = c->unsound || found != count;
+    s->unsound = s->unsound || found != head.count;
     return true;
 }
 
@@ -266,48 +199,50 @@ static fram_status wrong(const replay *r, const char *reason, fram_error *error)
     return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, NULL, "%s", reason);
 }
 
+static bool take_scenario(replay *r, const record_block *block)
+{
+    memory_free(r->ctx, r->scenario);
+    r->scenario = memory_array(r->ctx, block->size + 1, 1);
+    if (r->scenario && block->size > 0)
+        memcpy(r->scenario, block->data, block->size);
+    return r->scenario != NULL;
+}
+
 static fram_status read_block(replay *r, const record_block *block, fram_error *error)
 {
-    static const unsigned char nothing[1]; /* an empty block has no data */
-    const unsigned char *data = block->size > 0 ? block->data : nothing;
-    cursor c = {data, data + block->size, false};
+    record_stream s = record_unpacker(block, r->origin);
     bool good = true;
     switch (block->type) {
     case BLOCK_SCENARIO:
-        memory_free(r->ctx, r->scenario);
-        r->scenario = memory_array(r->ctx, block->size + 1, 1);
-        good = r->scenario != NULL;
-        if (good)
-            take(&c, r->scenario, block->size);
+        good = take_scenario(r, block);
         break;
     case BLOCK_ORIGIN:
         return record_take_origin(r->reader.path, block, &r->origin, error);
     case BLOCK_SOLID:
-        good = read_solid(r, &c);
+        good = read_solid(r, &s);
         break;
     case BLOCK_BIRTHS:
-        good = read_births(r, &c);
+        good = read_births(r, &s);
         break;
     case BLOCK_DEATHS:
-        for (int32_t n = take_i32(&c); n > 0 && !c.unsound; n--)
-            remove_slot(r, take_i32(&c));
+        read_deaths(r, &s);
         break;
     case BLOCK_FRACTURES:
-        good = read_fractures(r, &c);
+        good = read_fractures(r, &s);
         break;
     case BLOCK_FORCES:
-        good = read_forces(r, &c);
+        good = read_forces(r, &s);
         break;
     case BLOCK_FRAME:
     case BLOCK_HALF_FRAME:
-        good = read_frame(r, &c, block->type == BLOCK_HALF_FRAME);
+        good = read_frame(r, &s, block->type);
         break;
     default: /* of another version: of an earlier one it is refused, of a later one passed over */
         return record_check_block(r->reader.path, block->type, error);
     }
     if (!good)
         return error_memory(error);
-    return c.unsound ? wrong(r, "a block of the record contradicts itself", error) : FRAM_OK;
+    return s.unsound ? wrong(r, "a block of the record contradicts itself", error) : FRAM_OK;
 }
 
 /* The next frame of the file into r->next. */

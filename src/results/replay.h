@@ -5,7 +5,7 @@
 
 #include "bodies/body.h"
 #include "geometry/polygon.h"
-#include "io/record_layout.h"
+#include "io/record_blocks.h"
 
 /* A body of the record.  Bodies are listed by birth and stay listed when they are gone. */
 typedef struct replay_body {
@@ -46,14 +46,6 @@ typedef struct replay_force {
     vec3 force;    /* on a vessel [N] */
 } replay_force;
 
-typedef struct replay_fracture {
-    double time;
-    int32_t kind; /* enum fracture_kind */
-    int32_t floe, pieces;
-    vec3 place;
-    double load, crack_length, area;
-} replay_fracture;
-
 typedef struct replay_frame {
     int64_t number, step;
     double time;
@@ -73,7 +65,7 @@ typedef struct replay {
     ARRAY(vec3) points;
     int32_array faces;
     polygon_list parts;               /* of solids that are open, upright and about their centres of mass */
-    ARRAY(replay_fracture) fractures; /* all up to the next frame */
+    ARRAY(record_fracture) fractures; /* all up to the next frame */
     replay_frame frame;               /* the current one */
     /* Inside: */
     replay_frame next;

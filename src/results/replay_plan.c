@@ -97,7 +97,7 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     for (int32_t i = 0; arrow > 0 && i < r->frame.forces.count && good; i++)
         good = add_arrow(r, &r->frame.forces.data[i], arrow, out);
     for (int32_t i = 0; i < r->fractures.count && good; i++) {
-        const replay_fracture *f = &r->fractures.data[i];
+        const record_fracture *f = &r->fractures.data[i];
         if (f->time <= m->time && f->time > m->time - mark_time)
             good = array_push(r->ctx, &out->marks, vec2_make(f->place.x, f->place.y));
     }

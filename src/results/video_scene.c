@@ -195,7 +195,7 @@ static bool draw_marks(cairo_t *page, const video_scene *s, const replay *r, con
 {
     bool any = false;
     for (int32_t i = 0; i < r->fractures.count; i++) {
-        const replay_fracture *f = &r->fractures.data[i];
+        const record_fracture *f = &r->fractures.data[i];
         double x, y;
         if (f->time > m->time || f->time <= m->time - s->mark_time || !solid_view_place(v, f->place, &x, &y))
             continue;

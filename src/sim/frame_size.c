@@ -1,17 +1,18 @@
 #include "sim/frame_size.h"
 
-#include "io/record_pose.h"
+#include "io/record_blocks.h"
 #include "model/scenario_vessel.h"
 
-/* The blocks of poses and of forces without these, a pose with its contact force, a force on a vessel; and floes that
-   touch vessels in ice, about. */
-enum { HEADS_BYTES = 104, POSE_BYTES = RECORD_POSE_SIZE + 2, FORCE_BYTES = 32, FLOES_AT_VESSELS = 16 };
+/* The blocks of poses and of forces without these. */
+enum { HEADS_BYTES = 2 * RECORD_BLOCK_HEAD + FRAME_HEAD_SIZE + FORCES_HEAD_SIZE };
+/* Floes that touch vessels in ice, about. */
+enum { FLOES_AT_VESSELS = 16 };
 
 /* pulls: mooring lines and thrusters of all vessels; meet: there are vessels and ice. */
 static double frame_size(double bodies, double pulls, bool meet)
 {
     double forces = pulls + (meet ? FLOES_AT_VESSELS : 0);
-    return HEADS_BYTES + POSE_BYTES * bodies + FORCE_BYTES * forces;
+    return HEADS_BYTES + RECORD_TOUCHED_SIZE * bodies + RECORD_FORCE_SIZE * forces;
 }
 
 double frame_size_of_world(const world *w)

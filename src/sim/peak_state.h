@@ -6,8 +6,6 @@
 
 #include "sim/peak_watch.h"
 
-typedef ARRAY(unsigned char) byte_array;
-
 /* false: no memory. */
 bool peak_state_save(peak_watch *p, const world *w, byte_array *out);
 /* Into a fresh watch of the world that the bytes were saved with.  FRAM_ERROR_INPUT when they do not fit it: the watch

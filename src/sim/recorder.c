@@ -2,7 +2,7 @@
 
 #include "base/transcendental.h"
 #include "io/path.h"
-#include "io/record_pose.h"
+#include "io/record_blocks.h"
 #include "sim/frame_size.h"
 #include "sim/ice_loads.h"
 
@@ -145,58 +145,21 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
 
 /* ---- blocks ---- */
 
-static bool put(recorder *r, const void *data, size_t size)
-{
-    int32_t at = r->block.count;
-    if (size > (size_t)(INT32_MAX - at) || !array_resize(r->ctx, &r->block, at + (int32_t)size))
-        return false;
-    memcpy(r->block.data + at, data, size);
-    return true;
-}
-static bool put_i32(recorder *r, int32_t v) { return put(r, &v, sizeof v); }
-static bool put_u32(recorder *r, uint32_t v) { return put(r, &v, sizeof v); }
-static bool put_f32(recorder *r, double v)
-{
-    float f = (float)v;
-    return put(r, &f, sizeof f);
-}
-static bool put_f64(recorder *r, double v) { return put(r, &v, sizeof v); }
-static void set_i32(recorder *r, int32_t at, int32_t v) { memcpy(r->block.data + at, &v, sizeof v); }
+static record_stream block_packer(recorder *r) { return record_packer(r->ctx, &r->block, r->origin); }
 
-static bool put_vec3(recorder *r, vec3 v) { return put_f32(r, v.x) && put_f32(r, v.y) && put_f32(r, v.z); }
-
-static vec3 from_origin(const recorder *r, vec3 place)
+static fram_status append(recorder *r, const record_stream *s, uint32_t type, fram_error *error)
 {
-    return vec3_make(place.x - r->origin.x, place.y - r->origin.y, place.z);
-}
-
-static bool put_place(recorder *r, vec3 place) { return put_vec3(r, from_origin(r, place)); }
-
-static bool put_pose(recorder *r, const world *w, int32_t slot)
-{
-    unsigned char packed[RECORD_POSE_SIZE];
-    record_pose_pack(from_origin(r, w->bodies.position[slot]), w->bodies.orientation[slot], packed);
-    return put(r, packed, sizeof packed);
-}
-
-/* With the contact force of a body that has one: most have none. */
-static bool put_touched_pose(recorder *r, const world *w, int32_t slot)
-{
-    unsigned char packed[RECORD_POSE_SIZE];
-    bool here = !world_came_since_contacts(w, slot); /* else they are those of what stood there before */
-    uint16_t touched = here ? record_force_pack(r->sums.data[slot].magnitude) : 0;
-    record_pose_pack(from_origin(r, w->bodies.position[slot]), w->bodies.orientation[slot], packed);
-    if (touched)
-        record_pose_mark(packed);
-    return put(r, packed, sizeof packed) && (!touched || put(r, &touched, sizeof touched));
-}
-
-static fram_status append(recorder *r, uint32_t type, fram_error *error)
-{
+    if (s->full)
+        return error_memory(error);
     record_part part = {r->block.data, (size_t)r->block.count};
-    fram_status status = record_append(&r->record, type, &part, 1, error);
-    array_clear(&r->block);
-    return status;
+    return record_append(&r->record, type, &part, 1, error);
+}
+
+/* The same, with the count that its head tells; nothing without any. */
+static fram_status append_counted(recorder *r, record_stream *s, uint32_t type, int32_t count, fram_error *error)
+{
+    record_stream_set_count(s, type, count);
+    return count > 0 || s->full ? append(r, s, type, error) : FRAM_OK;
 }
 
 static bool moves(const world *w, int32_t slot)
@@ -219,129 +182,133 @@ static bool is_solid(const world *w, int32_t slot)
 static fram_status write_deaths(recorder *r, world *w, fram_error *error)
 {
     int32_t count = 0;
-    bool good = put_i32(r, 0);
-    for (int32_t i = 0; i < w->recorded.count && good; i++) {
+    record_stream s = block_packer(r);
+    record_stream_count(&s, &count);
+    for (int32_t i = 0; i < w->recorded.count && !s.full; i++) {
         uint32_t known = w->recorded.generation[i];
         if (known == 0 || (body_is_alive(&w->bodies, i) && w->bodies.generation[i] == known))
             continue;
-        good = put_i32(r, i);
+        int32_t slot = i;
+        record_stream_slot(&s, &slot);
         w->recorded.generation[i] = 0;
         count++;
     }
-    if (!good)
-        return error_memory(error);
-    set_i32(r, 0, count);
-    if (count > 0)
-        return append(r, BLOCK_DEATHS, error);
-    array_clear(&r->block);
-    return FRAM_OK;
+    return append_counted(r, &s, BLOCK_DEATHS, count, error);
 }
 
-static bool put_birth(recorder *r, const world *w, int32_t slot)
+static record_birth birth_of_body(const world *w, int32_t slot)
+{
+    record_birth b = {.slot = slot, .generation = w->bodies.generation[slot], .number = -1, .parent = -1};
+    b.material = w->bodies.material[slot];
+    b.moves = moves(w, slot);
+    b.thickness = 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]];
+    if (b.material != MATERIAL_ICE || w->bodies.owner[slot] < 0)
+        return b;
+    int32_t floe = w->bodies.owner[slot];
+    b.breakable = w->floes.breakable[floe] != 0;
+    b.level = w->floes.tile[floe] != 0;
+    b.density = w->floes.material[floe].density;
+    b.number = w->floes.number[floe];
+    b.parent = w->floes.parent[floe];
+    return b;
+}
+
+static void put_birth(record_stream *s, const world *w, int32_t slot)
 {
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[slot]);
-    bool ice = w->bodies.material[slot] == MATERIAL_ICE;
-    int32_t floe = ice ? w->bodies.owner[slot] : -1;
-    double thickness = 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]];
-    const unsigned char kind[4] = {w->bodies.material[slot], moves(w, slot), floe >= 0 ? w->floes.breakable[floe] : 0,
-                                   floe >= 0 && w->floes.tile[floe] != 0};
-    bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put(r, kind, 4) &&
-                put_f32(r, thickness) && put_f32(r, floe >= 0 ? w->floes.material[floe].density : 0) &&
-                put_i32(r, floe >= 0 ? w->floes.number[floe] : -1) &&
-                put_i32(r, floe >= 0 ? w->floes.parent[floe] : -1) && put_i32(r, outline.count);
-    for (int32_t i = 0; i < outline.count && good; i++)
-        good = put_f32(r, outline.vertex[i].x) && put_f32(r, outline.vertex[i].y);
-    return good && (moves(w, slot) || put_pose(r, w, slot));
+    record_birth b = birth_of_body(w, slot);
+    b.vertices = outline.count;
+    record_stream_birth(s, &b);
+    for (int32_t i = 0; i < outline.count; i++) {
+        vec2 corner = outline.vertex[i];
+        record_stream_corner(s, &corner);
+    }
+    vec3 position = w->bodies.position[slot];
+    quat orientation = w->bodies.orientation[slot];
+    if (!b.moves)
+        record_stream_pose(s, &position, &orientation);
 }
 
 static fram_status write_births(recorder *r, world *w, fram_error *error)
 {
     int32_t count = 0;
-    bool good = put_i32(r, 0);
-    for (int32_t i = 0; i < w->bodies.count && good; i++) {
+    record_stream s = block_packer(r);
+    record_stream_count(&s, &count);
+    for (int32_t i = 0; i < w->bodies.count && !s.full; i++) {
         if (!is_new(w, i) || is_solid(w, i))
             continue;
-        good = put_birth(r, w, i);
+        put_birth(&s, w, i);
         w->recorded.generation[i] = w->bodies.generation[i];
         count++;
     }
-    if (!good)
-        return error_memory(error);
-    set_i32(r, 0, count);
-    if (count > 0)
-        return append(r, BLOCK_BIRTHS, error);
-    array_clear(&r->block);
-    return FRAM_OK;
+    return append_counted(r, &s, BLOCK_BIRTHS, count, error);
 }
 
 static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *error)
 {
     const mesh *m = &shape_solid(&w->shapes, w->bodies.shape[slot])->surface;
-    bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put_i32(r, m->vertex.count) &&
-                put_i32(r, m->face.count);
-    for (int32_t i = 0; i < m->vertex.count && good; i++) {
+    record_solid b = {slot, w->bodies.generation[slot], m->vertex.count, m->face.count};
+    record_stream s = block_packer(r);
+    record_stream_solid(&s, &b);
+    for (int32_t i = 0; i < m->vertex.count; i++) {
         vec3 v = m->vertex.data[i];
-        good = put_vec3(r, v);
+        record_stream_point(&s, &v);
     }
-    good = good && put(r, m->face.data, (size_t)m->face.count * sizeof *m->face.data);
-    if (!good)
-        return error_memory(error);
+    for (int32_t i = 0; i < m->face.count; i++) {
+        triangle face = m->face.data[i];
+        record_stream_face(&s, face.v);
+    }
     w->recorded.generation[slot] = w->bodies.generation[slot];
-    return append(r, BLOCK_SOLID, error);
+    return append(r, &s, BLOCK_SOLID, error);
 }
 
 /* ---- forces on the vessels ---- */
 
-static bool put_force(recorder *r, int32_t kind, int32_t which, vec3 point, vec3 force)
-{
-    return put_i32(r, kind) && put_i32(r, which) && put_place(r, point) && put_vec3(r, force);
-}
-
-static bool put_line_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
+static void put_line_forces(record_stream *s, const world *w, int32_t vessel, int32_t *count)
 {
     int32_t body = w->vessels.body[vessel], number = 0;
-    bool good = true;
-    for (int32_t i = 0; i < w->lines.count && good; i++) {
+    for (int32_t i = 0; i < w->lines.count; i++) {
         number += w->lines.vessel[i] == vessel;
         if (w->lines.vessel[i] != vessel || w->lines.broken[i])
             continue;
         line_pull pull = mooring_line_pull(&w->lines, i, w->bodies.position[body], w->bodies.orientation[body]);
-        good = put_force(r, RECORD_FORCE_LINE, number, pull.point, pull.force);
+        record_force f = {RECORD_FORCE_LINE, number, pull.point, pull.force};
+        record_stream_force(s, &f);
         ++*count;
     }
-    return good;
 }
 
-static bool put_thruster_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
+static void put_thruster_forces(record_stream *s, const world *w, int32_t vessel, int32_t *count)
 {
     int32_t body = w->vessels.body[vessel], number = 0;
-    bool good = true;
-    for (int32_t i = 0; i < w->thrusters.count && good; i++) {
+    for (int32_t i = 0; i < w->thrusters.count; i++) {
         number += w->thrusters.vessel[i] == vessel;
         if (w->thrusters.vessel[i] != vessel || w->thrusters.failed[i])
             continue;
         double thrust = w->thrusters.thrust[i], angle = thruster_push_angle(&w->thrusters, i);
         vec3 force = vec3_make(thrust * real_cos(angle), thrust * real_sin(angle), 0);
-        good = put_force(r, RECORD_FORCE_THRUSTER, number, body_to_global(&w->bodies, body, w->thrusters.place[i]),
-                         mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force));
+        record_force f = {RECORD_FORCE_THRUSTER, number, body_to_global(&w->bodies, body, w->thrusters.place[i]),
+                          mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force)};
+        record_stream_force(s, &f);
         ++*count;
     }
-    return good;
 }
 
 /* Of floes, hulls and walls that touch it. */
-static bool put_contact_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
+static bool put_contact_forces(recorder *r, record_stream *s, const world *w, int32_t vessel, int32_t *count)
 {
-    bool good = contact_sums_of(r->ctx, w, r->time_step, vessel, &r->sums);
-    for (int32_t i = 0; i < r->sums.count && good; i++) {
-        const contact_sum *s = &r->sums.data[i];
-        if (s->weight == 0)
+    if (!contact_sums_of(r->ctx, w, r->time_step, vessel, &r->sums))
+        return false;
+    for (int32_t i = 0; i < r->sums.count; i++) {
+        const contact_sum *sum = &r->sums.data[i];
+        if (sum->weight == 0)
             continue;
         record_force_kind kind = w->bodies.material[i] == MATERIAL_ICE ? RECORD_FORCE_ICE : RECORD_FORCE_HULL;
-        good = put_force(r, (int32_t)kind, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
+        record_force f = {kind, i, vec3_scale(sum->moment, 1 / sum->weight), sum->on_vessel};
+        record_stream_force(s, &f);
         ++*count;
     }
-    return good;
+    return true;
 }
 
 static fram_status write_forces(recorder *r, const world *w, fram_error *error)
@@ -349,18 +316,15 @@ static fram_status write_forces(recorder *r, const world *w, fram_error *error)
     if (w->vessels.count == 0)
         return FRAM_OK;
     int32_t count = 0;
-    const int32_t head[2] = {0, 0};
-    bool good = put(r, head, sizeof head);
-    for (int32_t v = 0; v < w->vessels.count && good; v++)
-        good = put_contact_forces(r, w, v, &count) && put_line_forces(r, w, v, &count) &&
-               put_thruster_forces(r, w, v, &count);
-    if (!good)
-        return error_memory(error);
-    set_i32(r, 0, count);
-    if (count > 0)
-        return append(r, BLOCK_FORCES, error);
-    array_clear(&r->block);
-    return FRAM_OK;
+    record_stream s = block_packer(r);
+    record_stream_padded_count(&s, &count);
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        if (!put_contact_forces(r, &s, w, v, &count))
+            return error_memory(error);
+        put_line_forces(&s, w, v, &count);
+        put_thruster_forces(&s, w, v, &count);
+    }
+    return append_counted(r, &s, BLOCK_FORCES, count, error);
 }
 
 /* ---- frames ---- */
@@ -384,21 +348,20 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     if (status != FRAM_OK)
         return status;
 
-    vec3 force = load_window_average(w, 0).force;
-    bool good = put(r, &w->clock.step[0], sizeof(int64_t)) && put_f64(r, w->clock.time[0]) && put_f64(r, force.x) &&
-                put_f64(r, force.y) && put_f64(r, force.z);
-    int32_t at = r->block.count, count = 0;
-    good = good && put_i32(r, 0) && put_i32(r, 0);
-    for (int32_t i = 0; i < w->bodies.count && good; i++) {
+    record_frame_head head = {w->clock.step[0], w->clock.time[0], load_window_average(w, 0).force, 0};
+    record_stream s = block_packer(r);
+    record_stream_frame(&s, &head);
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->bodies.count && !s.full; i++) {
         if (!body_is_alive(&w->bodies, i) || w->bodies.shape[i] < 0 || !moves(w, i))
             continue;
-        good = put_touched_pose(r, w, i);
+        bool here = !world_came_since_contacts(w, i); /* else they are those of what stood there before */
+        record_moving m = {w->bodies.position[i], w->bodies.orientation[i], here ? r->sums.data[i].magnitude : 0};
+        record_stream_moving(&s, BLOCK_FRAME, &m);
         count++;
     }
-    if (!good)
-        return error_memory(error);
-    set_i32(r, at, count);
-    return append(r, BLOCK_FRAME, error);
+    record_stream_set_count(&s, BLOCK_FRAME, count);
+    return append(r, &s, BLOCK_FRAME, error);
 }
 
 static bool frame_is_due(const recorder *r, const world *w)
@@ -419,7 +382,9 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
     if (events->count == 0)
         return FRAM_OK;
     double time = w->clock.time[0];
-    bool good = put_i32(r, events->count) && put_i32(r, 0);
+    int32_t count = events->count;
+    record_stream s = block_packer(r);
+    record_stream_padded_count(&s, &count);
     for (int32_t i = 0; i < events->count; i++) {
         const fracture_event *e = &events->data[i];
         double row[FRACTURE_ROOM];
@@ -427,11 +392,11 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
         fram_status status = csv_append(&r->fractures, row, error);
         if (status != FRAM_OK)
             return status;
-        good = good && put_f64(r, time) && put_i32(r, e->kind) && put_i32(r, e->floe) && put_i32(r, e->pieces) &&
-               put_i32(r, 0) && put_place(r, e->place) && put_f32(r, e->load) && put_f32(r, e->crack_length) &&
-               put_f32(r, e->parent_area);
+        record_fracture f = {time,     (int32_t)e->kind, e->floe,         e->pieces,
+                             e->place, e->load,          e->crack_length, e->parent_area};
+        record_stream_fracture(&s, &f);
     }
-    return good ? append(r, BLOCK_FRACTURES, error) : error_memory(error);
+    return append(r, &s, BLOCK_FRACTURES, error);
 }
 
 fram_status recorder_step(recorder *r, world *w, double wall_time, fram_error *error)

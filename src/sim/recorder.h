@@ -23,7 +23,7 @@ typedef struct recorder {
     double time_step;                  /* [s] */
     double frames_most;                /* of the whole run, one every frame_every */
     double record_limit;               /* [bytes]; 0: none */
-    ARRAY(unsigned char) block;        /* scratch */
+    byte_array block;                  /* scratch */
     contact_sum_array sums;            /* scratch, per body slot */
     ARRAY(double) row;                 /* scratch, per column */
     peak_watch peaks;                  /* written with checkpoints */
