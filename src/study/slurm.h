@@ -61,10 +61,23 @@ double slurm_poll(const slurm_pool *all);
 void slurm_look(slurm_pool *all);
 /* How many tasks the scheduler has not begun yet, and the reasons that it gives, as it said last; NULL: none. */
 const char *slurm_waits(const slurm_pool *all);
-/* Waits between looks at the files, longer where looking at them takes long [s]. */
-void slurm_pause(double look);
 /* Cancels what is submitted and may go on; whole: all runs have ended. */
 void slurm_end(slurm_pool *all, bool whole);
 void slurm_free(slurm_pool *all);
+
+/* Whose runs are followed. */
+typedef struct slurm_follower {
+    void *user;
+    /* Adds what is wanted by now: at first, and after each look. */
+    fram_status (*add)(void *user, slurm_pool *all, fram_error *error);
+    /* A run that ended; node: "" where it is not told. */
+    fram_status (*take)(void *user, int32_t task, int exit_code, const char *node, fram_error *error);
+    void (*tell)(void *user, const char *waits); /* waits: as slurm_waits */
+    const volatile int *stop;                    /* may be NULL */
+} slurm_follower;
+/* Submits runs and takes what ended, until none is left or the follower is asked to stop: all of the above from its
+   beginning to its end.  A dry run ends with what it would submit. */
+fram_status slurm_follow(context *ctx, const slurm_options *options, const char *folder, const char *program,
+                         const slurm_follower *f, fram_error *error);
 
 #endif

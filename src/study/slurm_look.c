@@ -4,11 +4,9 @@
 #include "base/clock.h"
 #include "study/capture.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Questions in a row whose answer must lack a task before it is lost. */
 enum { MISSED_MOST = 2 };
@@ -61,18 +59,6 @@ static void find_waits(slurm_pool *all, const char *answer)
 }
 
 const char *slurm_waits(const slurm_pool *all) { return *all->waits ? all->waits : NULL; }
-
-/* Between looks at the files of a shared folder, which may be far away, at least [s]; and times as long as a look took.
- */
-#define LOOK_SECONDS 1.0
-#define LOOK_SPARING 20
-
-void slurm_pause(double look)
-{
-    double seconds = fmax(LOOK_SECONDS, LOOK_SPARING * look), whole = floor(seconds);
-    const struct timespec pause = {(time_t)whole, (long)((seconds - whole) * 1e9)};
-    nanosleep(&pause, NULL);
-}
 
 /* Which tasks the scheduler has: by whatever name, which an option of sbatch or a variable of its environment may give;
    in all partitions, also those that are hidden from the many; and whatever a user has set to see less at a terminal.

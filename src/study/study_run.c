@@ -4,6 +4,7 @@
 #include "study/no_answer.h"
 #include "study/processes.h"
 #include "study/seeds.h"
+#include "study/slurm.h"
 #include "study/study_answers.h"
 #include "study/study_folder.h"
 #include "study/study_worst.h"
@@ -251,6 +252,12 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     return of->state == RUN_THERE ? share_result(w, condition, index, error) : status;
 }
 
+static fram_status take_task(study_work *w, int32_t task, int exit_code, fram_error *error)
+{
+    int64_t of = w->task.data[task];
+    return take_result(w, (int32_t)(of >> 32), (int32_t)(of & INT32_MAX), exit_code, error);
+}
+
 static void show_progress(const study_work *w, const char *waits)
 {
     study_progress p = {.wall = clock_wall() - w->started, .waits = waits};
@@ -293,16 +300,12 @@ static fram_status work_loop(study_work *w, fram_error *error)
             }
             continue;
         }
-        status = take_result(w, (int32_t)(w->task.data[task] >> 32), (int32_t)(w->task.data[task] & INT32_MAX),
-                             exit_code, error);
+        status = take_task(w, task, exit_code, error);
         if (status == FRAM_OK && !asked_to_stop(w))
             status = fill_pool(w, error);
         show_progress(w, NULL);
     }
     processes_stop(&w->pool);
-    if (status == FRAM_OK && asked_to_stop(w))
-        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
-                         "interrupted; what ended is kept, continue with the same command");
     return status;
 }
 
@@ -324,8 +327,9 @@ static fram_status forget_failure(const study_work *w, int32_t condition, int32_
     return FRAM_OK;
 }
 
-static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *error)
+static fram_status add_missing(void *user, slurm_pool *queue, fram_error *error)
 {
+    study_work *w = user;
     int32_t condition = 0, index = 0;
     while (next_run(w, &condition, &index)) {
         fram_status status = forget_failure(w, condition, index, error);
@@ -336,46 +340,24 @@ static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *
             return error_memory(error);
         w->conditions[condition].seeds.data[index].state = RUN_GOING;
     }
-    return slurm_submit(queue, error);
+    return FRAM_OK;
 }
 
-static fram_status take_ended(study_work *w, slurm_pool *queue, fram_error *error)
+static fram_status take_ended(void *user, int32_t task, int exit_code, const char *node, fram_error *error)
 {
-    int32_t task = 0;
-    int exit_code = 0;
-    fram_status status = FRAM_OK;
-    while (status == FRAM_OK && slurm_ended(queue, &task, &exit_code))
-        status = take_result(w, (int32_t)(w->task.data[task] >> 32), (int32_t)(w->task.data[task] & INT32_MAX),
-                             exit_code, error);
+    study_work *w = user;
+    w->node = node;
+    fram_status status = take_task(w, task, exit_code, error);
+    w->node = NULL;
     return status;
 }
+
+static void tell_waits(void *user, const char *waits) { show_progress(user, waits); }
 
 static fram_status slurm_loop(study_work *w, fram_error *error)
 {
-    slurm_pool queue;
-    fram_status status = slurm_begin(w->ctx, w->options->slurm, w->options->folder, w->options->program, &queue, error);
-    if (status != FRAM_OK)
-        return status;
-    w->node = queue.node;
-    status = submit_missing(w, &queue, error);
-    show_progress(w, NULL);
-    while (status == FRAM_OK && !is_dry(w) && queue.runs.count > 0 && !asked_to_stop(w)) {
-        double began = clock_wall();
-        status = take_ended(w, &queue, error);
-        show_progress(w, slurm_waits(&queue));
-        if (status == FRAM_OK && queue.runs.count > 0)
-            slurm_pause(clock_wall() - began);
-        slurm_look(&queue);
-        if (status == FRAM_OK)
-            status = submit_missing(w, &queue, error);
-    }
-    slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
-    slurm_free(&queue);
-    w->node = NULL;
-    if (status == FRAM_OK && asked_to_stop(w))
-        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
-                         "interrupted; what ended is kept, continue with the same command");
-    return status;
+    const slurm_follower follower = {w, add_missing, take_ended, tell_waits, w->options->stop};
+    return slurm_follow(w->ctx, w->options->slurm, w->options->folder, w->options->program, &follower, error);
 }
 
 /* ---- all ---- */
@@ -475,6 +457,8 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         status = update_wanted(&w, c, error);
     if (status == FRAM_OK)
         status = options->slurm ? slurm_loop(&w, error) : work_loop(&w, error);
+    if (status == FRAM_OK && asked_to_stop(&w))
+        status = study_interrupted(error);
     if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
         bool whole = status == FRAM_OK && !is_dry(&w);
         fram_status written = write_results(&w, whole, result, status == FRAM_OK ? error : NULL);

@@ -8,6 +8,7 @@
 #include "io/temporary.h"
 #include "study/no_answer.h"
 #include "study/processes.h"
+#include "study/slurm.h"
 #include "study/study_file.h"
 
 #include <math.h>
@@ -107,6 +108,7 @@ typedef struct worst_work {
     int64_t runs; /* of the study */
     process_pool pool;
     const char *node; /* as in study_run.c */
+    bool added;       /* all that the cluster is to make */
     double started;
     bool changed;
 } worst_work;
@@ -374,43 +376,40 @@ static fram_status record_here(worst_work *w, fram_error *error)
 
 /* ---- on Slurm ---- */
 
-/* The runs alone: their pages are made here, a few seconds each. */
-static fram_status record_by_slurm(worst_work *w, fram_error *error)
+static fram_status add_runs(void *user, slurm_pool *queue, fram_error *error)
 {
-    slurm_pool queue;
-    fram_status status = slurm_begin(w->f->ctx, w->options->slurm, w->f->path, w->options->program, &queue, error);
-    if (status != FRAM_OK)
-        return status;
-    w->node = queue.node;
-    for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
+    worst_work *w = user;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < w->count && status == FRAM_OK && !w->added; i++) {
         double frames = 0;
         bool own;
         if (w->entry[i].stage != WORST_RUN)
             continue;
         status = study_worst_frames_of(w->f, &w->entry[i].run, &frames, &own, error);
-        if (status == FRAM_OK && !slurm_add(&queue, w->f->id[w->entry[i].run.condition],
+        if (status == FRAM_OK && !slurm_add(queue, w->f->id[w->entry[i].run.condition],
                                             w->f->s->seeds.first + w->entry[i].run.index, i, frames))
             status = error_memory(error);
     }
-    if (status == FRAM_OK)
-        status = slurm_submit(&queue, error);
-    while (status == FRAM_OK && queue.runs.count > 0 && !stop_is_asked(w->options->stop)) {
-        int32_t at = 0;
-        int exit_code = 0;
-        double began = clock_wall();
-        while (status == FRAM_OK && slurm_ended(&queue, &at, &exit_code))
-            status = take(w, &w->entry[at], exit_code, error);
-        tell(w, slurm_waits(&queue));
-        if (status == FRAM_OK && queue.runs.count > 0)
-            slurm_pause(clock_wall() - began);
-        slurm_look(&queue);
-        if (status == FRAM_OK)
-            status = slurm_submit(&queue, error);
-    }
-    slurm_end(&queue, status == FRAM_OK && queue.runs.count == 0);
-    slurm_free(&queue);
+    w->added = true;
+    return status;
+}
+
+static fram_status take_ended_worst(void *user, int32_t at, int exit_code, const char *node, fram_error *error)
+{
+    worst_work *w = user;
+    w->node = node;
+    fram_status status = take(w, &w->entry[at], exit_code, error);
     w->node = NULL;
     return status;
+}
+
+static void tell_waits_of_worst(void *user, const char *waits) { tell(user, waits); }
+
+/* The runs alone: their pages are made here, a few seconds each. */
+static fram_status record_by_slurm(worst_work *w, fram_error *error)
+{
+    const slurm_follower follower = {w, add_runs, take_ended_worst, tell_waits_of_worst, w->options->stop};
+    return slurm_follow(w->f->ctx, w->options->slurm, w->f->path, w->options->program, &follower, error);
 }
 
 /* ---- all ---- */
@@ -450,6 +449,12 @@ static int32_t left_of(const worst_work *w, worst_stage up_to)
     return n;
 }
 
+fram_status study_interrupted(fram_error *error)
+{
+    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
+                     "interrupted; what ended is kept, continue with the same command");
+}
+
 fram_status study_worst_record(const study_folder *f, const condition_rows *conditions, const study_options *options,
                                bool *changed, fram_error *error)
 {
@@ -459,15 +464,16 @@ fram_status study_worst_record(const study_folder *f, const condition_rows *cond
         prune(&w);
     if (status == FRAM_OK && left_of(&w, WORST_VIEW) > 0) {
         status = make_worst_folder(&w, error);
-        tell(&w, NULL);
-        if (status == FRAM_OK && options->slurm && left_of(&w, WORST_RUN) > 0)
+        bool by_slurm = options->slurm && left_of(&w, WORST_RUN) > 0; /* which tells when they are submitted */
+        if (!by_slurm)
+            tell(&w, NULL);
+        if (status == FRAM_OK && by_slurm)
             status = record_by_slurm(&w, error);
         if (status == FRAM_OK && !stop_is_asked(options->stop))
             status = record_here(&w, error);
     }
     if (status == FRAM_OK && left_of(&w, WORST_VIEW) > 0 && stop_is_asked(options->stop))
-        status = error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
-                           "interrupted; what ended is kept, continue with the same command");
+        status = study_interrupted(error);
     *changed = w.changed;
     processes_free(f->ctx, &w.pool);
     memory_free(f->ctx, w.entry);
