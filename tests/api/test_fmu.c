@@ -1,7 +1,7 @@
 /* include/fram/fmu.h: units are written, and what cannot be is refused; tests/fmi steps them. */
 #include "fram/fmu.h"
 #include "fram/live.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -29,10 +29,8 @@ START_TEST(units_are_written_and_mistakes_refused)
     fram_context *ctx;
     fram_scenario *s;
     fram_fmu_result result;
-    char folder[300], output[340], command[340], binary[340];
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_fmu_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER], output[340], command[340], binary[340];
+    scratch_folder(folder);
     snprintf(output, sizeof output, "%s/ship_1.fmu", folder);
     assert_ok(fram_context_create(NULL, &ctx, &e), e);
     assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
@@ -112,8 +110,7 @@ START_TEST(units_are_written_and_mistakes_refused)
     ck_assert_int_ne(fram_fmu(s, &d, NULL, &e), FRAM_OK);
     fram_scenario_destroy(s);
     fram_context_destroy(ctx);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 END_TEST
 

@@ -1,6 +1,6 @@
 /* Hulls through the public interface. */
 #include "fram/hull.h"
-#include "testing.h"
+#include "scratch.h"
 #include <stdio.h>
 #include <unistd.h>
 
@@ -108,8 +108,8 @@ START_TEST(pieces_and_files)
                      "expected 1 to 4096 pieces");
     assert_fails(fram_hull_cut(hull, -1, 8, &pieces, &error), error, FRAM_ERROR_USAGE, "positive distance");
 
-    char folder[] = "/tmp/fram_test_XXXXXX", path[64];
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER], path[SCRATCH_PATH];
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/box.obj", folder);
     assert_ok(fram_hull_save(hull, path, &error), error);
     fram_hull_file_definition d;

@@ -2,7 +2,7 @@
  */
 #include "fram/live.h"
 #include "fram/results.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -16,7 +16,7 @@ static fram_error e;
 static failing_memory memory_of_test;
 static fram_context *ctx;
 static fram_scenario *scenario_of_test;
-static char folder[200];
+static char folder[SCRATCH_FOLDER];
 
 /* All at once: lines, thrusters, positioning, an open domain with a current, floes that break under the hull. */
 static const char busy[] =
@@ -48,9 +48,7 @@ static const char still[] = "run: {duration: 2, time_step: 0.02}\n"
 
 static void open_text(const char *text)
 {
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_live_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     fram_context_definition d;
     fram_context_default(&d);
     (void)failing_context(&memory_of_test, 0);
@@ -62,12 +60,10 @@ static void open_text(const char *text)
 
 static void close_all(void)
 {
-    char command[300];
     fram_scenario_destroy(scenario_of_test);
     fram_context_destroy(ctx);
     ck_assert_int_eq(memory_of_test.live, 0);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 
 static fram_world *create(void)

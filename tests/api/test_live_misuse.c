@@ -1,6 +1,6 @@
 /* include/fram/live.h with arguments that cannot be: refused with a word for it, or nothing done; never undefined. */
 #include "fram/live.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -350,10 +350,8 @@ START_TEST(older_definitions_are_taken)
     assert_ok(fram_context_create(&d, &ctx, &e), e);
     fram_context_destroy(ctx);
     open_all();
-    const char *root = getenv("TMPDIR");
-    char folder[300];
-    snprintf(folder, sizeof folder, "%s/fram_old_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER];
+    scratch_folder(folder);
     fram_record_definition r = {.size = offsetof(fram_record_definition, force), .folder = folder, .force = true};
     assert_ok(fram_world_record(w, &r, &e), e);
     assert_ok(fram_world_step(w, &e), e);
@@ -362,18 +360,17 @@ START_TEST(older_definitions_are_taken)
     fram_run_definition run = {.size = offsetof(fram_run_definition, force), .folder = folder, .force = true};
     REFUSED(fram_run(s, &run, NULL, &e));
     close_all();
-    char command[400];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 END_TEST
 
 /* A relative folder is that of when the recording began; a folder that cannot be told is refused. */
 START_TEST(the_working_folder_changes)
 {
-    char folder[] = "/tmp/fram-live-XXXXXX", before[4096], command[64];
+    char folder[SCRATCH_FOLDER], before[4096];
     open_all();
-    ck_assert(getcwd(before, sizeof before) && mkdtemp(folder) && chdir(folder) == 0);
+    scratch_folder(folder);
+    ck_assert(getcwd(before, sizeof before) && chdir(folder) == 0);
     fram_record_definition d;
     fram_record_default(&d);
     d.folder = "run";
@@ -392,8 +389,7 @@ START_TEST(the_working_folder_changes)
     ck_assert_int_eq(rmdir("../other"), 0);
     REFUSED(fram_world_record(w, &d, &e));
     ck_assert_int_eq(chdir(before), 0);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
     close_all();
 }
 END_TEST

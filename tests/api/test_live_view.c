@@ -1,7 +1,7 @@
 /* The live view of a recorded world, asked by plain sockets: who has the address gets the page and the record, and
    nobody gets anything else; it ends with the recording. */
 #include "fram/live.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -19,7 +19,7 @@ typedef struct opened {
     fram_context *ctx;
     fram_scenario *s;
     fram_world *w;
-    char folder[64], page[96], run[96];
+    char folder[SCRATCH_FOLDER], page[SCRATCH_PATH], run[SCRATCH_PATH];
     char address[128];
     int told, port;
     const char *path; /* of the address: "/TOKEN/" */
@@ -48,10 +48,10 @@ static void keep_and_try(void *user, const char *address)
 static bool set_up(opened *o)
 {
     fram_error e;
-    *o = (opened){.folder = "/tmp/fram-live-XXXXXX"};
+    *o = (opened){0};
     if (!strstr(fram_features(), "libmicrohttpd"))
         return false;
-    ck_assert_ptr_nonnull(mkdtemp(o->folder));
+    scratch_folder(o->folder);
     snprintf(o->page, sizeof o->page, "%s/page.html", o->folder);
     snprintf(o->run, sizeof o->run, "%s/run", o->folder);
     FILE *file = fopen(o->page, "w");
@@ -66,12 +66,10 @@ static bool set_up(opened *o)
 
 static void tear_down(opened *o)
 {
-    char command[128];
     fram_world_destroy(o->w);
     fram_scenario_destroy(o->s);
     fram_context_destroy(o->ctx);
-    snprintf(command, sizeof command, "rm -rf %s", o->folder);
-    ck_assert_int_eq(system(command), 0);
+    scratch_remove_folder(o->folder);
 }
 
 static void begin(opened *o)

@@ -6,7 +6,7 @@
 #include "fram/live.h"
 #include "fram/results.h"
 #include "fram/version.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ enum { WILD = sizeof wild / sizeof *wild };
 static fram_error e;
 static fram_context *context_of_test;
 static fram_scenario *scenario_of_test;
-static char folder[200], run[260], scene[260], page[260], output[300];
+static char folder[SCRATCH_FOLDER], run[260], scene[260], page[260], output[300];
 
 /* Refused, with words and the name of what is wrong. */
 static void assert_refused(fram_status status, const char *call)
@@ -39,14 +39,6 @@ static void assert_refused(fram_status status, const char *call)
     REFUSED(call_with_error);                       \
     ck_assert_int_ne((call_without), FRAM_OK)
 
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_int_ge(fputs(text, file), 0);
-    ck_assert_int_eq(fclose(file), 0);
-}
-
 static void open_all(void)
 {
     static const char text[] = "run: {duration: 0.4, time_step: 0.1}\n"
@@ -55,26 +47,22 @@ static void open_all(void)
                                "ice: {mean_floe_area: 64}\n"
                                "domain: {x_min: -40, x_max: 40, y_min: -20, y_max: 20}\n"
                                "output: {frame_interval: 0.1}\n";
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_misuse_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
     snprintf(run, sizeof run, "%s/run", folder);
     snprintf(page, sizeof page, "%s/page.html", folder);
     snprintf(output, sizeof output, "%s/output", folder);
-    write_text(scene, text);
-    write_text(page, "<html></html>");
+    scratch_text(scene, text);
+    scratch_text(page, "<html></html>");
     assert_ok(fram_context_create(NULL, &context_of_test, &e), e);
     assert_ok(fram_scenario_load(context_of_test, scene, NULL, 0, &scenario_of_test, &e), e);
 }
 
 static void close_all(void)
 {
-    char command[300];
     fram_scenario_destroy(scenario_of_test);
     fram_context_destroy(context_of_test);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 
 START_TEST(words_and_contexts)
@@ -530,7 +518,7 @@ START_TEST(videos_pages_and_capability)
                                "  mooring: {depth: 60, lines: [{count: 4, distance: 400, pretension: 1e5}]}\n"
                                "ice: {source: none}\ndomain: {boundary: open}\n";
     fram_scenario *moored = NULL;
-    write_text(page, text);
+    scratch_text(page, text);
     assert_ok(fram_scenario_load(c, page, NULL, 0, &moored, &e), e);
     for (int i = 0; i < WILD; i++) {
         for (int member = 0; member < 6; member++) {
@@ -558,7 +546,7 @@ START_TEST(fields)
     fram_field *f;
     fram_field_definition d = {0};
     fram_field_summary summary;
-    write_text(output, "0 0\n10 0\n10 10\n0 10\n");
+    scratch_text(output, "0 0\n10 0\n10 10\n0 10\n");
     (fram_field_default)(NULL, sizeof(size_t));
     REFUSED_NULL(fram_field_load(NULL, output, NULL, &f, &e), fram_field_load(NULL, output, NULL, &f, NULL));
     REFUSED(fram_field_load(c, NULL, NULL, &f, &e));

@@ -8,7 +8,7 @@
 #include "fram/results.h"
 #include "fram/statistics.h"
 #include "fram/study.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ static fram_field *field, *rings;
 static fram_hull *hull;
 static fram_study *study;
 static fram_body_id vessel;
-static char folder[200], run[260], live[260], unit[260], library[260], table[260], outlines[260], plan[260];
+static char folder[SCRATCH_FOLDER], run[260], live[260], unit[260], library[260], table[260], outlines[260], plan[260];
 
 /* ---- one call of each function ---- */
 
@@ -278,14 +278,6 @@ static void try_function(function_row f)
 
 /* ---- the stage ---- */
 
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs(text, file);
-    ck_assert_int_eq(fclose(file), 0);
-}
-
 static const char scene[] = "run: {duration: 0.1, time_step: 0.02}\n"
                             "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.1\n"
                             "  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
@@ -300,9 +292,7 @@ static const char drawn[] = "vessel: {present: false}\n"
 
 static void name_files(void)
 {
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_older_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(run, sizeof run, "%s/run", folder);
     snprintf(live, sizeof live, "%s/live", folder);
     snprintf(unit, sizeof unit, "%s/ship.fmu", folder);
@@ -316,12 +306,12 @@ static void write_files(void)
 {
     char floe[260];
     snprintf(floe, sizeof floe, "%s/floe.yaml", folder);
-    write_text(floe, "run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n");
-    write_text(library, "\177ELF fmi2Instantiate"); /* what a unit packs is told by that */
-    write_text(plan, "scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1]}}\n");
+    scratch_text(floe, "run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n");
+    scratch_text(library, "\177ELF fmi2Instantiate"); /* what a unit packs is told by that */
+    scratch_text(plan, "scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1]}}\n");
     /* A floe, and two rings that cross themselves. */
-    write_text(outlines, "0 0\n10 0\n10 10\n0 10\n0 0\n\n20 0\n30 10\n30 0\n20 10\n20 0\n\n"
-                         "40 0\n50 10\n50 0\n40 10\n40 0\n");
+    scratch_text(outlines, "0 0\n10 0\n10 10\n0 10\n0 0\n\n20 0\n30 10\n30 0\n20 10\n20 0\n\n"
+                           "40 0\n50 10\n50 0\n40 10\n40 0\n");
     FILE *file = fopen(table, "w");
     ck_assert_ptr_nonnull(file);
     fputs("time,x\n", file);
@@ -358,7 +348,6 @@ static void open_stage(void)
 
 static void close_stage(void)
 {
-    char command[300];
     fram_study_destroy(study);
     fram_hull_destroy(hull);
     fram_field_destroy(rings);
@@ -367,8 +356,7 @@ static void close_stage(void)
     fram_world_destroy(w);
     fram_scenario_destroy(s);
     fram_context_destroy(ctx);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 
 START_TEST(results_are_written_as_far_as_the_program_s_struct_goes)

@@ -1,7 +1,7 @@
 /* A world that a call is changing is not touched by another call, from a callback or another thread; one that is being
    read as a whole is not changed. */
 #include "fram/live.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -229,8 +229,8 @@ START_TEST(a_runs_stop_stops_nothing_else)
     others_scene = s;
     fram_run_definition run;
     fram_run_default(&run);
-    char folder[] = "/tmp/fram_one_call_XXXXXX";
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER];
+    scratch_folder(folder);
     run.folder = folder;
     run.stop = &runs_stop;
     ck_assert_int_eq(fram_run(s, &run, NULL, &e), FRAM_INTERRUPTED);

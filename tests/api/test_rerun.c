@@ -2,11 +2,11 @@
    on, before that it is told; rows far apart, rows that are not there, and states at the end tell as well. */
 #include "fram/live.h"
 #include "fram/results.h"
-#include "testing.h"
+#include "scratch.h"
 
 static fram_error e;
 static fram_context *ctx;
-static char folder[200], run[240], map[240];
+static char folder[SCRATCH_FOLDER], run[240], map[240];
 
 /* A tow that presses a floe on a fixed one from the first second on. */
 static const char tow[] = "run: {duration: 3, time_step: 0.02}\n"
@@ -18,9 +18,7 @@ static const char tow[] = "run: {duration: 3, time_step: 0.02}\n"
 
 static void open_all(void)
 {
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_rerun_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(run, sizeof run, "%s/run", folder);
     snprintf(map, sizeof map, "%s/map", folder);
     assert_ok(fram_context_create(NULL, &ctx, &e), e);
@@ -28,10 +26,8 @@ static void open_all(void)
 
 static void close_all(void)
 {
-    char command[300];
     fram_context_destroy(ctx);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 
 /* The other speed of the tow that a run is told. */

@@ -2,7 +2,7 @@
    lie, and goes on from as the resumed run does; a state that a program saved is no checkpoint of a run. */
 #include "fram/live.h"
 #include "fram/results.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <sys/stat.h>
 #include <zlib.h>
@@ -32,16 +32,7 @@ static const char floes[] =
 
 static fram_error e;
 static fram_context *ctx;
-static char top[200], run[300], file[ROOM];
-
-static void put(const char *folder, const char *name, const char *text)
-{
-    char path[ROOM];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *f = fopen(path, "wb");
-    ck_assert_ptr_nonnull(f);
-    ck_assert(fputs(text, f) >= 0 && fclose(f) == 0);
-}
+static char top[SCRATCH_FOLDER], run[300], file[ROOM];
 
 /* Folder of the scenario's files, made when it is not there. */
 static const char *place(const char *name, const char *hull_text, const char *end)
@@ -51,8 +42,8 @@ static const char *place(const char *name, const char *hull_text, const char *en
     snprintf(folder, sizeof folder, "%s/%s", top, name);
     (void)mkdir(folder, 0777);
     snprintf(text, sizeof text, floes, end, end);
-    put(folder, "floes.geojson", text);
-    put(folder, "hull.obj", hull_text);
+    scratch_put(folder, "floes.geojson", text);
+    scratch_put(folder, "hull.obj", hull_text);
     return folder;
 }
 
@@ -80,9 +71,7 @@ static void close_world(fram_world *w, fram_scenario *s)
 /* A run that ends half way; `file` is its checkpoint. */
 static void run_half(const char *text)
 {
-    const char *root = getenv("TMPDIR");
-    snprintf(top, sizeof top, "%s/fram_states_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(top));
+    scratch_folder(top);
     assert_ok(fram_context_create(NULL, &ctx, &e), e);
     snprintf(run, sizeof run, "%s/run", top);
     snprintf(file, sizeof file, "%s/checkpoint-000000000030.fram", run);
@@ -107,10 +96,8 @@ static fram_status resume(fram_run_result *result)
 
 static void close_all(void)
 {
-    char command[300];
     fram_context_destroy(ctx);
-    snprintf(command, sizeof command, "rm -rf %s", top);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(top);
 }
 
 static char *read_all(const char *path, size_t *size)

@@ -1,5 +1,5 @@
 /* Extremes and fatigue through the public API: misuse is refused, and a small file is answered. */
-#include "testing.h"
+#include "scratch.h"
 
 #include "fram/statistics.h"
 
@@ -9,13 +9,13 @@
 /* What is read stays, however its name is spelt: a file, and what a run in a folder is made of. */
 static void keep_what_is_read(fram_context *c, const char *file)
 {
-    char folder[] = "/tmp/fram_statistics_XXXXXX", names[3][80];
+    char folder[SCRATCH_FOLDER], names[3][SCRATCH_PATH];
     fram_error error = {0};
     fram_fatigue cycles;
     fram_fatigue_definition f;
     static fram_extremes extremes;
     fram_extremes_definition d;
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(names[0], sizeof names[0], "/tmp/../%s", file);
     snprintf(names[1], sizeof names[1], "%s/series.csv", folder);
     snprintf(names[2], sizeof names[2], "%s/run.json", folder);

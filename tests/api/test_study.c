@@ -1,5 +1,5 @@
 /* Studies through the public API: misuse is refused, and a small study runs by the command. */
-#include "testing.h"
+#include "scratch.h"
 
 #include "fram/study.h"
 
@@ -17,22 +17,13 @@ static fram_context *context_of(void)
 }
 
 /* A study of one still floe, in a folder of its own. */
-static void write_study(char folder[256], char study[300])
+static void write_study(char folder[SCRATCH_FOLDER], char study[SCRATCH_PATH])
 {
-    char path[300];
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, 256, "%.150s/fram_study_XXXXXX", root && *root ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/floe.yaml", folder);
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs("run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n", file);
-    ck_assert_int_eq(fclose(file), 0);
-    snprintf(study, 300, "%s/study.yaml", folder);
-    file = fopen(study, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs("scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1, 1.5]}}\n", file);
-    ck_assert_int_eq(fclose(file), 0);
+    scratch_folder(folder);
+    scratch_put(folder, "floe.yaml",
+                "run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n");
+    snprintf(study, SCRATCH_PATH, "%s/study.yaml", folder);
+    scratch_text(study, "scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1, 1.5]}}\n");
 }
 
 START_TEST(misuse_is_refused)
@@ -40,7 +31,7 @@ START_TEST(misuse_is_refused)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], path[300];
+    char folder[SCRATCH_FOLDER], path[300];
     write_study(folder, path);
     ck_assert_int_eq(fram_study_load(NULL, path, &s, &error), FRAM_ERROR_USAGE);
     ck_assert_str_eq(error.key, "context");
@@ -88,6 +79,7 @@ START_TEST(misuse_is_refused)
     fram_study_destroy(s);
     fram_study_destroy(NULL);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -129,7 +121,7 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], path[300], out[300], program[300];
+    char folder[SCRATCH_FOLDER], path[300], out[300], program[300];
     write_study(folder, path);
     snprintf(out, sizeof out, "%s/out", folder);
     snprintf(program, sizeof program, "%s/full", folder);
@@ -164,6 +156,7 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
     ck_assert_str_eq(error.key, "function");
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -173,7 +166,7 @@ START_TEST(a_program_that_does_not_start_fails_the_study_and_not_its_runs)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], path[300], out[300], program[300];
+    char folder[SCRATCH_FOLDER], path[300], out[300], program[300];
     write_study(folder, path);
     snprintf(out, sizeof out, "%s/out", folder);
     snprintf(program, sizeof program, "%s/bare", folder);
@@ -199,6 +192,7 @@ START_TEST(a_program_that_does_not_start_fails_the_study_and_not_its_runs)
     ck_assert_int_eq(sum.runs, 0);
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -213,7 +207,7 @@ START_TEST(a_program_of_a_killed_study_is_waited_for)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], path[300], out[300], program[300];
+    char folder[SCRATCH_FOLDER], path[300], out[300], program[300];
     write_study(folder, path);
     FILE *file = fopen(path, "a");
     ck_assert_ptr_nonnull(file);
@@ -241,6 +235,7 @@ START_TEST(a_program_of_a_killed_study_is_waited_for)
     ck_assert_msg(result.failed == 0, "%s", result.reason);
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -257,7 +252,7 @@ START_TEST(conditions_are_counted_and_a_stop_is_heard_between_them)
     fram_error error = {0};
     fram_context *c = NULL;
     fram_study *s = NULL;
-    char folder[256], path[300], out[300];
+    char folder[SCRATCH_FOLDER], path[300], out[300];
     int calls = 0, stop = 1;
     fram_context_definition told;
     fram_context_default(&told);
@@ -280,6 +275,7 @@ START_TEST(conditions_are_counted_and_a_stop_is_heard_between_them)
     ck_assert_int_eq(calls, 3);
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -289,7 +285,7 @@ static double kept_bytes(fram_context *c, const char *vessels, const char *outpu
     fram_error error = {0};
     fram_study *s = NULL;
     fram_study_extent extent = {0};
-    char folder[256], path[300], scene[300];
+    char folder[SCRATCH_FOLDER], path[300], scene[300];
     write_study(folder, path);
     snprintf(scene, sizeof scene, "%s/floe.yaml", folder);
     FILE *file = fopen(scene, "a");
@@ -302,6 +298,7 @@ static double kept_bytes(fram_context *c, const char *vessels, const char *outpu
     ck_assert_msg(fram_study_load(c, path, &s, &error) == FRAM_OK, "%s: %s", error.key, error.message);
     ck_assert_msg(fram_study_measure(s, &extent, &error) == FRAM_OK, "%s: %s", error.key, error.message);
     fram_study_destroy(s);
+    scratch_remove_folder(folder);
     return extent.run_bytes;
 }
 
@@ -335,7 +332,7 @@ START_TEST(a_study_runs_by_the_command)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], path[300], out[300];
+    char folder[SCRATCH_FOLDER], path[300], out[300];
     write_study(folder, path);
     snprintf(out, sizeof out, "%s/out", folder);
     ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
@@ -373,6 +370,7 @@ START_TEST(a_study_runs_by_the_command)
     ck_assert_int_eq(result.failed, 0);
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -389,7 +387,7 @@ START_TEST(a_file_that_is_changed_while_the_study_runs_is_told)
     fram_error error = {0};
     fram_context *c = context_of();
     fram_study *s = NULL;
-    char folder[256], study[300], path[300], out[300];
+    char folder[SCRATCH_FOLDER], study[300], path[300], out[300];
     write_study(folder, study);
     for (int i = 0; i < 3; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, text[i][0]);
@@ -413,6 +411,7 @@ START_TEST(a_file_that_is_changed_while_the_study_runs_is_told)
     ck_assert(result.made == 6 && result.failed == 0);
     fram_study_destroy(s);
     fram_context_destroy(c);
+    scratch_remove_folder(folder);
 }
 END_TEST
 

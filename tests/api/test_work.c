@@ -3,14 +3,14 @@
    that, one in five seconds at least, so that no clock is needed here. */
 #include "fram/results.h"
 #include "fram/statistics.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <stdio.h>
 #include <unistd.h>
 
 enum { LEAST_CALLS = 3 };
 
-static char folder[200], run[260], other[260], output[300];
+static char folder[SCRATCH_FOLDER], run[260], other[260], output[300];
 
 typedef struct told {
     int calls;
@@ -52,10 +52,7 @@ static void make_run(fram_context *c, const char *to)
     fram_error e = {0};
     char scene[300];
     snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
-    FILE *file = fopen(scene, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs(text, file);
-    ck_assert_int_eq(fclose(file), 0);
+    scratch_text(scene, text);
     ck_assert_msg(fram_scenario_load(c, scene, NULL, 0, &s, &e) == FRAM_OK, "%s", e.message);
     fram_run_definition d;
     fram_run_default(&d);
@@ -66,9 +63,7 @@ static void make_run(fram_context *c, const char *to)
 
 static void begin(fram_context *c)
 {
-    const char *root = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%s/fram_work_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(run, sizeof run, "%s/run", folder);
     snprintf(other, sizeof other, "%s/other", folder);
     snprintf(output, sizeof output, "%s/output", folder);
@@ -76,12 +71,7 @@ static void begin(fram_context *c)
     make_run(c, other);
 }
 
-static void end(void)
-{
-    char command[260];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    ck_assert_int_eq(system(command), 0);
-}
+static void end(void) { scratch_remove_folder(folder); }
 
 /* A build without an optional library answers that, and has nothing to tell. */
 static void check_told(told *t, fram_status status, const fram_error *e, const char *call)

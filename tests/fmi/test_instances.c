@@ -7,7 +7,7 @@
 #include "../../bindings/fmi/fmi3.h"
 #include "base/random.h"
 #include "fram/live.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <dlfcn.h>
 #include <fenv.h>
@@ -47,7 +47,7 @@ static any_function function_of(const char *name)
 }
 #define CALL(name) ((__typeof__(&name))function_of(#name))
 
-static char folder[300];
+static char folder[SCRATCH_FOLDER];
 
 static void write_text(const char *name, const char *text, const char *more)
 {
@@ -62,21 +62,14 @@ static void write_text(const char *name, const char *text, const char *more)
 /* A folder of resources, with a trailing slash as 3.0 wants it. */
 static void make_resources(void)
 {
-    const char *root = getenv("TMPDIR");
     char list[400];
-    snprintf(folder, sizeof folder, "%s/fram_instances_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     write_text("scenario.yaml", scene, "");
     snprintf(list, sizeof list, "%s\n", token);
     write_text("variables.txt", list, variables);
 }
 
-static void remove_resources(void)
-{
-    char command[340];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
-}
+static void remove_resources(void) { scratch_remove_folder(folder); }
 
 static void log_3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String text)
 {

@@ -1,6 +1,6 @@
 /* io/run_note: what is written of a run is what is read, however long the file is. */
 #include "io/run_note.h"
-#include "io/scratch.h"
+#include "scratch.h"
 
 #include "io/file.h"
 #include "testing.h"

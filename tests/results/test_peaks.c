@@ -1,7 +1,7 @@
 /* Peaks in words. */
 #include "io/record_layout.h"
 #include "results/peaks.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <unistd.h>
 
@@ -121,10 +121,8 @@ END_TEST
 /* By falling load, whatever the order in the file, and no more than a run keeps of a vessel. */
 START_TEST(peaks_of_a_file)
 {
-    const char *root = getenv("TMPDIR");
-    char folder[200], path[220];
-    snprintf(folder, sizeof folder, "%s/fram_peaks_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER], path[SCRATCH_PATH];
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/peaks.fram", folder);
     for (int count = PEAKS_KEPT; count <= PEAKS_KEPT + 1; count++) {
         context ctx;

@@ -1,5 +1,5 @@
 /* What is told of a run as its figures are made. */
-#include "../io/scratch.h"
+#include "scratch.h"
 
 #include "io/scenario_file.h"
 #include "results/run_results.h"

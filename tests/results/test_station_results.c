@@ -1,5 +1,5 @@
 /* What the results of station keeping are made of. */
-#include "../io/scratch.h"
+#include "scratch.h"
 
 #include "base/transcendental.h"
 #include "io/scenario_file.h"

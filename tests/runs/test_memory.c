@@ -1,4 +1,5 @@
 /* Memory that runs out while a world is made, stepped or run is a status, and nothing leaks. */
+#include "scratch.h"
 #include "sim/scene.h"
 
 #include "results/run_results.h"
@@ -94,8 +95,8 @@ static void check_run(const char *from)
     context plain;
     scenario s = {0};
     read_scenario(&plain, from, &s);
-    char folder[] = "/tmp/fram-memory-XXXXXX";
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER];
+    scratch_folder(folder);
     for (failing_turn turn = {.stride = 7}; failing_next(&turn);) {
         run_result result = {0};
         run_options options = {.folder = folder, .force = true, .finish = run_results_write};
@@ -105,9 +106,7 @@ static void check_run(const char *from)
             turn.status = FRAM_ERROR_MEMORY; /* as the turn expects */
         }
     }
-    char command[64];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    ck_assert_int_eq(system(command), 0);
+    scratch_remove_folder(folder);
     scenario_free(&plain, &s);
 }
 

@@ -1,4 +1,5 @@
 /* The record of a run read back: forces, births and deaths, velocities, damage. */
+#include "scratch.h"
 #include "sim/scene.h"
 
 #include "base/transcendental.h"
@@ -23,29 +24,20 @@ static const char text[] = "run:\n  duration: 6\n  time_step: 0.02\n"
                            "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
                            "output:\n  frame_interval: 0.2\n";
 
-static void run_scene(context *ctx, const char *from, char folder[PATH])
+static void run_scene(context *ctx, const char *from, char folder[SCRATCH_FOLDER])
 {
-    const char *base = getenv("TMPDIR");
     fram_error error = {0};
     scenario s = {0};
     run_result result = {0};
-    snprintf(folder, PATH, "%s/fram-replay-XXXXXX", base && *base ? base : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     assert_ok(scenario_parse(ctx, "scene.yaml", from, strlen(from), NULL, &s, &error), error);
     run_options options = {.folder = folder};
     assert_ok(run_start(ctx, &s, &options, &result, &error), error);
     scenario_free(ctx, &s);
 }
 
-static void remove_folder(const char *folder)
-{
-    char command[PATH + 16];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    ck_assert_int_eq(system(command), 0);
-}
-
 /* A run of a scene, opened to be read; its folder goes with the last reader. */
-static void run_and_open(context *ctx, const char *from, char folder[PATH], replay *r)
+static void run_and_open(context *ctx, const char *from, char folder[SCRATCH_FOLDER], replay *r)
 {
     fram_error error = {0};
     run_scene(ctx, from, folder);
@@ -55,13 +47,13 @@ static void run_and_open(context *ctx, const char *from, char folder[PATH], repl
 static void close_and_remove(replay *r, const char *folder)
 {
     replay_close(r);
-    remove_folder(folder);
+    scratch_remove_folder(folder);
 }
 
 START_TEST(a_run_is_read_back)
 {
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     context_init(&ctx);
     run_scene(&ctx, text, folder);
     replay r;
@@ -127,7 +119,7 @@ START_TEST(contacts_of_large_floes_are_kept_whole)
                                "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}\n"
                                "output: {frame_interval: 0.02}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     replay r;
     fram_error error = {0};
     bool found = true;
@@ -165,7 +157,7 @@ START_TEST(level_ice_is_known)
     const char *const from[3] = {text, level, drifting};
     for (int k = 0; k < 3; k++) {
         context ctx;
-        char folder[PATH];
+        char folder[SCRATCH_FOLDER];
         replay r;
         replay_moment m = {0};
         replay_plan plan = {0};
@@ -217,7 +209,7 @@ START_TEST(a_propeller_astern_pushes_along_the_ship)
         "  thrusters: [{kind: main, x: -22, thrust: 3.0e5, rudder_deg: 30, setting: -0.8, direction_deg: 25}]\n"
         "output: {frame_interval: 0.1}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     replay r;
     replay_moment m = {0};
     fram_error error = {0};
@@ -237,7 +229,7 @@ END_TEST
 START_TEST(a_moment_lies_between_its_frames)
 {
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     context_init(&ctx);
     run_scene(&ctx, text, folder);
     replay r;
@@ -278,7 +270,7 @@ START_TEST(what_breaks_between_frames_goes_on)
         "domain: {x_min: -40, x_max: 60, y_min: -30, y_max: 30, boundary: feeding, drift_speed: 1,\n"
         "         drift_direction_deg: 180}\noutput: {frame_interval: 1}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     replay r;
     replay_moment m = {0};
     fram_error error = {0};
@@ -322,7 +314,7 @@ START_TEST(lines_reach_their_own_anchors)
         "     mooring: {depth: 60, lines: [{count: 3, spacing_deg: 120, distance: 700, pretension: 2.0e5}]}}\n"
         "output: {frame_interval: 0.1}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     replay r;
     replay_moment m = {0};
     replay_plan plan = {0};
@@ -343,7 +335,7 @@ START_TEST(lines_reach_their_own_anchors)
     replay_moment_free(&ctx, &m);
     replay_close(&r);
     scenario_free(&ctx, &s);
-    remove_folder(folder);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -356,7 +348,7 @@ START_TEST(a_turn_between_frames_is_the_short_one)
         "ice:\n  source: floes\n  floes:\n    - {length: 40, width: 40, yaw_deg: 250, spin: 1}\n"
         "output: {frame_interval: 0.2}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     replay r;
     replay_moment m = {0};
     fram_error error = {0};
@@ -392,7 +384,7 @@ static uint64_t record_size(const char *folder)
  * be evenly spaced. */
 static int64_t frames_under(context *ctx, const char *limit, bool halves, uint64_t *size)
 {
-    char folder[PATH] = "/tmp/fram-limit-XXXXXX", all[1024];
+    char folder[SCRATCH_FOLDER], all[1024];
     scenario s = {0};
     fram_error error = {0};
     run_result result = {0};
@@ -400,7 +392,7 @@ static int64_t frames_under(context *ctx, const char *limit, bool halves, uint64
     bool found = true;
     int64_t frames = 0;
     snprintf(all, sizeof all, "%s  record_limit: %s\n", text, limit);
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     assert_ok(scenario_parse(ctx, "scene.yaml", all, strlen(all), NULL, &s, &error), error);
     run_options options = {.folder = folder, .until = halves ? 3 : 0};
     assert_ok(run_start(ctx, &s, &options, &result, &error), error);
@@ -417,7 +409,7 @@ static int64_t frames_under(context *ctx, const char *limit, bool halves, uint64
     }
     replay_close(&r);
     *size = record_size(folder);
-    remove_folder(folder);
+    scratch_remove_folder(folder);
     scenario_free(ctx, &s);
     return frames;
 }
@@ -452,12 +444,12 @@ START_TEST(lines_count_for_the_limit)
         "  mooring: {depth: 80, lines: [{count: 64, spacing_deg: 5.625, distance: 400, pretension: 1.0e+5, weight: "
         "500}]}\noutput: {frame_interval: 0.1, csv_interval: 10, record_limit: 0.3}\n";
     context ctx;
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     context_init(&ctx);
     run_scene(&ctx, moored, folder);
     uint64_t size = record_size(folder);
     ck_assert_msg(size > 150000 && size < 300000, "%llu bytes", (unsigned long long)size);
-    remove_folder(folder);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
@@ -476,7 +468,7 @@ static void damage_record(const char *folder)
 }
 
 /* A hull that breaks an edge and meets a floe, about a place. */
-static void run_about(context *ctx, double x, double y, how made, char folder[PATH])
+static void run_about(context *ctx, double x, double y, how made, char folder[SCRATCH_FOLDER])
 {
     char told[1024];
     fram_error error = {0};
@@ -488,7 +480,7 @@ static void run_about(context *ctx, double x, double y, how made, char folder[PA
              "floes: [{length: 40, width: 40, x: %.1f, y: %.1f, fixed: true}, {length: 40, width: 20, x: %.1f, y: "
              "%.1f}]}\ndomain: {x_min: %.0f, x_max: %.0f, y_min: %.0f, y_max: %.0f}\noutput: {frame_interval: 0.2}\n",
              x - 26, y, x + 20.5, y + 20.5, x + 20.5, y - 11, x - 64, x + 64, y - 40, y + 44);
-    ck_assert_ptr_nonnull(mkdtemp(strcpy(folder, "/tmp/fram-replay-XXXXXX")));
+    scratch_folder(folder);
     assert_ok(scenario_parse(ctx, "scene.yaml", told, strlen(told), NULL, &s, &error), error);
     run_options options = {.folder = folder, .until = made == WHOLE ? 0 : 1};
     assert_ok(run_start(ctx, &s, &options, &result, &error), error);
@@ -527,7 +519,7 @@ static int32_t add_replayed(context *ctx, const char *folder, int32_t count, vec
    of bodies at the end. */
 static int32_t places_about(context *ctx, double x, double y, how made, vec3 out[PLACES], vec2 *origin)
 {
-    char folder[PATH];
+    char folder[SCRATCH_FOLDER];
     fram_error error = {0};
     peak_list peaks;
     int32_t count = 0;
@@ -539,7 +531,7 @@ static int32_t places_about(context *ctx, double x, double y, how made, vec3 out
     peak_list_free(ctx, &peaks);
     if (made != DAMAGED)
         count = add_replayed(ctx, folder, count, out, origin);
-    remove_folder(folder);
+    scratch_remove_folder(folder);
     for (int32_t i = 0; i < count; i++)
         out[i] = vec3_make(out[i].x - x, out[i].y - y, out[i].z);
     return count;
@@ -605,14 +597,14 @@ START_TEST(contacts_of_an_earlier_layout_are_read)
         float outline[6];
     } births = {1, 0, 1, {MATERIAL_ICE, 1}, 1, 900, 0, -1, 3, {0, 0, 1, 0, 0, 1}};
     context ctx;
-    char folder[PATH] = "/tmp/fram-replay-XXXXXX", path[PATH + 32];
+    char folder[SCRATCH_FOLDER], path[PATH + 32];
     record_writer w;
     const record_part part = {&births, sizeof births};
     replay r;
     fram_error error = {0};
     bool found;
     context_init(&ctx);
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/record.fram", folder);
     assert_ok(record_create(&ctx, path, &w, &error), error);
     assert_ok(record_append(&w, BLOCK_BIRTHS, &part, 1, &error), error);
@@ -634,9 +626,8 @@ START_TEST(records_that_lie_are_refused)
 {
     context ctx;
     context_init(&ctx);
-    char folder[PATH];
-    snprintf(folder, sizeof folder, "/tmp/fram-replay-XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER];
+    scratch_folder(folder);
     const int32_t births[] = {1000000, 0, 0, 0}, slot[] = {1, -5, 1, 0, 0, 0, 0, 0, 0},
                   closed[] = {0, 1, 1, 1, 0, 0, 0, 0, 9, 0};
     const int32_t many[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0};
@@ -650,7 +641,7 @@ START_TEST(records_that_lie_are_refused)
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_EARLIER_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_TOUCHED_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, 77, many, sizeof many), FRAM_ERROR_INPUT); /* no frame */
-    remove_folder(folder);
+    scratch_remove_folder(folder);
 }
 END_TEST
 

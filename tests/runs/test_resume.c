@@ -1,5 +1,6 @@
 /* Every scene runs straight, and through a checkpoint at half time, to the same hash, on 1 and 4 threads (on one of
    them, in turn, where tests are short). */
+#include "scratch.h"
 #include "sim/scene.h"
 
 #include "base/pool.h"
@@ -123,20 +124,6 @@ static const char *const scenes[] = {
 };
 enum { SCENES = sizeof scenes / sizeof *scenes, PATH = 512 };
 
-static void scratch_folder(char out[PATH])
-{
-    const char *base = getenv("TMPDIR");
-    snprintf(out, PATH, "%s/fram-resume-XXXXXX", base && *base ? base : "/tmp");
-    ck_assert_ptr_nonnull(mkdtemp(out));
-}
-
-static void remove_folder(const char *folder)
-{
-    char command[PATH + 16];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    ck_assert_int_eq(system(command), 0);
-}
-
 static uint64_t run_to(context *ctx, const scenario *s, const char *folder, double until)
 {
     fram_error error = {0};
@@ -209,7 +196,7 @@ static void check_scene(const char *text, int threads, uint64_t *hash)
     scenario_free(&ctx, &s);
     if (ctx.threads)
         pool_free(&ctx, ctx.threads);
-    remove_folder(halves);
+    scratch_remove_folder(halves);
 }
 
 START_TEST(straight_and_resumed_runs_agree)

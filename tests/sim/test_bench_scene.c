@@ -2,8 +2,8 @@
 #include "base/pool.h"
 #include "base/random.h"
 #include "base/transcendental.h"
+#include "scratch.h"
 #include "sim/bench.h"
-#include "testing.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -110,8 +110,8 @@ START_TEST(poses_come_in_the_order_of_the_scene)
     context ctx;
     context_init(&ctx);
     scene_text s = make_scene(&ctx, 6);
-    char folder[] = "/tmp/fram-bench-XXXXXX", path[64];
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER], path[SCRATCH_PATH];
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/poses.csv", folder);
     bench_scene_options o = {.time_step = 0.02, .warm = 0, .time = 0.04, .iterations = 5, .dump = path};
     bench_result r;

@@ -1,9 +1,9 @@
 /* A scenario's hull from a mesh file: measured, cut, placed about its centre of mass; mistakes named by key or place.
  */
 #include "io/scenario_file.h"
+#include "scratch.h"
 #include "sim/build_hull.h"
 #include "sim/build_vessel.h"
-#include "testing.h"
 #include <stdio.h>
 #include <unistd.h>
 
@@ -15,27 +15,19 @@ static const char half_box[] = "a barge\n1 9.81\n0 1\n4\n"
                                "0 5000 -3000  0 0 -3000  0 0 0  0 5000 0\n";
 
 typedef struct folder {
-    char name[64], mesh[96], scene[96];
+    char name[SCRATCH_FOLDER], mesh[SCRATCH_PATH], scene[SCRATCH_PATH];
 } folder;
-
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_int_ge(fputs(text, file), 0);
-    ck_assert_int_eq(fclose(file), 0);
-}
 
 static folder make_folder(const char *hull_keys, const char *mesh_text)
 {
-    folder f = {.name = "/tmp/fram_test_XXXXXX"};
-    ck_assert_ptr_nonnull(mkdtemp(f.name));
+    folder f;
+    scratch_folder(f.name);
     snprintf(f.mesh, sizeof f.mesh, "%s/barge.gdf", f.name);
     snprintf(f.scene, sizeof f.scene, "%s/scene.yaml", f.name);
     char text[512];
     snprintf(text, sizeof text, "vessel:\n  hull:\n    form: file\n    file: barge.gdf\n%s", hull_keys);
-    write_text(f.scene, text);
-    write_text(f.mesh, mesh_text);
+    scratch_text(f.scene, text);
+    scratch_text(f.mesh, mesh_text);
     return f;
 }
 
@@ -108,7 +100,7 @@ START_TEST(hulls_that_were_read_are_kept)
     fram_error error = {0};
     assert_ok(build(&ctx, &f, &hull[0], &solids, &error), error);
     assert_ok(build_with(&ctx, &f, "vessel.centre_of_gravity_x=19", &store, &hull[1], &solids, &error), error);
-    write_text(f.mesh, "no hull any more\n");
+    scratch_text(f.mesh, "no hull any more\n");
     assert_ok(build_with(&ctx, &f, NULL, &store, &hull[2], &solids, &error), error);
     ck_assert_int_eq(store.hulls.count, 1);
     assert_bits(hull[2].displaced_mass, hull[0].displaced_mass);

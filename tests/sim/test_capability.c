@@ -2,6 +2,7 @@
 #include "base/channel_statistics.h"
 #include "io/csv_read.h"
 #include "scene.h"
+#include "scratch.h"
 #include "sim/capability.h"
 #include "sim/ice_loads.h"
 #include "sim/steady_load.h"
@@ -380,7 +381,7 @@ START_TEST(use_as_it_is_written)
     static const char *const iced[] = {"ice.source=voronoi", "ice.thickness=0.5", "environment.wind_speed=15",
                                        "environment.hull_drag.air_form=1", "vessel.centre_of_gravity_x=3"};
     static const char thrusters[] = "  thrusters: [{x: 20, thrust: 4.0e4}, {x: -20, thrust: 5.0e4}]\n  mooring:";
-    char text[sizeof sprung + sizeof thrusters], folder[] = "/tmp/fram-capability-XXXXXX", path[PATH_ROOM];
+    char text[sizeof sprung + sizeof thrusters], folder[SCRATCH_FOLDER], path[PATH_ROOM];
     const char *mooring = strstr(sprung, "  mooring:");
     snprintf(text, sizeof text, "%.*s%s%s", (int)(mooring - sprung), sprung, thrusters, strchr(mooring, ':') + 1);
     scene k;
@@ -390,7 +391,8 @@ START_TEST(use_as_it_is_written)
     scene_open_with(&k, text, iced, sizeof iced / sizeof *iced);
     capability_options o = plain;
     o.formula = o.force = true;
-    o.folder = mkdtemp(folder);
+    scratch_folder(folder);
+    o.folder = folder;
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     assert_ok(capability_write(&k.ctx, &k.s, &o, path, &error), error);
     assert_ok(path_join(folder, "capability_use.csv", path, &error), error);

@@ -1,40 +1,19 @@
 /* Current and wind from files: drift that turns round, and files that are wrong. */
 #include "io/scenario_file.h"
+#include "scratch.h"
 #include "sim/build.h"
 #include "sim/step.h"
-#include "testing.h"
 
 #include <stdio.h>
 #include <unistd.h>
 
 typedef struct sea {
-    char folder[64];
+    char folder[SCRATCH_FOLDER];
     context ctx;
     scenario s;
     model m;
     world w;
 } sea;
-
-static void write_file(const sea *k, const char *name, const char *text)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", k->folder, name);
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-static void remove_folder(const sea *k)
-{
-    static const char *const names[] = {"scene.yaml", "series.csv"};
-    char path[128];
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%s/%s", k->folder, names[i]);
-        unlink(path);
-    }
-    rmdir(k->folder);
-}
 
 #define ONE_FLOE                                                                   \
     "run: {time_step: 0.05}\nvessel: {present: false}\n"                           \
@@ -43,14 +22,13 @@ static void remove_folder(const sea *k)
 
 static fram_status open_sea(sea *k, const char *environment, const char *series, fram_error *error)
 {
-    char text[1024], path[128];
+    char text[1024], path[SCRATCH_PATH];
     memset(k, 0, sizeof *k);
     context_init(&k->ctx);
-    strcpy(k->folder, "/tmp/fram-media-XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(k->folder));
+    scratch_folder(k->folder);
     snprintf(text, sizeof text, ONE_FLOE "environment: {%s}\n", environment);
-    write_file(k, "scene.yaml", text);
-    write_file(k, "series.csv", series);
+    scratch_put(k->folder, "scene.yaml", text);
+    scratch_put(k->folder, "series.csv", series);
     snprintf(path, sizeof path, "%s/scene.yaml", k->folder);
     fram_status status = scenario_read(&k->ctx, path, NULL, &k->s, error);
     if (status != FRAM_OK)
@@ -70,7 +48,7 @@ static void close_sea(sea *k)
     world_free(&k->ctx, &k->w);
     model_free(&k->ctx, &k->m);
     scenario_free(&k->ctx, &k->s);
-    remove_folder(k);
+    scratch_remove_folder(k->folder);
 }
 
 /* A velocity that goes evenly from one to another between two times. */
@@ -202,7 +180,7 @@ START_TEST(wrong_files)
             ck_assert_str_eq(error.key, cases[i].column);
         ck_assert(error.file[0]);
         scenario_free(&k.ctx, &k.s);
-        remove_folder(&k);
+        scratch_remove_folder(k.folder);
     }
 }
 END_TEST

@@ -1,5 +1,6 @@
 /* What the watch of peaks knows goes into a checkpoint and comes back: the same peaks, and no bytes that harm.  Beside
    a world that has come some way it tells no peak by a part of it, and parts of one in a long window add up too. */
+#include "scratch.h"
 #include "sim/peak_chain.h"
 #include "sim/peak_state.h"
 #include "sim/recording.h"
@@ -347,11 +348,11 @@ static void check_resumed(scene *k, peak_watch *p)
 START_TEST(a_recording_that_begins_late_explains_whole_peaks)
 {
     static const char *const window[] = {"output.averaging_window=1"};
-    char folder[] = "/tmp/fram_peaks_XXXXXX", command[64];
+    char folder[SCRATCH_FOLDER];
     scene k;
     recording r;
     const recording_options options = {0};
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     scene_open_with(&k, text, window, 1);
     scene_steps(&k, 50);
     assert_ok(recording_init(&k.ctx, &k.s, folder, &options, &r, &e), e);
@@ -370,8 +371,7 @@ START_TEST(a_recording_that_begins_late_explains_whole_peaks)
     ck_assert(peak_picker_keeps(&r.recorder.peaks.vessels.data[0].picker));
     recording_free(&r);
     scene_close(&k);
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 END_TEST
 

@@ -2,9 +2,9 @@
 #include "io/path.h"
 #include "io/run_files.h"
 #include "io/scenario_file.h"
+#include "scratch.h"
 #include "sim/run_folder.h"
 #include "sim/run_inputs.h"
-#include "testing.h"
 #include <stdio.h>
 #include <unistd.h>
 
@@ -124,10 +124,10 @@ START_TEST(files_of_a_run_are_those_of_one_table)
     context ctx;
     context_init(&ctx);
     fram_error error = {0};
-    char folder[] = "/tmp/fram_test_XXXXXX", path[PATH_ROOM], line[PATH_ROOM + 80];
+    char folder[SCRATCH_FOLDER], path[PATH_ROOM], line[PATH_ROOM + 80];
     const run_file *f;
     int lock = -1, rows = 0;
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scratch_folder(folder);
     for (; (f = run_file_at(rows)) != NULL; rows++) {
         ck_assert_ptr_eq(run_file_find(f->name), f);
         write_file(folder, f->name, half, path);

@@ -3,7 +3,7 @@
 
 #include "io/file.h"
 #include "io/json_walk.h"
-#include "testing.h"
+#include "scratch.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,8 +42,8 @@ START_TEST(what_is_no_number_is_null)
                                  .good_until = (double)NAN,
                                  .inputs = "",
                                  .step_times = &times};
-    char folder[] = "/tmp/fram_notes_XXXXXX", path[64], text[64], *data = NULL;
-    ck_assert_ptr_nonnull(mkdtemp(folder));
+    char folder[SCRATCH_FOLDER], path[SCRATCH_PATH], text[64], *data = NULL;
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/run.json", folder);
     assert_ok(run_summary_write(&ctx, folder, &s, &w, &summary, &error), error);
     size_t size = 0;

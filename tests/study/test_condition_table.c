@@ -1,5 +1,5 @@
 /* Conditions from a CSV file: what programs write is read, and what is unclear is refused at its place. */
-#include "testing.h"
+#include "scratch.h"
 
 #include "study/condition_table.h"
 #include "study/study_file.h"
@@ -119,25 +119,15 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
 }
 END_TEST
 
-static void write_file(const char *folder, const char *name, const char *text)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_int_ge(fputs(text, file), 0);
-    ck_assert_int_eq(fclose(file), 0);
-}
-
 /* A study of a table with hours: read again and again, each time with another request for memory that fails, nothing
    is lost or freed twice. */
 START_TEST(memory_runs_out)
 {
-    char folder[] = "/tmp/fram-table-XXXXXX", path[64], command[64];
-    ck_assert_ptr_nonnull(mkdtemp(folder));
-    write_file(folder, "base.yaml", "ice: {source: none}\n");
-    write_file(folder, "t.csv", "hours,ice.thickness\n100,1\n200,2\n");
-    write_file(folder, "s.yaml", "scenario: base.yaml\nvary: {table: t.csv}\nextremes: {annual: [0.01]}\n");
+    char folder[SCRATCH_FOLDER], path[SCRATCH_PATH];
+    scratch_folder(folder);
+    scratch_put(folder, "base.yaml", "ice: {source: none}\n");
+    scratch_put(folder, "t.csv", "hours,ice.thickness\n100,1\n200,2\n");
+    scratch_put(folder, "s.yaml", "scenario: base.yaml\nvary: {table: t.csv}\nextremes: {annual: [0.01]}\n");
     snprintf(path, sizeof path, "%s/s.yaml", folder);
     for (failing_turn turn = {0}; failing_next(&turn);) {
         study s = {0};
@@ -147,8 +137,7 @@ START_TEST(memory_runs_out)
         if (!turn.memory.failed)
             ck_assert_int_gt(turn.n, 50);
     }
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(folder);
 }
 END_TEST
 

@@ -1,5 +1,5 @@
 /* What a full cluster says: tasks that wait, and why, as `squeue` tells it.  A scheduler of two scripts answers. */
-#include "testing.h"
+#include "scratch.h"
 
 #include "study/slurm.h"
 
@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 typedef struct scheduler {
-    char folder[64], before[4096];
+    char folder[SCRATCH_FOLDER], before[4096];
 } scheduler;
 
 static void write_script(const scheduler *s, const char *name, const char *text)
@@ -23,8 +23,7 @@ static void write_script(const scheduler *s, const char *name, const char *text)
 
 static void begin(scheduler *s)
 {
-    strcpy(s->folder, "/tmp/fram-waits-XXXXXX");
-    ck_assert_ptr_nonnull(mkdtemp(s->folder));
+    scratch_folder(s->folder);
     snprintf(s->before, sizeof s->before, "%s", getenv("PATH"));
     char path[4200];
     snprintf(path, sizeof path, "%s:%s", s->folder, s->before);
@@ -35,10 +34,8 @@ static void begin(scheduler *s)
 
 static void end(scheduler *s)
 {
-    char command[96];
     setenv("PATH", s->before, 1);
-    snprintf(command, sizeof command, "rm -r %s", s->folder);
-    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+    scratch_remove_folder(s->folder);
 }
 
 /* So many questions to the scheduler, however soon. */
