@@ -34,16 +34,17 @@ KNOWS = {
     "api": "implements include/fram",
     "cli": "commands; sees include/fram only",
 }
-# A step, stage by stage (sim/step.c): what it reads, and what it writes for the stages after it.
+# A step, stage by stage (sim/step.h, which numbers those of the mechanics): what it reads, and what it writes for the
+# stages after it.
 STEP = [
     ("1  External forces", "poses, velocities, media, stations", "loads on bodies; thrust, tensions, set points"),
     ("2  Detection", "poses, shapes, kept pairs", "pairs; contacts of convex pieces; pairs that need patches"),
     ("3  Crushing limits", "pairs that need patches, floes", "patches; their contacts, each with its cap"),
     ("4  Solve", "loads, contacts, joints, warm start", "velocities; impulse of every contact"),
-    ("5  Ice loads", "contacts with impulses", "load on each vessel, by zone and kind"),
-    ("6  Fracture", "patches with impulses, floes", "cracks: floes removed and made; events; books"),
-    ("7  Integration", "velocities, contacts", "poses; overlap corrected"),
-    ("8  Edge of the domain", "poses", "floes that leave, return or are fed"),
+    ("Ice loads", "contacts with impulses", "load on each vessel, by zone and kind"),
+    ("5  Fracture", "patches with impulses, floes", "cracks: floes removed and made; events; books"),
+    ("6  Integration", "velocities, contacts", "poses; overlap corrected"),
+    ("Edge of the domain", "poses", "floes that leave, return or are fed"),
 ]
 
 
@@ -128,9 +129,11 @@ def draw_step():
             body.append(f'<path class="flow" marker-end="url(#m)" d="M{left + wide / 2:g},{y + high} '
                         f'L{left + wide / 2:g},{y + high + gap - 2}"/>')
     y = 40 + len(STEP) * (high + gap)
-    body.append(text(20, y + 14, "Nothing flows back within a step.  State outlives it in tables of fields; all "
-                     "else is written anew.  The recorder reads, and writes nothing that moves.", "small"))
-    return svg(width, y + 34, body)
+    body += [text(20, y + 14, "Nothing flows back within a step.  State outlives it in tables of fields; all else is "
+                  "written anew.  The recorder reads, and writes nothing that moves.", "small"),
+             text(20, y + 32, "Stages with a number are the mechanics; those without keep account of what these did.",
+                  "small")]
+    return svg(width, y + 52, body)
 
 
 def main():
