@@ -57,6 +57,7 @@ peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode
 validate python3-matplotlib deb:python3-matplotlib
+validate python3-cffi     deb:python3-cffi
 slurm  slurmctld        cmd:slurmctld
 slurm  slurmd           cmd:slurmd
 slurm  slurm-client     cmd:sbatch

@@ -78,7 +78,7 @@ ice:
         found = []
         while w.time < 3 * 0.8 / 0.5 - 1e-9:
             w.step()
-            found.append(tuple(w.load().force))
+            found.append(w.ice_force())
         return found[1:]  # the first step only touches
 
 

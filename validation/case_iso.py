@@ -32,7 +32,7 @@ ice:
 """
     with world.World(text, "iso") as w_:
         w_.step(20)
-        return -w_.load().force[0]
+        return -w_.ice_force()[0]
 
 
 def case(out):

@@ -43,7 +43,7 @@ def impact(lean, exponent, across, along, dt):
         times, forces = [], []
         for _ in range(int(2 / dt)):
             w.step()
-            force = sum(n * f for n, f in zip(normal, w.load().force))
+            force = sum(n * f for n, f in zip(normal, w.ice_force()))
             times.append(w.time)
             forces.append(force)
             if forces[-1] < 1 < max(forces):

@@ -50,7 +50,7 @@ ice:
         sums = 0.0
         for _ in range(round(1 / dt)):
             w.step(1)
-            sums -= w.load().force[0]
+            sums -= w.ice_force()[0]
     return sums * dt
 
 

@@ -71,7 +71,7 @@ def forces(text, steps):
         found = []
         for _ in range(steps):
             w.step()
-            found.append(tuple(w.load().force))
+            found.append(w.ice_force())
     return found
 
 

@@ -69,7 +69,7 @@ class Deps(unittest.TestCase):
         code, text = self.at_a_terminal("n\n")
         self.assertEqual(code, 1, text)
         self.assertLess(text.index("45.6 MB"), text.index("[Y/n]"))
-        self.assertIn("apt-get install --no-install-recommends python3-matplotlib", text)
+        self.assertIn("apt-get install --no-install-recommends python3-cffi python3-matplotlib", text)
         self.assertFalse(self.mark.exists())
 
     def test_a_person_says_yes(self):
