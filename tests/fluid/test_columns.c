@@ -2,8 +2,8 @@
 #include "base/pool.h"
 #include "base/random.h"
 #include "base/transcendental.h"
+#include "field.h"
 #include "fluid/columns.h"
-#include "testing.h"
 
 static const column_medium medium = {9.81, 1025, {0.3, -0.1}, 1.0, 0.01};
 
@@ -36,13 +36,7 @@ static wrench plain_water(const column_medium *m, polygon p, double h, double ma
     return sum;
 }
 
-typedef struct field {
-    context ctx;
-    body_table bodies;
-    shape_store shapes;
-} field;
-
-static int32_t add_floe(field *f, motion kind, int sides, double radius, double turn, double h)
+static int32_t add_polygon(field *f, motion kind, int sides, double radius, double turn, double h)
 {
     vec2 corner[16];
     for (int k = 0; k < sides; k++)
@@ -70,8 +64,8 @@ static field random_field(int count)
     random_stream draw = random_begin(11, 0, 0);
     for (int i = 0; i < count; i++) {
         double tilt = i % 5 == 4 ? 1.0 : 0.05;
-        int32_t slot = add_floe(&f, i % 7 == 6 ? MOTION_STATIC : MOTION_DYNAMIC, 3 + i % 14,
-                                random_uniform(&draw, 1, 9), 0.1 * i, random_uniform(&draw, 0.3, 2));
+        int32_t slot = add_polygon(&f, i % 7 == 6 ? MOTION_STATIC : MOTION_DYNAMIC, 3 + i % 14,
+                                   random_uniform(&draw, 1, 9), 0.1 * i, random_uniform(&draw, 0.3, 2));
         f.bodies.position[slot] = random_vec3(&draw, i % 11 == 10 ? 5 : 0.3);
         vec3 angle = random_vec3(&draw, tilt);
         f.bodies.orientation[slot] = quat_from_roll_pitch_yaw(angle.x, angle.y, 60 * angle.z);
@@ -79,12 +73,6 @@ static field random_field(int count)
         f.bodies.angular_velocity[slot] = random_vec3(&draw, 0.3);
     }
     return f;
-}
-
-static void field_free(field *f)
-{
-    table_free(&f->ctx, &f->bodies, &body_table_info);
-    shape_store_free(&f->ctx, &f->shapes);
 }
 
 START_TEST(columns_equal_the_peers_water)
@@ -109,7 +97,7 @@ START_TEST(columns_equal_the_peers_water)
         assert_absolute(vec3_length(vec3_sub(loads[i].moment, wanted.moment)), 0, 1e-12 * scale);
     }
     column_water_free(&f.ctx, &water);
-    field_free(&f);
+    field_close(&f);
 }
 END_TEST
 
@@ -131,7 +119,7 @@ START_TEST(every_isa_and_thread_count_gives_the_same_bits)
         f.ctx.threads = NULL;
     }
     column_water_free(&f.ctx, &water);
-    field_free(&f);
+    field_close(&f);
 }
 END_TEST
 
@@ -139,7 +127,7 @@ START_TEST(a_floe_at_rest_floats_by_archimedes)
 {
     field f = {0};
     context_init(&f.ctx);
-    int32_t slot = add_floe(&f, MOTION_DYNAMIC, 6, 5, 0, 1);
+    int32_t slot = add_polygon(&f, MOTION_DYNAMIC, 6, 5, 0, 1);
     f.bodies.position[slot].z = 0.5 - 910.0 / 1025;
     column_medium still = medium;
     still.current = vec2_make(0, 0);
@@ -152,7 +140,7 @@ START_TEST(a_floe_at_rest_floats_by_archimedes)
     assert_absolute(vec3_length(load.force), 0, 1e-12 * scale);
     assert_absolute(vec3_length(load.moment), 0, 1e-12 * scale);
     column_water_free(&f.ctx, &water);
-    field_free(&f);
+    field_close(&f);
 }
 END_TEST
 
@@ -164,7 +152,7 @@ START_TEST(bodies_without_a_prism_are_refused)
     column_water water;
     fram_error e = {0};
     assert_fails(column_water_make(&f.ctx, &medium, &f.bodies, &f.shapes, &water, &e), e, FRAM_ERROR_USAGE, "body 0");
-    field_free(&f);
+    field_close(&f);
 }
 END_TEST
 
@@ -176,7 +164,7 @@ START_TEST(memory_runs_out)
         turn.status = column_water_make(&turn.ctx, &medium, &f.bodies, &f.shapes, &water, &turn.error);
         column_water_free(&turn.ctx, &water);
     }
-    field_free(&f);
+    field_close(&f);
 }
 END_TEST
 

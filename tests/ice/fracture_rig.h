@@ -83,7 +83,7 @@ static inline void fracture_rig_free(fracture_rig *r)
         overlay_free(r->plane);
 }
 
-/* A breakable floe of 1 m; returns its row, -1 when it could not be made. */
+/* A breakable floe; returns its row, -1 when it could not be made. */
 static inline int32_t fracture_rig_floe(fracture_rig *r, polygon outline, double thickness, motion kind)
 {
     int32_t row = -1;
@@ -95,6 +95,16 @@ static inline int32_t fracture_rig_floe(fracture_rig *r, polygon outline, double
                          .parent = -1};
     (void)floe_create(&r->ctx, &d, r->settings.smallest_piece_area, r->plane, &r->bodies, &r->shapes, &r->floes,
                       &r->next_number, &row, NULL);
+    return row;
+}
+
+/* A rectangular one of 1 m. */
+static inline int32_t fracture_rig_plate(fracture_rig *r, double length, double width, motion kind)
+{
+    double x = length / 2, y = width / 2;
+    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind);
+    ck_assert_int_ge(row, 0);
     return row;
 }
 

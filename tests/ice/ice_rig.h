@@ -140,6 +140,17 @@ static inline int32_t ice_rig_box(ice_rig *r, vec3 lo, vec3 hi, motion kind, mat
     return ice_rig_hull(r, &box, kind, m);
 }
 
+/* A hull behind a plane face that leans by `slope` (x over z) and has x = 0 at its middle, this wide and high. */
+static inline int32_t ice_rig_slanted(ice_rig *r, double slope, double half_width, double half_height)
+{
+    mesh plate = {0};
+    ck_assert(
+        mesh_make_box(&r->ctx, (vec3){-10, -half_width, -half_height}, (vec3){0, half_width, half_height}, &plate));
+    for (int32_t i = 0; i < plate.vertex.count; i++)
+        plate.vertex.data[i].x += slope * plate.vertex.data[i].z;
+    return ice_rig_hull(r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+}
+
 /* A wedge bow of half angle 30 degrees and stem 40 degrees: two flares in one patch. */
 static inline void ice_rig_bow(context *ctx, mesh *m)
 {

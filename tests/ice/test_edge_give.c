@@ -18,11 +18,7 @@ static void ramp_make(ice_rig *r, double slope, double way, double seam)
     r->settings.edges = GIVES;
     bool two = seam < 40;
     double width[2] = {seam + 40, 40 - seam}, middle[2] = {(seam - 40) / 2, (seam + 40) / 2};
-    mesh plate = {0};
-    ck_assert(mesh_make_box(&r->ctx, (vec3){-10, -1, -6}, (vec3){0, 1, 6}, &plate));
-    for (int32_t i = 0; i < plate.vertex.count; i++)
-        plate.vertex.data[i].x += slope * plate.vertex.data[i].z;
-    int32_t hull = ice_rig_hull(r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    int32_t hull = ice_rig_slanted(r, slope, 1, 6);
     r->bodies.position[hull] = (vec3){way - 0.5 * fabs(slope), 0, 0};
     r->bodies.velocity[hull] = (vec3){0.1, 0, 0};
     for (int i = 0; i < (two ? 2 : 1); i++) {
@@ -226,11 +222,7 @@ static void areas_over_tiles(int tiles, double yaw, int steps, double out[])
     ice_rig r;
     ice_rig_make(&r, 0.01);
     r.settings.edges = GIVES;
-    mesh plate = {0};
-    ck_assert(mesh_make_box(&r.ctx, (vec3){-10, -1, -6}, (vec3){0, 1, 6}, &plate));
-    for (int32_t i = 0; i < plate.vertex.count; i++)
-        plate.vertex.data[i].x += plate.vertex.data[i].z;
-    int32_t hull = ice_rig_hull(&r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    int32_t hull = ice_rig_slanted(&r, 1, 1, 6);
     r.bodies.orientation[hull] = quat_from_roll_pitch_yaw(0, 0, yaw);
     r.bodies.velocity[hull] = (vec3){0.1, 0, 0};
     for (int i = 0; i < tiles; i++) {

@@ -3,15 +3,6 @@
 
 #include <stdio.h>
 
-static int32_t plate(fracture_rig *r, double length, double width, motion kind)
-{
-    double x = length / 2, y = width / 2;
-    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind);
-    ck_assert_int_ge(row, 0);
-    return row;
-}
-
 static int32_t first_floe(const fracture_rig *r)
 {
     for (int32_t i = 0; i < r->floes.count; i++)
@@ -105,7 +96,7 @@ START_TEST(strong_enough)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
     edge_stress e = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT);
     ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 0.9999 * e.wedge_capacity, 0.5));
     ck_assert_int_eq(fracture_rig_break(&r), 0);
@@ -123,7 +114,7 @@ START_TEST(unbreakable)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
     r.floes.breakable[row] = 0;
     ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 1e8, 0.5));
     ck_assert_int_eq(fracture_rig_break(&r), 0);
@@ -140,7 +131,7 @@ START_TEST(split_in_two)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 20, 10, MOTION_DYNAMIC);
+    int32_t row = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
     double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).breaking_radius;
     ck_assert(radius > 10 / 3.0 && radius < 10);
     ck_assert(fracture_rig_load(&r, row, (vec2){2, -4.9}, 1e7, AREA));
@@ -175,7 +166,7 @@ START_TEST(no_split)
     for (int i = 0; i < 4; i++) {
         r.settings.splitting_factor = i == 2 ? 1 : 3;
         r.settings.splitting = i == 3 ? SPLITTING_NONE : SPLITTING_LENGTH;
-        int32_t row = plate(&r, 2 * width[i], width[i], MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 2 * width[i], width[i], MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0.5, -width[i] / 2}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
         ck_assert_int_eq(r.events.data[0].kind, FRACTURE_BENDING);
@@ -192,7 +183,7 @@ START_TEST(narrow_child)
     fracture_rig_make(&r);
     for (int turn = 0; turn < 2; turn++) {
         r.settings.narrowness = turn ? 5.1 : 4;
-        int32_t row = plate(&r, 30, 10, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 30, 10, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){13, -5}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
         ck_assert_int_eq(r.events.data[0].kind, turn ? FRACTURE_SPLIT : FRACTURE_BENDING);
@@ -224,7 +215,7 @@ START_TEST(crack_from_a_corner)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 8, 8, MOTION_DYNAMIC);
+    int32_t row = fracture_rig_plate(&r, 8, 8, MOTION_DYNAMIC);
     ck_assert(fracture_rig_load(&r, row, (vec2){-4.1, -4.2}, 1e7, AREA));
     ck_assert_int_eq(fracture_rig_break(&r), 1);
     ck_assert_int_eq(r.events.data[0].kind, FRACTURE_SPLIT);
@@ -252,7 +243,7 @@ START_TEST(split_by_toughness)
         double needed = fracture_splitting_force(1, 150e3, side, side / 2, side / 2);
         if (side > 100)
             assert_relative(needed, 0.1869 * 150e3 * sqrt(500.0), 2e-3);
-        int32_t row = plate(&r, side, side, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, side, side, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -side / 2}, across, AREA));
         /* Friction brings the load in the plane. */
         r.contacts.data[0].impulse[1] = over * needed * r.settings.time_step;
@@ -283,7 +274,7 @@ START_TEST(split_by_a_wedge)
     for (int i = 0; i < 12; i++) {
         double over = i < 6 ? 1.001 : 0.999, tilt = i / 3 % 2 ? radians(20) : 0;
         double needed = PART[i % 3] * fracture_splitting_force(1, 150e3, 50, 25, 25);
-        int32_t row = plate(&r, 50, 50, MOTION_DYNAMIC), body = r.floes.body[row];
+        int32_t row = fracture_rig_plate(&r, 50, 50, MOTION_DYNAMIC), body = r.floes.body[row];
         r.bodies.orientation[body] = quat_from_roll_pitch_yaw(tilt, tilt, 0.5);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -25}, over * needed, AREA));
         vec3 into = mat3_mul_vec(quat_matrix(r.bodies.orientation[body]), (vec3){0, 1, 0});
@@ -306,7 +297,7 @@ START_TEST(split_while_spinning)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 20, 10, MOTION_DYNAMIC), body = r.floes.body[row];
+    int32_t row = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC), body = r.floes.body[row];
     r.bodies.position[body] = (vec3){100, -50, 0.3};
     r.bodies.orientation[body] = quat_from_roll_pitch_yaw(radians(20), 0, 0.5);
     r.bodies.velocity[body] = (vec3){1, -2, 0.3};
@@ -351,7 +342,7 @@ START_TEST(wedge_angles)
     for (int i = 0; i < 8; i++) {
         int32_t n = r.settings.wedges = 2 + i / 2;
         r.settings.radius_along = i % 2 ? RADIUS_ALONG_CRACKS : RADIUS_ALONG_AXES;
-        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -50}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
         const fracture_event *e = &r.events.data[0];
@@ -374,7 +365,7 @@ START_TEST(floe_smaller_than_the_stencil)
     fracture_rig_make(&r);
     for (int room = 0; room < 2; room++) {
         r.settings.wedge_room = room;
-        int32_t row = plate(&r, 4, 3, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 4, 3, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -1.5}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), room ? 0 : 1);
         if (!room) {
@@ -398,7 +389,7 @@ START_TEST(huge_floe)
         fracture_rig r;
         fracture_rig_make(&r);
         double size = sizes[i];
-        int32_t row = plate(&r, size, size, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, size, size, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){3, 0.1 - size / 2}, 1e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
         const fracture_event *e = &r.events.data[0];
@@ -421,7 +412,7 @@ START_TEST(level_ice_stays)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 100, 100, MOTION_STATIC);
+    int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_STATIC);
     ck_assert(fracture_rig_load(&r, row, (vec2){0, -50}, 1e7, AREA));
     ck_assert_int_eq(fracture_rig_break(&r), 1);
     for (int32_t i = 0; i < r.floes.count; i++) {
@@ -443,7 +434,7 @@ START_TEST(several_patches)
     fracture_rig r;
     fracture_rig_make(&r);
     for (int turn = 0; turn < 2; turn++) {
-        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){-20, -50}, 1e7, AREA));
         ck_assert(fracture_rig_load(&r, row, (vec2){turn ? -19 : 20, -50}, 0.9e7, AREA));
         ck_assert_int_eq(fracture_rig_break(&r), 1);
@@ -460,7 +451,7 @@ START_TEST(overlapping_patches)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
     ck_assert(fracture_rig_load(&r, row, (vec2){-3, -50}, 1e7, AREA));
     ck_assert(fracture_rig_load(&r, row, (vec2){3, -50}, 1e7, AREA));
     ck_assert_int_eq(fracture_rig_break(&r), 1);
@@ -481,7 +472,7 @@ START_TEST(order_of_patches)
     for (int turn = 0; turn < 2; turn++) {
         fracture_rig r;
         fracture_rig_make(&r);
-        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         for (int k = 0; k < 3; k++) {
             int i = turn ? 2 - k : k;
             ck_assert(fracture_rig_load(&r, row, (vec2){5.0 * i - 5, -50}, 1e7 + 1e6 * i, AREA));
@@ -503,7 +494,7 @@ START_TEST(several_floes)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+    int32_t a = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC), b = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
     int32_t slot = r.floes.body[a];
     ck_assert(fracture_rig_load(&r, b, (vec2){0, -5}, 2e7, AREA));
     ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
@@ -524,7 +515,7 @@ START_TEST(void_contacts)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+    int32_t a = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC), b = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
     ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
     ck_assert(fracture_rig_load(&r, b, (vec2){0, -5}, 1, AREA));
     contact between = {.a = r.floes.body[b], .b = r.floes.body[a], .correct = true, .patch = -1, .key = 102};
@@ -555,7 +546,7 @@ START_TEST(under_ice_contacts)
     fracture_rig_make(&r);
     for (int option = 0; option < 2; option++) {
         r.settings.under_ice_contacts = option;
-        int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+        int32_t a = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC), b = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
         r.contacts.data[0].b = r.patches.data[0].surface_body = r.floes.body[b];
         ck_assert_int_eq(fracture_rig_break(&r), option ? 2 : 0);
@@ -574,7 +565,8 @@ START_TEST(under_pieces)
     double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).wedge_capacity;
     for (int i = 0; i < 4; i++) {
         r.settings.under_pieces = i > 0;
-        int32_t held = plate(&r, 80, 80, MOTION_STATIC), piece = plate(&r, 20, 10, MOTION_DYNAMIC);
+        int32_t held = fracture_rig_plate(&r, 80, 80, MOTION_STATIC),
+                piece = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, held, (vec2){0, -40}, (i == 1 ? 0.99 : 1.01) * bears, AREA));
         if (i < 3)
             r.contacts.data[0].b = r.patches.data[0].surface_body = r.floes.body[piece];
@@ -594,7 +586,8 @@ START_TEST(asleep_is_not_held)
     r.settings.under_pieces = true;
     double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).wedge_capacity;
     for (int hull = 0; hull < 2; hull++) {
-        int32_t floe = plate(&r, 80, 80, MOTION_DYNAMIC), piece = plate(&r, 20, 10, MOTION_DYNAMIC);
+        int32_t floe = fracture_rig_plate(&r, 80, 80, MOTION_DYNAMIC),
+                piece = fracture_rig_plate(&r, 20, 10, MOTION_DYNAMIC);
         r.bodies.motion[r.floes.body[floe]] = MOTION_ASLEEP;
         ck_assert(fracture_rig_load(&r, floe, (vec2){0, -40}, 1.5 * bears, AREA));
         if (!hull)
@@ -666,7 +659,7 @@ START_TEST(six_hundred_bites)
         fracture_rig_make(&r);
         r.settings.splitting = SPLITTING_NONE;
         r.settings.wedges = wedges;
-        int32_t row = plate(&r, 400, 300, MOTION_STATIC);
+        int32_t row = fracture_rig_plate(&r, 400, 300, MOTION_STATIC);
         double lost = 0;
         random_stream s = random_begin(5, 1, (uint32_t)wedges);
         for (int bite = 0; bite < 600; bite++) {

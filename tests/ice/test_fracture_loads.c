@@ -5,15 +5,6 @@
 
 static const double OVER = 1.001;
 
-static int32_t plate(fracture_rig *r, double length, double width)
-{
-    double x = length / 2, y = width / 2;
-    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, MOTION_DYNAMIC);
-    ck_assert_int_ge(row, 0);
-    return row;
-}
-
 static double capacity(const fracture_rig *r, double horizontal_area)
 {
     return fracture_edge_stress(&r->settings, &FRACTURE_RIG_ICE, 1, 1, horizontal_area, EDGE_STRAIGHT).wedge_capacity;
@@ -26,7 +17,7 @@ START_TEST(steep_patch_loads_its_level_part)
         fracture_rig r;
         fracture_rig_make(&r);
         r.settings.splitting = SPLITTING_NONE;
-        int32_t row = plate(&r, 100, 100);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, (turn ? OVER : 1 / OVER) * capacity(&r, 0.4), 1.6));
         r.patches.data[0].horizontal_area = 0.4;
         ck_assert_int_eq(fracture_rig_break(&r), turn);
@@ -46,7 +37,8 @@ START_TEST(each_floe_takes_the_area_across_its_plane)
     fracture_rig_make(&r);
     r.settings.splitting = SPLITTING_NONE;
     r.settings.under_ice_contacts = true;
-    int32_t level = plate(&r, 100, 100), tilted = plate(&r, 100, 100);
+    int32_t level = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC),
+            tilted = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
     r.floes.breakable[level] = 0;
     r.bodies.orientation[r.floes.body[tilted]] = quat_from_roll_pitch_yaw(tilt, 0, 0);
     double load = OVER * capacity(&r, area * across) / across;

@@ -25,11 +25,7 @@ static void ramp_scene(ice_rig *r, double dt, double slope, double speed)
     ice_rig_make(r, dt);
     int32_t row = ice_rig_plate(r, 60, 80, 1, MOTION_STATIC), ice = r->floes.body[row];
     r->bodies.position[ice] = (vec3){30, 0, 0};
-    mesh plate = {0};
-    ck_assert(mesh_make_box(&r->ctx, (vec3){-10, -1, -3}, (vec3){0, 1, 3}, &plate));
-    for (int32_t i = 0; i < plate.vertex.count; i++)
-        plate.vertex.data[i].x += slope * plate.vertex.data[i].z;
-    int32_t hull = ice_rig_hull(r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    int32_t hull = ice_rig_slanted(r, slope, 1, 3);
     /* The first touch is at the upper or the lower edge of the ice. */
     r->bodies.position[hull] = (vec3){-0.5 * fabs(slope), 0, 0};
     r->bodies.velocity[hull] = (vec3){speed, 0, 0};
@@ -58,12 +54,7 @@ static breaking run_until_broken(double dt, approach a)
     for (int step = 0; step * dt * a.speed < 0.3 && events.count == 0; step++) {
         fram_error e = {0};
         ice_rig_crush(&r);
-        wrench *loads = memory_array(&r.ctx, (size_t)r.bodies.count, sizeof *loads);
-        ck_assert(loads);
-        assert_ok(solver_solve(&r.ctx, r.solve, &r.solver, dt, &r.bodies, loads, &r.joints, &r.contacts, &r.memory,
-                               &r.report, &e),
-                  e);
-        memory_free(&r.ctx, loads);
+        ice_rig_solve(&r);
         b.force = ice_rig_force(&r);
         b.time = step * dt;
         fracture_state state = ice_rig_fracture_state(&r);

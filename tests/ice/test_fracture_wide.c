@@ -21,11 +21,7 @@ static breaking plate_breaks(double width, double dt)
     ice_rig_make(&r, dt);
     int32_t row = ice_rig_plate(&r, 300, 200, 1, MOTION_STATIC), ice = r.floes.body[row];
     r.bodies.position[ice] = (vec3){150, 0, 0};
-    mesh plate = {0};
-    ck_assert(mesh_make_box(&r.ctx, (vec3){-10, -width / 2, -3}, (vec3){0, width / 2, 3}, &plate));
-    for (int32_t i = 0; i < plate.vertex.count; i++)
-        plate.vertex.data[i].x += plate.vertex.data[i].z;
-    int32_t hull = ice_rig_hull(&r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    int32_t hull = ice_rig_slanted(&r, 1, width / 2, 3);
     r.bodies.position[hull] = (vec3){-0.5, 0, 0};
     r.bodies.velocity[hull] = (vec3){0.1, 0, 0};
     ice_rig_pair(&r, ice, hull);
@@ -39,12 +35,7 @@ static breaking plate_breaks(double width, double dt)
     for (int step = 0; step * dt < 2 && events.count == 0; step++) {
         fram_error e = {0};
         ice_rig_crush(&r);
-        wrench *loads = memory_array(&r.ctx, (size_t)r.bodies.count, sizeof *loads);
-        ck_assert(loads);
-        assert_ok(solver_solve(&r.ctx, r.solve, &r.solver, dt, &r.bodies, loads, &r.joints, &r.contacts, &r.memory,
-                               &r.report, &e),
-                  e);
-        memory_free(&r.ctx, loads);
+        ice_rig_solve(&r);
         fracture_state state = ice_rig_fracture_state(&r);
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
@@ -92,15 +83,6 @@ static void wide_load(fracture_rig *r, int32_t row, vec2 place, vec2 half, doubl
     ck_assert(fracture_rig_load(r, row, place, load, area) && fracture_rig_widen(r, half));
 }
 
-static int32_t beam_floe(fracture_rig *r, double length, double width)
-{
-    double x = length / 2, y = width / 2;
-    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, MOTION_DYNAMIC);
-    ck_assert_int_ge(row, 0);
-    return row;
-}
-
 /* A floe that is loaded along its whole end is a beam: no ice for wedges beside it, and its own length.  Rigid where it
    is short, Nevel's strip where it is long. */
 START_TEST(floes_are_beams)
@@ -116,7 +98,7 @@ START_TEST(floes_are_beams)
         strip s = strip_solve(LENGTHS[i] / l);
         double bears = 0.5e6 / 6 * width / (s.moment * l);
         for (int turn = 0; turn < 2; turn++) {
-            int32_t row = beam_floe(&r, LENGTHS[i], width);
+            int32_t row = fracture_rig_plate(&r, LENGTHS[i], width, MOTION_DYNAMIC);
             wide_load(&r, row, (vec2){-LENGTHS[i] / 2 + 0.01, 0}, (vec2){0, width / 2}, (turn ? 1.002 : 0.998) * bears,
                       0.2);
             ck_assert_int_eq(fracture_rig_break(&r), turn);
@@ -147,7 +129,7 @@ START_TEST(narrow)
         double half = turn == 1 ? 0.6 : turn ? 6 : 0.4;
         r.settings.wide_contacts = turn < 2;
         double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT).wedge_capacity;
-        int32_t row = beam_floe(&r, 100, 100);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         wide_load(&r, row, (vec2){-49.9, 0}, (vec2){0, half}, 1.001 * bears, 0.5);
         ck_assert_int_eq(fracture_rig_break(&r), turn != 1);
         fracture_rig_remove_all(&r);
@@ -166,7 +148,7 @@ START_TEST(round_a_stem)
     r.settings.wide_contacts = true;
     double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT).wedge_capacity;
     for (int turn = 0; turn < 2; turn++) {
-        int32_t row = beam_floe(&r, 100, 100);
+        int32_t row = fracture_rig_plate(&r, 100, 100, MOTION_DYNAMIC);
         wide_load(&r, row, (vec2){-49.9, 0}, (vec2){turn ? 1.6 : 1.4, 6}, 1.001 * bears, 0.5);
         ck_assert_int_eq(fracture_rig_break(&r), turn);
         fracture_rig_remove_all(&r);
@@ -269,7 +251,8 @@ START_TEST(slit_in_a_floe)
         fracture_rig_make(&r);
         r.settings.splitting = SPLITTING_NONE;
         r.settings.wide_contacts = true;
-        int32_t row = i ? fracture_rig_floe(&r, (polygon){SLIT, 8}, 1, MOTION_DYNAMIC) : beam_floe(&r, 100, 40);
+        int32_t row = i ? fracture_rig_floe(&r, (polygon){SLIT, 8}, 1, MOTION_DYNAMIC)
+                        : fracture_rig_plate(&r, 100, 40, MOTION_DYNAMIC);
         vec3 at = r.bodies.position[r.floes.body[row]];
         wide_load(&r, row, (vec2){-49.99 - at.x, 0 - at.y}, (vec2){0, 10}, 1e7, 0.4);
         ck_assert_int_eq(fracture_rig_break(&r), 1);
@@ -301,7 +284,7 @@ static vec2 loaded_edge(fracture_rig *r, edge_kind kind, bool wide, double load,
         sheet_make(r, (box2){{-40, 0}, {40, 80}}, 30, NULL);
         ck_assert(sheet_load(r, (vec2){0, 0.01}, load, 0.4));
     } else {
-        int32_t row = beam_floe(r, 80, 80), body = r->floes.body[row];
+        int32_t row = fracture_rig_plate(r, 80, 80, MOTION_DYNAMIC), body = r->floes.body[row];
         r->bodies.motion[body] = kind == EDGE_FLOATS ? MOTION_DYNAMIC : MOTION_STATIC;
         r->bodies.position[body].z = level;
         ck_assert(fracture_rig_load(r, row, (vec2){0, -39.99}, load, 0.4));

@@ -62,6 +62,16 @@ static inline void scene_close(scene *k)
 /* Body slot of the n-th floe. */
 static inline int32_t scene_floe(const scene *k, int32_t n) { return k->w.floes.body[n]; }
 
+/* Mass of all floes, moving or not [kg]. */
+static inline double scene_ice_mass(const scene *k)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < k->w.floes.count; i++)
+        if (k->w.floes.body[i] >= 0)
+            sum += k->w.bodies.mass[k->w.floes.body[i]];
+    return sum;
+}
+
 /* A row of the series as recorded; to be {0} at first. */
 typedef struct scene_row {
     series_layout layout;

@@ -36,21 +36,12 @@ static const char *const ALONE = "run: {duration: 100, time_step: 0.05, scale: 3
                                  "domain: {x_min: -50, x_max: 50, y_min: -30, y_max: 30, boundary: feeding,\n"
                                  "         drift_speed: 1}\n";
 
-static double ice_mass(const scene *k)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < k->w.floes.count; i++)
-        if (k->w.floes.body[i] >= 0)
-            sum += k->w.bodies.mass[k->w.floes.body[i]];
-    return sum;
-}
-
 /* All ice there is and was: constant. */
 static double booked(const scene *k)
 {
     const clock_table *c = &k->w.clock;
-    return ice_mass(k) + c->ice_left[0] + c->ice_lost[0] - c->ice_gained[0] + c->ice_crushed[0] + c->brash_mass[0] -
-           k->w.drift.entered[0];
+    return scene_ice_mass(k) + c->ice_left[0] + c->ice_lost[0] - c->ice_gained[0] + c->ice_crushed[0] +
+           c->brash_mass[0] - k->w.drift.entered[0];
 }
 
 static vec3 load_on_ship(const scene *k) { return k->w.scratch.ice_loads.data[0].total.force; }
@@ -160,7 +151,7 @@ START_TEST(nothing_gets_lost)
 {
     scene k;
     scene_open(&k, FIXED_SHIP);
-    double start = ice_mass(&k);
+    double start = scene_ice_mass(&k);
     int steps = 1500;
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);
@@ -208,7 +199,7 @@ START_TEST(curved_drift)
 {
     scene k;
     scene_open(&k, ALONE);
-    double start = ice_mass(&k), before = ice_in(&k, 5, -25, 40, 50), moved_x = 0, moved_y = 0;
+    double start = scene_ice_mass(&k), before = ice_in(&k, 5, -25, 40, 50), moved_x = 0, moved_y = 0;
     ck_assert(before > 1000 && before < 40 * 50 - 200);
     int steps = 4000;
     k.m.drift_given = true;

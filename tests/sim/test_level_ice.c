@@ -20,16 +20,6 @@ static const char *const SHIP = "run: {duration: 100, time_step: 0.02, scale: 30
 
 static double ice_force(const scene *k) { return vec3_length(k->w.scratch.ice_loads.data[0].total.force); }
 
-/* Mass of all floes, moving or not. */
-static double ice_mass(const scene *k)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < k->w.floes.count; i++)
-        if (k->w.floes.body[i] >= 0)
-            sum += k->w.bodies.mass[k->w.floes.body[i]];
-    return sum;
-}
-
 static double booked_mass(const scene *k)
 {
     const clock_table *c = &k->w.clock;
@@ -82,7 +72,7 @@ START_TEST(a_channel_as_wide_as_the_hull)
 {
     scene k;
     scene_open(&k, SHIP);
-    double before = ice_mass(&k), side = 0, sum = 0;
+    double before = scene_ice_mass(&k), side = 0, sum = 0;
     int64_t breaks = 0;
     int steps = getenv("FRAM_TEST_SHORT") ? 1000 : 1500;
     for (int i = 0; i < steps; i++) {
@@ -95,7 +85,7 @@ START_TEST(a_channel_as_wide_as_the_hull)
             sum += f->crack_length;
             breaks++;
         }
-        assert_relative(ice_mass(&k) + booked_mass(&k), before, 1e-12);
+        assert_relative(scene_ice_mass(&k) + booked_mass(&k), before, 1e-12);
     }
     ck_assert_int_gt(breaks, 20);
     double end = k.w.bodies.position[k.w.vessels.body[0]].x;
@@ -119,7 +109,7 @@ START_TEST(ram_back_off_return)
                                 "vessel.ramp=0"};
         scene k;
         scene_open_with(&k, SHIP, strong, 3);
-        double before = ice_mass(&k);
+        double before = scene_ice_mass(&k);
         int32_t hull = k.w.vessels.body[0];
         /* Into the edge by a few metres: the ice crushes and does not bend. */
         scene_steps(&k, 500);
@@ -143,7 +133,7 @@ START_TEST(ram_back_off_return)
         } else {
             ck_assert(least < -0.5);
         }
-        assert_relative(ice_mass(&k) + booked_mass(&k), before, 1e-12);
+        assert_relative(scene_ice_mass(&k) + booked_mass(&k), before, 1e-12);
         scene_close(&k);
     }
 }
@@ -159,7 +149,7 @@ START_TEST(crushed_ice_is_never_less)
                    "ice: {source: level, mean_floe_area: 1197.660818713, thickness: 3.841864, level: {x_min: 100}}\n"
                    "domain: {x_min: -213.33333333333334, x_max: 213.33333333333334, y_min: -106.66666666666667,\n"
                    "         y_max: 106.66666666666667}\n");
-    double mass = ice_mass(&k), before = 0;
+    double mass = scene_ice_mass(&k), before = 0;
     for (int i = 0; i < 100; i++) {
         scene_steps(&k, 1);
         double crushed = k.w.clock.ice_crushed[0];
@@ -168,7 +158,7 @@ START_TEST(crushed_ice_is_never_less)
     }
     ck_assert(before > 1e4);
     assert_absolute(k.w.clock.ice_gained[0], 0, 0.1 * before);
-    assert_relative(ice_mass(&k) + booked_mass(&k), mass, 1e-12);
+    assert_relative(scene_ice_mass(&k) + booked_mass(&k), mass, 1e-12);
     scene_close(&k);
 }
 END_TEST
@@ -386,11 +376,11 @@ START_TEST(a_sheet_goes_on_beyond_the_domain)
                                        "ice.level.anchored_x_min=false"};
     scene k;
     scene_open_with(&k, SHIP, wide, 4);
-    assert_relative(ice_mass(&k), 300.0 * 300 * 0.5 * k.s.ice.density, 1e-3);
-    double mass = ice_mass(&k);
+    assert_relative(scene_ice_mass(&k), 300.0 * 300 * 0.5 * k.s.ice.density, 1e-3);
+    double mass = scene_ice_mass(&k);
     scene_steps(&k, 2);
     ck_assert_double_eq(k.w.clock.ice_left[0], 0);
-    ck_assert_double_eq(ice_mass(&k), mass);
+    ck_assert_double_eq(scene_ice_mass(&k), mass);
     scene_close(&k);
 }
 END_TEST
@@ -410,7 +400,7 @@ START_TEST(a_margin_is_as_wide_at_every_heading)
         scene with, without;
         scene_open_with(&with, text, (const char *[]){boundary[i / 4], heading[i % 4]}, 2);
         scene_open_with(&without, text, (const char *[]){boundary[i / 4], "vessel.present=false"}, 2);
-        double corners = (ice_mass(&without) - ice_mass(&with)) / with.s.ice.density - straight;
+        double corners = (scene_ice_mass(&without) - scene_ice_mass(&with)) / with.s.ice.density - straight;
         /* For the arc round a corner stand two tangents at least. */
         ck_assert_msg(corners >= arcs - 1e-6 && corners <= tangents + 1e-6,
                       "%g m2 are open round the corners with %s, %g within arcs", corners, heading[i % 4], arcs);
