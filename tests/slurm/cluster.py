@@ -46,6 +46,14 @@ MinJobAge=300
 """
 
 
+def is_alive(process):
+    """Not one that has ended and that nobody has asked how."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 def missing():
     """Why there can be no cluster here; "" when there can."""
     lacking = [p for p in PROGRAMS if not shutil.which(p)]
@@ -103,10 +111,15 @@ class Cluster:
         raise RuntimeError("the nodes do not come up: " + self.call("sinfo"))
 
     def stop_program(self, pid_file, number=signal.SIGKILL):
+        """Until it has ended: it may still write into the folder meanwhile."""
         try:
-            os.kill(int(pid_file.read_text()), number)
+            number_of_program = int(pid_file.read_text())
+            os.kill(number_of_program, number)
         except (OSError, ValueError):
-            pass
+            return
+        end = time.monotonic() + 30
+        while is_alive(number_of_program) and time.monotonic() < end:
+            time.sleep(0.02)
 
     def kill_node(self, node):
         """The node is lost with all that runs on it."""
@@ -132,4 +145,4 @@ class Cluster:
             self.kill_node(node)
         self.stop_program(self.folder / "slurmctld.pid", signal.SIGTERM)
         self.stop_program(self.folder / "munge" / "pid", signal.SIGTERM)
-        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.rmtree(self.folder)
