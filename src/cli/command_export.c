@@ -52,12 +52,9 @@ int command_export(const command_row *self, int argc, char **argv)
                                               vtk      ? FOLDER_OUTPUT
                                               : netcdf ? "nc"
                                                        : "geojson json"}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_making(&common, &work, &context);
+    code = session_open_files(&common, &files, SESSION_MAKES, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};

@@ -22,12 +22,9 @@ int command_manage(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     const command_files files = {.runs = {run, d.beside}, .outputs = {{"--output", d.output, PAGE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
-    fram_context *context = NULL;
     work_view work;
-    code = session_open_making(&common, &work, &context);
+    fram_context *context = NULL;
+    code = session_open_files(&common, &files, SESSION_MAKES, &work, &context);
     if (code >= 0)
         return code;
     char *text = NULL;

@@ -30,12 +30,9 @@ int command_report(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     const command_files files = {.runs = {run}, .outputs = {{"--output", output, PAGE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_making(&common, &work, &context);
+    code = session_open_files(&common, &files, SESSION_MAKES, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};
@@ -109,12 +106,9 @@ int command_plot(const command_row *self, int argc, char **argv)
     if (count == 0 && output)
         return answer_usage(&common, "CHANNEL", "is missing: name what to draw; without -o the channels are listed");
     const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, PICTURE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_for(output, &common, &work, &context);
+    code = session_open_files(&common, &files, output ? SESSION_MAKES : SESSION_READS, &work, &context);
     if (code >= 0)
         return code;
     fram_error error = {0};
@@ -235,12 +229,9 @@ int command_compare(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     const command_files files = {.runs = {run[0], run[1]}, .outputs = {{"--output", output, PAGE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_for(output, &common, &work, &context);
+    code = session_open_files(&common, &files, output ? SESSION_MAKES : SESSION_READS, &work, &context);
     if (code >= 0)
         return code;
     fram_comparison comparison;
@@ -283,12 +274,9 @@ int command_video(const command_row *self, int argc, char **argv)
     d.force = common.force;
     const command_files files = {.runs = {run},
                                  .outputs = {{"--output", d.output, d.pictures ? FOLDER_OUTPUT : VIDEO_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_making(&common, &work, &context);
+    code = session_open_files(&common, &files, SESSION_MAKES, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};

@@ -74,12 +74,9 @@ int command_view(const command_row *self, int argc, char **argv)
     const command_files files = {.inputs = {definition.viewer_page},
                                  .runs = {folder},
                                  .outputs = {{"--output", definition.output, PAGE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_making(&common, &work, &context);
+    code = session_open_files(&common, &files, SESSION_MAKES, &work, &context);
     if (code >= 0)
         return code;
     fram_playback_result result = {0};

@@ -32,12 +32,9 @@ int command_why(const command_row *self, int argc, char **argv)
     if (peak == 0 && !timed)
         return answer_usage(&common, "--peak", "is missing: --peak 1 is the largest; or name a moment, --time T");
     const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, PICTURE_ENDINGS}}};
-    code = refuse_outputs(&common, &files);
-    if (code >= 0)
-        return code;
     work_view work;
     fram_context *context = NULL;
-    code = session_open_reading(&common, &work, &context);
+    code = session_open_files(&common, &files, SESSION_READS, &work, &context);
     if (code >= 0)
         return code;
     d.peak = peak;

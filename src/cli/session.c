@@ -92,28 +92,37 @@ static void work_show(void *user, const char *what, double done, double total)
     fflush(stderr);
 }
 
-int session_open_reading(const common_options *common, work_view *view, fram_context **context)
+static int open_shown(const common_options *common, session_kind kind, work_view *view, fram_context **context)
 {
     fram_context_definition definition = session_definition(common);
     *view = (work_view){.terminal = terminal_draws()};
+    if (kind == SESSION_MAKES)
+        (void)session_stop_flag();
     definition.work = common->quiet ? NULL : work_show;
     definition.work_user = view;
     return create(common, &definition, context);
+}
+
+int session_open_reading(const common_options *common, work_view *view, fram_context **context)
+{
+    return open_shown(common, SESSION_READS, view, context);
 }
 
 int session_open_making(const common_options *common, work_view *view, fram_context **context)
 {
-    fram_context_definition definition = session_definition(common);
-    *view = (work_view){.terminal = terminal_draws()};
-    (void)session_stop_flag();
-    definition.work = common->quiet ? NULL : work_show;
-    definition.work_user = view;
-    return create(common, &definition, context);
+    return open_shown(common, SESSION_MAKES, view, context);
 }
 
 int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context)
 {
-    return file ? session_open_making(common, view, context) : session_open_reading(common, view, context);
+    return open_shown(common, file ? SESSION_MAKES : SESSION_READS, view, context);
+}
+
+int session_open_files(const common_options *common, const command_files *files, session_kind kind, work_view *view,
+                       fram_context **context)
+{
+    int code = refuse_outputs(common, files);
+    return code >= 0 ? code : open_shown(common, kind, view, context);
 }
 
 /* One wish to stop often comes as two signals: a closed terminal's from the shell and the kernel, that of timeout to
