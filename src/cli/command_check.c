@@ -45,6 +45,37 @@ static fram_status build_world(const fram_scenario *scenario, built *out, fram_e
     return status;
 }
 
+static void tell_check(const common_options *common, const fram_scenario *scenario, bool build, const built *made)
+{
+    put_given(stdout, fram_scenario_text(scenario));
+    if (common->quiet)
+        return;
+    put_shown(stderr, build ? made->notes : fram_scenario_notes(scenario));
+    if (!build) {
+        fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n", stderr);
+        return;
+    }
+    fprintf(stderr, "built: %d floes among %d bodies\ntime: judged by its first steps a run takes ", made->floes,
+            made->bodies);
+    print_duration(made->seconds);
+    fputs(" here, more where ice gathers or breaks later\n", stderr);
+}
+
+static void json_check(const char *path, const fram_scenario *scenario, bool build, const built *made)
+{
+    json j = json_begin();
+    json_text(&j, "scenario", path);
+    json_text(&j, "scenario_hash", fram_scenario_hash(scenario));
+    json_real(&j, "duration_s", fram_scenario_duration(scenario));
+    json_real(&j, "time_step_s", fram_scenario_time_step(scenario));
+    if (build) {
+        json_integer(&j, "floes", made->floes);
+        json_integer(&j, "bodies", made->bodies);
+        json_real(&j, "run_wall_s", made->seconds);
+    }
+    json_end(&j);
+}
+
 int command_check(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -75,32 +106,9 @@ int command_check(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        put_given(stdout, fram_scenario_text(scenario));
-        if (!common.quiet) {
-            put_shown(stderr, build ? made.notes : fram_scenario_notes(scenario));
-            if (!build)
-                fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n",
-                      stderr);
-        }
-        if (!common.quiet && build) {
-            fprintf(stderr, "built: %d floes among %d bodies\ntime: judged by its first steps a run takes ", made.floes,
-                    made.bodies);
-            print_duration(made.seconds);
-            fputs(" here, more where ice gathers or breaks later\n", stderr);
-        }
-        if (common.json) {
-            json j = json_begin();
-            json_text(&j, "scenario", path);
-            json_text(&j, "scenario_hash", fram_scenario_hash(scenario));
-            json_real(&j, "duration_s", fram_scenario_duration(scenario));
-            json_real(&j, "time_step_s", fram_scenario_time_step(scenario));
-            if (build) {
-                json_integer(&j, "floes", made.floes);
-                json_integer(&j, "bodies", made.bodies);
-                json_real(&j, "run_wall_s", made.seconds);
-            }
-            json_end(&j);
-        }
+        tell_check(&common, scenario, build, &made);
+        if (common.json)
+            json_check(path, scenario, build, &made);
     }
     fram_text_free(context, made.notes);
     fram_scenario_destroy(scenario);

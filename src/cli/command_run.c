@@ -83,6 +83,14 @@ static int take_until(const common_options *common, double *until)
     return -1;
 }
 
+static void watch_run(const common_options *common, progress_view *view, fram_run_definition *definition)
+{
+    progress_begin(view);
+    definition->progress = common->quiet ? NULL : progress_show;
+    definition->progress_user = view;
+    definition->stop = session_stop_flag();
+}
+
 int command_run(const command_row *self, int argc, char **argv)
 {
     common_options common;
@@ -120,10 +128,7 @@ int command_run(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     progress_view view;
-    progress_begin(&view);
-    definition.progress = common.quiet ? NULL : progress_show;
-    definition.progress_user = &view;
-    definition.stop = session_stop_flag();
+    watch_run(&common, &view, &definition);
 
     fram_scenario *scenario = NULL;
     fram_error error = {0};
@@ -167,10 +172,7 @@ int command_resume(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     progress_view view;
-    progress_begin(&view);
-    definition.progress = common.quiet ? NULL : progress_show;
-    definition.progress_user = &view;
-    definition.stop = session_stop_flag();
+    watch_run(&common, &view, &definition);
 
     fram_error error = {0};
     fram_run_result result = {0};
