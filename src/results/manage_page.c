@@ -50,31 +50,23 @@ static void tell_tracks(management_page *p)
     }
 }
 
-static void management_verdict(management_page *p)
+/* How near unmanaged ice came, if any did. */
+static void tell_nearest(management_page *p)
+{
+    char text[240], time[ARRIVAL_TEXT];
+    arrival_text(p->s->alarm_least, time);
+    snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
+    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+}
+
+static void tell_ice_that_came(management_page *p)
 {
     const manage_summary *s = p->s;
-    char text[240], time[ARRIVAL_TEXT];
-    double managed = s->place[MANAGE_AT].managed, sheet = s->place[MANAGE_AT].sheet;
-    html_verdict_begin(&p->html,
-                       managed >= 0.95  ? VERDICT_GOOD
-                       : managed >= 0.5 ? VERDICT_NOTE
-                                        : VERDICT_CAUTION,
-                       "Ice that reached the vessel");
-    if (isnan(managed)) {
-        html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
-                          "Run longer, or shorten run.transient.");
-        arrival_text(s->alarm_least, time);
-        snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
-        if (isfinite(s->alarm_least))
-            html_verdict_line(&p->html, VERDICT_NOTE, text, "");
-        tell_tracks(p);
-        html_verdict_end(&p->html);
-        return;
-    }
+    char text[240];
     snprintf(
         text, sizeof text,
         "%.0f %% of the ice that came was managed, that is in floes of at most %.3g m; %.0f %% was unbroken sheet.",
-        100 * managed, s->limit, 100 * sheet);
+        100 * s->place[MANAGE_AT].managed, s->limit, 100 * s->place[MANAGE_AT].sheet);
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     if (s->empty > 0) {
         char advice[64];
@@ -91,20 +83,41 @@ static void management_verdict(management_page *p)
     else
         snprintf(text, sizeof text, "No loose floe reached it.");
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
-    arrival_text(s->alarm_least, time);
     if (isinf(s->alarm_least))
-        snprintf(text, sizeof text, "No unmanaged ice was on its way to the vessel.");
-    else
-        snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
-    if (!isnan(s->alarm_least))
-        html_verdict_line(&p->html, VERDICT_NOTE, text, "");
-    if (p->os && p->os->load_most > 0) {
-        snprintf(
-            text, sizeof text,
-            "Largest ice load %.0f %% of that of the comparison run, mean %.0f %%: one run each; a study over seeds "
-            "gives the confidence interval.",
-            100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
-        html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+        html_verdict_line(&p->html, VERDICT_NOTE, "No unmanaged ice was on its way to the vessel.", "");
+    else if (!isnan(s->alarm_least))
+        tell_nearest(p);
+}
+
+static void tell_other_loads(management_page *p)
+{
+    const manage_summary *s = p->s;
+    char text[240];
+    if (!p->os || !(p->os->load_most > 0))
+        return;
+    snprintf(text, sizeof text,
+             "Largest ice load %.0f %% of that of the comparison run, mean %.0f %%: one run each; a study over seeds "
+             "gives the confidence interval.",
+             100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
+    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+}
+
+static void management_verdict(management_page *p)
+{
+    double managed = p->s->place[MANAGE_AT].managed;
+    html_verdict_begin(&p->html,
+                       managed >= 0.95  ? VERDICT_GOOD
+                       : managed >= 0.5 ? VERDICT_NOTE
+                                        : VERDICT_CAUTION,
+                       "Ice that reached the vessel");
+    if (isnan(managed)) {
+        html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
+                          "Run longer, or shorten run.transient.");
+        if (isfinite(p->s->alarm_least))
+            tell_nearest(p);
+    } else {
+        tell_ice_that_came(p);
+        tell_other_loads(p);
     }
     tell_tracks(p);
     html_verdict_end(&p->html);

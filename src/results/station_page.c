@@ -130,15 +130,28 @@ static chart_line over_time(const station_data *d, const char *name, int32_t col
     return line;
 }
 
+static void draw_circle(double radius, double x[CIRCLE], double y[CIRCLE])
+{
+    for (int i = 0; i < CIRCLE; i++) {
+        double a = 2 * PI * i / (CIRCLE - 1);
+        x[i] = radius * real_cos(a), y[i] = radius * real_sin(a);
+    }
+}
+
+enum { PAGE_TITLE = SCENARIO_TEXT_SIZE + 40 };
+static void title_of(const scenario *s, int32_t vessel, char out[PAGE_TITLE])
+{
+    bool named = scenario_names_vessels(s);
+    snprintf(out, PAGE_TITLE, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
+             (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, vessel).keys->name : "");
+}
+
 static fram_status draw_station(context *ctx, const station_data *d, const station_units *u, const char *text,
                                 const char *path, fram_error *error)
 {
     const scenario *s = d->s;
     double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(station_limits(d)->offset_limit, 0);
-    for (int i = 0; i < CIRCLE; i++) {
-        double a = 2 * PI * i / (CIRCLE - 1);
-        round_x[i] = limit * real_cos(a), round_y[i] = limit * real_sin(a);
-    }
+    draw_circle(limit, round_x, round_y);
     int32_t n = d->rows;
     int32_t first = station_first_row(d, s->run.transient);
     vec2_array hull = {0};
@@ -175,10 +188,8 @@ static fram_status draw_station(context *ctx, const station_data *d, const stati
             ? (page_panel){chart_make("Line tension", "", "time [s]", pull, &tension, 1), 660, 840, 920, 270, false}
             : (page_panel){chart_make("Power", "", "time [s]", watts, &power, 1), 660, 840, 920, 270, false},
     };
-    char title[SCENARIO_TEXT_SIZE + 40];
-    bool named = scenario_names_vessels(s);
-    snprintf(title, sizeof title, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
-             (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, d->vessel).keys->name : "");
+    char title[PAGE_TITLE];
+    title_of(s, d->vessel, title);
     const page p = {title, panels, 5, text, TEXT_LEFT, 660, TEXT_WIDTH, PAGE_WIDTH, PAGE_HEIGHT};
     if (status == FRAM_OK)
         status = page_write(ctx, &p, path, error);
