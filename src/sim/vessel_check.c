@@ -273,11 +273,9 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
 /* Beam over draught, as of hulls by particulars. */
 #define SHALLOWEST 25.0
 
-void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
+/* A file in other units than metres. */
+static void mesh_size_warnings(context *ctx, const scenario *s, const vessel_entry *e, const hull_particulars *p)
 {
-    const hull_particulars *p = &m->particulars;
-    if (e->keys->hull.form != HULL_MESH)
-        return;
     const usual_range usual = usual_range_of(s, "vessel.hull.length");
     const range_text range = range_text_of(usual.least, usual.most, 3);
     if (p->length > usual.most)
@@ -290,6 +288,12 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: hull.file_scale, now %g, is too "
                   "small, or give run.scale of a model",
                   e->path, p->length, range.least.text, range.most.text, e->keys->hull.file_scale);
+}
+
+/* Turned, or elsewhere in plan than where ships are told. */
+static void mesh_place_warnings(context *ctx, const vessel_entry *e, const vessel_model *m)
+{
+    const hull_particulars *p = &m->particulars;
     if (p->beam > p->length)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,
@@ -307,6 +311,11 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%s.hull.file: the hull lies about y = %.4g m, not about y = 0, the centre line: all places on the "
                   "ship are counted from there; %s",
                   e->path, buoyancy.y, one_side ? "mirror the mesh if it is half a hull, or move it" : "move the mesh");
+}
+
+/* Elsewhere in height. */
+static void mesh_height_warnings(context *ctx, const scenario *s, const vessel_entry *e, const hull_particulars *p)
+{
     if (p->beam > SHALLOWEST * p->draught)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
@@ -319,11 +328,20 @@ void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e
                   "%.3g m: move the mesh up or give it topsides; hull.freeboard raises an open top",
                   e->path, p->freeboard, deck.least);
     /* A file in millimetres is told as that. */
-    if (p->freeboard > deck.most && p->length <= usual.most)
+    if (p->freeboard > deck.most && p->length <= usual_range_of(s, "vessel.hull.length").most)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull ends %.4g m above its z = 0, the design waterline, and decks are no higher "
                   "than %.3g m: give hull.freeboard in metres, or move the mesh down",
                   e->path, p->freeboard, deck.most);
+}
+
+void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
+{
+    if (e->keys->hull.form != HULL_MESH)
+        return;
+    mesh_size_warnings(ctx, s, e, &m->particulars);
+    mesh_place_warnings(ctx, e, m);
+    mesh_height_warnings(ctx, s, e, &m->particulars);
 }
 
 /* ---- floes that are listed ---- */
