@@ -74,7 +74,7 @@ static double corner_reach(polygon p)
 }
 
 /* The corner of p that a place is, within reach; the place itself where there is none. */
-static vec2 corner_at(polygon p, vec2 place, double reach)
+static vec2 welded_corner(polygon p, vec2 place, double reach)
 {
     vec2 found = place;
     for (int32_t i = 0; i < p.count; i++) {
@@ -113,8 +113,8 @@ static bool weld(context *ctx, polygon piece, polygon to, double reach, vec2_arr
 {
     array_clear(out);
     for (int32_t i = 0; i < piece.count; i++) {
-        vec2 from = corner_at(to, piece.vertex[i], reach), found;
-        vec2 next = corner_at(to, piece.vertex[i + 1 < piece.count ? i + 1 : 0], reach);
+        vec2 from = welded_corner(to, piece.vertex[i], reach), found;
+        vec2 next = welded_corner(to, piece.vertex[i + 1 < piece.count ? i + 1 : 0], reach);
         if (!array_push(ctx, out, from))
             return false;
         for (double along = 0; corner_on_edge(to, from, next, reach, &along, &found);)
