@@ -134,8 +134,9 @@ FRAM_API void fram_why_default(fram_why_definition *definition, size_t size);
 #define fram_why_default(definition) fram_why_default((definition), sizeof *(definition))
 /* Explains a peak of the ice load: mechanisms, floes, the chains of contacts behind them, what broke before, and
    whether time step and solver matter.  The run's folder is not changed.  A moment that is no recorded peak needs
-   `rerun`. FRAM_ERROR_INPUT for a folder without a run, a peak or time that it does not have.  The caller frees the
-   text with fram_text_free. */
+   `rerun`; of a recorded one that cannot be computed again, as one of another Fram, what is kept is told, and why.
+   FRAM_ERROR_INPUT for a folder without a run, a peak or time that it does not have.  The caller frees the text with
+   fram_text_free. */
 FRAM_API fram_status fram_why(fram_context *context, const char *run, const fram_why_definition *definition,
                               char **text, fram_error *error);
 

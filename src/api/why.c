@@ -68,8 +68,22 @@ static fram_status find(const why *y, const fram_why_definition *d, const peak_d
     return refuse_unrecorded(y, d->time, error);
 }
 
-/* What is kept of a peak is told though its moment cannot be computed again, where a program steered the run: only its
-   own computing knows what it was told. */
+/* The caller's own troubles say nothing of the run. */
+static bool is_of_run(fram_status status)
+{
+    return status != FRAM_OK && status != FRAM_ERROR_MEMORY && status != FRAM_INTERRUPTED &&
+           status != FRAM_ERROR_INTERNAL;
+}
+
+static void tell_hindrance(const fram_error *reason, bool told, why_check *checked)
+{
+    const char *key = told ? "" : reason->key;
+    checked->told = told;
+    snprintf(checked->hindrance, sizeof checked->hindrance, "%s%s%s", key, key[0] ? ": " : "", reason->message);
+}
+
+/* What is kept of a peak is told though its moment cannot be computed again, as where a program steered the run, whose
+   own computing alone knows what it was told, or another Fram made it. */
 static fram_status compute_again(context *ctx, const why *y, double time, const peak_detail *kept, rerun_result *again,
                                  why_check *checked, fram_error *error)
 {
@@ -86,9 +100,9 @@ static fram_status compute_again(context *ctx, const why *y, double time, const 
                                .same = again->same.load,
                                .half_step = {again->half_step.load, again->half_step.wrong},
                                .accurate = {again->accurate.load, again->accurate.wrong}};
-    const bool is_hindered = kept && steered && status == FRAM_ERROR_INPUT && again->untold;
+    const bool is_hindered = kept && is_of_run(status);
     if (is_hindered)
-        snprintf(checked->hindrance, sizeof checked->hindrance, "%s", reason.message);
+        tell_hindrance(&reason, steered && again->untold, checked);
     else if (status != FRAM_OK && error)
         *error = reason;
     return is_hindered ? FRAM_OK : status;
@@ -137,7 +151,7 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     if (d->stop)
         ctx->stop = d->stop;
     status = explain(ctx, &y, d, &out, error);
-    if (status == FRAM_OK) /* what computes again refuses such a run */
+    if (status == FRAM_OK) /* a refusal says so itself */
         run_warn_change(ctx, &y.run);
     why_close(&y);
     if (status == FRAM_OK)

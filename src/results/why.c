@@ -258,7 +258,8 @@ static void tell_check(context *ctx, const peak_detail *d, const why_check *c, l
 {
     if (!c->done) {
         if (c->hindrance[0])
-            text_format(ctx, out, "\nA program steered the run: %s.", c->hindrance);
+            text_format(ctx, out, "\n%s: %s.", c->told ? "A program steered the run" : "Not computed again",
+                        c->hindrance);
         text_add(ctx, out, "\nNot recomputed: the influence of time step and solver is unknown.\n");
         return;
     }

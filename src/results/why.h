@@ -14,6 +14,7 @@ typedef struct why_method {
 typedef struct why_check {
     bool done;
     char hindrance[512]; /* why it was not done though it was asked for, "": nothing hindered */
+    bool told;           /* what hindered: a program told the run what stands in no file */
     double start, fork;
     double first, last; /* the largest loads are looked for from the one to the other [s] */
     double same;        /* load as the run was made [N] */

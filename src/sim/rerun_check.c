@@ -160,17 +160,37 @@ static fram_status tell_difference(const rerun_check *c, int32_t column, double 
                      c->time, CSV_DIGITS, run, CSV_DIGITS, c->value.data[column], before);
 }
 
+/* What is counted as which mechanism changes no motion: those who read the run's numbers are to know, no more. */
+static void warn_of_mechanisms(rerun_check *c, int32_t column)
+{
+    if (c->told_mechanisms)
+        return;
+    c->told_mechanisms = true;
+    log_write(
+        c->ctx, LOG_WARNING,
+        "%s:%d: %s is not what is computed again, at t = %g s for the first time, while all but such parts of the "
+        "load by mechanism is the same: another Fram, which counted contacts otherwise, made the run, or the file "
+        "was changed",
+        c->path, (int)c->line, c->layout.columns.data[column].name, c->time);
+}
+
 static fram_status check_row(rerun_check *c, const world *w, fram_error *error)
 {
     series_row(c->ctx, &c->layout, w, 0, c->value.data);
     const char *cell = c->row;
+    int32_t mechanism = -1;
     for (int32_t i = 0; i < c->column.count && cell; i++, cell = next_cell(cell)) {
         char *end;
         int32_t column = c->column.data[i];
         double run = column >= 0 ? real_read(cell, &end) : 0;
-        if (column >= 0 && !is_same(run, c->value.data[column]))
+        if (column < 0 || is_same(run, c->value.data[column]))
+            continue;
+        if (!c->layout.names.data[column].of_mechanism)
             return tell_difference(c, column, run, error);
+        mechanism = mechanism < 0 ? column : mechanism;
     }
+    if (mechanism >= 0)
+        warn_of_mechanisms(c, mechanism);
     c->same = w->clock.time[0];
     return FRAM_OK;
 }

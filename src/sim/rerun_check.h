@@ -20,14 +20,16 @@ typedef struct rerun_check {
     double same;           /* up to here rows are those of the run; negative: none was compared [s] */
     series_layout layout;
     ARRAY(double) value;
-    int32_array column; /* of the layout for each of the file, -1: not of this version, or never the same */
+    bool told_mechanisms; /* that they are others in the run: once */
+    int32_array column;   /* of the layout for each of the file, -1: not of this version, or never the same */
 } rerun_check;
 
 /* Without a series the log says so, and nothing is compared. folder stays where it is.  On failure c is empty. */
 fram_status rerun_check_open(context *ctx, const char *folder, const scenario *s, rerun_check *c, fram_error *error);
 void rerun_check_close(rerun_check *c);
 /* After each step that was computed again: FRAM_ERROR_INPUT names the first channel of the row of this time, if there
-   is one, that has another value in the run. */
+   is one, that has another value in the run.  Where only parts of the load by mechanism have, the log says so once:
+   what counts as which is no matter of the motion, and another Fram may tell it otherwise. */
 fram_status rerun_check_step(rerun_check *c, const world *w, fram_error *error);
 /* Whether a row is to come, and none at or after this time was compared: what was told before it shows in that row. */
 bool rerun_check_awaits(const rerun_check *c, double time);

@@ -137,9 +137,10 @@ static count_channels counts_of(const world *w)
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
 /* Forces in the horizontal plane, and the yaw moment in z. */
 #define PLANE(X, name, v) X(name "_x", "N", (v).x) X(name "_y", "N", (v).y) X(name "_z", "N m", (v).z)
+#define OF_MECHANISM "mechanism_"
 #define MECHANISM(X, name, id)                                           \
-    V3(X, "mechanism_" name, "N", c.ice.mechanism[MECHANISM_##id].force) \
-    V3(X, "mechanism_" name "_moment", "N m", c.ice.mechanism[MECHANISM_##id].moment)
+    V3(X, OF_MECHANISM name, "N", c.ice.mechanism[MECHANISM_##id].force) \
+    V3(X, OF_MECHANISM name "_moment", "N m", c.ice.mechanism[MECHANISM_##id].moment)
 #define MECHANISMS(X)                          \
     MECHANISM(X, "splitting", SPLITTING)       \
     MECHANISM(X, "bending", BENDING)           \
@@ -245,9 +246,9 @@ enum { COLUMN_COUNT = sizeof columns / sizeof *columns };
 
 /* ---- layout ---- */
 
-static bool add_name(context *ctx, series_layout *out, const char *name, const char *unit)
+static bool add_name(context *ctx, series_layout *out, const char *name, const char *unit, bool of_mechanism)
 {
-    series_name column = {.unit = unit};
+    series_name column = {.unit = unit, .of_mechanism = of_mechanism};
     snprintf(column.text, sizeof column.text, "%s", name);
     return array_push(ctx, &out->names, column);
 }
@@ -258,10 +259,11 @@ static bool add_columns(context *ctx, const scenario *s, bool of_world, int32_t 
     bool good = true;
     for (int32_t i = 0; i < COLUMN_COUNT && good; i++) {
         const series_column *c = &columns[i];
+        const bool of_mechanism = strncmp(c->name, OF_MECHANISM, sizeof OF_MECHANISM - 1) == 0;
         if (c->of_vessel && vessel >= 0)
-            good = add_name(ctx, out, vessel_channel_name(s, vessel, c->name).text, c->unit);
+            good = add_name(ctx, out, vessel_channel_name(s, vessel, c->name).text, c->unit, of_mechanism);
         else if (!c->of_vessel && of_world)
-            good = add_name(ctx, out, c->name, c->unit);
+            good = add_name(ctx, out, c->name, c->unit, of_mechanism);
     }
     return good;
 }
@@ -271,7 +273,7 @@ static bool add_numbered(context *ctx, const scenario *s, int32_t vessel, const 
 {
     char name[40];
     snprintf(name, sizeof name, "%s_%d_%s", what, (int)number, quantity);
-    return add_name(ctx, out, vessel_channel_name(s, vessel, name).text, unit);
+    return add_name(ctx, out, vessel_channel_name(s, vessel, name).text, unit, false);
 }
 
 /* Those of each line and thruster. */

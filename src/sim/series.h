@@ -10,6 +10,7 @@
 typedef struct series_name {
     char text[80];
     const char *unit;
+    bool of_mechanism; /* a part of the load by its mechanism: what contacts are counted as, which no motion hangs on */
 } series_name;
 
 /* The columns of a run, the same for all scenarios with one vessel but for those of each mooring line and thruster at

@@ -1,5 +1,6 @@
 /* fram_pressure and fram_why compute a recorded run again: one that a program steered on the way is refused from there
-   on, before that it is told; rows far apart, rows that are not there, and states at the end tell as well. */
+   on, before that it is told; rows far apart, rows that are not there, and states at the end tell as well.  Parts of a
+   load by mechanism decide nothing. */
 #include "fram/live.h"
 #include "fram/results.h"
 #include "scratch.h"
@@ -168,7 +169,12 @@ START_TEST(steered)
     assert_ok(why(1, 0), e);
     /* What else stands in the way is no word of the program. */
     change_scenario("seed: 1", "seed: 2");
-    assert_fails(why(0, 1), e, FRAM_ERROR_INPUT, "was changed since the run was made");
+    assert_fails(why(2.5, 0), e, FRAM_ERROR_INPUT, "was changed since the run was made");
+    assert_ok(why(0, 1), e);
+    assert_told("Peak 1 of ");
+    assert_told("\nNot computed again: ");
+    assert_told("was changed since the run was made");
+    ck_assert_ptr_null(strstr(answer, "A program steered"));
     close_all();
 }
 END_TEST
@@ -236,6 +242,88 @@ START_TEST(set_points_that_end_way_points_are_named)
         fram_world_destroy(w);
         fram_scenario_destroy(s);
     }
+    close_all();
+}
+END_TEST
+
+/* The last warning that was told. */
+static char warned[400];
+static int warnings;
+
+static void keep_warning(void *user, fram_log_level level, const char *text)
+{
+    (void)user;
+    if (level > FRAM_LOG_WARNING)
+        return;
+    snprintf(warned, sizeof warned, "%s", text);
+    warnings++;
+}
+
+/* The cells of a column become others, as of a build in which it meant something else. */
+static void change_column(const char *name)
+{
+    char path[300], other[300], line[8192];
+    int column = -1;
+    snprintf(path, sizeof path, "%s/series.csv", run);
+    snprintf(other, sizeof other, "%s/other.csv", run);
+    FILE *from = fopen(path, "r"), *to = fopen(other, "w");
+    ck_assert(from && to);
+    while (fgets(line, sizeof line, from)) {
+        const bool is_head = column < 0;
+        char *cell = line;
+        for (int k = 0; cell; k++) {
+            char *next = strpbrk(cell, ",\n");
+            const char end = *next;
+            *next = '\0';
+            if (is_head && strncmp(cell, name, strlen(name)) == 0 && cell[strlen(name)] == '[')
+                column = k;
+            fprintf(to, "%s%c", !is_head && k == column ? "12345" : cell, end);
+            cell = end == ',' ? next + 1 : NULL;
+        }
+        ck_assert_int_ge(column, 0);
+    }
+    fclose(from);
+    ck_assert_int_eq(fclose(to), 0);
+    ck_assert_int_eq(rename(other, path), 0);
+}
+
+/* By which mechanism a contact loads is no matter of the motion: where another Fram tells that otherwise it is said
+   once, and the run is computed again; all else decides, and what is kept of a peak is told all the same. */
+START_TEST(other_shares_of_mechanisms)
+{
+    fram_context_definition d;
+    open_all();
+    record(no_checkpoints, 1, -1);
+    fram_context_destroy(ctx);
+    fram_context_default(&d);
+    d.log = keep_warning;
+    d.verbosity = FRAM_LOG_WARNING;
+    assert_ok(fram_context_create(&d, &ctx, &e), e);
+    warnings = 0;
+    assert_ok(pressure(0, 0), e);
+    assert_ok(why(0, 1), e);
+    ck_assert_int_eq(warnings, 0);
+    change_column("mechanism_chain_x");
+    change_column("mechanism_friction_moment_z");
+    assert_ok(pressure(0, 0), e);
+    ck_assert_int_eq(warnings, 1);
+    ck_assert_msg(strstr(warned, "mechanism_chain_x") && strstr(warned, "another Fram"), "%s", warned);
+    for (int peak = 0; peak < 2; peak++) {
+        assert_ok(why(2.5, peak), e);
+        assert_told("\nRecomputed from ");
+        ck_assert_int_eq(warnings, 2 + peak);
+    }
+    change_column("ice_force_bow_y");
+    assert_fails(pressure(0, 0), e, FRAM_ERROR_INPUT, "another Fram made it");
+    ck_assert_str_eq(e.key, "ice_force_bow_y");
+    assert_fails(why(2.5, 0), e, FRAM_ERROR_INPUT, "another Fram made it");
+    assert_ok(why(0, 1), e);
+    assert_told("\nNot computed again: ice_force_bow_y: at t = ");
+    assert_told("\nNot recomputed: ");
+    as_json = true;
+    assert_ok(why(0, 1), e);
+    as_json = false;
+    assert_told("\"computed_again\": null, \"hindrance\": \"ice_force_bow_y: at t = ");
     close_all();
 }
 END_TEST
@@ -586,6 +674,6 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("rerun", what_was_told_is_named, set_points_that_end_way_points_are_named, steered, steered_a_little,
-          from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end, before_a_window_has_passed,
-          up_to_a_failure, no_step, recorded_from_later_on, steered_and_recorded_from_later_on,
-          compared_from_where_both_are_recorded, memory_runs_out)
+          other_shares_of_mechanisms, from_a_checkpoint, rows_far_apart, no_row_behind, last_step, beyond_the_end,
+          before_a_window_has_passed, up_to_a_failure, no_step, recorded_from_later_on,
+          steered_and_recorded_from_later_on, compared_from_where_both_are_recorded, memory_runs_out)
