@@ -18,6 +18,10 @@
     X(IMPACT, "impact", "impact of floes that give way freely")                                 \
     X(FRICTION, "friction", "sliding friction along the hull")
 
+/* Raised whenever a contact may be counted as another mechanism than before: figures of runs say by which of these
+   decisions they are told, and those of two are not mixed (study/run_row.h). */
+enum { MECHANISM_DECISION = 1 };
+
 typedef enum ice_mechanism {
 #define ICE_MECHANISM_ENUM(id, name, text) MECHANISM_##id,
     ICE_MECHANISMS(ICE_MECHANISM_ENUM)

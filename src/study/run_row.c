@@ -278,7 +278,15 @@ bool run_rows_alike(const run_row *rows, int32_t count)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 7";
+/* Behind it stand the number of the columns and that of the decision by which loads are shared among mechanisms.
+   COLUMNS_MEAN is raised when there are other columns, and when one comes to mean something else. */
+static const char mark[] = "fram study row ";
+enum { COLUMNS_MEAN = 8, HEAD_ROOM = 64 };
+
+static void write_head(char out[HEAD_ROOM])
+{
+    snprintf(out, HEAD_ROOM, "%s%d, mechanisms %d", mark, (int)COLUMNS_MEAN, (int)MECHANISM_DECISION);
+}
 
 static void number(context *ctx, text_buffer *out, double value)
 {
@@ -289,7 +297,9 @@ static void number(context *ctx, text_buffer *out, double value)
 
 void run_rows_text(context *ctx, const run_rows *rows, text_buffer *out)
 {
-    text_format(ctx, out, "%s\n", mark);
+    char head[HEAD_ROOM];
+    write_head(head);
+    text_format(ctx, out, "%s\n", head);
     for (int32_t k = 0; k < rows->count; k++) {
         const run_row *row = &rows->data[k];
         text_format(ctx, out, "%s\n%s\n%s\n%s\n", row->failed ? "failed" : "finished", row->vessel, row->reason,
@@ -350,12 +360,20 @@ static bool read_figures(char **rest, run_row *row)
     return true;
 }
 
-/* What is there is added to rows; false, too, where it is not whole. */
+/* The head of a file: whether its rows may be whole. */
+static row_file read_head(char **rest)
+{
+    char own[HEAD_ROOM];
+    const char *head = cut_line(rest);
+    write_head(own);
+    if (!head || strncmp(head, mark, sizeof mark - 1) != 0)
+        return ROWS_CUT;
+    return strcmp(head, own) == 0 ? ROWS_WHOLE : ROWS_OTHER;
+}
+
+/* What is there behind the head is added to rows; false, too, where it is not whole. */
 static bool read_row_lines(context *ctx, char *text, run_rows *rows, bool *no_memory)
 {
-    const char *head = cut_line(&text);
-    if (!head || strcmp(head, mark) != 0)
-        return false;
     for (const char *state = cut_line(&text); state; state = cut_line(&text)) {
         run_row row;
         begin_row(&row);
@@ -377,22 +395,27 @@ static bool read_row_lines(context *ctx, char *text, run_rows *rows, bool *no_me
     return false;
 }
 
-fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error)
+fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, row_file *found, fram_error *error)
 {
     char *text = NULL;
     size_t size = 0;
     struct stat about;
     bool no_memory = false;
-    *found = false;
+    *found = ROWS_NONE;
     *rows = (run_rows){0};
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode))
         return file_check(path, error); /* before a run whose row could not be written there */
     if (!file_is_readable(path))
         return FRAM_OK;
     fram_status status = file_read(ctx, path, ROW_FILE_LIMIT, &text, &size, error);
-    *found = status == FRAM_OK && strlen(text) == size && read_row_lines(ctx, text, rows, &no_memory);
+    if (status == FRAM_OK) {
+        char *rest = text;
+        *found = strlen(text) == size ? read_head(&rest) : ROWS_CUT;
+        if (*found == ROWS_WHOLE && !read_row_lines(ctx, rest, rows, &no_memory))
+            *found = ROWS_CUT;
+    }
     memory_free(ctx, text);
-    if (!*found)
+    if (*found != ROWS_WHOLE)
         array_free(ctx, rows);
     return no_memory ? error_memory(error) : status;
 }

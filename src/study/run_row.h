@@ -78,13 +78,18 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel);
 /* Whether two runs and more, with seeds of their own, came out the same: chance had no part in what acted on them. */
 bool run_rows_alike(const run_row *rows, int32_t count);
 
-/* To and from a small file, so that a run is judged once; what it holds, and its most bytes.  found is false when there
-   is none, or one that was not written whole by this version; nothing is to be freed then.  FRAM_ERROR_INPUT where
-   there is something else than a file. */
+/* To and from a small file, so that a run is judged once; what it holds, and its most bytes.  Only rows that are whole
+   are there, and to be freed.  FRAM_ERROR_INPUT where there is something else than a file. */
 enum { ROW_FILE_LIMIT = 1 << 16 };
+typedef enum row_file {
+    ROWS_NONE = 0, /* there is no file */
+    ROWS_CUT,      /* it was not written whole */
+    ROWS_OTHER,    /* of another Fram, with other columns or such that mean something else */
+    ROWS_WHOLE
+} row_file;
 void run_rows_text(context *ctx, const run_rows *rows, text_buffer *out);
 fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error);
-fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error);
+fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, row_file *found, fram_error *error);
 
 /* The end of a line of summary.csv, and of its heads: ",status,FIGURES,state_hash,reason". */
 void run_row_heads(context *ctx, text_buffer *out);

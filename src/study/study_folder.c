@@ -394,6 +394,22 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
     memory_free(f->ctx, folder);
 }
 
+fram_status study_run_forget(const study_folder *f, int32_t condition, int64_t seed, bool anew, fram_error *error)
+{
+    static const char *const endings[] = {".row", ".exit", ""};
+    for (int i = 0; i < (anew ? 3 : 2); i++) {
+        char *path = study_run_path(f, condition, seed, endings[i]);
+        if (!path)
+            return error_memory(error);
+        if (endings[i][0])
+            (void)unlink(path);
+        else
+            study_folder_remove(f->ctx, path);
+        memory_free(f->ctx, path);
+    }
+    return FRAM_OK;
+}
+
 bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)
 {
     static const char *const last[] = {

@@ -87,11 +87,11 @@ static fram_status read_rows(study_look *l, int32_t condition, condition_standin
     out->wanted = l->s.seeds.least;
     for (int32_t i = 0; i < out->wanted; i++) {
         run_rows rows = {0};
-        bool found = false;
+        row_file found = ROWS_NONE;
         char *path = study_run_path(&l->folder, condition, l->s.seeds.first + i, ".row");
         fram_status status = path ? run_rows_read(ctx, path, &rows, &found, error) : error_memory(error);
         memory_free(ctx, path);
-        const run_row *row = found ? run_rows_find(&rows, l->s.vessel) : NULL;
+        const run_row *row = found == ROWS_WHOLE ? run_rows_find(&rows, l->s.vessel) : NULL;
         bool good = !row || (array_push(ctx, &l->mean, row->figure[ROW_load_mean]) &&
                              array_push(ctx, &l->largest, row->figure[ROW_load_largest]));
         out->failed += row && row->failed;

@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* What is known of one seed of a condition. */
 typedef enum run_state {
@@ -24,6 +23,7 @@ typedef enum run_state {
 } run_state;
 typedef struct study_seed {
     run_state state;
+    row_file found; /* of its row, before it was made */
     run_row row;
 } study_seed;
 
@@ -47,26 +47,35 @@ typedef struct study_work {
     int32_t busy; /* runs that another program still makes */
     double started;
     int32_t made;
+    bool told_other; /* that there are runs of another Fram: once */
 } study_work;
 
 /* ---- what is there ---- */
+
+static void tell_of_another(study_work *w, const char *path)
+{
+    if (!w->told_other)
+        log_write(w->ctx, LOG_WARNING,
+                  "%s is of another Fram, some of whose figures mean something else: such runs are made again", path);
+    w->told_other = true;
+}
 
 static fram_status load_row(study_work *w, int32_t condition, int32_t index, fram_error *error)
 {
     study_seed *seed = &w->conditions[condition].seeds.data[index];
     char *path = study_run_path(&w->folder, condition, w->s->seeds.first + index, ".row");
-    bool found = false;
     run_rows rows = {0};
-    fram_status status = path ? run_rows_read(w->ctx, path, &rows, &found, error) : error_memory(error);
+    fram_status status = path ? run_rows_read(w->ctx, path, &rows, &seed->found, error) : error_memory(error);
+    if (path && seed->found == ROWS_OTHER)
+        tell_of_another(w, path);
     memory_free(w->ctx, path);
-    const run_row *chosen = found ? run_rows_find(&rows, w->s->vessel) : NULL;
-    found = chosen != NULL;
+    const run_row *chosen = seed->found == ROWS_WHOLE ? run_rows_find(&rows, w->s->vessel) : NULL;
     if (chosen && !chosen->failed)
         study_run_finish(&w->folder, condition, w->s->seeds.first + index, w->s->keep);
     if (chosen)
         seed->row = *chosen;
+    seed->state = chosen && !(seed->row.failed && w->options->retry) ? RUN_THERE : RUN_MISSING;
     array_free(w->ctx, &rows);
-    seed->state = found && !(seed->row.failed && w->options->retry) ? RUN_THERE : RUN_MISSING;
     return status;
 }
 
@@ -311,28 +320,16 @@ static fram_status work_loop(study_work *w, fram_error *error)
 
 /* ---- runs by Slurm ---- */
 
-/* A task passes over what has a row: a failure that is tried again has none. */
-static fram_status forget_failure(const study_work *w, int32_t condition, int32_t index, fram_error *error)
-{
-    static const char *const endings[] = {".row", ".exit"};
-    if (!w->conditions[condition].seeds.data[index].row.failed || w->options->slurm->dry_run)
-        return FRAM_OK;
-    for (int i = 0; i < 2; i++) {
-        char *path = study_run_path(&w->folder, condition, w->s->seeds.first + index, endings[i]);
-        if (!path)
-            return error_memory(error);
-        (void)unlink(path);
-        memory_free(w->ctx, path);
-    }
-    return FRAM_OK;
-}
-
 static fram_status add_missing(void *user, slurm_pool *queue, fram_error *error)
 {
     study_work *w = user;
     int32_t condition = 0, index = 0;
     while (next_run(w, &condition, &index)) {
-        fram_status status = forget_failure(w, condition, index, error);
+        const study_seed *seed = &w->conditions[condition].seeds.data[index];
+        fram_status status =
+            seed->found == ROWS_NONE || is_dry(w)
+                ? FRAM_OK
+                : study_run_forget(&w->folder, condition, w->s->seeds.first + index, !seed->row.failed, error);
         if (status != FRAM_OK)
             return status;
         if (!array_push(w->ctx, &w->task, (int64_t)condition << 32 | index) ||

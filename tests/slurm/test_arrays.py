@@ -133,6 +133,26 @@ class Arrays(unittest.TestCase):
         self.assertEqual((self.at / "cancelled").read_text(), "4711\n")
         self.assertEqual(list((self.at / "out" / "slurm").glob("*.job")), [])
 
+    def test_runs_of_another_fram_are_made_again(self):
+        """From the start: what they left is of a Fram that may have counted otherwise."""
+        self.study.write_text("scenario: base.yaml\nseeds: 2\nkeep: all\nset: {output.checkpoint_interval: 0.5}\n")
+        environment = self.scheduler()
+        words = ("out", "--on", "slurm", "--poll", "20")
+        self.assertEqual(json.loads(self.fram(*words, environment=environment))["made"], 2)
+        tables = self.tables("out")
+        other, cut = sorted((self.at / "out").glob("runs/*/*.row"))
+        other.write_text("fram study row 7" + other.read_text()[other.read_text().index("\n"):])
+        cut.write_text(cut.read_text()[:200])
+        left = [row.with_suffix("") / "left" for row in (other, cut)]
+        for path in left:
+            self.assertTrue(list(path.parent.glob("checkpoint-*.fram")))
+            path.write_text("")
+        self.fram(*words, "--dry-run", environment=environment)
+        self.assertTrue(all(p.exists() for p in (other, cut, *left)))
+        self.assertEqual(json.loads(self.fram(*words, environment=environment))["made"], 2)
+        self.assertEqual(self.tables("out"), tables)
+        self.assertFalse(any(p.exists() for p in left))
+
     def test_what_a_limit_of_time_stopped_goes_on(self):
         self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
         self.fram("here")

@@ -33,13 +33,13 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     for (int failed = 0; failed < 2; failed++) {
         run_row row[2] = {sample(), sample()};
         run_rows rows = {row, 2, 2}, back;
-        bool found;
+        row_file found;
         row[0].failed = row[1].failed = failed;
         snprintf(row[1].vessel, sizeof row[1].vessel, "tanker");
         row[1].figure[1] = 7;
         assert_ok(run_rows_write(&ctx, path, &rows, &error), error);
         assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
-        ck_assert(found);
+        ck_assert_int_eq(found, ROWS_WHOLE);
         ck_assert_int_eq(back.count, 2);
         for (int k = 0; k < 2; k++) {
             ck_assert_int_eq(back.data[k].failed, failed);
@@ -64,17 +64,17 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
         if (text[cut - 1] != '\n' && cut % 7)
             continue;
         run_rows back;
-        bool found = true;
+        row_file found = ROWS_WHOLE;
         file = fopen(path, "w");
         ck_assert_ptr_nonnull(file);
         ck_assert_uint_eq(fwrite(text, 1, cut, file), cut);
         fclose(file);
         assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
-        ck_assert_msg(!found, "the first %zu of %zu bytes are taken for a row", cut, size);
+        ck_assert_msg(found == ROWS_CUT, "the first %zu of %zu bytes are taken for a row", cut, size);
     }
     /* And in no other state than these. */
     run_rows back;
-    bool found = true;
+    row_file found = ROWS_WHOLE;
     char *state = memchr(text, '\n', size); /* behind the mark */
     ck_assert_ptr_nonnull(state);
     state[1] = 'w';
@@ -83,12 +83,45 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     ck_assert_uint_eq(fwrite(text, 1, size, file), size);
     fclose(file);
     assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
-    ck_assert(!found);
+    ck_assert_int_eq(found, ROWS_CUT);
     remove(path);
+    assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
+    ck_assert_int_eq(found, ROWS_NONE);
     /* What is no file is none either, and nobody's reader is waited for. */
     ck_assert_int_eq(mkfifo(path, 0600), 0);
     assert_fails(run_rows_read(&ctx, path, &back, &found, &error), error, FRAM_ERROR_INPUT, "found a pipe");
-    ck_assert(!found);
+    ck_assert_int_eq(found, ROWS_NONE);
+    remove(path);
+}
+END_TEST
+
+/* Rows whose columns are others, or mean something else, are none of this Fram. */
+START_TEST(a_row_of_another_fram_is_told_apart)
+{
+    static const char *const heads[] = {"fram study row 7", "fram study row 99, mechanisms 1",
+                                        "fram study row 8, mechanisms 0", "fram study row 8"};
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    char path[PATH];
+    scratch_path(path);
+    run_row row = sample();
+    run_rows rows = {&row, 1, 1};
+    text_buffer text = {0};
+    run_rows_text(&ctx, &rows, &text);
+    const char *behind = strchr(text.data, '\n');
+    ck_assert_ptr_nonnull(behind);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
+        run_rows back;
+        row_file found = ROWS_WHOLE;
+        FILE *file = fopen(path, "w");
+        ck_assert_ptr_nonnull(file);
+        fprintf(file, "%s%s", heads[i], behind);
+        fclose(file);
+        assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
+        ck_assert_msg(found == ROWS_OTHER, "%s", heads[i]);
+    }
+    text_free(&ctx, &text);
     remove(path);
 }
 END_TEST
@@ -259,6 +292,7 @@ START_TEST(processes_fit_the_memory)
 }
 END_TEST
 
-TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
-          processes_tell_how_they_ended, a_log_is_opened_by_its_own_name, failures_without_a_word_tell_how_they_ended,
-          parts_that_came_loose_are_no_floes_that_broke, processes_fit_the_memory)
+TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, a_row_of_another_fram_is_told_apart,
+          quotation_marks_are_doubled_in_a_line, processes_tell_how_they_ended, a_log_is_opened_by_its_own_name,
+          failures_without_a_word_tell_how_they_ended, parts_that_came_loose_are_no_floes_that_broke,
+          processes_fit_the_memory)

@@ -142,6 +142,23 @@ class Worst(StudyTest):
             self.assertEqual(f"<code>fram view runs/{run.parent.name}/1</code> makes it" in page, known)
             self.assertEqual(" output.frame_interval=1 <i>-o</i>" in page, not known)
 
+    def test_runs_whose_figures_meant_something_else_are_made_again(self):
+        study = self.write("seeds: 2\nkeep: {record_of_worst: 1}\n")
+        self.fram(study, "-o", self.at / "out")
+        whole = (self.at / "out" / "summary.csv").read_bytes()
+        # As a Fram left them which counted contacts otherwise; a later one that is unknown here is no other matter.
+        for seed, head in ((1, "fram study row 7"), (2, "fram study row 999, mechanisms 999")):
+            (row,) = (self.at / "out" / "runs").glob(f"*/{seed}.row")
+            text = re.sub("share_chain .*", "share_chain 0.25", row.read_text())
+            row.write_text(head + text[text.index("\n"):])
+        for made in (2, 0):
+            done = subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--json"], capture_output=True,
+                                  text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(done.stdout.splitlines()[-1])["made"], made)
+            self.assertEqual(done.stderr.count("figures mean something else"), made > 0, done.stderr)
+            self.assertEqual((self.at / "out" / "summary.csv").read_bytes(), whole)
+
     def test_what_it_takes_is_told_and_mistakes_are_refused(self):
         study = self.write("seeds: 3\nkeep: {each: series, record_of_worst: 2}\n")
         told = self.fram("check", study)
