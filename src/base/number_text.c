@@ -197,6 +197,12 @@ int digits_beside(double size, double part, int digits, int least)
     return digits > least ? digits : least;
 }
 
+double told_beside(double value, double largest, double least)
+{
+    const double last_digits = 1e-12; /* of a row of series.csv, io/csv.h */
+    return fabs(value) < fmax(least, last_digits * fabs(largest)) ? 0 : value;
+}
+
 coordinate_text coordinate_text_of(double metres)
 {
     enum { NEAR_ZERO = 5 };

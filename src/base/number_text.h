@@ -28,6 +28,12 @@ int clock_digits(double step);
    zero needs, from `least` to 15. */
 int digits_beside(double size, double part, int digits, int least);
 
+/* A number for people: 0 where it is what rounding leaves of one, which is less than `least` or than the last digits of
+   the largest number beside it, with which it is read.  least: LEAST_TOLD of what is a sum of parts that cancel, in N,
+   m or degrees and times the factor of its unit; 0 of what is small by itself, as a residual. */
+#define LEAST_TOLD 1e-9
+double told_beside(double value, double largest, double least);
+
 /* A coordinate [m] for people: five digits near 0, to the decimetre where that is more, as on a map: "12.346",
    "-1400000", "2000000.3". */
 typedef struct coordinate_text {

@@ -123,8 +123,8 @@ int command_plot(const command_row *self, int argc, char **argv)
 
 /* ---- compare ---- */
 
-/* What is less is rounding, in whatever unit the table has: a place of 4e-17 m is 0. */
-#define NUMBER_LEAST 1e-12
+/* Of two numbers their difference is rounding where it is less than this part of them. */
+#define DIFFERENCE_LEAST 1e-12
 
 /* Lengths from here on are places far from the origin, of which six digits would not tell the decimetre [m]. */
 #define FAR_LENGTH 1e5
@@ -135,7 +135,7 @@ static void print_number(double x, const char *unit, int digits)
     if (isfinite(x) && fabs(x) >= FAR_LENGTH && strcmp(unit, "m") == 0)
         printf(" %14.1f", x);
     else if (isfinite(x))
-        printf(" %14.*g", digits, fabs(x) < NUMBER_LEAST ? 0 : x);
+        printf(" %14.*g", digits, x);
     else
         printf(" %14s", "-");
 }
@@ -164,7 +164,9 @@ static void print_compared(const fram_comparison *c)
         tell(stdout, "%-*s", width, name);
         print_number(row->a, row->unit, 6);
         print_number(row->b, row->unit, 6);
-        print_number(row->b - row->a, row->unit, 4);
+        const double difference = row->b - row->a;
+        const bool is_rounding = fabs(difference) < DIFFERENCE_LEAST * fmax(fabs(row->a), fabs(row->b));
+        print_number(is_rounding ? 0 : difference, row->unit, 4);
         putchar('\n');
     }
     if (c->no_time_shared)

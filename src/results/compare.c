@@ -1,5 +1,6 @@
 /* Comparison of two runs: the same numbers of both, and their channels over each other. */
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
 #include "io/path.h"
@@ -179,6 +180,9 @@ static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
         return;
     for (int k = 0; k < 2; k++)
         value[k] = measure_of(p, k, channel, rows[i].what) * unit.factor;
+    const double largest = fmax(fabs(value[0]), fabs(value[1])), least = run_channel_least(rows[i].channel);
+    for (int k = 0; k < 2; k++)
+        value[k] = told_beside(value[k], largest, least * unit.factor);
     if (strcmp(rows[i].unit, "deg") == 0)
         value[1] = angle_next_to(value[0], value[1]);
     name_row(p, i, vessel, name);

@@ -1,5 +1,6 @@
 #include "results/report_parts.h"
 
+#include "base/number_text.h"
 #include "results/run_channels.h"
 
 #include <math.h>
@@ -127,15 +128,6 @@ void report_statistics_heads(report *r, const char *first)
     html_table_begin(&r->page, heads, 6);
 }
 
-/* What rounding leaves of a zero, told as one: less than a billionth of a newton, metre or degree, or than the last
-   digits of the row's largest. */
-#define LEAST_TOLD 1e-9
-#define LEAST_OF_ROW 1e-12
-static void number_over(report *r, double value, double least)
-{
-    html_number(&r->page, fabs(value) < least ? 0 : value);
-}
-
 void report_statistics(report *r, const char *channel, const char *name, double factor)
 {
     const double *time = run_channel(&r->d, "time"), *value = report_scaled(r, channel, factor);
@@ -144,11 +136,9 @@ void report_statistics(report *r, const char *channel, const char *name, double 
     channel_statistics s = channel_statistics_of(time, value, r->d.series.rows, r->d.s.run.transient);
     html_row_begin(&r->page);
     html_row_name(&r->page, name);
-    double least = fmax(LEAST_TOLD * factor, LEAST_OF_ROW * fmax(fabs(s.least), fabs(s.greatest)));
-    number_over(r, s.mean, least);
-    number_over(r, s.deviation, least);
-    number_over(r, s.least, least);
-    number_over(r, s.greatest, least);
-    number_over(r, isfinite(s.mean) ? s.significant : (double)NAN, least);
+    const double told[] = {s.mean, s.deviation, s.least, s.greatest, isfinite(s.mean) ? s.significant : (double)NAN};
+    const double largest = fmax(fabs(s.least), fabs(s.greatest)), least = run_channel_least(channel) * factor;
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        html_number(&r->page, told_beside(told[i], largest, least));
     html_row_end(&r->page);
 }

@@ -1,8 +1,10 @@
 #include "results/run_channels.h"
 
+#include "base/number_text.h"
 #include "results/rainflow.h"
 
 #include <math.h>
+#include <string.h>
 
 bool run_size_channel(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y, double_array *out)
 {
@@ -43,6 +45,16 @@ bool run_equivalent_range(context *ctx, const run_data *d, const double *value, 
         *out = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
     rainflow_free(ctx, &cycles);
     return good;
+}
+
+/* A solver's residual, overlaps and computing times have no parts that cancel: they may be as small as they like. */
+double run_channel_least(const char *channel)
+{
+    static const char *const small[] = {"solver_residual", "overlap_mean", "overlap_max", "step_wall_time"};
+    for (size_t i = 0; i < sizeof small / sizeof *small; i++)
+        if (strcmp(channel, small[i]) == 0)
+            return 0;
+    return LEAST_TOLD;
 }
 
 double angle_next_to(double other, double angle)

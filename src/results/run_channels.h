@@ -14,6 +14,8 @@ bool run_size_statistics(context *ctx, const run_data *d, int32_t vessel, const 
 /* The range that does the damage of a channel after the transient with a cycle a second, of chains
    (results/rainflow.h); NaN without a time between its values.  value: one a row, NULL for none.  false: no memory. */
 bool run_equivalent_range(context *ctx, const run_data *d, const double *value, double *out);
+/* Under this a number of the channel is what rounding leaves of a zero, told_beside's `least` in the channel's unit. */
+double run_channel_least(const char *channel);
 /* The same angle [deg], by as many turns more or less that it is next to the other one: 180.1 for -179.9 beside 179;
    as it is where one of them is no number. */
 double angle_next_to(double other, double angle);

@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "base/load_unit.h"
+#include "base/number_text.h"
 #include "base/transcendental.h"
 #include "sim/steady_load.h"
 
@@ -169,11 +170,21 @@ static void let_go(world *w, int32_t vessel, bool gone)
 /* From which on a turn is told [deg]. */
 #define TOLD_TURN 0.1
 
+/* "(-0.00689, 0) m off" */
+enum { WAY_ROOM = 64 };
+static void way_text(vec3 by, char out[WAY_ROOM])
+{
+    const double largest = fmax(fabs(by.x), fabs(by.y));
+    snprintf(out, WAY_ROOM, "(%.3g, %.3g) m off", told_beside(by.x, largest, LEAST_TOLD),
+             told_beside(by.y, largest, LEAST_TOLD));
+}
+
 /* left: what of the search is left at that pose. */
 static void tell_equilibrium(context *ctx, const vessel_entry *entry, bool found, vec3 by, double turn, double heading,
                              const mooring_balance *left)
 {
-    char turned[64] = "", onward[96] = "";
+    char turned[64] = "", onward[96] = "", way[WAY_ROOM];
+    way_text(by, way);
     if (fabs(degrees(turn)) >= TOLD_TURN)
         snprintf(turned, sizeof turned, " and turned by %.3g degrees, to heading %.4g", degrees(turn),
                  degrees(heading));
@@ -182,11 +193,11 @@ static void tell_equilibrium(context *ctx, const vessel_entry *entry, bool found
                  degrees(plane_angle(heading + left->turn_left)));
     vessel_title title = vessel_title_of(entry);
     if (found)
-        log_write(ctx, LOG_INFO, "%s begins at the equilibrium of its mooring, (%.3g, %.3g) m off%s%s", title.text,
-                  by.x, by.y, turned, onward);
+        log_write(ctx, LOG_INFO, "%s begins at the equilibrium of its mooring, %s%s%s", title.text, way, turned,
+                  onward);
     else
-        log_write(ctx, LOG_WARNING, "no equilibrium of the mooring of %s was found; %s are left (%.3g, %.3g) m off%s",
-                  title.text, load_text_of(left->residual, 4).text, by.x, by.y, turned);
+        log_write(ctx, LOG_WARNING, "no equilibrium of the mooring of %s was found; %s are left %s%s", title.text,
+                  load_text_of(left->residual, 4).text, way, turned);
 }
 
 static void find_equilibrium(context *ctx, const vessel_entry *entry, const model *m, int32_t vessel, world *w)

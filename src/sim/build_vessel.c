@@ -177,13 +177,15 @@ static fram_status lines_fault(const scenario *s, const world *w, int32_t row, v
     const vessel_entry entry = scenario_vessel_entry(s, row);
     int32_t body = w->vessels.body[row];
     vec3 by = vec3_sub(w->bodies.position[body], put.position);
+    const double largest = fmax(fabs(by.x), fabs(by.y));
     quat moored = w->bodies.orientation[body];
     double turn = plane_angle(quat_roll_pitch_yaw(moored).z - quat_roll_pitch_yaw(put.orientation).z);
     return vessel_fault(s, &entry, "mooring.lines", error,
                         "where they balance current and wind, (%.4g, %.4g) m from where it is put and turned by %.3g "
                         "degrees, the hull stands in %s: look at their count, spacing_deg, direction_deg and "
                         "pretension, or take mooring.equilibrium: false",
-                        by.x, by.y, degrees(turn), found_in);
+                        told_beside(by.x, largest, LEAST_TOLD), told_beside(by.y, largest, LEAST_TOLD),
+                        told_beside(degrees(turn), 0, LEAST_TOLD), found_in);
 }
 
 static fram_status check_walls(context *ctx, const scenario *s, const vessel_entry *entry, world *w, int32_t row,

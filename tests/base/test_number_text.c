@@ -253,6 +253,12 @@ START_TEST(coordinates_show_their_decimetre)
     ck_assert_int_eq(digits_beside(12, 3, 3, 5), 5);
     ck_assert_int_eq(digits_beside(1, 1e-30, 3, 4), 15);
     ck_assert_int_eq(digits_beside(1, 0, 3, 4), 4);
+    /* What rounding leaves is told as nothing, what is small by itself as it is. */
+    ck_assert_double_eq(told_beside(-1.6e-10, 1.6e-10, LEAST_TOLD), 0);
+    ck_assert_double_eq(told_beside(8.8e-11, 9e-11, 0), 8.8e-11);
+    ck_assert_double_eq(told_beside(2e-6, 1e7, LEAST_TOLD), 0);
+    ck_assert_double_eq(told_beside(-2e-5, -1e7, LEAST_TOLD), -2e-5);
+    ck_assert(isnan(told_beside((double)NAN, 1, LEAST_TOLD)));
 }
 END_TEST
 

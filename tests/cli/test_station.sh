@@ -224,6 +224,9 @@ expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=60
 holds 'vessel box begins .* m off; it is not stable: any touch turns the vessel from it, to heading -120' err
 expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=-120
 holds 'vessel box begins at the equilibrium of its mooring, .* m off$' err
+# What rounding leaves of a way is no way: nothing pushes this ship in Y.
+expect 0 "$FRAM" check "$FRAM_SOURCE/scenes/turret_ship.yaml"
+holds 'begins at the equilibrium of its mooring, (-0.00[0-9]*, 0) m off' err
 # A vessel on lines alone is not told to take more thrust.
 expect 0 "$FRAM" run two.yaml -o two --force --set vessels.box.heading_deg=60 \
     --set vessels.box.station.offset_limit=1e-6

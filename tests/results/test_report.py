@@ -660,18 +660,37 @@ def check_short(folder, pictures):
     file, run = folder / "short.yaml", folder / "short"
     file.write_text(SHORT, "utf-8")
     subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
-    # What rounding leaves of nothing.
+    # What rounding leaves of nothing; what is small by itself is no such rest, and told as it is.
     head, *rows = (run / "series.csv").read_text().splitlines()
-    at = [i for i, name in enumerate(head.split(",")) if re.match("first.*ice_force_averaged_[xy]", name)]
-    rows = [",".join("-1.6e-10" if i in at else v for i, v in enumerate(row.split(","))) for row in rows]
-    (run / "series.csv").write_text("\n".join([head, *rows]) + "\n")
+    at = {i: "-1.6e-10" for i, name in enumerate(head.split(",")) if re.match("first.*ice_force_averaged_[xy]", name)}
     assert len(at) == 2, head
+    small = {"solver_residual[m/s]": "8.768e-11", "overlap_mean[m]": "1e-13", "overlap_max[m]": "1.5e-12",
+             "step_wall_time[s]": "1.25e-12"}
+    at |= {head.split(",").index(name): value for name, value in small.items()}
+    rows = [",".join(at.get(i, v) for i, v in enumerate(row.split(","))) for row in rows]
+    (run / "series.csv").write_text("\n".join([head, *rows]) + "\n")
     subprocess.run([FRAM, "report", run, "-q"], check=True)
     page = (run / "report.html").read_text("utf-8")
     tables = Tables()
     tables.feed(page)
     assert tables.rows["floes"] == ["1"] and page.count(">at 0 s<") == 1, tables.rows["floes"]
     assert tables.rows["averaged, along X"] == ["0"] * 5, tables.rows["averaged, along X"]
+    for name, value in (("residual of the contact problem [m/s]", "8.768e-11"), ("largest overlap [m]", "1.500e-12"),
+                        ("mean overlap of touching bodies [m]", "1.000e-13"),
+                        ("computing time of a step [ms]", "1.250e-09")):
+        assert tables.rows[name][0] == value and tables.rows[name][3] == value, (name, tables.rows[name])
+    done = subprocess.run([FRAM, "compare", run, run, "-o", folder / "both.html"], capture_output=True, text=True,
+                          check=True)
+    both = Tables()
+    both.feed((folder / "both.html").read_text("utf-8"))
+    for name, value, shown in (("first: ice load along X, mean", "0", "0"),
+                               ("residual, mean", "8.768e-11", "8.768e-11"),
+                               ("largest overlap", "1.5e-12", "1.500e-12"),
+                               ("computing time of a step, mean", "1.25e-09", "1.250e-09")):
+        line, = [line for line in done.stdout.splitlines() if line.startswith(name + " [")]
+        assert line.split()[-3:] == [value, value, "0"], line
+        row, = [row for head, row in both.rows.items() if head.startswith(name)]
+        assert row[:2] == [shown, shown] or row[1:3] == [shown, shown], (name, row)
     assert "The field at the end" not in page and "after" not in re.findall('alt="Floe sizes: ([^"]*)"', page)[:1]
     assert page.count('alt="The field at the start') == (1 if pictures else 0)
     check_structure(page, contents=True)
