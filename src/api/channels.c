@@ -74,7 +74,7 @@ static const struct {
     {"vessel_contacts", "contact points of ice on the vessel"},
     {"crushing_patches", "patches of crushing of all bodies"},
     {"ice_mass_left", "mass that has left through an open boundary"},
-    {"ice_mass_entered", "feeding: mass that has entered"},
+    {"ice_mass_entered", "feeding, and sheets that drift: mass that has entered"},
     {"ice_mass_held_back", "feeding: mass that did not enter for want of room"},
     {"ice_mass_lost", "mass of outlines changed by breaking and cleaning"},
     {"ice_mass_gained", "mass of outlines changed by breaking and cleaning"},

@@ -88,6 +88,18 @@ static bool store_integer(const char *text, int *out)
     return true;
 }
 
+/* The way of writing it is at fault where the number is whole: 1e3. */
+static const char *whole_number_wanted(const char *text, bool above_zero)
+{
+    static const char *const words[2][2] = {
+        {"needs a whole number, as 1000", "needs a whole number, as 1000, not 1e3"},
+        {"needs a whole number above zero, as 1000", "needs a whole number above zero, as 1000, not 1e3"}};
+    const char *at = text;
+    double value = 0;
+    const bool exponent = take_number(&at, "", &value, NULL) && value == floor(value) && strpbrk(text, "eE");
+    return words[above_zero][exponent];
+}
+
 static const char *store_real(const char *text, double *out, fram_error *error)
 {
     return take_number(&text, "", out, error) ? NULL : error->message;
@@ -107,11 +119,9 @@ static const char *store_value(const option_row *row, const char *text, fram_err
         wrong = store_real(text, row->value, error);
         return wrong || *(double *)row->value > 0 ? wrong : "needs a number above zero, as 0.5 or 1e3";
     case OPTION_INTEGER:
-        return store_integer(text, row->value) ? NULL : "needs a whole number, as 1000, not 1e3";
+        return store_integer(text, row->value) ? NULL : whole_number_wanted(text, false);
     case OPTION_COUNT:
-        return store_integer(text, row->value) && *(int *)row->value > 0
-                   ? NULL
-                   : "needs a whole number above zero, as 1000, not 1e3";
+        return store_integer(text, row->value) && *(int *)row->value > 0 ? NULL : whole_number_wanted(text, true);
     case OPTION_LIST: {
         option_list *list = row->value;
         if (list->count == OPTION_LIST_ROOM)

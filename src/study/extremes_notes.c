@@ -95,12 +95,23 @@ fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, in
 {
     int32_t tied = shape > 0 ? extreme_law_tied(sorted, count, shape) : 0;
     char why[160];
-    if (tied == 0 || tied == count)
-        return extremes_refuse(out, "no law fits: the values are equal, or their likelihood has no maximum");
+    if (sorted[0] == sorted[count - 1]) {
+        snprintf(why, sizeof why, "no law fits: all %d values are equal", (int)count);
+        return extremes_refuse(out, why);
+    }
+    if (tied == 0)
+        return extremes_refuse(out, "no law fits: the likelihood of the values has no maximum");
     snprintf(why, sizeof why,
              "no law fits: %d of %d maxima are equal, %.*g, the least: they take longer blocks, or runs", (int)tied,
              (int)count, digits_of(sorted[0], sorted[count - 1] - sorted[0]), sorted[0]);
     return extremes_refuse(out, why);
+}
+
+void extremes_doubt_alike(extreme_result *out, bool idle)
+{
+    say(out, "%s",
+        idle ? "Nothing is left to chance in these runs, which met no ice."
+             : "The seed changes nothing in these runs: vary the ice.");
 }
 
 void extremes_cut_low(extreme_result *out, int levels, double least)

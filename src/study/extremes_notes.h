@@ -15,6 +15,8 @@ fram_status extremes_refuse_scales(extreme_result *out);
 fram_status extremes_refuse_short(extreme_result *out);
 /* No law fits the sample (ascending); of maxima, laws up to a shape (0: of peaks). */
 fram_status extremes_refuse_sample(extreme_result *out, const double *sorted, int32_t count, double shape);
+/* The same of the runs of a condition that all came to one value, with what to do about it; idle: they met no ice. */
+void extremes_doubt_alike(extreme_result *out, bool idle);
 /* The law is one of values over `least`: levels that are not are not told. */
 void extremes_cut_low(extreme_result *out, int levels, double least);
 /* What speaks against an answer that was found, of data that are `time` long [s]. */

@@ -78,15 +78,6 @@ static bool any_seen(const study_extremes *x, const condition_maxima *of, int32_
     return false;
 }
 
-/* Whether no run of a condition met ice. */
-static bool is_idle(const condition_rows *of)
-{
-    for (int32_t i = 0; i < of->rows.count; i++)
-        if (of->rows.data[i].figure[ROW_load_largest] > 0)
-            return false;
-    return true;
-}
-
 /* Levels of a year know no more than the fits of their conditions, and most of all that of the one that carries them:
    what would be told of it as one of that condition alone. */
 static void doubt_carrier(const study_extremes *x, const condition_maxima *of, const annual_lack *by,
@@ -134,7 +125,7 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
     fram_status status = of ? FRAM_OK : error_memory(error);
     for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
         of[c].block = block[c];
-        of[c].idle = is_idle(&conditions[c]);
+        of[c].idle = study_met_no_ice(&conditions[c]);
         status = study_values(f, conditions, c, figure, &of[c].value, error);
     }
     if (status == FRAM_OK)

@@ -65,6 +65,25 @@ static void cut_at_parting(const condition_rows *of, run_figure figure, int leve
     extremes_cut_parted(out, levels, parted.runs, (int32_t)out->sample, !tension, parted.least);
 }
 
+bool study_met_no_ice(const condition_rows *of)
+{
+    for (int32_t i = 0; i < of->rows.count; i++)
+        if (of->rows.data[i].figure[ROW_load_largest] > 0)
+            return false;
+    return true;
+}
+
+/* Runs of a condition that all came to one value, as those of annual.csv that carry no fit (study_annual): not by
+   lines, which part at the same load whatever the ice does. */
+static void doubt_alike(const condition_rows *of, const double_array *value, extreme_result *out)
+{
+    bool alike = value->count >= LAW_VALUES_LEAST && value->data[0] > 0;
+    for (int32_t i = 1; i < value->count && alike; i++)
+        alike = value->data[i] == value->data[0];
+    if (alike && study_parted_lines(of).runs == 0)
+        extremes_doubt_alike(out, study_met_no_ice(of));
+}
+
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error)
 {
@@ -73,6 +92,8 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
     fram_status status = study_values(f, conditions, condition, figure, &value, error);
     if (status == FRAM_OK)
         status = ask_extreme(f, &value, block, out, error);
+    if (status == FRAM_OK)
+        doubt_alike(&conditions[condition], &value, out);
     if (status == FRAM_OK && value.count > 0 && figure != ROW_load_largest)
         cut_at_parting(&conditions[condition], figure, f->s->extremes.levels, out);
     array_free(f->ctx, &value);

@@ -18,6 +18,8 @@ extern const run_figure study_rare[STUDY_RARE]; /* figures that have extremes */
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error);
 
+/* Whether no run of a condition met ice. */
+bool study_met_no_ice(const condition_rows *of);
 /* Values of a figure of the runs of a condition, without those that have none. */
 fram_status study_values(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                          double_array *out, fram_error *error);
