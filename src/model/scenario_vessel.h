@@ -15,6 +15,13 @@ typedef struct vessel_entry {
 
 /* Whether it has propulsion of its own. */
 static inline bool vessel_drives_itself(const scenario_vessel *v) { return !is_automatic(v->propulsion.bollard_pull); }
+/* Whether lines, positioning or a carriage at rest hold it where it is: ice goes past it, it goes through none. */
+static inline bool vessel_is_held(const scenario_vessel *v)
+{
+    if (v->mode == VESSEL_FREE)
+        return v->mooring.lines.count > 0 || v->positioning.active;
+    return !(v->speed > 0) && v->path.count == 0;
+}
 /* Of those that are present. */
 int32_t scenario_vessel_count(const scenario *s);
 /* index: 0 to the count - 1, also the vessel's row in a world. */

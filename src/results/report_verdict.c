@@ -4,6 +4,7 @@
 #include "base/channel_statistics.h"
 #include "base/student.h"
 #include "io/velocity_file.h"
+#include "results/ice_contact.h"
 #include "results/load_shares.h"
 #include "results/mechanism_curve.h"
 #include "results/run_record.h"
@@ -350,6 +351,41 @@ static void judge_edge(verdict *v)
             100 * part, report_vessel(r).text, scenario_vessel_count(s) > 1 ? " or at another vessel" : "");
 }
 
+/* ---- ice that left ---- */
+
+/* Of what counts of a run, and longer than ever before between two contacts: ice has gone, and is not only scarce. */
+#define QUIET_PART 0.1
+/* Of the floes of the start; where ice breaks they grow in number, which hides that it leaves and never tells so. */
+#define MOST_FLOES_LEFT 0.5
+
+/* Nothing comes into an open domain: past a vessel on station the ice drifts away, and what is averaged after that is
+   open water.  One that goes leaves its ice on purpose. */
+static void judge_ice_left(verdict *v)
+{
+    const report *r = v->r;
+    const scenario *s = &r->d.s;
+    const scenario_vessel *keys = scenario_vessel_entry(s, r->vessel).keys;
+    const double *time = run_channel(&r->d, "time"), *floes = run_channel(&r->d, "floes");
+    int32_t first = run_first_row(&r->d), rows = r->d.series.rows;
+    bool required = !is_automatic(keys->station.offset_limit) && !vessel_drives_itself(keys);
+    if (s->domain.boundary != DOMAIN_OPEN || !scenario_ice_is_field(&s->ice) || !time || !floes || rows - first < 2 ||
+        r->load.count < rows || !(vessel_is_held(keys) || required))
+        return;
+    const ice_contact c = ice_contact_of(time, r->load.data, rows);
+    bool is_quiet = c.quiet > QUIET_PART * (time[rows - 1] - time[first]) && c.quiet > c.longest;
+    bool has_left = floes[rows - 1] < MOST_FLOES_LEFT * floes[0];
+    char name[48], last[64] = "no ice touched it";
+    if (c.last < HUGE_VAL)
+        snprintf(last, sizeof last, "ice last touched it at %.6g s of %.6g s", c.last, time[rows - 1]);
+    if (has_left || (is_quiet && floes[rows - 1] < floes[0]))
+        verdict_find(v, VERDICT_CAUTION,
+                     "For ice that drifts past it take domain.boundary: feeding, else enlarge the domain or shorten "
+                     "run.duration.",
+                     "%s%s, and the open domain has %.0f of %.0f floes left: means, and how it kept its station, are "
+                     "of open water too.",
+                     verdict_whose(r, name), last, floes[rows - 1], floes[0]);
+}
+
 /* ---- the box ---- */
 
 static verdict_grade headline(const verdict *v, char out[VERDICT_TEXT_SIZE])
@@ -400,6 +436,8 @@ fram_status report_verdict(report *r, fram_error *error)
             status = judge_load(&v, error);
         if (status == FRAM_OK)
             judge_edge(&v);
+        if (status == FRAM_OK)
+            judge_ice_left(&v);
     }
     judge_solver(&v);
     if (status == FRAM_OK && v.failed)

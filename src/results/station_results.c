@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/text_buffer.h"
 #include "model/scenario_vessel.h"
+#include "results/ice_contact.h"
 
 #include <math.h>
 #include <string.h>
@@ -178,6 +179,8 @@ static void compose_station(context *ctx, const station_data *d, text_buffer *b)
     add_channel_statistics(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
     add_channel_statistics(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
     add_channel_statistics(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
+    text_add(ctx, b, "  ");
+    add_number(ctx, b, "ice_last_contact_s", ice_contact_of(c[TIME].data, d->load.data, d->rows).last, ",\n");
     add_channel_statistics(ctx, b, d, "line_tension_largest_N", &c[TENSION], transient, "},\n");
     add_channel_statistics(ctx, b, d, "thruster_power_W", &c[POWER], transient, ", ");
     add_number(ctx, b, "energy_J", station_energy(d, transient), "},\n  ");

@@ -196,29 +196,6 @@ static void tell_hull(const teller *t, const vessel_entry *e)
                    h->draught, e->keys->mooring.depth);
 }
 
-/* Ice in a basin does not drift past a vessel on station: it gathers at a wall. */
-static void tell_basin(const teller *t)
-{
-    const scenario *s = t->s;
-    const known_flow current = known_current(s, t->read);
-    bool drifts = s->environment.water && (!current.known || current.fastest > 0);
-    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
-        vessel_entry e = scenario_vessel_entry(s, i);
-        bool held = e.keys->mooring.lines.count > 0 || e.keys->positioning.active;
-        if (!held || !drifts || s->domain.boundary != DOMAIN_WALLS || s->ice.source == ICE_NONE)
-            continue;
-        char speed[32] = "";
-        if (current.steady)
-            snprintf(speed, sizeof speed, " of %.4g m/s", current.fastest);
-        sanity_say(
-            t->tell, t->to,
-            "domain.boundary: walls keep the ice in a basin, where the current%s drives it against one of them: for "
-            "ice that drifts past %s take feeding",
-            speed, vessel_title_of(&e).text);
-        return;
-    }
-}
-
 /* Told of the scenario as a whole: a vessel at rest meets what another one pushes. */
 static void tell_rest(const teller *t)
 {
@@ -322,7 +299,7 @@ void sanity_tell(const scenario *s, sanity_built built, sanity_teller tell, cons
     tell_directions(&t);
     sanity_tell_times(s, tell, to);
     tell_rest(&t);
-    tell_basin(&t);
+    sanity_tell_drift(s, built, tell, to);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);

@@ -28,6 +28,9 @@ void sanity_tell_vessel(const scenario *s, int32_t vessel, sanity_built built, s
 void sanity_tell_size(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of its place in the domain, and of the room that it has there.  sanity_tell asks. */
 void sanity_tell_domain(const scenario *s, int32_t vessel, sanity_built built, sanity_teller tell, const void *to);
+/* Of ice that no edge of the domain feeds, and a current that takes it away from vessels on station.  sanity_tell asks.
+ */
+void sanity_tell_drift(const scenario *s, sanity_built built, sanity_teller tell, const void *to);
 /* Of its dynamic positioning, thrusters and propulsion.  sanity_tell asks. */
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_built built, sanity_teller tell,
                          const void *to);

@@ -86,8 +86,7 @@ static double to_edge(const scenario_domain *d, const scenario_vessel *v)
     return fmin(from.x, from.y);
 }
 
-/* How far a hull reaches from where its vessel is, turned any way [m]; 0 of one of a file that was not read. */
-static double hull_reach(const scenario_vessel *v, const vessel_model *made)
+double sanity_hull_reach(const scenario_vessel *v, const vessel_model *made)
 {
     double most = 0;
     if (sanity_own_hull(v))
@@ -103,7 +102,7 @@ bool sanity_lies_outside(const scenario *s, int32_t vessel, const model *built)
 {
     const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
     const vessel_model *made = built ? &built->vessels.data[vessel] : NULL;
-    return is_judged_by_domain(s, v) && to_edge(&s->domain, v) < -hull_reach(v, made);
+    return is_judged_by_domain(s, v) && to_edge(&s->domain, v) < -sanity_hull_reach(v, made);
 }
 
 bool sanity_asks_of_place(const scenario *s, int32_t vessel)

@@ -46,6 +46,9 @@ static inline bool sanity_vessel_moves(const scenario_vessel *v)
     return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
 }
 
+/* How far a hull reaches from where its vessel is, turned any way [m]; 0 of one of a file that was not read (NULL). */
+double sanity_hull_reach(const scenario_vessel *v, const vessel_model *made);
+
 /* Of what a box of its hull displaces. */
 #define SANITY_BLOCK 0.7
 
