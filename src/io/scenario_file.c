@@ -141,7 +141,7 @@ static fram_status set_value(const scenario_reader *r, const scenario_key *key, 
     case KEY_PATH:
         return set_text(r, member, text, place);
     case KEY_SECTION:
-        return refuse(r, place, "expected keys under %s, found %s", key->name, shown(text).text);
+        return refuse(r, place, "expected keys under %s, found %s", place->key, shown(text).text);
     case KEY_LIST:
         return refuse(r, place, "expected a list, found %s", shown(text).text);
     }
@@ -267,31 +267,31 @@ static fram_status read_section(const scenario_reader *r, const scenario_section
 
 /* ---- overrides ---- */
 
-/* A word that is neither a number nor a name. */
-static fram_status refuse_item(const scenario_reader *r, const scenario_key *key, const void *member, const char *word,
-                               const value_place *place)
+/* A word that is neither a number nor a name.  path: of the list, from the top. */
+static fram_status refuse_item(const scenario_reader *r, const scenario_key *key, const void *member, const char *path,
+                               const char *word, const value_place *place)
 {
     char names[ITEM_NAMES_SIZE];
     const char *meant = item_meant(key, member, word, names);
-    return refuse(r, place, "expected the number of an item, %s[0], %s[1], ...%s%s%s%s%s%s", key->name, key->name,
-                  names, *word ? "; found " : "", *word ? shown(word).text : "", meant ? "; did you mean " : "",
+    return refuse(r, place, "expected the number of an item, %s[0], %s[1], ...%s%s%s%s%s%s", path, path, names,
+                  *word ? "; found " : "", *word ? shown(word).text : "", meant ? "; did you mean " : "",
                   meant ? meant : "", meant ? "?" : "");
 }
 
 /* Of vessels the short form may be meant, whose key is called otherwise.  rest: of the key, behind the item. */
-static fram_status refuse_empty(const scenario_reader *r, const scenario_key *key, const void *member, const char *rest,
-                                const value_place *place)
+static fram_status refuse_empty(const scenario_reader *r, const scenario_key *key, const void *member, const char *path,
+                                const char *rest, const value_place *place)
 {
     if (member == &r->scenario->vessels && !scenario_given(r->scenario, key->name))
         return refuse(r, place, "the file lists no vessels; the key of its one vessel is vessel%s",
                       *rest == '.' ? rest : ".NAME");
-    return refuse(r, place, "expected an item of %s, and the file lists none", key->name);
+    return refuse(r, place, "expected an item of %s, and the file lists none", path);
 }
 
 /* The item of a list that the file has: "[3]" or ".3", where items have names "[NAME]" or ".NAME"; moves *at behind
-   it. */
-static fram_status step_into_list(const scenario_reader *r, const scenario_key *key, void *member, const char **at,
-                                  const value_place *place, int32_t *item)
+   it.  path: of the list, from the top, as in all that is refused here: its last key alone is none that --set takes. */
+static fram_status step_into_list(const scenario_reader *r, const scenario_key *key, void *member, const char *path,
+                                  const char **at, const value_place *place, int32_t *item)
 {
     const char *text = *at;
     bool bracket = *text == '[', point = *text == '.';
@@ -306,13 +306,13 @@ static fram_status step_into_list(const scenario_reader *r, const scenario_key *
     if (index >= 0)
         return FRAM_OK;
     if (count == 0)
-        return refuse_empty(r, key, member, *at, place);
+        return refuse_empty(r, key, member, path, *at, place);
     bool number = strlen(word) < 12 && *word != '+' && integer_from_text(word, &index) == NUMBER_GOOD;
     if (!number || (bracket && text[length] != ']'))
-        return refuse_item(r, key, member, word, place);
+        return refuse_item(r, key, member, path, word, place);
     if (index < 0 || index >= count)
-        return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", key->name,
-                      (int)count, (int)count, word);
+        return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", path, (int)count,
+                      (int)count, word);
     *item = (int32_t)index;
     return FRAM_OK;
 }
@@ -339,7 +339,7 @@ static fram_status set_path(const scenario_reader *r, value_place *place, const 
         memcpy(path, full, sizeof path);
         if (key->kind == KEY_LIST) {
             int32_t item;
-            fram_status status = step_into_list(r, key, member, &at, place, &item);
+            fram_status status = step_into_list(r, key, member, path, &at, place, &item);
             if (status != FRAM_OK)
                 return status;
             data = list_element(key, member, item);
@@ -350,10 +350,10 @@ static fram_status set_path(const scenario_reader *r, value_place *place, const 
             memcpy(place->key, path, sizeof path);
             return set_value(r, key, member, text, place);
         } else {
-            return refuse(r, place, "expected nothing after %s, found %s", key->name, shown(at).text);
+            return refuse(r, place, "expected nothing after %s, found %s", path, shown(at).text);
         }
         if (*at != '.')
-            return refuse(r, place, "expected a key inside %s, as in %s.NAME=VALUE", key->name, key->name);
+            return refuse(r, place, "expected a key inside %s, as in %s.NAME=VALUE", path, path);
         section = key->section;
         at++;
     }

@@ -172,13 +172,13 @@ static const struct {
     {six, "vessels[f2].x=3", "or the name, a1, b1, c1, d1, ...; found \"f2\"; did you mean f1?"},
     {letters, "vessels.icebreaker-b.x=70", "found \"icebreaker-b\"; did you mean Icebreaker-B?"},
     {letters, "vessels.Icebreaker-C.x=70", "found \"Icebreaker-C\""},
-    {two, "vessels.tanker.thrusters[0].x=3", "expected an item of thrusters, and the file lists none"},
+    {two, "vessels.tanker.thrusters[0].x=3", "expected an item of vessels[1].thrusters, and the file lists none"},
     {one, "vessels.solo.hull.length=3", "the file lists no vessels; the key of its one vessel is vessel.hull.length"},
     {one, "vessels[0].speed=3", "the file lists no vessels; the key of its one vessel is vessel.speed"},
     {"{}", "vessels.0.speed=3", "the file lists no vessels; the key of its one vessel is vessel.speed"},
     {"{}", "vessels=3", "the key of its one vessel is vessel.NAME"},
     {"vessels: []\n", "vessels[0].speed=3", "expected an item of vessels, and the file lists none"},
-    {"{}", "ice.floes[0].x=3", "expected an item of floes, and the file lists none"},
+    {"{}", "ice.floes[0].x=3", "expected an item of ice.floes, and the file lists none"},
 };
 
 START_TEST(what_there_is_instead_is_told)
