@@ -8,6 +8,7 @@
 #include "sim/build_vessel.h"
 #include "sim/matrix_check.h"
 #include "sim/meeting_check.h"
+#include "sim/munk_check.h"
 #include "sim/rest_tell.h"
 #include "sim/turning_tell.h"
 #include "sim/usual.h"
@@ -412,6 +413,7 @@ fram_status vessel_warnings(context *ctx, const scenario *s, const vessel_entry 
         status = build_upright(ctx, s, e, hull, &m->solids.data[hull->solid], &upright, error);
     rest_tell(ctx, s, e, hull, &upright, w, row);
     warn_of_damping(ctx, s, e, hull);
+    munk_warnings(ctx, s, e, m, row);
     warn_of_springs(ctx, s, e, &upright, w, row);
     wall_warnings(ctx, s, e, m, w, row);
     meeting_warnings(ctx, s, e, m, w, row);
