@@ -267,9 +267,32 @@ static void tell_length(const teller *t, const vessel_entry *e, int32_t line)
                    e->path, (int)line, l->length, straight, 100 * strain, load_text_of(strain * l->stiffness, 3).text);
 }
 
+/* A limit on a vessel that current, wind or ice carry off, since nothing answers them. */
+static void tell_unheld(const teller *t, const vessel_entry *e)
+{
+    const scenario_vessel *v = e->keys;
+    const scenario_environment *n = &t->s->environment;
+    const known_flow current = known_current(t->s, t->read), drift = known_drift(t->s, t->read);
+    bool wind = n->air_density > 0 && (n->wind_speed > 0 || n->wind_file[0]);
+    bool flows = n->water && (!current.known || current.fastest > 0);
+    bool carried = flows || wind || (drift.known && drift.fastest > 0 && t->s->ice.source != ICE_NONE);
+    bool held =
+        v->mooring.lines.count > 0 || v->positioning.active || sanity_has_settings(v) || vessel_drives_itself(v);
+    const char *limit = !is_automatic(v->station.offset_limit)        ? "offset_limit"
+                        : !is_automatic(v->station.heading_limit_deg) ? "heading_limit_deg"
+                                                                      : NULL;
+    if (v->mode == VESSEL_FREE && limit && carried && !held)
+        sanity_say(t->tell, t->to, "%s.station.%s: nothing holds the vessel against current, wind or ice: %s", e->path,
+                   limit,
+                   v->thrusters.count > 0
+                       ? "positioning.active is false, so that its thrusters push only if a program gives them orders"
+                       : "it has neither mooring.lines nor thrusters with positioning");
+}
+
 static void tell_vessel_station(const teller *t, const vessel_entry *e)
 {
     const scenario_vessel *v = e->keys;
+    tell_unheld(t, e);
     for (int32_t i = 0; i < v->mooring.lines.count; i++) {
         const scenario_mooring_line *l = &v->mooring.lines.data[i];
         double most = automatic_or(l->breaking_load, HUGE_VAL);

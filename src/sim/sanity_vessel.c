@@ -100,8 +100,10 @@ static void tell_vessel_propulsion(const teller *t)
    to 130 of chain and wire, 5 to 30 of polyester, 3 of nylon (API RP 2SK 2005; Flory et al. 2007). */
 #define STIFFNESS_LEAST 1.0
 #define STIFFNESS_MOST 2000.0
-/* Horizontal distance to the anchor over the depth; a line that hangs straighter down holds nothing. */
-#define SCOPE_LEAST 0.05
+/* Horizontal distance to the anchor over the way down to it: chains and wires have several, taut legs of rope 1 to 1.5
+   (API RP 2SK 2005).  Under it a line pulls more down than aside, and up on its anchor; what is to pull straight down,
+   as a tension leg, stretches alone and hangs in no bow: a spring. */
+#define SCOPE_LEAST 1.0
 /* Length of line that the breaking load carries at full size [m]: 5 km of chain, 15 km of wire. */
 #define OWN_WEIGHT 1e3
 /* Freeboards to which fairleads go up, and draughts to which they go down: chains leave the bottom of a turret. */
@@ -121,11 +123,14 @@ static void tell_line(const teller *t, int32_t i)
                    "%s.mooring.lines[%d].stiffness: EA of %s is %.3g breaking loads, chain and wire have 60 to 130, "
                    "ropes 3 to 30: give newtons",
                    t->e->path, (int)i, load_text_of(l->stiffness, 4).text, ratio);
-    if (l->kind == LINE_CATENARY && l->distance < SCOPE_LEAST * v->mooring.depth)
+    double down = v->mooring.depth + v->mooring.z;
+    if (l->kind == LINE_CATENARY && l->distance < SCOPE_LEAST * down)
         sanity_say(
             t->tell, t->to,
-            "%s.mooring.lines[%d].distance: an anchor %.4g m off in a depth of %.4g m holds nothing: give metres",
-            t->e->path, (int)i, l->distance, v->mooring.depth);
+            "%s.mooring.lines[%d].distance: an anchor %.4g m off and %.4g m down: the line pulls more down than "
+            "aside, and up on its anchor; anchors lie several depths off: give metres, or kind: spring for a leg "
+            "that pulls straight down",
+            t->e->path, (int)i, l->distance, down);
     if (l->count > 1 && (double)l->count * fabs(l->spacing_deg) > FULL_CIRCLE)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].spacing_deg: %d lines at %g degrees go round more than once: give the angle "

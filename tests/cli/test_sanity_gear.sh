@@ -35,6 +35,33 @@ told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "ves
 told ship.yaml "lines[0].stiffness: EA of 800 kN is 0.1 breaking loads|newtons" \
     --set "vessel.mooring.lines[0].stiffness=8e5"
 told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.mooring.lines[0].distance=0.9"
+# Anchors nearer than the bottom: not of legs that pull straight down, nor of taut ones at 45 degrees.
+told ship.yaml "lines[0].distance: an anchor 119 m off and 120 m down: the line pulls|kind: spring for a leg" \
+    --set "vessel.mooring.lines[0].distance=119"
+grep -c 'an anchor 119' err | grep -qx 1 || fail "told twice of an anchor"
+for near in "distance=120" "distance=119 --set vessel.mooring.z=-3" \
+    "distance=8 --set vessel.mooring.lines[0].kind=spring"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" check ship.yaml --set vessel.mooring.lines[0].$near
+    grep 'an anchor' err && fail "told of an anchor with $near"
+done
+# A limit on a vessel that nothing holds.
+limit="vessel.station.offset_limit=8"
+sed '/mooring:/,/breaking_load/d' ship.yaml >adrift.yaml
+told adrift.yaml "station.offset_limit: nothing holds the vessel against current, wind or ice|gives them orders" \
+    --set $limit
+told adrift.yaml "vessel.station.heading_limit_deg: nothing holds the vessel|positioning.active is false" \
+    --set vessel.station.heading_limit_deg=10
+sed '/thrusters:/d' adrift.yaml >bare.yaml
+told bare.yaml "vessel.station.offset_limit: nothing holds the vessel|it has neither mooring.lines nor thrusters with" \
+    --set $limit
+# shellcheck disable=SC2086
+for held in "ship.yaml --set $limit" "adrift.yaml" "adrift.yaml --set $limit --set vessel.positioning.active=true" \
+    "bare.yaml --set $limit --set vessel.mode=towed" "bare.yaml --set $limit --set vessel.propulsion.bollard_pull=4e5" \
+    "adrift.yaml --set $limit --set environment.current_speed=0 --set environment.wind_speed=0"; do
+    expect 0 "$FRAM" check $held
+    grep 'nothing holds the vessel' err && fail "told of $held that nothing holds it"
+done
 no_end="vessel.mooring.lines[0].breaking_load=auto"
 told ship.yaml "lines[0].length: 870 m|is stretched by 4.36 % from the start" --set "$no_end" \
     --set "vessel.mooring.lines[0].length=870"
