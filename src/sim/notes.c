@@ -266,7 +266,8 @@ static void note_size(const note_taker *n, const scenario *s)
                  size.floes > 0.5 && size.floes < 1.5 ? "" : "s");
     note_fact(n, "memory: about %.2g GB%s%s; run.memory_limit is %g GB", size.bytes * 1e-9, floes, beside,
               s->run.memory_limit);
-    note_fact(n, "disk: about %.2g MB for what the run leaves%s", size.disk * 1e-6, beside);
+    note_fact(n, "disk: about %.2g MB for what the run leaves%s%s", size.disk * 1e-6, beside,
+              ice_may_break(&s->ice) && s->ice.source != ICE_NONE ? ", more where ice breaks" : "");
 }
 
 static void take_notes(const note_taker *n, const scenario *s)

@@ -5,7 +5,8 @@
 
 #include "model/scenario_vessel.h"
 
-/* Bytes of a run's folder in the end, by what takes them: all within a factor of two in the runs that were measured. */
+/* Bytes of a run's folder in the end, by what takes them: all within a factor of two in the runs that were measured,
+   but more where ice breaks, since pieces come to the floes. */
 typedef struct scene_disk {
     double rows;        /* series.csv and the texts beside it, what a study keeps with `series` */
     double frames;      /* the record, thinned out as output.record_limit says */

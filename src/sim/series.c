@@ -310,6 +310,23 @@ fram_status series_columns(context *ctx, const scenario *s, series_layout *out, 
     return error_memory(error);
 }
 
+double series_column_number(const scenario *s)
+{
+    int32_t vessels = scenario_vessel_count(s), own = 0;
+    for (int32_t i = 0; i < COLUMN_COUNT; i++)
+        own += columns[i].of_vessel;
+    double number = COLUMN_COUNT - own + (double)own * (vessels > 1 ? vessels : 1);
+    for (int32_t v = 0; v < vessels; v++) {
+        const scenario_vessel *keys = scenario_vessel_entry(s, v).keys;
+        if (keys->mode != VESSEL_FREE)
+            continue;
+        for (int32_t i = 0; i < keys->mooring.lines.count; i++)
+            number += (double)keys->mooring.lines.data[i].count;
+        number += 2 * (double)keys->thrusters.count;
+    }
+    return number;
+}
+
 void series_layout_free(context *ctx, series_layout *l)
 {
     array_free(ctx, &l->names);

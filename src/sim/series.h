@@ -23,6 +23,8 @@ typedef struct series_layout {
 
 /* Columns of a vessel that is not there are 0. */
 fram_status series_columns(context *ctx, const scenario *s, series_layout *out, fram_error *error);
+/* How many there are. */
+double series_column_number(const scenario *s);
 void series_layout_free(context *ctx, series_layout *l);
 /* One row, of as many values as there are columns.  wall_time: what the step took [s]. */
 void series_row(const context *ctx, const series_layout *l, const world *w, double wall_time, double *out);

@@ -201,6 +201,12 @@ sys.exit(not (found / 2 if sys.argv[3] == "yes" else 0) < promised < found * (2 
 END
     fail "the folder has another size than $promised MB"
 
+printf 'run: {duration: 1}\nice: {mean_floe_area: 400}\n' >field.yaml
+expect 0 "$FRAM" check field.yaml --set ice.breakable=true
+says "for what the run leaves, more where ice breaks" err
+expect 0 "$FRAM" check field.yaml --set ice.breakable=false
+grep 'more where ice breaks' err && fail "ice that cannot break is told to"
+
 # Listed floes that lie in one another or in a wall; openings beside a sheet, and ones that leave nothing of it.
 cat >floes.yaml <<'YAML'
 run: {duration: 1, time_step: 0.05}

@@ -1,6 +1,7 @@
 /* The size of a scenario told before it is built: tiles and floes against those that are made, limits, no overflow. */
 #include "scene.h"
 #include "sim/scene_size.h"
+#include "sim/series.h"
 
 #define HOUSE "vessel: {present: false}\nrun: {duration: 1}\n"
 #define PLAN "domain: {x_min: -100, x_max: 140, y_min: -80, y_max: 60, boundary: open}\n"
@@ -89,7 +90,18 @@ START_TEST(floes_that_are_not_counted)
 }
 END_TEST
 
-/* Each vessel has its row in series.csv, none comes between two steps, and the record ends at its limit. */
+/* Columns of the series of a scenario, which must be as many as are told without making them. */
+static double columns_of(const scenario *s)
+{
+    series_layout l;
+    assert_ok(series_columns(&ctx, s, &l, &error), error);
+    double count = l.columns.count;
+    assert_bits(series_column_number(s), count);
+    series_layout_free(&ctx, &l);
+    return count;
+}
+
+/* Each vessel has its columns in series.csv, no row comes between two steps, and the record ends at its limit. */
 START_TEST(a_folder_is_known_by_its_parts)
 {
 #define SHORT "run: {duration: 100, time_step: 0.1}\nice: {source: none}\n"
@@ -100,8 +112,10 @@ START_TEST(a_folder_is_known_by_its_parts)
         "vessels: [" VESSEL("a", "0") ", " VESSEL("b", "40") ", " VESSEL("c", "80") ", " VESSEL("d", "120") "]\n"};
     scene_disk d[2];
     scenario s;
+    double columns[2];
     for (int i = 0; i < 2; i++) {
         read_scenario(texts[i], &s);
+        columns[i] = columns_of(&s);
         d[i] = scene_disk_of(&s, 50);
         assert_bits(d[i].all, d[i].rows + d[i].frames + d[i].checkpoints + d[i].pictures);
         /* A pose is 18 bytes, and some sixteen floes touch each vessel. */
@@ -112,13 +126,17 @@ START_TEST(a_folder_is_known_by_its_parts)
         assert_relative(scene_disk_of(&s, 50).frames, 0.05e6, 1e-12);
         scenario_free(&ctx, &s);
     }
-    assert_relative(d[1].rows - d[0].rows, 3 * 1000 * 900, 1e-12);
+    /* Of carried vessels in ice 7 bytes a number. */
+    assert_relative(d[1].rows - d[0].rows, (columns[1] - columns[0]) * 1000 * 7, 1e-12);
     assert_bits(d[1].pictures, d[0].pictures);
-    assert_bits(d[1].checkpoints, 50 * 2100);
+    assert_bits(d[1].checkpoints, 2 * (15e3 + 1050 * 50));
     /* Forces of lines and thrusters stand in each frame. */
     read_scenario(SHORT OFTEN "vessel: {mode: free, thrusters: [{}, {}], mooring: {lines: [{count: 6}, {count: 4}]}}\n",
                   &s);
     assert_relative(scene_disk_of(&s, 0).frames, 101 * (104 + 18 + 32 * 12), 1e-12);
+    /* A free vessel in ice fills its columns, of ten lines and two thrusters too: 8.5 bytes a number. */
+    ck_assert(columns_of(&s) == columns[0] + 10 + 2 * 2);
+    assert_relative(scene_disk_of(&s, 50).rows - scene_disk_of(&s, 0).rows, 1000 * (columns[0] + 14) * 3.5, 1e-9);
     scenario_free(&ctx, &s);
 }
 END_TEST
