@@ -23,7 +23,8 @@ void import_place_name(const import_place *p, char out[IMPORT_NAME_SIZE]);
 typedef struct import_rings {
     polygon_list rings;
     ARRAY(import_place) place;
-    int32_t passed_over; /* features that say they are no ice */
+    int32_t passed_over; /* features that say they are no ice, */
+    int32_t walls;       /* and of these walls */
 } import_rings;
 void import_rings_free(context *ctx, import_rings *r);
 

@@ -20,7 +20,7 @@ typedef struct reading {
     int32_t feature, polygon; /* of the ring that is read, from 1; feature 0: not in one yet */
     int32_t features;
     double thickness;
-    bool is_ice;                /* the feature */
+    bool is_ice, is_wall;       /* the feature */
     bool told;                  /* of a property that is nearly one that is read */
     char key[IMPORT_NAME_SIZE]; /* for errors */
 } reading;
@@ -175,7 +175,7 @@ static fram_status read_polygons(reading *r, json_walk *w)
 /* ---- features ---- */
 
 /* What an export of Fram writes beside floes. */
-static bool is_no_ice(const char *kind) { return strcmp(kind, "vessel") == 0 || strcmp(kind, "wall") == 0; }
+static const char VESSEL_KIND[] = "vessel", WALL_KIND[] = "wall";
 
 static fram_status read_kind(reading *r, json_walk *w)
 {
@@ -185,8 +185,9 @@ static fram_status read_kind(reading *r, json_walk *w)
     if (status != FRAM_OK || kind != JSON_STRING)
         return status == FRAM_OK ? json_walk_skip(w, r->error) : status;
     status = json_walk_text(w, text, sizeof text, r->error);
+    r->is_wall = status == FRAM_OK && strcmp(text, WALL_KIND) == 0;
     if (status == FRAM_OK)
-        r->is_ice = !is_no_ice(text);
+        r->is_ice = !r->is_wall && strcmp(text, VESSEL_KIND) != 0;
     return status;
 }
 
@@ -287,6 +288,7 @@ static fram_status begin_feature(reading *r, const json_walk *w)
     r->polygon = 0;
     r->thickness = (double)NAN;
     r->is_ice = true;
+    r->is_wall = false;
     snprintf(r->key, sizeof r->key, "feature %d", (int)r->feature);
     return FRAM_OK;
 }
@@ -304,6 +306,7 @@ static fram_status read_feature(reading *r, json_walk begin, const object *o)
     fram_status status = read_properties(r, o->properties);
     if (status == FRAM_OK && !r->is_ice) {
         r->out->passed_over++;
+        r->out->walls += r->is_wall;
         return FRAM_OK;
     }
     if (status == FRAM_OK)

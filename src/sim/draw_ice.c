@@ -72,8 +72,14 @@ static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const
 
 /* ---- observed floes ---- */
 
-static void log_notes(context *ctx, const import_rings *rings, const import_field *field)
+static void log_notes(context *ctx, const scenario *s, const import_rings *rings, const import_field *field)
 {
+    if (rings->walls > 0 && s->domain.boundary != DOMAIN_WALLS)
+        log_write(ctx, LOG_WARNING,
+                  "%.200s: %d feature%s of kind wall %s no ice and %s passed over, and the domain has no walls: "
+                  "domain.boundary: walls makes it a basin",
+                  s->ice.file, (int)rings->walls, rings->walls == 1 ? "" : "s", rings->walls == 1 ? "is" : "are",
+                  rings->walls == 1 ? "was" : "were");
     if (rings->passed_over > 0)
         log_write(ctx, LOG_INFO, "%d features of kind vessel or wall are no ice and were passed over",
                   (int)rings->passed_over);
@@ -172,7 +178,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const ch
     fram_status status = import_field_make(ctx, w->scratch.plane, rings, &options, field, error);
     polygon_list_free(ctx, &rings->rings);
     if (status == FRAM_OK) {
-        log_notes(ctx, rings, field);
+        log_notes(ctx, s, rings, field);
         tell_thickness(ctx, s, field);
         status = report_import(ctx, s, w, path, keep_out, field, &out->report, error);
     }

@@ -626,5 +626,21 @@ cat >kinds.geojson <<'JSON'
 JSON
 expect 0 "$FRAM" field kinds.geojson --json
 same "$(value 'j["rings"], j["floes"], j["passed_over"]')" "2 2 2" "floes among other kinds"
+expect 0 "$FRAM" field kinds.geojson
+says "passed over: 2 features of kind vessel or wall, which are not ice" out
+# A run tells of walls that it has not; what it exported itself has its vessel and, of a basin, its walls.
+cat >kinds.yaml <<'YAML'
+run: {duration: 0.1, time_step: 0.05}
+vessel: {present: false}
+ice: {source: file, file: kinds.geojson}
+domain: {x_min: -20, x_max: 80, y_min: -20, y_max: 40, boundary: open}
+YAML
+walls="kinds.geojson: 1 feature of kind wall is no ice and was passed over, and the domain has no walls"
+expect 0 "$FRAM" run kinds.yaml -o kinds --force
+says "$walls: domain.boundary: walls makes it a basin" err
+expect 0 "$FRAM" field kinds.yaml
+says "$walls" err
+expect 0 "$FRAM" run kinds.yaml -o kinds --force --set domain.boundary=walls
+grep 'of kind wall' err && fail "a basin is told that it has no walls"
 
 finish "fram field: as it should be"
