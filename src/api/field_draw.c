@@ -28,8 +28,8 @@ fram_status fram_field_draw(const fram_field *f, const char *title, const char *
     for (int i = 0; i < a->floes; i++)
         shapes[i] = (plan_shape){.outline = polygon_list_get(&f->floes.outlines, i), .style = PLAN_FLOE};
     char caption[160];
-    snprintf(caption, sizeof caption, "%d floes, %.4g km\302\262, concentration %.1f %%, largest %.4g m across",
-             a->floes, a->area / 1e6, 100 * a->concentration, a->largest_diameter);
+    snprintf(caption, sizeof caption, "%d floe%s, %.4g km\302\262, concentration %.1f %%, largest %.4g m across",
+             a->floes, a->floes == 1 ? "" : "s", a->area / 1e6, 100 * a->concentration, a->largest_diameter);
     const plan_view view = {.window = f->window,
                             .title = title ? title : "Ice field",
                             .caption = caption,

@@ -133,10 +133,11 @@ bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE])
 
 /* --- outputs.c --- */
 
-/* The kinds of pictures, pages and videos.  A name with another ending is refused. */
+/* The kinds of pictures, pages, videos and tables.  A name with another ending is refused. */
 #define PICTURE_ENDINGS "png svg"
 #define PAGE_ENDINGS "html htm"
 #define VIDEO_ENDINGS "mp4"
+#define TABLE_ENDINGS "csv"
 /* In place of endings: a folder of files. */
 #define FOLDER_OUTPUT "/"
 

@@ -23,8 +23,9 @@ typedef struct bench_words {
 
 static void print_text(const fram_bench_result *r)
 {
-    fprintf(stderr, "%d floes, %lld steps: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n",
-            r->floes, (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
+    fprintf(stderr, "%d floe%s, %lld step%s: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n",
+            r->floes, plural(r->floes), (long long)r->steps, plural(r->steps), r->ms_per_step_median, r->ms_wall_median,
+            r->us_per_floe_step);
     fprintf(stderr, "collision %.3f ms, solver and integration %.3f ms, forces %.3f ms; real-time factor %.2f\n",
             r->collide_ms, r->solve_ms, r->forces_ms, r->real_time_factor);
     fprintf(stderr, "mean step %.3f ms CPU, 99 %% within %.3f, 99.9 %% within %.3f, longest %.3f (wall %.3f)\n",
@@ -179,7 +180,7 @@ int command_bench(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     code = check_bench_words(&w, scene);
-    const command_files files = {.inputs = {scene}, .outputs = {{"--dump", w.scene.dump, "csv"}}};
+    const command_files files = {.inputs = {scene}, .outputs = {{"--dump", w.scene.dump, TABLE_ENDINGS}}};
     if (code < 0)
         code = refuse_outputs(&w.common, &files);
     if (code >= 0)

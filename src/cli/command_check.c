@@ -55,8 +55,8 @@ static void tell_check(const common_options *common, const fram_scenario *scenar
         fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n", stderr);
         return;
     }
-    fprintf(stderr, "built: %d floes among %d bodies\ntime: judged by its first steps a run takes ", made->floes,
-            made->bodies);
+    fprintf(stderr, "built: %d floe%s among %d %s\ntime: judged by its first steps a run takes ", made->floes,
+            plural(made->floes), made->bodies, made->bodies == 1 ? "body" : "bodies");
     print_duration(made->seconds);
     fputs(" here, more where ice gathers or breaks later\n", stderr);
 }

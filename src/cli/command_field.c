@@ -102,7 +102,7 @@ static command_files files_of(const field_words *w)
     return (command_files){.inputs = {w->path},
                            .outputs = {{"--draw", w->draw, PICTURE_ENDINGS},
                                        {"--cover", w->cover, PICTURE_ENDINGS},
-                                       {"--table", w->table, "csv"},
+                                       {"--table", w->table, TABLE_ENDINGS},
                                        {"--output", w->output, "geojson json"}}};
 }
 

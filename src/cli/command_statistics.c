@@ -427,7 +427,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     if (code < 0)
         code = take_numbers(&common, "--slope", &slopes, d.slope, FRAM_SLOPES, &d.slopes);
     if (code < 0)
-        code = refuse_over_source(&common, &d.source, (output_file){"--output", d.cycles, "csv"});
+        code = refuse_over_source(&common, &d.source, (output_file){"--output", d.cycles, TABLE_ENDINGS});
     fram_context *context = NULL;
     work_view work;
     if (code < 0)

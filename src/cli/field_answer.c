@@ -78,10 +78,11 @@ static void print_overlaps(const fram_field_summary *s)
 static void print_summary(const field_words *w, const fram_field *field, const fram_field_summary *s)
 {
     if (w->scenario)
-        tell(stdout, "%s: %d floes\n", field_title(w), s->floes);
+        tell(stdout, "%s: %d floe%s\n", field_title(w), s->floes, plural(s->floes));
     else
-        tell(stdout, "%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
-    printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
+        tell(stdout, "%s: %d floe%s of %d ring%s\n", field_title(w), s->floes, plural(s->floes), s->rings,
+             plural(s->rings));
+    printf("  %d vertices, %d floe%s concave\n", s->vertices, s->concave, plural(s->concave));
     print_box(s);
     printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration, whole_of(w, field));
     printf("  floes of %.6g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
@@ -94,7 +95,7 @@ static void print_summary(const field_words *w, const fram_field *field, const f
     if (!w->scenario || s->dropped > 0 || s->repaired > 0)
         printf("  left out: %d, repairs: %d\n", s->dropped, s->repaired);
     if (s->passed_over > 0)
-        printf("  passed over: %d features of kind vessel or wall, which are not ice\n", s->passed_over);
+        printf("  passed over: %d feature%s of kind vessel or wall, not ice\n", s->passed_over, plural(s->passed_over));
 }
 
 static void print_windows(const field_words *w, const fram_field *field)
@@ -110,8 +111,8 @@ static void print_population(const fram_field *field, int number)
     fram_error error;
     if (fram_field_population_get(field, number, &p, &error) != FRAM_OK)
         return;
-    printf("  population %d: %d floes, %.6g m2; distance from its size law %.2g (Kolmogorov and Smirnov)\n", number + 1,
-           p.floes, p.area, p.size_distance);
+    printf("  population %d: %d floe%s, %.6g m2; distance from its size law %.2g (Kolmogorov and Smirnov)\n",
+           number + 1, p.floes, plural(p.floes), p.area, p.size_distance);
     printf("    diameter of equal area   floes   the law\n");
     for (int i = 0; i < FRAM_FIELD_BINS; i++)
         if (p.bin[i] > 0 || p.expected[i] >= 0.5)
@@ -134,8 +135,8 @@ static void print_making(const fram_field *field)
     for (int i = 0; i < m.populations; i++)
         print_population(field, i);
     if (m.rounds > 0)
-        printf("  moved rigidly: areas changed by at most %.1g of themselves, numbers of vertices of %d floes\n",
-               m.area_change, m.vertex_changes);
+        printf("  moved rigidly: areas changed by at most %.1g of themselves, numbers of vertices of %d floe%s\n",
+               m.area_change, m.vertex_changes, plural(m.vertex_changes));
 }
 
 /* How many are shown with those that were before. */

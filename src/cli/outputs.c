@@ -59,13 +59,14 @@ static bool has_no_kind(const char *path)
     return fram_path_is_stream(path) || (stat(path, &about) == 0 && S_ISDIR(about.st_mode));
 }
 
-/* Pictures, pages and videos are of the kind that their name tells.  What the name was expected to be, NULL where it
-   is. */
+/* Pictures, pages, videos and tables are of the kind that their name tells.  What the name was expected to be, NULL
+   where it is. */
 static const char *expected_name(const output_file *o)
 {
     static const char *const kinds[][2] = {{PICTURE_ENDINGS, "expected a picture's name that ends in .png or .svg"},
                                            {PAGE_ENDINGS, "expected a page's name that ends in .html or .htm"},
-                                           {VIDEO_ENDINGS, "expected a video's name that ends in .mp4"}};
+                                           {VIDEO_ENDINGS, "expected a video's name that ends in .mp4"},
+                                           {TABLE_ENDINGS, "expected a table's name that ends in .csv"}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds && o->endings && !has_no_kind(o->path); i++)
         if (strcmp(o->endings, kinds[i][0]) == 0 && !has_ending(o->path, o->endings))
             return kinds[i][1];

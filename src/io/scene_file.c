@@ -19,7 +19,9 @@ typedef struct scene_reader {
     int line;
     char *rest; /* what stands after the last word */
     scene_text *scene;
-    unsigned seen; /* bit i: statement i of the table was met */
+    unsigned seen;  /* bit i: statement i of the table was met */
+    double densest; /* of its floes [kg/m3] */
+    int densest_line;
     fram_error *error;
 } scene_reader;
 
@@ -185,6 +187,10 @@ static fram_status read_floe(scene_reader *r, const char *key)
             return error_memory(r->error);
     }
     status = check_outline(r, key, (polygon){s->vertices.data + floe.first, floe.count});
+    if (status == FRAM_OK && floe.density > r->densest) {
+        r->densest = floe.density;
+        r->densest_line = r->line;
+    }
     if (status == FRAM_OK && !array_push(r->ctx, &s->floes, floe))
         return error_memory(r->error);
     return status;
@@ -255,6 +261,11 @@ static fram_status read_statements(scene_reader *r, char *text, size_t size)
         return refuse_line(r, "domain", "the scene has no walls: a 'domain' statement is missing");
     if (r->scene->floes.count == 0)
         return refuse_line(r, "floe", "the scene has no floes");
+    /* As of a scenario (model/scenario_check.c). */
+    if (!(r->densest < r->scene->water_density))
+        return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->densest_line, "floe",
+                         "expected a density of less than that of the water, %g kg/m3, so that ice floats, found %g",
+                         r->scene->water_density, r->densest);
     return FRAM_OK;
 }
 

@@ -9,6 +9,8 @@ typedef struct velocity_rows {
     double_array column[VELOCITY_COLUMNS];
 } velocity_rows;
 
+static const char depth_name[] = "depth[m]";
+
 /* As environment.wind_speed: more is a mistake in the units. */
 enum { SPEED_MOST = 200 };
 
@@ -52,11 +54,11 @@ static fram_status check_rows(context *ctx, const velocity_rows *rows, const cha
     return FRAM_OK;
 }
 
+/* path: becomes where the file is. */
 static fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file, const char *first,
-                                      velocity_rows *rows, fram_error *error)
+                                      char path[SCENARIO_PATH_ROOM], velocity_rows *rows, fram_error *error)
 {
     const char *const names[VELOCITY_COLUMNS] = {first, "x[m/s]", "y[m/s]"};
-    char path[SCENARIO_PATH_ROOM];
     fram_status status = scenario_file_path(s, NULL, file, path, error);
     if (status == FRAM_OK)
         status = csv_read(ctx, path, names, VELOCITY_COLUMNS, rows->column, error);
@@ -69,7 +71,8 @@ fram_status velocity_file_read(context *ctx, const scenario *s, const char *file
     if (!*file)
         return FRAM_OK;
     velocity_rows rows = {0};
-    fram_status status = velocity_rows_read(ctx, s, file, "time[s]", &rows, error);
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = velocity_rows_read(ctx, s, file, "time[s]", path, &rows, error);
     if (status == FRAM_OK) {
         int32_t count = rows.column[VELOCITY_AT].count;
         out->time = memory_array(ctx, (size_t)count, sizeof *out->time);
@@ -85,18 +88,29 @@ fram_status velocity_file_read(context *ctx, const scenario *s, const char *file
     return status;
 }
 
+/* Rising depths, of which there is one at least. */
+static fram_status check_depths(context *ctx, const char *path, const double_array *depth, fram_error *error)
+{
+    if (depth->data[0] < 0)
+        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, 0), depth_name,
+                         "expected a depth below the surface, 0 or more, found %g", depth->data[0]);
+    if (depth->count > CURRENT_LEVELS)
+        return error_set(error, FRAM_ERROR_INPUT, path, csv_line_of(ctx, path, CURRENT_LEVELS), depth_name,
+                         "expected at most %d depths, found %d", (int)CURRENT_LEVELS, (int)depth->count);
+    return FRAM_OK;
+}
+
 fram_status velocity_profile_read(context *ctx, const scenario *s, const char *file, current_profile *out,
                                   fram_error *error)
 {
     if (!*file)
         return FRAM_OK;
     velocity_rows rows = {0};
-    fram_status status = velocity_rows_read(ctx, s, file, "depth[m]", &rows, error);
+    char path[SCENARIO_PATH_ROOM];
+    fram_status status = velocity_rows_read(ctx, s, file, depth_name, path, &rows, error);
     int32_t count = rows.column[VELOCITY_AT].count;
-    if (status == FRAM_OK && (count < 1 || count > CURRENT_LEVELS || rows.column[VELOCITY_AT].data[0] < 0))
-        status = error_set(error, FRAM_ERROR_INPUT, file, 0, "depth[m]",
-                           "expected 1 to %d depths, from 0 on, found %d, from %g on", (int)CURRENT_LEVELS, (int)count,
-                           count < 1 ? 0 : rows.column[VELOCITY_AT].data[0]);
+    if (status == FRAM_OK)
+        status = check_depths(ctx, path, &rows.column[VELOCITY_AT], error);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
         out->depth[i] = rows.column[VELOCITY_AT].data[i];
         out->velocity[i] = vec3_make(rows.column[VELOCITY_X].data[i], rows.column[VELOCITY_Y].data[i], 0);

@@ -201,8 +201,8 @@ static void log_populations(context *ctx, const field_population_report *parts, 
 {
     for (int32_t i = 0; i < count; i++)
         log_write(ctx, LOG_INFO,
-                  "population %d: %d floes, %.6g m2; distance of Kolmogorov and Smirnov from its law %.2g", (int)i + 1,
-                  (int)parts[i].floes, parts[i].area, parts[i].size_distance);
+                  "population %d: %d floe%s, %.6g m2; distance of Kolmogorov and Smirnov from its law %.2g", (int)i + 1,
+                  (int)parts[i].floes, parts[i].floes == 1 ? "" : "s", parts[i].area, parts[i].size_distance);
     log_write(ctx, LOG_INFO, "packed to %.4f in %d rounds; largest overlap %.2g m", report->field.concentration,
               (int)report->rounds, report->field.largest_overlap);
 }

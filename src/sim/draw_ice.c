@@ -106,9 +106,10 @@ static void tell_thickness(context *ctx, const scenario *s, const import_field *
     }
     if (beyond > 0)
         log_write(ctx, LOG_WARNING,
-                  "%.200s: the property thickness of %d floes, the first %.6g m, is outside of %s to %s, what floes "
+                  "%.200s: the property thickness of %d floe%s, the first %.6g m, is outside of %s to %s, what floes "
                   "measure: give metres",
-                  s->ice.file, (int)beyond, field->thickness.data[first], range.least.text, range.most.text);
+                  s->ice.file, (int)beyond, beyond == 1 ? "" : "s", field->thickness.data[first], range.least.text,
+                  range.most.text);
 }
 
 /* What became of the file: counts of what was left out and mended, overlaps, concentration. */
@@ -133,8 +134,9 @@ static fram_status report_import(context *ctx, const scenario *s, world *w, cons
     int32_t dropped = 0;
     for (int32_t i = 0; i < field->notes.count; i++)
         dropped += field->notes.data[i].dropped;
-    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mendings",
-              (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
+    log_write(ctx, LOG_INFO, "%d floe%s from %.200s, %d of them concave; %d rings or pieces left out, %d mendings",
+              (int)m.floes, m.floes == 1 ? "" : "s", s->ice.file, (int)m.concave, (int)dropped,
+              (int)(field->notes.count - dropped));
     /* Within the skin lies what contacts and rounding leave of floes that a run wrote. */
     if (m.overlap_width > s->run.solver.contact_skin)
         log_write(

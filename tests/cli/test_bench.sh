@@ -65,6 +65,7 @@ refuses() {
 refuses "SCENARIO"
 refuses "not both" scenes/demo.yaml --scene "$scene"
 refuses "--dump" scenes/demo.yaml --dump x.csv
+refuses "--dump: expected a table's name that ends in .csv" --scene "$scene" --dump "$scratch/poses.txt"
 refuses "--exact-water" scenes/demo.yaml --exact-water
 refuses "is for scenarios" --scene "$scene" --set a=b
 refuses "solver" --scene "$scene" --solver best

@@ -116,7 +116,7 @@ same "$(value 'j["made"]["asked_concentration"]')" None "a concentration is aske
 sed 's/"thickness":[0-9.]*/"thickness":7.2/g' packed.geojson | sed '0,/"thickness":[0-9.]*/s//"thickness":60/' \
     >thick.geojson
 expect 0 "$FRAM" field file.yaml --set ice.file=thick.geojson --set run.scale=36
-says 'thick.geojson: the property thickness of 1 floes, the first 60 m, is outside of 0.02 to 7.2, what floes' err
+says 'thick.geojson: the property thickness of 1 floe, the first 60 m, is outside of 0.02 to 7.2, what floes' err
 expect 0 "$FRAM" field packed.yaml --threads 4 -o again.geojson
 cmp -s packed.geojson again.geojson || fail "the field depends on the number of threads"
 says "moved rigidly" out
@@ -398,7 +398,8 @@ PY
 printf '%s\n' '' '60 0' '66 0' '66 6' '60 6' >>covered.txt
 expect 0 "$FRAM" check --build covered.yaml
 says "warning: 2 of 3 floes left out at the start, 0 of them concave: they are in the way of a vessel" err
-says "built: 1 floes" err
+says "built: 1 floe among" err
+grep "1 floes\|1 bodies" err && fail "one is told as several"
 for x in 60 70 80; do printf '%s\n' '' "$x 20" "$((x + 6)) 20" "$((x + 6)) 26" "$x 26" >>covered.txt; done
 expect 0 "$FRAM" check --build covered.yaml
 says "2 of 6 floes left out at the start" err
@@ -418,6 +419,9 @@ ln -s keep.geojson link.geojson
 expect 2 "$FRAM" field keep.geojson --bad drop -o link.geojson
 says "--output" err
 expect 2 "$FRAM" field keep.geojson --bad drop --draw one.svg --table one.svg
+expect 2 "$FRAM" field packed.yaml --table sizes.txt
+says "--table: expected a table's name that ends in .csv" err
+[ ! -e sizes.txt ] || fail "a table of another ending is written"
 says "--table" err
 cmp -s floes.geojson keep.geojson || fail "the input was written over"
 expect 2 "$FRAM" field keep.geojson --cell 5
@@ -627,7 +631,7 @@ JSON
 expect 0 "$FRAM" field kinds.geojson --json
 same "$(value 'j["rings"], j["floes"], j["passed_over"]')" "2 2 2" "floes among other kinds"
 expect 0 "$FRAM" field kinds.geojson
-says "passed over: 2 features of kind vessel or wall, which are not ice" out
+says "passed over: 2 features of kind vessel or wall, not ice" out
 # A run tells of walls that it has not; what it exported itself has its vessel and, of a basin, its walls.
 cat >kinds.yaml <<'YAML'
 run: {duration: 0.1, time_step: 0.05}

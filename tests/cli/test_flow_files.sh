@@ -94,4 +94,13 @@ sed -i 's/current_file: five/current_profile_file: deep/' large.yaml
 same "$(at_scale)" 0 "speeds over depth at a scale of 200"
 sed -i 's/scale: 200/scale: 45/' large.yaml
 same "$(at_scale)" 1 "speeds at a scale of 45, where 4.9 m/s of current and 61 of wind are usual"
+# A depth that is none is told at its line, and one too many at its own.
+printf 'depth [m],x [m/s],y [m/s]\n-5,1,0\n10,1,0\n' >up.csv
+{ echo 'depth,x,y'; for d in $(seq 0 16); do echo "$d,1,0"; done; } >many.csv
+for words in "up.csv:2: depth[m]: expected a depth below the surface, 0 or more, found -5" \
+    "many.csv:18: depth[m]: expected at most 16 depths, found 17"; do
+    sed "s/current_profile_file: deep/current_profile_file: ${words%%.*}/" large.yaml >depth.yaml
+    expect 2 "$FRAM" check depth.yaml
+    says "$words" err
+done
 finish "currents of files are told as those of keys"

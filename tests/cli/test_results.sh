@@ -182,6 +182,8 @@ for _ in 1 2; do
     expect 0 "$FRAM" report run -o /dev/null -q
 done
 # The command's own streams are gone on with, wherever the shell leads them: into a file too.
+expect 2 "$FRAM" fatigue run -o cycles.txt
+says "--output: expected a table's name that ends in .csv" err
 expect 0 "$FRAM" fatigue run -o cycles.csv
 cat cycles.csv out >wanted
 "$FRAM" fatigue run -o /dev/stdout >found

@@ -104,6 +104,22 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
 }
 END_TEST
 
+/* Wherever the water's density stands; 1025 kg/m3 where it does not. */
+START_TEST(ice_floats)
+{
+    ASSERT_REFUSED(BASIN "floe 1 1025 0 0 4 -5 -5 5 -5 5 5 -5 5\n" SQUARE, 3, "found 1025");
+    ASSERT_REFUSED(BASIN SQUARE "floe 1 1000 0 0 4 -5 -5 5 -5 5 5 -5 5\nwater_density 990\n", 4,
+                   "less than that of the water, 990 kg/m3, so that ice floats, found 1000");
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    scene_text s;
+    char text[] = BASIN "floe 1 1000 0 0 4 -5 -5 5 -5 5 5 -5 5\n";
+    assert_ok(scene_text_parse(&ctx, "text", text, strlen(text), &s, &error), error);
+    scene_text_free(&ctx, &s);
+}
+END_TEST
+
 START_TEST(floes_must_be_convex_and_about_their_centre)
 {
     ASSERT_REFUSED(BASIN "floe 1 910 0 0 2 0 0 1 1\n", 3, "expected 3 to 16");
@@ -150,5 +166,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("scene_file", every_statement_is_read, left_out_statements_have_the_peers_defaults,
-          what_is_wrong_is_refused_at_its_line, floes_must_be_convex_and_about_their_centre,
+          what_is_wrong_is_refused_at_its_line, floes_must_be_convex_and_about_their_centre, ice_floats,
           files_are_read_and_missing_ones_named, memory_runs_out)
