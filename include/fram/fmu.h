@@ -27,8 +27,8 @@ typedef struct fram_fmu_result {
 
 FRAM_API void fram_fmu_default(fram_fmu_definition *definition, size_t size);
 #define fram_fmu_default(definition) fram_fmu_default((definition), sizeof *(definition))
-/* Write the unit; the world is made once for that.  FRAM_ERROR_USAGE, with the key "input" or "output", for a name that
-   the scenario does not have.  result may be NULL. */
+/* Write the unit; the world is made once for that.  FRAM_ERROR_USAGE, with the key "inputs" or "outputs", for a name
+   that the scenario does not have.  result may be NULL. */
 FRAM_API fram_status fram_fmu(const fram_scenario *scenario, const fram_fmu_definition *definition,
                               fram_fmu_result *result, fram_error *error, size_t size);
 #define fram_fmu(...) fram_fmu(__VA_ARGS__, sizeof(fram_fmu_result))

@@ -49,8 +49,8 @@ static int write_unit(const common_options *common, const command_files *files, 
     if (code >= 0)
         return code;
     if (status != FRAM_OK) {
-        bool named = status == FRAM_ERROR_USAGE && strcmp(error.key, "input") == 0;
-        bool chosen = status == FRAM_ERROR_USAGE && strcmp(error.key, "output") == 0 && !error.file[0];
+        bool named = status == FRAM_ERROR_USAGE && strcmp(error.key, "inputs") == 0;
+        bool chosen = status == FRAM_ERROR_USAGE && strcmp(error.key, "outputs") == 0;
         if (named || chosen)
             snprintf(error.key, sizeof error.key, "%s", named ? "--in" : "--out");
         return answer_error(common, &error);

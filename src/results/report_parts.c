@@ -6,14 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-void report_number(double value, char out[32])
-{
-    double size = fabs(value);
-    if (size >= 100 && size < 1e6)
-        snprintf(out, 32, "%.0f", size < 1000 ? value : floor(value / 10 + 0.5) * 10);
-    else
-        snprintf(out, 32, "%.3g", value);
-}
+void report_number(double value, char out[32]) { snprintf(out, 32, "%s", plain_text_of(value, VALUE_DIGITS).text); }
 
 fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error)
 {

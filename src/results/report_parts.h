@@ -48,7 +48,9 @@ fram_status report_way(report *r, fram_error *error);
 void report_statistics_heads(report *r, const char *first);
 void report_statistics(report *r, const char *channel, const char *name, double factor);
 
-/* A number as a person writes it: three digits, all those before the point, no exponent up to 1e6. */
+/* A number as a person writes it: three digits, and all those before the point: one value reads the same in its tile
+   and in the verdict, and tables of whole numbers have it too. */
+enum { VALUE_DIGITS = 3 };
 void report_number(double value, char out[32]);
 
 /* The sections, in files of their own. */

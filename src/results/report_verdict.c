@@ -190,6 +190,15 @@ static void judge_window(verdict *v, const char *name, double first, double span
                      name, scenario_averaging_window(s), s->run.transient);
 }
 
+/* What is about so much: three digits of four before the point, and an exponent from a million on. */
+static void rough_number(double value, char out[32])
+{
+    if (value < 1e6)
+        report_number(value < 1000 ? value : floor(value / 10 + 0.5) * 10, out);
+    else
+        snprintf(out, 32, "%.3g", value);
+}
+
 static fram_status judge_load(verdict *v, fram_error *error)
 {
     const report *r = v->r;
@@ -214,7 +223,7 @@ static fram_status judge_load(verdict *v, fram_error *error)
     }
     double spread = s.mean > 0 ? s.deviation / s.mean : HUGE_VAL, part = mean_within(spread, d.independent);
     bool enough = part <= ENOUGH && d.independent >= VALUES_ENOUGH;
-    report_number(span * values_needed(spread) / d.independent, needed);
+    rough_number(span * values_needed(spread) / d.independent, needed);
     char aim[48], worth[LOAD_WORTH_SIZE];
     load_distribution_tell(&d, false, worth);
     snprintf(aim, sizeof aim, part > ENOUGH ? "a mean within %.0f %%" : "%.0f independent values",

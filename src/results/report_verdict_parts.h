@@ -28,7 +28,7 @@ void verdict_find(verdict *v, verdict_grade grade, const char *remedy, const cha
 /* "vessel tanker: " before what is said of one of several. */
 const char *verdict_whose(const report *r, char out[48]);
 /* Of a force that is told: "278 kN". */
-enum { VERDICT_DIGITS = 3 };
+enum { VERDICT_DIGITS = VALUE_DIGITS };
 
 /* How the vessel that is reported kept its station. */
 void verdict_station(verdict *v);

@@ -59,7 +59,7 @@ static fram_status check_names(const packer *p, bool inputs, fram_error *error)
         for (int32_t i = 0; i < rows && !found; i++)
             found = fnmatch(patterns[k], inputs ? p->controls.data[i].name : p->columns.columns.data[i].name, 0) == 0;
         if (!found)
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, inputs ? "input" : "output",
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, inputs ? "inputs" : "outputs",
                              "the scenario has no %s \"%s\"", inputs ? "input" : "channel", patterns[k]);
     }
     return FRAM_OK;

@@ -141,9 +141,20 @@ fram_status study_time(const study_source *r, const yaml_node *node, double lo, 
                         study_found(r, node).text);
 }
 
+/* From the top of the study: "vary.latin.ranges".  out: what it holds already goes before. */
+static void add_path(const study_source *r, const yaml_node *node, size_t size, char *out)
+{
+    if (node->parent >= 0)
+        add_path(r, &r->tree->nodes.data[node->parent], size, out);
+    size_t used = strlen(out);
+    if (node->key >= 0)
+        snprintf(out + used, size - used, "%s%.60s", used > 0 ? "." : "", yaml_text(r->tree, node->key));
+}
+
 fram_status study_unknown(const study_source *r, const yaml_node *node, const char *const *names, size_t count)
 {
     const char *near = word_nearest(names, count, study_key(r, node));
+    char path[sizeof r->error->key] = "";
     char list[300] = "";
     size_t used = 0;
     for (size_t i = 0; i < count && used + WORD_ROOM < sizeof list; i++)
@@ -152,8 +163,9 @@ fram_status study_unknown(const study_source *r, const yaml_node *node, const ch
                                  : i + 1 == count ? " or "
                                                   : ", ",
                                  names[i]);
-    return study_refuse(r, node, "unknown key: expected %s%s%s%s", list, near ? "; did you mean " : "",
-                        near ? near : "", near ? "?" : "");
+    add_path(r, node, sizeof path, path);
+    return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, node->line, path, "unknown key: expected %s%s%s%s", list,
+                     near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
 }
 
 /* ---- keys and values ---- */
@@ -424,5 +436,13 @@ fram_status study_conditions_read(const study_source *r, const yaml_node *node)
         if (strcmp(study_key(r, way), ways[i].name) == 0)
             return ways[i].read(r, way);
     static const char *const names[] = {"grid", "list", "table", "latin", "sobol", "morris"};
+    char path[sizeof r->error->key] = "";
+    add_path(r, way, sizeof path, path);
+    /* Sections and keys of a scenario have a point between them. */
+    if (strchr(study_key(r, way), '.'))
+        return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, way->line, path,
+                         "expected how it varies, grid, list, table, latin, sobol or morris, with the key below it: "
+                         "write vary: {grid: {%.60s: [...]}}",
+                         study_key(r, way));
     return study_unknown(r, way, names, sizeof names / sizeof *names);
 }

@@ -75,12 +75,12 @@ START_TEST(units_are_written_and_mistakes_refused)
     d.input_count = 1;
     d.inputs = none;
     assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "no_such");
-    ck_assert_str_eq(e.key, "input");
+    ck_assert_str_eq(e.key, "inputs");
     d.inputs = NULL;
     d.input_count = 0;
     d.outputs = none;
     assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "no_such");
-    ck_assert_str_eq(e.key, "output");
+    ck_assert_str_eq(e.key, "outputs");
     d.outputs = outputs;
     static const int versions[] = {0, 1, 4, -2};
     for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {

@@ -727,8 +727,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("vary: {sobol: {count: 5, keys: {vessel.speed: [1, 2]}}}\n", "study.yaml:2: count", "10")
         self.refused("vary: {morris: {count: 5, levels: 3, keys: {vessel.speed: [1, 2]}}}\n", "levels", "even")
         self.refused("vary: {morris: {count: 5, keys: {vessel.speed: [1, 1]}}}\n", "vessel.speed", "wider")
-        self.refused("vary: {morrris: {count: 5}}\n", "morrris", "did you mean morris?")
-        self.refused("extremes: {methd: gev}\n", "study.yaml:2: methd", "did you mean method?")
+        self.refused("vary: {morrris: {count: 5}}\n", "study.yaml:2: vary.morrris", "did you mean morris?")
+        self.refused("extremes: {methd: gev}\n", "study.yaml:2: extremes.methd", "did you mean method?")
         self.refused("extremes: {method: pot}\n", "study.yaml:2: method", "keep: series")
         self.refused("extremes: {duration: 3x}\n", "duration", "3x")
         self.refused("extremes: {hours: [1, 2], annual: [0.01]}\n", "hours", "1 conditions, found 2")
@@ -749,7 +749,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("set:\n  run.duration: -1\n", "study.yaml:3: run.duration")
         for wrong, right in (("extrem_within", "extreme_within"), ("max_within", "largest_within"),
                              ("min", "least"), ("maximum", "most"), ("mean_witin", "mean_within")):
-            self.refused(f"seeds: {{{wrong}: 2}}\n", f"study.yaml:2: {wrong}", f"did you mean {right}?")
+            self.refused(f"seeds: {{{wrong}: 2}}\n", f"study.yaml:2: seeds.{wrong}", f"did you mean {right}?")
         # Not taken for the key before the sign, with a value that begins behind it.
         self.refused("set: {title=a: b}\n", "study.yaml:2: title=a: expected a key")
         self.refused("vary: {grid: {title=a: [b, c]}}\n", "study.yaml:2: title=a: expected a key")

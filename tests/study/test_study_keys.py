@@ -43,6 +43,11 @@ class KeysTest(StudyTest):
             self.refused(f"vary:\n  {way}ice.thicknes: [20.2, 20.8]}}}}\n", "study.yaml:3: ice.thicknes: ",
                          "did you mean thickness?")
 
+    def test_unknown_keys_are_told_from_the_top(self):
+        self.refused("vary: {ice.thickness: [0.4, 1]}\n", "study.yaml:2: vary.ice.thickness",
+                     "write vary: {grid: {ice.thickness: [...]}}")
+        self.refused("vary: {latin: {cuont: 5}}\n", "study.yaml:2: vary.latin.cuont", "did you mean count?")
+
     def test_files_that_are_not_there_are_told_where_they_are_named(self):
         self.refused("vary:\n  table: none.csv\n", "study.yaml:3: table: ", "none.csv: cannot")
         path = self.at / "study.yaml"
