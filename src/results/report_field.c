@@ -227,6 +227,10 @@ static void event_table_of(report *r, load_unit unit)
         html_row_end(&r->page);
     }
     html_table_end(&r->page);
+    html_paragraph(&r->page, "The load is along the floe's own vertical%s.",
+                   r->d.s.ice.fracture.splitting == SPLITTING_TOUGHNESS
+                       ? "; of floes that split by their toughness it is that in their plane"
+                       : "");
     if (rows > shown)
         html_paragraph(&r->page, "The first %d of %d events%s", (int)shown, (int)rows,
                        run_fractures_untold(&r->d) > 0 ? " that are in fractures.csv." : "; all are in fractures.csv.");

@@ -353,4 +353,9 @@ grep -q "1 floes" err && fail "one floe is told in the plural: $(cat err)"
 printf '0.01,2,1,2,5%s\n' "$(printf ',0%.0s' {1..19})" >>alone/fractures.csv
 expect 0 "$FRAM" report alone -q
 says "1 floe broke: 1 in bending" alone/report.html
+# Which load is told of a break: of floes that split by toughness another one.
+says "The load is along the floe's own vertical." alone/report.html
+sed -i 's/splitting: length/splitting: toughness/' alone/scenario.yaml
+expect 0 "$FRAM" report alone -q
+says "vertical; of floes that split by their toughness it is that in their plane." alone/report.html
 finish "a report begins with its verdict"
