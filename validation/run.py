@@ -94,8 +94,9 @@ def index(book, names):
              "nothing has changed since, no more. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md). The last column names "
              "the code that has changed since a page was made: its numbers may have changed with it "
-             "(`make validate-status` compares with the present code of contacts, solver, fracture, water and "
-             "geometry; scenes, defaults and what calls them are not compared).", "",
+             "(`make validate-status` compares with the present code of contacts, solver, fracture, water, "
+             "geometry, and of the sealing of cracks where a case reads such hulls; scenes, defaults and what calls "
+             "them are not compared).", "",
              f"{agree} of {len(verdicts)} cases agree. {all_cases(verdicts)}"
              + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
@@ -107,7 +108,7 @@ def index(book, names):
         for name, v in sorted(of_rung.items(), key=lambda item: item[1]["title"]):
             lines.append(f"| [{v['title']}]({name}.md) | {'agrees' if v['good'] else '**does not agree**'} | "
                          f"{v['checks'] - len(v['failed'])} of {v['checks']} | {v['made']} | "
-                         f"{', '.join(status.changed(v, now)) or 'none'} |")
+                         f"{', '.join(status.changed(name, v, now)) or 'none'} |")
         lines.append("")
     failed = [(n, what) for n, v in verdicts.items() for what in v["failed"]]
     if failed:

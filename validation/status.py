@@ -23,14 +23,20 @@ CONTACT = ("src/dynamics/broad*", "src/dynamics/narrow*", "src/dynamics/prism*",
            "src/dynamics/separation*", "src/dynamics/collision*", "src/dynamics/contact.*",
            "src/ice/crushing*", "src/ice/patch*")
 FIELDS = ("src/ice/field*", "src/ice/packing*", "src/ice/import*", "src/ice/feeding*")
+# Acts on meshes with open edges alone, as they are read.
+SEALING = ("src/geometry/mesh_seal.*",)
 # Part -> its files, and those of them that belong to another part.
 PARTS = {
     "solver": (("src/dynamics/*",), CONTACT),
     "contact": (CONTACT, ()),
     "fracture": (("src/ice/*",), CONTACT + FIELDS),
     "water": (("src/fluid/*",), ()),
-    "geometry": (("src/geometry/*", "src/bodies/*"), ()),
+    "geometry": (("src/geometry/*", "src/bodies/*"), SEALING),
+    "sealing": (SEALING, ()),
 }
+# Part -> the pages that go by it, where not all do.  Hulls that other cases read from files are made by them, closed
+# and with shared corners; hydrostatics reads panels with cracks.
+READ_BY = {"sealing": ("hydrostatics",)}
 ROOMS = sorted({name.split("/")[1] for names, _ in PARTS.values() for name in names})
 COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|("(?:\\.|[^"\\\n])*")', re.S)
 # Blocks without directives of their own, and statements that end with the line.
@@ -94,10 +100,10 @@ def adopt():
     BOOK.write_text(json.dumps(book, indent=1, sort_keys=True) + "\n")
 
 
-def changed(verdict, now):
+def changed(name, verdict, now):
     """Parts whose code is not that which a page was made on."""
     was = verdict.get("code", {})
-    return [part for part in PARTS if was.get(part) != now[part]]
+    return [part for part in PARTS if name in READ_BY.get(part, (name,)) and was.get(part) != now[part]]
 
 
 def main():
@@ -110,7 +116,7 @@ def main():
     now, cases = of_checkout(), json.loads(BOOK.read_text())["cases"]
     older = {}
     for name, verdict in cases.items():
-        other = changed(verdict, now)
+        other = changed(name, verdict, now)
         if other:
             older.setdefault((verdict["made"], ", ".join(other)), []).append(name)
     fresh = len(cases) - sum(map(len, older.values()))

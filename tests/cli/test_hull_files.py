@@ -8,6 +8,7 @@ Every file is made here, with shapes whose volume, centre of buoyancy and water 
 import json
 import math
 import os
+import random
 import resource
 import struct
 import subprocess
@@ -143,6 +144,21 @@ def half_box_panels(length, beam, draught, n, m, crack=0):
     p += [[(l, 0, -draught), (l, b, -draught), (l, b, 0), (l, 0, 0)]]
     p += [[(-l, b, -draught), (-l, 0, -draught), (-l, 0, 0), (-l, b, 0)]]
     return p
+
+
+def fanned(outline, z0, z1):
+    """A prism whose lids are fans about a corner in their middle, (0, 0)."""
+    v, f = prism(outline, z0, z1)
+    n = len(outline)
+    lids = [face for i in range(n) for face in ((2 * n, (i + 1) % n, i), (2 * n + 1, n + i, n + (i + 1) % n))]
+    return v + [(0.0, 0.0, z0), (0.0, 0.0, z1)], f[2:] + lids
+
+
+def noisy(shape, most, seed=1):
+    """Every corner of every triangle off by itself: a corner that many share has as many copies."""
+    chance = random.Random(seed)
+    corner = [tuple(c + chance.uniform(-most, most) for c in shape[0][i]) for t in triangles(shape) for i in t]
+    return corner, [(i, i + 1, i + 2) for i in range(0, len(corner), 3)]
 
 
 def column_panels(x, y, radius, draught, n, rings):
@@ -295,6 +311,10 @@ def cases():
         ("box_noise.stl", "text STL, corners of neighbours up to 20 micrometres apart", stl_text(BOX,
          number="%.7f", noise=1e-5), [],
          read(BOX_FLOATS, 1e-4)),
+        *((f"fan_{n}.stl", f"binary STL, lids that are fans of {n} facets, corners up to 20 micrometres off",
+           stl_binary(noisy(fanned(circle(5.5, n), -6, 4), 2e-5, seed=3)), [],
+           read({"volume": 6 * polygon_area(n, 5.5), "plane": polygon_area(n, 5.5), "kb": 3}, 1e-4))
+          for n in (100, 400)),
         ("wedge.obj", "OBJ, polygons, groups, vt and vn", obj(wedge(40, 10, 4, 2), extras=True), [],
          read({"volume": 800, "plane": 400, "kb": 8 / 3, "bm": 40 * 10 ** 3 / 12 / 800})),
         ("cylinder.obj", "OBJ, indices counted back from the end, lids of 96 corners", obj(prism(circle(4, 96), -3, 2),

@@ -1,4 +1,5 @@
 /* What sealing may join, by meshes of a few triangles whose distances are known. */
+#include "base/random.h"
 #include "base/transcendental.h"
 #include "geometry/mesh_repair.h"
 #include "testing.h"
@@ -64,6 +65,38 @@ START_TEST(the_nearest_join_first)
     ck_assert_int_eq(r.m.face.data[3].v[0], 9);
     assert_absolute(r.report.width, 0.9, 1e-15);
     rig_free(&r);
+}
+END_TEST
+
+static vec3 off_by(random_stream *r, vec3 p, double most)
+{
+    return (vec3){p.x + random_uniform(r, -most, most), p.y + random_uniform(r, -most, most),
+                  p.z + random_uniform(r, -most, most)};
+}
+
+/* Two fans, upward and downward from one rim, each corner of each facet off by itself: a tip has as many copies as the
+   fan has facets. */
+START_TEST(fans_of_any_number_of_facets_become_one)
+{
+    static const int sides[] = {40, 100, 400, 1200};
+    for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
+        int n = sides[k];
+        rig r = rig_make();
+        random_stream chance = random_begin(5, 0, (uint32_t)k);
+        for (int i = 0; i < 2 * n; i++) {
+            double from = 2 * PI * (i / 2) / n, to = 2 * PI * ((i / 2 + 1) % n) / n, most = 1e-5;
+            vec3 a = {real_cos(from), real_sin(from), 0}, b = {real_cos(to), real_sin(to), 0};
+            vec3 tip = {0, 0, i % 2 ? -1 : 1};
+            triangle_of(&r, off_by(&chance, i % 2 ? b : a, most), off_by(&chance, i % 2 ? a : b, most),
+                        off_by(&chance, tip, most));
+        }
+        seal(&r, 1e-3);
+        ck_assert_int_eq(r.report.open_before, 6 * n);
+        ck_assert_int_eq(r.report.open_after, 0);
+        ck_assert_int_eq(r.report.joined, 6 * n - (n + 2));
+        ck_assert_int_eq(r.report.splits, 0);
+        rig_free(&r);
+    }
 }
 END_TEST
 
@@ -168,6 +201,6 @@ START_TEST(welding_takes_out_closed_triangles)
 }
 END_TEST
 
-TEST_MAIN("mesh seal", corners_out_of_reach_stay_apart, the_nearest_join_first, a_small_hole_is_drawn_together,
-          a_fine_rim_stays_as_it_is, edges_are_led_over_what_is_in_reach, the_nearest_edge_is_led_over,
-          welding_takes_out_closed_triangles)
+TEST_MAIN("mesh seal", corners_out_of_reach_stay_apart, the_nearest_join_first, fans_of_any_number_of_facets_become_one,
+          a_small_hole_is_drawn_together, a_fine_rim_stays_as_it_is, edges_are_led_over_what_is_in_reach,
+          the_nearest_edge_is_led_over, welding_takes_out_closed_triangles)

@@ -14,6 +14,8 @@ FILES = {
     "src/dynamics/narrow_phase.c": "int pairs;\n",
     "src/ice/fracture.c": 'const char *no = "/* text */";\n',
     "src/ice/packing.c": "int packed;\n",
+    "src/geometry/mesh.c": "int corners;\n",
+    "src/geometry/mesh_seal.c": "int passes;\n",
     "src/fluid/drag.c": "double drag;\n",
     "src/fluid/lift.c": "static double lift(double u) { return u; }\nenum { MOST = 4 };\n"
                         "double both(double u) { return lift(u); }\n",
@@ -33,6 +35,14 @@ assert parts_changed(src__dynamics__narrow_phase="int pairs, more;") == ["contac
 assert parts_changed(src__ice__fracture='const char *no = "/* other */";') == ["fracture"]
 assert parts_changed(src__ice__packing="int loose;") == []
 assert parts_changed(src__fluid__drag="double lift;") == ["water"]
+# Sealing is no geometry of what is closed: the page of cracked panels goes by it, and no other.
+assert parts_changed(src__geometry__mesh_seal="int passes = 9;") == ["sealing"]
+assert parts_changed(src__geometry__mesh="int corners = 9;") == ["geometry"]
+MADE = {"code": dict.fromkeys(status.PARTS, "same")}
+RESEALED = MADE["code"] | {"sealing": "other"}
+assert status.changed("hydrostatics", MADE, RESEALED) == ["sealing"]
+assert status.changed("hull_mesh", MADE, RESEALED) == []
+assert status.changed("hull_mesh", MADE, MADE["code"] | {"geometry": "other"}) == ["geometry"]
 # Names of a file's own are its own affair, what stands under them is not; names that others see are no file's own.
 LIFT = FILES["src/fluid/lift.c"]
 assert parts_changed(src__fluid__lift=LIFT.replace("lift", "raise").replace("MOST", "LIFTS_MOST")) == []
