@@ -106,10 +106,7 @@ static fram_status read_lengths(const mesh_reading *r, gdf_words *w)
         return mesh_refuse(r, line, 0, "expected a positive GRAV, found %g", gravity);
     for (size_t i = 0; i < sizeof gdf_units / sizeof *gdf_units; i++)
         if (gravity > gdf_units[i].least && gravity < gdf_units[i].most)
-            return mesh_refuse(r, line, 0,
-                               "GRAV %g says that lengths are in %s; convert the file to metres (times %g), GRAV to "
-                               "9.80665",
-                               gravity, gdf_units[i].name, gdf_units[i].metres);
+            r->out->unit = (mesh_file_unit){gdf_units[i].name, gdf_units[i].metres, gravity, line};
     return FRAM_OK;
 }
 

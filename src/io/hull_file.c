@@ -40,6 +40,21 @@ static fram_status check_options(const hull_file_options *o, fram_error *error)
     return FRAM_OK;
 }
 
+/* By which part a scale may be off the unit that a file says it is in. */
+#define OFF_UNIT 1e-3
+
+/* Lengths that are no metres are scaled to metres, as whoever asks for the hull says too. */
+static fram_status check_file_unit(const hull_request *q, fram_error *error)
+{
+    const mesh_file_unit *u = &q->file->unit;
+    if (!u->name || fabs(q->options.scale / u->metres - 1) <= OFF_UNIT)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, q->name, u->line, "mesh",
+                     "GRAV %g says that lengths are in %s; give a scale of %g, or convert the file to metres (times "
+                     "%g), GRAV to 9.80665",
+                     u->gravity, u->name, u->metres, u->metres);
+}
+
 /* ---- attempts ---- */
 
 static double length_of(const hull_request *q) { return q->options.scale * hull_longest_side(&q->file->surface); }
@@ -93,6 +108,7 @@ typedef struct remedy {
     hull_file_options options;
     hull_half unmirrored; /* planes in which the file is not mirrored then */
     bool raises;          /* an open top, which may have been drawn up to the deck already */
+    bool walled;          /* not mirrored in x = 0, it ends there: found when it is tried */
     char words[REMEDY_ROOM];
 } remedy;
 
@@ -156,7 +172,7 @@ static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
     return n;
 }
 
-static fram_status try_remedy(const hull_request *q, const remedy *with, hull_outcome *trial)
+static fram_status try_remedy(const hull_request *q, remedy *with, hull_outcome *trial)
 {
     hull_request other = *q;
     mesh_file file = {.elements = 0};
@@ -164,8 +180,9 @@ static fram_status try_remedy(const hull_request *q, const remedy *with, hull_ou
     fram_status status = FRAM_OK;
     if (with->unmirrored != HULL_WHOLE) {
         status = hull_unmirror(q->ctx, q->file, with->unmirrored, &file) ? FRAM_OK : FRAM_ERROR_MEMORY;
-        if (status == FRAM_OK && !hull_lies_about(&file.surface, with->unmirrored))
+        if (status == FRAM_OK && (with->unmirrored & HULL_HALF_Y) && !hull_lies_about_centre(&file.surface))
             status = FRAM_ERROR_INPUT;
+        with->walled = (with->unmirrored & HULL_HALF_X) && hull_begins_at_x(&file.surface);
         other.file = &file;
     }
     if (status == FRAM_OK)
@@ -195,6 +212,14 @@ static fram_status add_repair(const hull_request *q, const hull_outcome *raised,
                  "; as it ends %.3g m above the water, have it repaired (repair) if its deck is to be there",
                  raised->report.top);
     return status == FRAM_ERROR_MEMORY ? status : FRAM_OK;
+}
+
+/* Half a hull with a wall where the other half begins is as sound as a whole one that is counted from a perpendicular.
+ */
+static void add_wall(char words[REMEDY_ROOM])
+{
+    size_t length = strlen(words);
+    snprintf(words + length, REMEDY_ROOM - length, "; if it is half a hull instead, leave out its wall in x = 0");
 }
 
 static void put_advice(fram_error *error, const char *words)
@@ -228,6 +253,8 @@ static fram_status name_remedy(const hull_request *q, fram_error *error)
         fram_status status = try_remedy(q, &list[i], &trial);
         if (status == FRAM_OK && list[i].raises)
             status = add_repair(q, &trial, list[i].words);
+        if (status == FRAM_OK && list[i].walled)
+            add_wall(list[i].words);
         if (status == FRAM_ERROR_MEMORY)
             return error_memory(error);
         if (status == FRAM_OK) {
@@ -247,6 +274,8 @@ fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, co
     const hull_request q = {.ctx = ctx, .name = name, .file = file, .options = *options};
     hull_outcome out = {.defect = MESH_EMPTY};
     fram_status status = check_options(options, &out.error);
+    if (status == FRAM_OK)
+        status = check_file_unit(&q, &out.error);
     if (status == FRAM_OK) {
         status = attempt_all(&q, &out);
         /* Whatever closes half a hull makes half a ship of it. */

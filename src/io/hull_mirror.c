@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Part of the longest side by which a whole hull may be off the plane that it lies about. */
+/* Part of the longest side by which a whole hull may be off the plane that it lies about, or ends in. */
 #define OFF_SYMMETRY 1e-3
 
 bool hull_copy_file(context *ctx, const mesh_file *from, mesh_file *to)
@@ -54,10 +54,14 @@ bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_f
     return mesh_drop_unused_vertices(ctx, &out->surface);
 }
 
-bool hull_lies_about(const mesh *m, hull_half planes)
+bool hull_lies_about_centre(const mesh *m)
 {
     box3 box = mesh_bounds(m);
-    double most = OFF_SYMMETRY * hull_longest_side(m);
-    return (!(planes & HULL_HALF_X) || fabs(box.lo.x + box.hi.x) <= most) &&
-           (!(planes & HULL_HALF_Y) || fabs(box.lo.y + box.hi.y) <= most);
+    return fabs(box.lo.y + box.hi.y) <= OFF_SYMMETRY * hull_longest_side(m);
+}
+
+bool hull_begins_at_x(const mesh *m)
+{
+    box3 box = mesh_bounds(m);
+    return fmin(fabs(box.lo.x), fabs(box.hi.x)) <= OFF_SYMMETRY * hull_longest_side(m);
 }

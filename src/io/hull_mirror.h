@@ -10,7 +10,10 @@
 bool hull_copy_file(context *ctx, const mesh_file *from, mesh_file *to);
 /* A copy of a file that is not mirrored in some of the planes in which it is.  As hull_copy_file. */
 bool hull_unmirror(context *ctx, const mesh_file *file, hull_half planes, mesh_file *out);
-/* Half a hull does not lie about the plane in which it is to be mirrored; half of a catamaran may be sound alone. */
-bool hull_lies_about(const mesh *m, hull_half planes);
+/* Half a hull does not lie about its centre plane y = 0; half of a catamaran may be sound alone.  Along x hulls lie
+   anywhere: about amidships of their length, of a waterline of theirs, or before a perpendicular. */
+bool hull_lies_about_centre(const mesh *m);
+/* One end is in x = 0: it may be the wall of half a hull. */
+bool hull_begins_at_x(const mesh *m);
 
 #endif

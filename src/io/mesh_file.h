@@ -14,6 +14,14 @@ typedef enum mesh_format { MESH_STL_TEXT = 0, MESH_STL_BINARY, MESH_OBJ, MESH_GD
 enum { MESH_FILE_TRIANGLES = 10000000 };
 #define MESH_FILE_REACH 1e6
 
+/* A unit of lengths other than the metre, and where a file says so. */
+typedef struct mesh_file_unit {
+    const char *name; /* "feet" */
+    double metres;    /* one of it */
+    double gravity;   /* that of the earth in it, as the file has it */
+    int32_t line;
+} mesh_file_unit;
+
 /* A surface and where in the file each of its triangles stands. */
 typedef struct mesh_file {
     mesh_format format;
@@ -23,6 +31,7 @@ typedef struct mesh_file {
     int32_t elements;        /* facets, faces or panels in the file */
     int32_t dropped;         /* triangles without area because they name a point twice */
     bool mirror_x, mirror_y; /* GDF: mirrored in the plane x = 0 (y = 0), as the file's ISX (ISY) says */
+    mesh_file_unit unit;     /* GDF: of its lengths, as the file's GRAV says; name NULL: metres */
 } mesh_file;
 
 /* "STL (text)" */

@@ -122,8 +122,8 @@ def obj(shape, negative=False, extras=False):
     return "\n".join(lines + [""]).encode()
 
 
-def gdf(panels, isx, isy, words=("", "", ""), second=None):
-    lines = ["exported panels", "1.000000 9.806650" + words[0], "%d %d" % (isx, isy) + words[1],
+def gdf(panels, isx, isy, words=("", "", ""), second=None, gravity=9.80665):
+    lines = ["exported panels", f"1.000000 {gravity:.6f}" + words[0], "%d %d" % (isx, isy) + words[1],
              "%d" % len(panels) + ("" if second is None else " %d" % second) + words[2]]
     for p in panels:
         corner = list(p) + [p[-1]] * (4 - len(p))
@@ -276,6 +276,18 @@ def uneven(panels):
     return [[(x, y, z or 5e-4 * math.sin(17 * x + 5 * y)) for x, y, z in panel] for panel in panels]
 
 
+UNITS = (("feet", 0.3048, 32.174), ("inches", 0.0254, 386.09), ("centimetres", 0.01, 980.665),
+         ("millimetres", 0.001, 9806.65))
+
+
+def scaled(panels, factor):
+    return [[tuple(factor * c for c in corner) for corner in panel] for panel in panels]
+
+
+def shifted(panels, dx):
+    return [[(x + dx, y, z) for x, y, z in panel] for panel in panels]
+
+
 # ---- cases: name, what it is, bytes, arguments, expected ----
 
 def read(floats=None, close=1e-6, **more):
@@ -340,6 +352,16 @@ def cases():
          read(BOX_FLOATS, top=1)),
         ("uneven_top_8.gdf", "the same, with a freeboard and repaired", gdf(uneven(fine), 0, 1),
          ["--freeboard", "8", "--repair"], read(BOX_FLOATS, top=8)),
+        *((f"{name}.gdf", f"GDF in {name}, as GRAV {gravity:g} says, with the scale that says so too",
+           gdf(scaled(fine, 1 / metres), 0, 1, gravity=gravity), ["--scale", f"{metres:g}"], read(BOX_FLOATS, 1e-5))
+          for name, metres, gravity in UNITS),
+        ("feet_as_metres.gdf", "GDF in feet, as GRAV says, without a scale",
+         gdf(scaled(fine, 1 / 0.3048), 0, 1, gravity=32.174), [],
+         refused("GRAV 32.174 says that lengths are in feet; give a scale of 0.3048, or convert the file to metres",
+                 ["--scale", "0.3048"], BOX_FLOATS, 1e-5)),
+        ("feet_as_millimetres.gdf", "GDF in feet, as GRAV says, with the scale of millimetres",
+         gdf(scaled(fine, 1 / 0.3048), 0, 1, gravity=32.174), ["--scale", "0.001"],
+         refused("GRAV 32.174 says that lengths are in feet; give a scale of 0.3048")),
         ("lid.gdf", "GDF, lids a millimetre above the water plane", gdf(lidded, 0, 1), [],
          read(BOX_FLOATS, top=1.0013)),
         ("cracks.gdf", "GDF, sides and bottom divided otherwise, cracks of 15 mm", gdf(half_box_panels(40, 10,
@@ -376,6 +398,13 @@ def cases():
         ("both_isy.gdf", "GDF, both sides of it, but ISY 1", gdf(whole, 0, 1), [], refused("set ISY to 0")),
         ("both_isx.gdf", "GDF, half of it, both ends, but ISX 1", gdf(half_box_panels(40, 10, 3, 1, 1), 1, 1), [],
          refused("its own mirror image; the file has both halves already: set ISX to 0")),
+        ("both_ends_isx.gdf", "GDF, half of it, both ends, not about x = 0, but ISX 1", gdf(shifted(fine, 3), 1, 1), [],
+         refused("the file has both halves already: set ISX to 0 in its third line")),
+        ("whole_isx_isy.gdf", "GDF, all of it, not about x = 0, but ISX and ISY 1", gdf(shifted(whole, 3), 1, 1), [],
+         refused("the file has both halves already: set ISX and ISY to 0 in its third line")),
+        ("perpendicular_isx.gdf", "GDF, half of it, counted from its after end, but ISX 1",
+         gdf(shifted(fine, 20), 1, 1), [],
+         refused("set ISX to 0 in its third line; if it is half a hull instead, leave out its wall in x = 0")),
         ("inside_out.stl", "all triangles turned", stl_binary(turned(BOX)), [], refused("repair", ["--repair"],
          BOX_FLOATS)),
         ("one_turned.obj", "one face turned", obj((BOX[0], [BOX[1][0][::-1]] + BOX[1][1:])), [],

@@ -4,6 +4,8 @@
 #include "mesh_texts.h"
 #include "testing.h"
 
+#define GDF_PANEL "0 0 0 1 0 0 1 1 0 0 1 0\n"
+
 typedef struct bad_mesh {
     const char *name, *text;
     int line;
@@ -101,10 +103,10 @@ static const bad_mesh bad[] = {
     {"word.gdf", "t\none 9.81\n", 2, "", "expected ULEN, the length scale, found \"one\""},
     {"control.gdf", "t\n0 9.81\n0 0\n1\n", 2, "", "expected a positive ULEN"},
     {"gravity.gdf", "t\n1 -9.81\n0 0\n1\n", 2, "", "expected a positive GRAV"},
-    {"feet.gdf", "t\n1 32.174\n0 0\n1\n", 2, "", "lengths are in feet; convert the file to metres (times 0.3048)"},
-    {"inches.gdf", "t\n1 386.09\n0 0\n1\n", 2, "", "lengths are in inches; convert the file to metres (times 0.0254)"},
-    {"cm.gdf", "t\n1 980.665\n0 0\n1\n", 2, "", "lengths are in centimetres; convert the file to metres (times 0.01)"},
-    {"mm.gdf", "t\n1 9810\n0 0\n1\n", 2, "", "lengths are in millimetres; convert the file to metres (times 0.001)"},
+    {"feet.gdf", "t\n1 32.174\n0 0\n1\n" GDF_PANEL, 2, "mesh", "lengths are in feet; give a scale of 0.3048"},
+    {"inches.gdf", "t\n1 386.09\n0 0\n1\n" GDF_PANEL, 2, "mesh", "lengths are in inches; give a scale of 0.0254"},
+    {"cm.gdf", "t\n1 980.665\n0 0\n1\n" GDF_PANEL, 2, "mesh", "lengths are in centimetres; give a scale of 0.01"},
+    {"mm.gdf", "t\n1 9810\n0 0\n1\n" GDF_PANEL, 2, "mesh", "lengths are in millimetres; give a scale of 0.001"},
     {"symmetry.gdf", "t\n1 9.81\n0 2\n1\n", 3, "", "expected ISY from 0 to 1, found \"2\""},
     {"panels.gdf", "t\n1 9.81\n0 1\n-1\n", 4, "", "NPAN"},
     {"many_panels.gdf", "t\n1 9.81\n0 1\n99999999999\n", 4, "", "NPAN"},
