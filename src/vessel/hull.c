@@ -204,10 +204,15 @@ static fram_status check_parallel(const hull_particulars *p, const hull_lines *l
     double fore = fore_at(l, end.z), aft = aft_at(l, end.z);
     if (fore - aft > LEAST_PARALLEL * p->length)
         return FRAM_OK;
+    /* Rakes shorten the keel and lengthen the deck; flare makes a narrow keel and a broad deck, whose ends take more of
+       the length. */
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
                      "no parallel body is left at the %s (z = %g m): the bow reaches aft to x = %g m, the stern "
-                     "forward to x = %g m; enlarge parallel_midbody (%g), or the angle of stem or stern",
-                     end.name, end.z, fore, aft, p->parallel_midbody);
+                     "forward to x = %g m; %s parallel_midbody (%g)",
+                     end.name, end.z, fore, aft,
+                     end.z < 0 ? "enlarge the flare or the angle of stem or stern, reduce draught, or enlarge"
+                               : "reduce freeboard, the flare or the angle of stem or stern, or enlarge",
+                     p->parallel_midbody);
 }
 
 static fram_status check_block(const hull_particulars *p, fram_error *error)

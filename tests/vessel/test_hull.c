@@ -301,5 +301,60 @@ START_TEST(parts_of_a_plan_are_united_where_they_lie_together)
 }
 END_TEST
 
-TEST_MAIN("hull", box, icebreaker, icebreaker_waterline, icebreaker_limits, port_mirrors_starboard, wrong_particulars,
-          memory_runs_out, zones, parts_of_a_plan_are_united_where_they_lie_together)
+/* Each remedy that is named where the ends leave nothing of keel or deck makes a hull, by itself. */
+START_TEST(remedies_for_lost_parallel_bodies_help)
+{
+    const struct {
+        const char *name;
+        double draught, freeboard, flare, rake;
+        struct {
+            const char *key;
+            size_t member;
+            double value;
+        } remedy[5];
+    } ends[2] = {{"the deck",
+                  5,
+                  8,
+                  45,
+                  60,
+                  {{"reduce freeboard, ", offsetof(hull_particulars, freeboard), 4},
+                   {" the flare or", offsetof(hull_particulars, flare_angle), radians(20)},
+                   {"the angle of stem or", offsetof(hull_particulars, stem_angle), radians(40)},
+                   {" or stern, or", offsetof(hull_particulars, stern_angle), radians(40)},
+                   {"enlarge parallel_midbody (0.4)", offsetof(hull_particulars, parallel_midbody), 0.5}}},
+                 {"the keel",
+                  14,
+                  3,
+                  8,
+                  45,
+                  {{"the angle of stem or", offsetof(hull_particulars, stem_angle), radians(70)},
+                   {" or stern, reduce", offsetof(hull_particulars, stern_angle), radians(70)},
+                   {"enlarge the flare or", offsetof(hull_particulars, flare_angle), radians(25)},
+                   {" reduce draught, ", offsetof(hull_particulars, draught), 10},
+                   {"enlarge parallel_midbody (0.4)", offsetof(hull_particulars, parallel_midbody), 0.7}}}};
+    for (int i = 0; i < 2; i++) {
+        hull_particulars p = {.form = HULL_ICEBREAKER,
+                              .length = i ? 40 : 60,
+                              .beam = 16,
+                              .draught = ends[i].draught,
+                              .freeboard = ends[i].freeboard,
+                              .stem_angle = radians(ends[i].rake),
+                              .entrance_angle = radians(i ? 45 : 25),
+                              .flare_angle = radians(ends[i].flare),
+                              .stern_angle = radians(ends[i].rake),
+                              .parallel_midbody = 0.4};
+        fram_error error = {0}, none = {0};
+        assert_fails(hull_particulars_check(&p, &error), error, FRAM_ERROR_INPUT, ends[i].name);
+        for (int k = 0; k < 5; k++) {
+            hull_particulars q = p;
+            ck_assert_msg(strstr(error.message, ends[i].remedy[k].key) != NULL, "%s", error.message);
+            memcpy((char *)&q + ends[i].remedy[k].member, &ends[i].remedy[k].value, sizeof(double));
+            ck_assert_msg(hull_particulars_check(&q, &none) == FRAM_OK, "%s: %s", ends[i].remedy[k].key, none.message);
+        }
+    }
+}
+END_TEST
+
+TEST_MAIN("hull", remedies_for_lost_parallel_bodies_help, box, icebreaker, icebreaker_waterline, icebreaker_limits,
+          port_mirrors_starboard, wrong_particulars, memory_runs_out, zones,
+          parts_of_a_plan_are_united_where_they_lie_together)
