@@ -85,18 +85,18 @@ static inline bool is_automatic(double value) { return value != value; }
 /* The value, or `otherwise` when it was left to Fram. */
 static inline double automatic_or(double value, double otherwise) { return is_automatic(value) ? otherwise : value; }
 
-/* The freeboard of a hull that is given none [m]. */
-#define SCENARIO_FREEBOARD 4.0
-static inline double scenario_freeboard(const scenario_hull *h)
-{
-    return automatic_or(h->freeboard, SCENARIO_FREEBOARD);
-}
-
 /* The default of run.scale. */
 double scenario_default_scale(void);
 /* Size of what is simulated over full size, by run.scale: by Froude, defaults that are lengths go with it, times and
    speeds with its root. */
 static inline double scenario_size(const scenario *s) { return s->run.scale / scenario_default_scale(); }
+/* The freeboard of hulls that are given none, in full size [m]. */
+#define SCENARIO_FREEBOARD 4.0
+static inline double scenario_usual_freeboard(const scenario *s) { return SCENARIO_FREEBOARD * scenario_size(s); }
+static inline double scenario_freeboard(const scenario *s, const scenario_hull *h)
+{
+    return automatic_or(h->freeboard, scenario_usual_freeboard(s));
+}
 /* Every key at its default for a scaling factor, lists empty.  Allocates nothing. */
 void scenario_defaults(scenario *s, double scale);
 void scenario_free(context *ctx, scenario *s);

@@ -120,8 +120,8 @@
     X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                                              \
     X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                                                   \
     X(freeboard, AUTOMATIC(1e-4, 1e3), "m",                                                                          \
-      "height of the deck above the waterline; form file: a level open top is raised by this and decked; auto: 4, "  \
-      "and a file's top that ends above the water is decked where it is")                                            \
+      "height of the deck above the waterline; form file: a level open top is raised by this and decked; auto: 4 "   \
+      "(scale / 30), and a file's top that ends above the water is decked where it is")                              \
     X(stem_angle_deg, AUTOMATIC(5, 90), "deg", "stem against the water plane, at the waterline; auto: 30, ship: 75") \
     X(entrance_angle_deg, AUTOMATIC(5, 90), "deg",                                                                   \
       "half entrance angle of the waterline; auto: 30, ship: of a parabola as long as the entrance")                 \

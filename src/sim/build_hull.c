@@ -15,13 +15,13 @@ typedef struct new_hull {
     hull_hydrostatics floats;
 } new_hull;
 
-static hull_particulars particulars_of(const scenario_hull *h)
+static hull_particulars particulars_of(const scenario *s, const scenario_hull *h)
 {
     hull_particulars p = {.form = h->form,
                           .length = h->length,
                           .beam = h->beam,
                           .draught = h->draught,
-                          .freeboard = scenario_freeboard(h),
+                          .freeboard = scenario_freeboard(s, h),
                           .stem_angle = radians(h->stem_angle_deg),
                           .entrance_angle = radians(h->entrance_angle_deg),
                           .flare_angle = radians(h->flare_angle_deg),
@@ -107,13 +107,14 @@ static fram_status measure_hull(const scenario_hull *keys, const new_hull *h, hu
 static bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
 /* All that decides what is read: other keys of a hull do not act on one from a file. */
-static bool is_read_alike(const stored_hull *h, const scenario_hull *keys, const char *path)
+static bool is_read_alike(const stored_hull *h, const scenario_hull *keys, const hull_file_options *options,
+                          const char *path)
 {
     const scenario_hull *k = &h->keys;
     return same(k->file_scale, keys->file_scale) && same(k->seal_width, keys->seal_width) &&
            k->repair == keys->repair && same(k->freeboard, keys->freeboard) &&
-           same(k->piece_distance, keys->piece_distance) && k->most_pieces == keys->most_pieces &&
-           strcmp(h->path, path) == 0;
+           h->usual_freeboard == options->usual_freeboard && same(k->piece_distance, keys->piece_distance) &&
+           k->most_pieces == keys->most_pieces && strcmp(h->path, path) == 0;
 }
 
 /* false: no memory. */
@@ -142,23 +143,25 @@ void hull_store_free(context *ctx, hull_store *store)
     store->next = 0;
 }
 
-static const stored_hull *find_stored(const hull_store *store, const scenario_hull *keys, const char *path)
+static const stored_hull *find_stored(const hull_store *store, const scenario_hull *keys,
+                                      const hull_file_options *options, const char *path)
 {
     for (int32_t i = 0; store && i < store->hulls.count; i++) {
-        if (is_read_alike(&store->hulls.data[i], keys, path))
+        if (is_read_alike(&store->hulls.data[i], keys, options, path))
             return &store->hulls.data[i];
     }
     return NULL;
 }
 
-static bool keep(context *ctx, hull_store *store, const scenario_hull *keys, const char *path, const new_hull *h)
+static bool keep(context *ctx, hull_store *store, const scenario_hull *keys, const hull_file_options *options,
+                 const char *path, const new_hull *h)
 {
     if (store->hulls.count < STORED_HULLS && !array_push(ctx, &store->hulls, (stored_hull){.concavity = 0}))
         return false;
     stored_hull *to = &store->hulls.data[store->next];
     store->next = (store->next + 1) % STORED_HULLS;
     free_stored(ctx, to);
-    *to = (stored_hull){.keys = *keys, .concavity = h->concavity};
+    *to = (stored_hull){.keys = *keys, .usual_freeboard = options->usual_freeboard, .concavity = h->concavity};
     snprintf(to->path, sizeof to->path, "%s", path);
     return copy_hull(ctx, &h->surface, &h->pieces, &to->surface, &to->pieces);
 }
@@ -172,13 +175,13 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
     fram_status status = scenario_file_path(s, "file", keys->file, path, error);
     if (status != FRAM_OK)
         return status;
-    const stored_hull *known = find_stored(store, keys, path);
+    const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard,
+                                       scenario_usual_freeboard(s)};
+    const stored_hull *known = find_stored(store, keys, &options, path);
     if (known) {
         h->concavity = known->concavity;
         return copy_hull(ctx, &known->surface, &known->pieces, &h->surface, &h->pieces) ? FRAM_OK : error_memory(error);
     }
-    const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard,
-                                       SCENARIO_FREEBOARD};
     hull_file_report report;
     status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK) {
@@ -191,7 +194,7 @@ static fram_status read_hull(context *ctx, const scenario *s, const scenario_hul
     if (status == FRAM_OK)
         log_write(ctx, LOG_INFO, "it is cut into %d convex pieces within %.3g m of the mesh", (int)h->pieces.count,
                   h->concavity);
-    if (status == FRAM_OK && store && !keep(ctx, store, keys, path, h))
+    if (status == FRAM_OK && store && !keep(ctx, store, keys, &options, path, h))
         status = error_memory(error);
     return status;
 }
@@ -200,7 +203,7 @@ static fram_status make(context *ctx, const scenario *s, const scenario_hull *ke
                         hull_particulars *p, fram_error *error)
 {
     bool from_file = keys->form == HULL_MESH;
-    *p = particulars_of(keys);
+    *p = particulars_of(s, keys);
     fram_status status =
         from_file ? read_hull(ctx, s, keys, store, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
     if (status == FRAM_OK)

@@ -15,7 +15,8 @@ typedef struct stored_hull {
     char path[SCENARIO_PATH_ROOM];
     mesh surface;
     polyhedron_array pieces;
-    double concavity; /* of the pieces [m] */
+    double usual_freeboard; /* of the scenario that it was read for [m] */
+    double concavity;       /* of the pieces [m] */
 } stored_hull;
 typedef struct hull_store {
     ARRAY(stored_hull) hulls; /* STORED_HULLS at most: then the oldest one gives way */

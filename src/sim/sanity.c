@@ -177,11 +177,11 @@ static void tell_hull(const teller *t, const vessel_entry *e)
     if (h->beam > MOST_BEAM * h->draught)
         sanity_say(t->tell, t->to, "%s.hull.draught: %.4g m is %.3g of the beam, %.4g m: give metres", e->path,
                    h->draught, h->draught / h->beam, h->beam);
-    if (automatic_or(e->keys->centre_of_gravity_z, 0) > scenario_freeboard(h))
+    if (automatic_or(e->keys->centre_of_gravity_z, 0) > scenario_freeboard(t->s, h))
         sanity_say(t->tell, t->to,
                    "%s.centre_of_gravity_z: %.4g m is above the deck at %.4g m: give metres above the design "
                    "waterline, not above the keel",
-                   e->path, e->keys->centre_of_gravity_z, scenario_freeboard(h));
+                   e->path, e->keys->centre_of_gravity_z, scenario_freeboard(t->s, h));
     const scenario_ice *i = &t->s->ice;
     double thickest = ice_range_made(i, t->made).thickest.thickness;
     const char *key = thickest == i->thickness           ? "ice.thickness"

@@ -39,11 +39,11 @@ bool sanity_is_added(const scenario *s, const void *member)
 static void tell_deck(const teller *t)
 {
     const scenario_hull *h = &t->e->keys->hull;
-    if (h->form != HULL_CONE && scenario_freeboard(h) > HIGHEST_DECK * h->beam)
+    if (h->form != HULL_CONE && scenario_freeboard(t->s, h) > HIGHEST_DECK * h->beam)
         sanity_say(t->tell, t->to,
                    "%s.hull.freeboard: the deck is %.4g m above the water, more than the beam of %.4g m: give metres, "
                    "of a model too",
-                   t->e->path, scenario_freeboard(h), h->beam);
+                   t->e->path, scenario_freeboard(t->s, h), h->beam);
 }
 
 /* One force or several together. */

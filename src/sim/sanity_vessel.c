@@ -31,7 +31,7 @@ static void tell_inertia(const teller *t)
     const scenario_vessel *v = t->e->keys;
     if (!sanity_own_hull(v) || v->mode == VESSEL_PRESCRIBED)
         return;
-    double height = v->hull.draught + scenario_freeboard(&v->hull);
+    double height = v->hull.draught + scenario_freeboard(t->s, &v->hull);
     tell_gyration(t, "gyration_roll", v->gyration_roll, height > v->hull.beam ? "height" : "beam",
                   fmax(v->hull.beam, height), ROLL_LEAST, ROLL_MOST);
     tell_gyration(t, "gyration_pitch", v->gyration_pitch, height > v->hull.length ? "height" : "length",
@@ -186,11 +186,11 @@ static void tell_fairleads(const teller *t)
                    "%s.mooring: fairleads %.4g m to the side are outside of a hull of %.4g m beam: see mooring.y and "
                    "fairlead_distance",
                    t->e->path, aside, v->hull.beam);
-    if (m->z > MOST_HEIGHT * scenario_freeboard(&v->hull))
+    if (m->z > MOST_HEIGHT * scenario_freeboard(t->s, &v->hull))
         sanity_say(t->tell, t->to,
                    "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
                    "negative under water",
-                   t->e->path, m->z, scenario_freeboard(&v->hull));
+                   t->e->path, m->z, scenario_freeboard(t->s, &v->hull));
     if (-m->z > MOST_SINKING * v->hull.draught)
         sanity_say(t->tell, t->to,
                    "%s.mooring.z: fairleads %.4g m under the design waterline, far under a keel at %.4g m: give metres "
@@ -398,7 +398,7 @@ static void tell_flows(const teller *t)
         return;
     tell_area(t, "current_coefficients.frontal_area", v->current_coefficients.frontal_area, h->beam * h->draught);
     tell_area(t, "current_coefficients.lateral_area", v->current_coefficients.lateral_area, h->length * h->draught);
-    const double freeboard = scenario_freeboard(h);
+    const double freeboard = scenario_freeboard(t->s, h);
     tell_area(t, "wind_coefficients.frontal_area", v->wind_coefficients.frontal_area, h->beam * freeboard);
     tell_area(t, "wind_coefficients.lateral_area", v->wind_coefficients.lateral_area, h->length * freeboard);
 }

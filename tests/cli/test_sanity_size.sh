@@ -33,8 +33,12 @@ for options in run.scale=5 run.scale=60; do
 done
 
 # Defaults and numbers of full size beside a model.
-sed 's/, freeboard: 0.12//' moored.yaml >deck.yaml
+sed 's/, freeboard: 0.12/, freeboard: 4/' moored.yaml >deck.yaml
 told deck.yaml "vessel.hull.freeboard: the deck is 4 m above the water, more than the beam of 0.63 m|of a model too"
+# What is left to Fram goes with the scale.
+sed 's/, freeboard: 0.12//' moored.yaml >deck.yaml
+expect 0 "$FRAM" check deck.yaml
+! grep -q "vessel.hull.freeboard" err || fail "the usual deck is that of a ship: $(cat err)"
 told moored.yaml "vessel.thrusters: 100 kN is 40.5 of the vessel's weight, about 2468 N|give newtons" \
     --set "vessel.thrusters[0].thrust=1e5"
 # Thrusters together, and the line that is pulled the most.

@@ -184,6 +184,34 @@ START_TEST(freeboards)
 }
 END_TEST
 
+/* What is left to Fram goes with run.scale, as other lengths do, of a hull that was read for another scale too. */
+START_TEST(freeboards_go_with_the_scale)
+{
+    static const char *const scale[] = {"run.scale=30", "run.scale=3", "run.scale=60"};
+    static const double deck[] = {4, 0.4, 8};
+    context ctx;
+    context_init(&ctx);
+    folder f = make_folder("    file_scale: 0.001\n", half_box);
+    hull_store store = {.next = 0};
+    solid_array solids = {0};
+    for (int i = 0; i < 3; i++) {
+        vessel_model hull = {0};
+        fram_error error = {0};
+        assert_ok(build_with(&ctx, &f, scale[i], &store, &hull, &solids, &error), error);
+        assert_absolute(hull.particulars.freeboard, deck[i], 1e-12);
+    }
+    scratch_text(f.scene,
+                 "vessel: {hull: {form: icebreaker, length: 2.5, beam: 0.6, draught: 0.2, flare_angle_deg: 20}}\n");
+    vessel_model tank = {0};
+    fram_error error = {0};
+    assert_ok(build_with(&ctx, &f, "run.scale=1", NULL, &tank, &solids, &error), error);
+    assert_absolute(tank.particulars.freeboard, 4.0 / 30, 1e-15);
+    hull_store_free(&ctx, &store);
+    solid_array_free(&ctx, &solids);
+    remove_folder(&f);
+}
+END_TEST
+
 /* Keys of particulars that do not go together are named in full, with the place in the scenario. */
 START_TEST(particulars)
 {
@@ -296,5 +324,6 @@ START_TEST(a_ship_has_the_bilge_that_is_given)
 }
 END_TEST
 
-TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, freeboards, particulars, radii_of_gyration,
-          radii_that_are_given, files_are_mended_as_their_keys_say, a_ship_has_the_bilge_that_is_given)
+TEST_MAIN("build_hull", a_barge, hulls_that_were_read_are_kept, mistakes, freeboards, freeboards_go_with_the_scale,
+          particulars, radii_of_gyration, radii_that_are_given, files_are_mended_as_their_keys_say,
+          a_ship_has_the_bilge_that_is_given)
