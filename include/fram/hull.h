@@ -44,8 +44,10 @@ FRAM_API fram_status fram_hull_load(fram_context *context, const char *path,
                                     const fram_hull_file_definition *definition, fram_hull **hull, fram_error *error);
 
 /* Main particulars of a box, of an icebreaking hull (wedge bow, flared midbody, raked stern, made of planes) or of a
-   ship of full form (tanker, FPSO, drillship: flat of side and bottom, without bulb).  Of a ship NaN in an angle,
-   parallel_midbody, bilge_radius or transom takes what is usual or follows from the block coefficient. */
+   ship of full form (tanker, FPSO, drillship: flat of side and bottom, without bulb).  NaN in stem_angle,
+   entrance_angle, flare_angle, stern_angle, parallel_midbody, bilge_radius or transom, the default of each, takes what
+   is usual for the form: of an icebreaker 30 degrees, of flare 8, and 0.4 of the length parallel; of a ship a stem of
+   75 degrees, a stern of 45, no flare, and the others as the block coefficient, beam and draught have them. */
 typedef struct fram_hull_particulars {
     size_t size;              /* of this struct, set by fram_hull_particulars_default */
     bool box;                 /* only length, beam, draught and freeboard matter */

@@ -116,27 +116,20 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     return hull_end(h, status, out);
 }
 
-/* Angles and parallel body are what is usual for an icebreaker, which vessel/hull.c tells. */
+/* What is usual for the form, which is not known yet, is left to vessel/hull.c. */
 static void fram_hull_particulars_fill(fram_hull_particulars *p)
 {
     const double usual = (double)NAN;
-    hull_particulars h = {.form = HULL_ICEBREAKER,
-                          .stem_angle = usual,
-                          .entrance_angle = usual,
-                          .flare_angle = usual,
-                          .stern_angle = usual,
-                          .parallel_midbody = usual};
-    hull_particulars_fill(&h);
     *p = (fram_hull_particulars){.size = sizeof *p,
                                  .length = 100,
                                  .beam = 20,
                                  .draught = 7,
                                  .freeboard = 4,
-                                 .stem_angle = h.stem_angle,
-                                 .entrance_angle = h.entrance_angle,
-                                 .flare_angle = h.flare_angle,
-                                 .stern_angle = h.stern_angle,
-                                 .parallel_midbody = h.parallel_midbody,
+                                 .stem_angle = usual,
+                                 .entrance_angle = usual,
+                                 .flare_angle = usual,
+                                 .stern_angle = usual,
+                                 .parallel_midbody = usual,
                                  .bilge_radius = usual,
                                  .transom = usual};
 }
@@ -167,8 +160,7 @@ static fram_status particulars_of(const fram_hull_particulars *given, hull_parti
                               .block_coefficient = p.block_coefficient,
                               .bilge_radius = p.bilge_radius,
                               .transom = p.transom};
-    if (p.ship)
-        hull_particulars_fill(out);
+    hull_particulars_fill(out);
     return FRAM_OK;
 }
 

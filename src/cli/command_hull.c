@@ -131,8 +131,6 @@ static fram_status make_from_particulars(const hull_words *w, fram_context *cont
     fram_hull_particulars_default(&p);
     p.box = w->box;
     p.ship = w->ship;
-    if (p.ship)
-        p.stem_angle = p.entrance_angle = p.flare_angle = p.stern_angle = p.parallel_midbody = (double)NAN;
     take(&p.length, given->length, 1);
     take(&p.beam, given->beam, 1);
     take(&p.draught, w->condition.draught, 1);
