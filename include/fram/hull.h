@@ -125,6 +125,10 @@ typedef struct fram_hull_condition {
 FRAM_API void fram_hull_condition_default(fram_hull_condition *condition, size_t size);
 #define fram_hull_condition_default(condition) fram_hull_condition_default((condition), sizeof *(condition))
 
+/* The axes of a file, told by its shape: x forward, y to port and z up, as they are to be; or the waterline is longer
+   along y than along x by a tenth at least; or the two sides lie about z = 0 and not about y = 0. */
+enum { FRAM_HULL_AXES_OF_SHIPS = 0, FRAM_HULL_Y_FORWARD = 1, FRAM_HULL_Y_UP = 2 };
+
 /* Places are in the hull's frame.  Second moments, lengths of the waterline and stiffness are in the water plane, with
    x and y along the hull's own. */
 typedef struct fram_hull_floating {
@@ -152,6 +156,7 @@ typedef struct fram_hull_floating {
     double draught, draught_fore, draught_aft;    /* of the lowest point: amidships, at the ends of the waterline [m] */
     double midship_area;                          /* wet [m2] */
     double block, waterplane, midship, prismatic; /* coefficients [1] */
+    int axes;                                     /* FRAM_HULL_AXES_OF_SHIPS or what they are taken for */
 } fram_hull_floating;
 /* condition NULL: the defaults.  FRAM_ERROR_INPUT: the water does not cut the hull, it sinks, or no equilibrium is
    found; FRAM_ERROR_USAGE: draught and mass together. */

@@ -8,6 +8,7 @@
 #include "io/hull_view.h"
 #include "io/path.h"
 #include "model/scenario_schema.h"
+#include "vessel/hull_axes.h"
 #include "vessel/hydrostatics.h"
 
 #include <stddef.h>
@@ -355,6 +356,7 @@ fram_status(fram_hull_float)(const fram_hull *h, const fram_hull_condition *cond
         .waterplane = s.waterplane,
         .midship = s.midship,
         .prismatic = s.prismatic,
+        .axes = (int)hull_axes_of(&h->surface, (vec3){0, 0, 0}, s.length_waterline, s.breadth_waterline),
     };
     copy3(full.volume_integrals, s.at.volume_integrals);
     copy3(full.centre, s.centre);

@@ -405,17 +405,6 @@ static void warn_of_freeboard(const common_options *common, const hull_words *w,
         fprintf(stderr, "warning: --freeboard: no level open top: without effect\n");
 }
 
-/* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
-#define LONGEST 500.0
-
-static void warn_of_size(const common_options *common, const hull_words *w, const fram_hull_floating *f)
-{
-    if (w->path && f->length_waterline > LONGEST && !common->quiet)
-        fprintf(stderr,
-                "warning: the waterline is %.4g m long: a file in millimetres wants --scale 0.001, in feet 0.3048\n",
-                f->length_waterline);
-}
-
 /* Words that do not go together: an exit code, -1 to go on. */
 static int check_hull_words(const common_options *common, const hull_words *w)
 {
@@ -465,7 +454,8 @@ int command_hull(const command_row *self, int argc, char **argv)
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        warn_of_size(&common, &w, &floating);
+        if (w.path)
+            hull_warn_of_file(&common, &floating);
         hull_warn_of_condition(&common, &w.condition, &surface, &floating);
         hull_warn_of_level(&common, &w.condition, &surface, &floating, w.output);
         warn_of_half(&common, &surface);

@@ -2,6 +2,27 @@
 
 #include <math.h>
 
+/* Longer than any ship, as in the check of a scenario [m]; models of basins are shorter than any, and right. */
+#define LONGEST_SHIP 500.0
+
+void hull_warn_of_file(const common_options *common, const fram_hull_floating *f)
+{
+    if (common->quiet)
+        return;
+    if (f->length_waterline > LONGEST_SHIP)
+        fprintf(stderr,
+                "warning: the waterline is %.4g m long: a file in millimetres wants --scale 0.001, in centimetres "
+                "0.01, in inches 0.0254, in feet 0.3048\n",
+                f->length_waterline);
+    if (f->axes == FRAM_HULL_Y_FORWARD)
+        fprintf(stderr,
+                "warning: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward: turn the mesh\n",
+                f->breadth_waterline, f->length_waterline);
+    if (f->axes == FRAM_HULL_Y_UP)
+        fprintf(stderr, "warning: the two sides of the hull lie about z = 0, not about y = 0: z is to be up, and y to "
+                        "port: turn the mesh\n");
+}
+
 /* As a scenario is told of such water [kg/m3]. */
 #define LIGHTEST_WATER 980.0
 #define HEAVIEST_WATER 1100.0

@@ -6,6 +6,8 @@
 
 #include "fram/hull.h"
 
+/* Of a file in another unit, or with other axes, as fram check tells of a scenario's. */
+void hull_warn_of_file(const common_options *common, const fram_hull_floating *floating);
 /* Of masses, water and centres of gravity as no ship has. */
 void hull_warn_of_condition(const common_options *common, const fram_hull_condition *condition,
                             const fram_hull_surface *surface, const fram_hull_floating *floating);

@@ -256,7 +256,7 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
                          vessel_pose_array *put, fram_error *error)
 {
     int32_t row = w->vessels.count;
-    vessel_mesh_warnings(ctx, s, entry, &m->vessels.data[row]);
+    vessel_mesh_warnings(ctx, s, entry, m, row);
     fram_status status = vessel_check(s, entry, m, row, error);
     if (status == FRAM_OK)
         status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);

@@ -13,6 +13,7 @@
 #include "sim/turning_tell.h"
 #include "sim/usual.h"
 #include "sim/wall_check.h"
+#include "vessel/hull_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -282,7 +283,7 @@ static void mesh_size_warnings(context *ctx, const scenario *s, const vessel_ent
     if (p->length > usual.most)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline is %.4g m long, outside of %s to %s: a file in millimetres wants "
-                  "hull.file_scale 0.001, one in feet 0.3048",
+                  "hull.file_scale 0.001, in centimetres 0.01, in inches 0.0254, in feet 0.3048",
                   e->path, p->length, range.least.text, range.most.text);
     if (p->length < usual.least)
         log_write(ctx, LOG_WARNING,
@@ -292,14 +293,21 @@ static void mesh_size_warnings(context *ctx, const scenario *s, const vessel_ent
 }
 
 /* Turned, or elsewhere in plan than where ships are told. */
-static void mesh_place_warnings(context *ctx, const vessel_entry *e, const vessel_model *m)
+static void mesh_place_warnings(context *ctx, const vessel_entry *e, const vessel_model *m, hull_axes axes)
 {
     const hull_particulars *p = &m->particulars;
-    if (p->beam > p->length)
+    if (axes == HULL_Y_FORWARD)
         log_write(ctx, LOG_WARNING,
-                  "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,
-                  p->beam, p->length);
-    if (fabs(p->midships) > OFF_AMIDSHIPS * p->length)
+                  "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward: turn the "
+                  "mesh",
+                  e->path, p->beam, p->length);
+    if (axes == HULL_Y_UP)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the two sides of the hull lie about z = 0, not about y = 0: z is to be up, and y to "
+                  "port: turn the mesh",
+                  e->path);
+    /* To be turned first, and looked at again. */
+    if (axes == HULL_AXES_OF_SHIPS && fabs(p->midships) > OFF_AMIDSHIPS * p->length)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the waterline of %.4g m lies about x = %.4g m, not about x = 0, amidships: all places "
                   "on the ship are counted from there; move the mesh",
@@ -307,7 +315,7 @@ static void mesh_place_warnings(context *ctx, const vessel_entry *e, const vesse
     const vec3 buoyancy = m->floats.centre_of_buoyancy;
     const box2 line = m->floats.waterline;
     bool one_side = fmin(fabs(line.lo.y), fabs(line.hi.y)) < ON_CENTRE * p->beam;
-    if (m->floats.volume > 0 && fabs(buoyancy.y) > OFF_CENTRE * p->beam)
+    if (axes == HULL_AXES_OF_SHIPS && m->floats.volume > 0 && fabs(buoyancy.y) > OFF_CENTRE * p->beam)
         log_write(ctx, LOG_WARNING,
                   "%s.hull.file: the hull lies about y = %.4g m, not about y = 0, the centre line: all places on the "
                   "ship are counted from there; %s",
@@ -336,13 +344,16 @@ static void mesh_height_warnings(context *ctx, const scenario *s, const vessel_e
                   e->path, p->freeboard, deck.most);
 }
 
-void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m)
+void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *of, int32_t row)
 {
+    const vessel_model *m = &of->vessels.data[row];
+    const hull_particulars *p = &m->particulars;
     if (e->keys->hull.form != HULL_MESH)
         return;
-    mesh_size_warnings(ctx, s, e, &m->particulars);
-    mesh_place_warnings(ctx, e, m);
-    mesh_height_warnings(ctx, s, e, &m->particulars);
+    mesh_size_warnings(ctx, s, e, p);
+    mesh_place_warnings(ctx, e, m,
+                        hull_axes_of(&of->solids.data[m->solid].surface, vec3_neg(m->centre), p->length, p->beam));
+    mesh_height_warnings(ctx, s, e, p);
 }
 
 /* ---- floes that are listed ---- */

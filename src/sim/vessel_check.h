@@ -11,7 +11,7 @@
 fram_status vessel_check(const scenario *s, const vessel_entry *entry, const model *m, int32_t row, fram_error *error);
 /* Warnings to the log of a hull from a file in another unit, turned or moved: such a hull is refused for what follows
    from that, so they come before anything else. */
-void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *m);
+void vessel_mesh_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *of, int32_t row);
 /* Warnings to the log: capsizing, a list or a trim at the start, a jump to the waterline, lines that pull it down or
    over, negative damping, springs and buoyancy too stiff for the step, a hull that reaches a wall.  w holds the vessel
    and its lines. */

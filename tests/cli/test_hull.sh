@@ -97,10 +97,31 @@ f 4 1 5 8
 END
 expect 0 "$FRAM" hull long.obj
 says "warning: the waterline is 4e+04 m long: a file in millimetres wants --scale 0.001" err
+says "in centimetres 0.01, in inches 0.0254, in feet 0.3048" err
 expect 0 "$FRAM" hull long.obj --scale 0.001
 ! grep -q warning err || fail "a file in millimetres is warned of: $(cat err)"
 expect 0 "$FRAM" hull long.obj --scale 0.00001
 ! grep -q warning err || fail "a model is warned of: $(cat err)"
+
+# Files of programs with other axes: y forward, and y up.
+expect 0 "$FRAM" hull --length 60 --beam 16 --draught 5 --freeboard 3 -o axes.obj --quiet
+expect 0 "$FRAM" hull axes.obj
+! grep -q warning err || fail "a ship is warned of: $(cat err)"
+awk '$1 == "v" { print "v", -$3, $2, $4; next } { print }' axes.obj >y_forward.obj
+expect 0 "$FRAM" hull y_forward.obj
+says "warning: the hull is 60 m wide along y and 16 m long along x: x is to be forward: turn the mesh" err
+awk '$1 == "v" { print "v", $2, $4, -$3; next } { print }' axes.obj >y_up.obj
+expect 0 "$FRAM" hull y_up.obj
+says "warning: the two sides of the hull lie about z = 0, not about y = 0: z is to be up, and y to port: turn" err
+# fram check says the same of the same files.
+for axes in y_forward y_up; do
+    expect 0 "$FRAM" hull "$axes.obj"
+    told=$(sed -n 's/.*m long along x: \(x is .*\)/\1/p; s/.*\(the two sides .*\)/\1/p' err)
+    printf 'vessel: {hull: {form: file, file: %s.obj}}\nice: {source: none}\n' "$axes" >axes.yaml
+    "$FRAM" check axes.yaml >out 2>err || true
+    grep -qF "$told" err || fail "check does not say '$told' of $axes.obj: $(cat out err)"
+    ! grep -q "move the mesh" err || fail "check would have $axes.obj moved: $(cat err)"
+done
 
 # An icebreaker of a given block coefficient, in all formats.
 for ending in stl obj gdf; do
