@@ -333,6 +333,13 @@ static void mark_broken(const fracture_job *j, const int32_t *floes, int32_t cou
     }
 }
 
+/* The ice stays whole in this step. */
+static fram_status put_off(const fracture_job *j, const char *why)
+{
+    log_write(j->ctx, LOG_DEBUG, "a break is put off: %s", why);
+    return FRAM_OK;
+}
+
 fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, birth_terms terms,
                            fracture_event *event, bool *broke)
 {
@@ -347,17 +354,19 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     if (status == FRAM_OK)
         status = dust_of(j, &dust);
     double budget = fmin(MOST_BOOKED * parent_area, terms.most) - dust;
-    /* What comes loose may be dust itself: nothing holds it. */
-    if (status != FRAM_OK || s->piece.rows.count < terms.least)
+    if (status != FRAM_OK)
         return status;
-    if (budget < 0 && terms.least > 1) {
-        log_write(j->ctx, LOG_DEBUG, "a break is put off: %.3g m2 of it are too small to be floes", dust);
-        return FRAM_OK;
-    }
+    if (s->piece.rows.count < terms.least)
+        return put_off(j, "its pieces are too small to be floes, and one with what they lie against");
+    /* What comes loose may be dust itself: nothing holds it. */
+    if (budget < 0 && terms.least > 1)
+        return put_off(j, "more of it is too small to be floes than may be lost");
     bool sound;
     status = clean_pieces(j, budget, &sound);
-    if (status != FRAM_OK || !sound)
+    if (status != FRAM_OK)
         return status;
+    if (!sound)
+        return put_off(j, "no floes can be made of its outlines");
     *broke = true;
     mark_broken(j, parents, count);
     event->floe = b.from.definition.parent;

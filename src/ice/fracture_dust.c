@@ -125,7 +125,7 @@ static bool weld(context *ctx, polygon piece, polygon to, double reach, vec2_arr
 }
 
 /* Two pieces, each with the corners of the other, in piece.pair. */
-static bool pair_up(context *ctx, fracture_scratch *s, polygon a, polygon b)
+static bool weld_pair(context *ctx, fracture_scratch *s, polygon a, polygon b)
 {
     piece_work *w = &s->piece;
     double reach = fmax(corner_reach(a), corner_reach(b));
@@ -154,25 +154,41 @@ static bool merge_corners(context *ctx, fracture_scratch *s, polygon *ring, doub
     return true;
 }
 
-fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
-                           fram_error *error)
+/* The union of the pair, when it is one sound ring, in *ring. */
+static fram_status unite_pair(context *ctx, fracture_scratch *s, overlay *plane, double area, polygon *ring,
+                              bool *sound, fram_error *error)
 {
-    *joined = false;
+    *sound = false;
     polygon_list_clear(&s->piece.joined);
-    if (!pair_up(ctx, s, polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring),
-                 polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring)))
-        return error_memory(error);
     fram_status status = overlay_union(plane, &s->piece.pair, &s->piece.joined, error);
     if (status == FRAM_ERROR_MEMORY)
         return status;
     if (status != FRAM_OK || polygon_list_count(&s->piece.joined) != 1)
         return FRAM_OK;
-    polygon ring = polygon_list_get(&s->piece.joined, 0);
-    bool sound;
-    if (!merge_corners(ctx, s, &ring, s->piece.rows.data[i].area + s->piece.rows.data[k].area, &sound))
+    *ring = polygon_list_get(&s->piece.joined, 0);
+    return merge_corners(ctx, s, ring, area, sound) ? FRAM_OK : error_memory(error);
+}
+
+fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
+                           fram_error *error)
+{
+    polygon a = polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring);
+    polygon b = polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring), ring;
+    *joined = false;
+    polygon_list_clear(&s->piece.pair);
+    if (!polygon_list_push(ctx, &s->piece.pair, a) || !polygon_list_push(ctx, &s->piece.pair, b))
         return error_memory(error);
-    if (!sound)
-        return FRAM_OK;
+    double area = s->piece.rows.data[i].area + s->piece.rows.data[k].area;
+    bool sound;
+    fram_status status = unite_pair(ctx, s, plane, area, &ring, &sound, error);
+    /* Only then: a notch that is narrower than rounding would close, a sliver be gone. */
+    if (status == FRAM_OK && !sound) {
+        if (!weld_pair(ctx, s, a, b))
+            return error_memory(error);
+        status = unite_pair(ctx, s, plane, area, &ring, &sound, error);
+    }
+    if (status != FRAM_OK || !sound)
+        return status;
     s->piece.rows.data[k].ring = polygon_list_count(&s->piece.outlines);
     s->piece.rows.data[k].area = polygon_area(ring);
     if (s->piece.rows.data[k].tile != s->piece.rows.data[i].tile)

@@ -64,6 +64,21 @@ END_TEST
 START_TEST(a_side_that_is_a_part_of_the_other_unites) { ck_assert_int_eq(left_apart(0.4, 0.7), 0); }
 END_TEST
 
+/* A crack that is narrower than rounding ends where the side begins: the corners on both sides of it are not one. */
+START_TEST(a_notch_without_width_stays_open)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    vec2 box[] = {{0, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0.5, 0.5}, {nextafter(0.5, 0), 1}, {0, 1}};
+    vec2 peak[] = {{0.5, 1}, {1, 1}, {0.75, 1.5}};
+    int32_t i = gather(&r, peak, 3), k = gather(&r, box, 7);
+    bool one;
+    ck_assert_int_eq(fracture_unite(&r.ctx, r.scratch, r.plane, i, k, &one, NULL), FRAM_OK);
+    ck_assert(one);
+    fracture_rig_free(&r);
+}
+END_TEST
+
 /* What only comes near stays apart, and each keeps its outline. */
 START_TEST(pieces_with_a_gap_stay_apart)
 {
@@ -80,4 +95,4 @@ START_TEST(pieces_with_a_gap_stay_apart)
 END_TEST
 
 TEST_MAIN("fracture_dust", a_side_with_the_same_ends_but_for_rounding_unites, a_side_that_is_longer_at_one_end_unites,
-          a_side_that_is_a_part_of_the_other_unites, pieces_with_a_gap_stay_apart)
+          a_side_that_is_a_part_of_the_other_unites, a_notch_without_width_stays_open, pieces_with_a_gap_stay_apart)
