@@ -13,7 +13,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(os.environ["FRAM_SOURCE"])
-sys.path.insert(0, str(ROOT / "validation"))
+sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "validation")]
+import package  # noqa: E402,F401  first: it finds the package `fram`, by which worlds of cases are stepped
 import case_field_steps  # noqa: E402
 import case_positioning  # noqa: E402
 import case_squeeze  # noqa: E402
