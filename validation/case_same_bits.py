@@ -9,6 +9,18 @@ WAYS = [("1 thread", {}), ("2 threads", {"threads": 2}), ("5 threads", {"threads
         ("baseline instructions", {"isa": "baseline"}), ("AVX2", {"isa": "avx2"}), ("AVX-512", {"isa": "avx512"})]
 
 
+def hash_of(path, end, options):
+    """Of the state at the end; or that this processor lacks the instructions."""
+    try:
+        with world.World(path, run__duration=end, run__transient=0, **options) as w:
+            w.run(end)
+            return w.hash
+    except world.fram.UsageError as why:
+        if why.key != "isa":
+            raise
+        return f"not on this machine ({why.message})"
+
+
 def resumed(path, name, half, end):
     """Hash of a run that is stopped halfway and resumed."""
     folder = ladder.WORK / "same_bits" / name
@@ -32,14 +44,7 @@ def case(out):
     for scene, end in SCENES.items():
         path = ladder.ROOT / "scenes" / f"{scene}.yaml"
         for way, options in WAYS:
-            try:
-                with world.World(path, run__duration=end, run__transient=0, **options) as w:
-                    w.run(end)
-                    hashes[way, scene] = w.hash
-            except RuntimeError as why:
-                if "isa" not in options:
-                    raise
-                hashes[way, scene] = f"not on this machine ({why})"
+            hashes[way, scene] = hash_of(path, end, options)
         hashes["stopped and resumed", scene] = resumed(path, scene, end / 2, end)
     for way in [*(way for way, _ in WAYS), "stopped and resumed"]:
         c.rows.append([way, *(f"`{hashes[way, scene]}`" for scene in SCENES)])

@@ -63,8 +63,9 @@ class World:
             self.step()
 
     def body(self, slot):
+        """None where nobody is."""
         view = self.world.view()
-        return state_of(view, slot) if view.lives[slot] else None
+        return state_of(view, slot) if 0 <= slot < len(view.lives) and view.lives[slot] else None
 
     def bodies(self, kind=None):
         """(slot, state) of all bodies of a kind ("floe", ...)."""
@@ -76,8 +77,10 @@ class World:
         self.world.apply_wrench((slot, int(self.world.view().generation[slot])), force, moment)
 
     def ice_force(self):
-        """On the vessel in the last step [N]."""
-        return tuple(self.world[f"ice_force_{axis}"] for axis in "xyz")
+        """On the first vessel in the last step [N]."""
+        # In a list of vessels each one's name stands before the names of its channels; the first comes first.
+        first = next((name for name in self.world.channels if f".{name}".endswith(".ice_force_x")), "ice_force_x")
+        return tuple(self.world[f"{first[:-1]}{axis}"] for axis in "xyz")
 
 
 def turned(q, v):

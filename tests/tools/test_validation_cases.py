@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A case of the validation book still runs: its worlds, its page and its verdict, by the library as it is now.  One
 that cannot be made does not agree, and runs are read again as long as the files that they name are the same.  A NaN
-agrees with nothing, wherever it stands."""
+agrees with nothing, wherever it stands.  Worlds have what cases ask of them."""
 import contextlib
 import io
 import json
@@ -17,10 +17,12 @@ sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "validation")]
 import package  # noqa: E402,F401  first: it finds the package `fram`, by which worlds of cases are stepped
 import case_field_steps  # noqa: E402
 import case_positioning  # noqa: E402
+import case_same_bits  # noqa: E402
 import case_squeeze  # noqa: E402
 import case_towed_box  # noqa: E402
 import ladder  # noqa: E402
 import run  # noqa: E402
+import world  # noqa: E402
 
 
 def cannot_be_made(_):
@@ -80,6 +82,27 @@ def check_nan_of_runs():
     assert "lag shows" in text and not good, positioning.checks
 
 
+def check_worlds():
+    """Where nobody is there is no body; the ice force is that of the first of several vessels; a processor without some
+    instructions is no fault of the library."""
+    ladder.box_obj(ladder.WORK / "hull.obj", (-5, -2, -2), (5, 2, 2))
+    ship = f"hull: {{form: file, file: {ladder.WORK}/hull.obj}}, mode: prescribed, speed: 1"
+    text = (f"vessels: [{{name: B, x: -20, {ship}}}, {{name: A, x: 40, {ship}}}]\n"
+            "ice: {source: floes, floes: [{length: 9, width: 9, x: -10.4, fixed: true}]}\n")
+    with world.World(text, "ships") as w:
+        w.step(20)
+        assert w.ice_force()[0] < 0 and w.ice_force() == tuple(w.world[f"B.ice_force_{axis}"] for axis in "xyz")
+        assert w.body(0) and not w.body(99) and not w.body(-1)
+    path = ladder.WORK / "ships.yaml"
+    assert case_same_bits.hash_of(path, 0.1, {"isa": "none"}).startswith("not on this machine (expected baseline")
+    assert len(case_same_bits.hash_of(path, 0.1, {"isa": "baseline"})) == 16
+    try:
+        case_same_bits.hash_of(path, 0.1, {"threads": 0})
+        raise AssertionError("no thread is taken")
+    except world.fram.UsageError as why:
+        assert why.key == "threads", why
+
+
 check_nan()
 check_nan_of_runs()
 with tempfile.TemporaryDirectory() as out:
@@ -101,6 +124,7 @@ with tempfile.TemporaryDirectory() as out:
     assert "0 of 1 cases agree" in (pathlib.Path(out) / "README.md").read_text()
 
     ladder.WORK = pathlib.Path(out) / "work"
+    check_worlds()
     beams = (4, 4, 5, 5)
     assert [read_again(ladder.WORK / "hull.obj", beam) for beam in beams] == [False, True, False, True]
 print("a case runs, and its page says so; runs are read again while their files are the same")
