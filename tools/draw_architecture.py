@@ -44,7 +44,7 @@ STEP = [
     ("Ice loads", "contacts with impulses", "load on each vessel, by zone and kind"),
     ("5  Fracture", "patches with impulses, floes", "cracks: floes removed and made; events; books"),
     ("6  Integration", "velocities, contacts", "poses; overlap corrected"),
-    ("Edge of the domain", "poses", "floes that leave, return or are fed"),
+    ("Edge of the domain", "poses, velocities", "floes that leave, return or are fed; bodies put to sleep"),
 ]
 
 
@@ -131,8 +131,8 @@ def draw_step():
     y = 40 + len(STEP) * (high + gap)
     body += [text(20, y + 14, "Nothing flows back within a step.  State outlives it in tables of fields; all else is "
                   "written anew.  The recorder reads, and writes nothing that moves.", "small"),
-             text(20, y + 32, "Stages with a number are the mechanics; those without keep account of what these did.",
-                  "small")]
+             text(20, y + 32, "Stages with a number are the mechanics.  Of those without, one keeps account of what "
+                  "the ice did, and one settles who is there in the next step, and who sleeps.", "small")]
     return svg(width, y + 52, body)
 
 

@@ -8,8 +8,9 @@
    faster than the speed limit; the world then stands as it went wrong. */
 fram_status world_step(context *ctx, const model *m, world *w, fram_error *error);
 
-/* The stages of a step in their order.  Those with a number are the mechanics, as documents count them; those without
-   keep account of what they did. */
+/* The stages of a step in their order.  Those with a number are the mechanics, as documents count them.  Of those
+   without, that of loads keeps account of what the ice did, and that of the edge settles who is there in the next step,
+   and who sleeps. */
 typedef enum step_stage {
     STAGE_FORCES,      /* 1: forces from outside, at the old state */
     STAGE_DETECTION,   /* 2: broad phase, narrow phase */
