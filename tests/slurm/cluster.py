@@ -1,6 +1,7 @@
 """A real Slurm on this machine for tests: slurmctld, munged and a few slurmd in a folder of their own, without systemd.
 
 Needs root, and Debian's slurmctld, slurmd, slurm-client and munge (`make test-slurm` installs them)."""
+import contextlib
 import os
 import pathlib
 import shutil
@@ -121,17 +122,30 @@ class Cluster:
         while is_alive(number_of_program) and time.monotonic() < end:
             time.sleep(0.02)
 
+    def programs_with(self, *settings):
+        """Numbers of the programs of this cluster that have these in their environment too."""
+        wanted = {f"SLURM_CONF={self.folder}/slurm.conf".encode(), *(s.encode() for s in settings)}
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if wanted <= set((process / "environ").read_bytes().split(b"\0")):
+                    yield int(process.name)
+            except OSError:
+                pass
+
+    def kill_with(self, *settings):
+        """All of them, until none is found: one may have started another meanwhile, and what is killed may still write
+        into the folder."""
+        end = time.monotonic() + 30
+        while time.monotonic() < end and (found := list(self.programs_with(*settings))):
+            for program in found:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(program, signal.SIGKILL)
+            time.sleep(0.02)
+
     def kill_node(self, node):
         """The node is lost with all that runs on it."""
         self.stop_program(self.folder / f"slurmd.{node}.pid")
-        for process in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                words = (process / "environ").read_bytes().split(b"\0")
-                if (b"SLURMD_NODENAME=" + node.encode() in words and
-                        f"SLURM_CONF={self.folder}/slurm.conf".encode() in words):
-                    os.kill(int(process.name), signal.SIGKILL)
-            except OSError:
-                pass
+        self.kill_with(f"SLURMD_NODENAME={node}")
 
     def hide_from_node(self, node, folder, empty):
         """The node sees an empty folder in place of another."""
@@ -145,4 +159,5 @@ class Cluster:
             self.kill_node(node)
         self.stop_program(self.folder / "slurmctld.pid", signal.SIGTERM)
         self.stop_program(self.folder / "munge" / "pid", signal.SIGTERM)
+        self.kill_with()  # slurmstepd, which watches over a job, need not know its node
         shutil.rmtree(self.folder)
