@@ -8,7 +8,6 @@
 #include <sched.h>
 #include <stdio.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 enum { PATH = 600 };
 

@@ -54,10 +54,7 @@ static bool set_up(opened *o)
     scratch_folder(o->folder);
     snprintf(o->page, sizeof o->page, "%s/page.html", o->folder);
     snprintf(o->run, sizeof o->run, "%s/run", o->folder);
-    FILE *file = fopen(o->page, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs(viewer, file);
-    fclose(file);
+    scratch_text(o->page, viewer);
     assert_ok(fram_context_create(NULL, &o->ctx, &e), e);
     assert_ok(fram_scenario_parse(o->ctx, scene, NULL, NULL, 0, &o->s, &e), e);
     assert_ok(fram_world_create(o->s, &o->w, &e), e);
@@ -248,9 +245,7 @@ START_TEST(misuse_is_refused)
     d.live_user = &o;
     d.live_page = "/nowhere/playback.html";
     ck_assert_int_eq(fram_world_record(o.w, &d, &e), FRAM_ERROR_INPUT);
-    FILE *file = fopen(o.page, "w");
-    fputs("no marks", file);
-    fclose(file);
+    scratch_text(o.page, "no marks");
     d.live_page = o.page;
     ck_assert_int_eq(fram_world_record(o.w, &d, &e), FRAM_ERROR_INPUT);
     ck_assert(!fram_world_is_recorded(o.w) && o.told == 0);

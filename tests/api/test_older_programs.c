@@ -11,7 +11,6 @@
 #include "scratch.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 enum { CANARY = 0x5a, BEHIND = 64, LEAST = 8, ROWS = 4, LETTERS = 16 /* that every path here has */ };
 

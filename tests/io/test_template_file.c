@@ -2,20 +2,12 @@
 #include "io/template_file.h"
 #include "scratch.h"
 
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_int_ge(fputs(text, file), 0);
-    ck_assert_int_eq(fclose(file), 0);
-}
-
 static fram_status read_text(const char *text, polygon_list *out, fram_error *error)
 {
     context ctx;
     context_init(&ctx);
     scratch s = scratch_make();
-    write_text(scratch_path(&s, "shapes.txt"), text);
+    scratch_text(scratch_path(&s, "shapes.txt"), text);
     overlay *plane = overlay_create(&ctx);
     ck_assert_ptr_nonnull(plane);
     *error = (fram_error){0};

@@ -6,7 +6,6 @@
 #include "sim/run.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 static const char text[] = "run:\n  duration: 0.1\n  time_step: 0.02\n"
                            "vessel:\n  mode: towed\n  x: -10\n  speed: 2\n"

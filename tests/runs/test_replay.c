@@ -11,7 +11,6 @@
 
 #include <stdio.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { PATH = 512 };
 

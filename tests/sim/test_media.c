@@ -5,7 +5,6 @@
 #include "sim/step.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 typedef struct sea {
     char folder[SCRATCH_FOLDER];

@@ -1,9 +1,9 @@
 /* Fields drawn from populations: what the scenario asks for is what the floes of the world are. */
 #include "base/transcendental.h"
 #include "scene.h"
+#include "scratch.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 enum { TEXT_SIZE = 4096, PATH_SIZE = 256 };
 
@@ -15,10 +15,7 @@ static void write_file(char path[PATH_SIZE], const char *name, const char *text)
 {
     const char *folder = getenv("TMPDIR");
     snprintf(path, PATH_SIZE, "%s/fram_%ld_%s", folder ? folder : "/tmp", (long)getpid(), name);
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    fputs(text, file);
-    ck_assert_int_eq(fclose(file), 0);
+    scratch_text(path, text);
 }
 
 static double plan_area(const world *w, int32_t floe) { return w->floes.area[floe]; }

@@ -106,8 +106,7 @@ END_TEST
 static void write_file(const char *folder, const char *name, const char *ending, char path[PATH_ROOM])
 {
     snprintf(path, PATH_ROOM, "%s/%s%s", folder, name, ending);
-    FILE *file = fopen(path, "w");
-    ck_assert(file && fputs("{\n  \"fram_version\": ", file) >= 0 && fclose(file) == 0);
+    scratch_text(path, "{\n  \"fram_version\": ");
 }
 
 /* Whether it was there; it no longer is. */

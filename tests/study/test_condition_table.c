@@ -5,7 +5,6 @@
 #include "study/study_file.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 static void parse(const char *text, fram_status expected, condition_table *t, fram_error *error)
 {

@@ -1,19 +1,11 @@
 /* Rows of a study as small files and as lines of summary.csv, and runs as processes. */
+#include "scratch.h"
 #include "study/processes.h"
 #include "study/run_row.h"
-#include "testing.h"
 
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-
-enum { PATH = 256 };
-
-static void scratch_path(char out[PATH])
-{
-    const char *folder = getenv("TMPDIR");
-    snprintf(out, PATH, "%s/fram-row-%ld", folder && *folder ? folder : "/tmp", (long)getpid());
-}
 
 static run_row sample(void)
 {
@@ -28,8 +20,8 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     context ctx;
     context_init(&ctx);
     fram_error error = {0};
-    char path[PATH], text[4096];
-    scratch_path(path);
+    scratch s = scratch_make();
+    const char *path = scratch_path(&s, "1.row");
     for (int failed = 0; failed < 2; failed++) {
         run_row row[2] = {sample(), sample()};
         run_rows rows = {row, 2, 2}, back;
@@ -56,19 +48,14 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
         array_free(&ctx, &back);
     }
     /* Cut behind any of its lines, it is none. */
-    FILE *file = fopen(path, "r");
-    ck_assert_ptr_nonnull(file);
-    size_t size = fread(text, 1, sizeof text, file);
-    fclose(file);
+    size_t size;
+    char *text = scratch_read(path, &size);
     for (size_t cut = 1; cut < size; cut++) {
         if (text[cut - 1] != '\n' && cut % 7)
             continue;
         run_rows back;
         row_file found = ROWS_WHOLE;
-        file = fopen(path, "w");
-        ck_assert_ptr_nonnull(file);
-        ck_assert_uint_eq(fwrite(text, 1, cut, file), cut);
-        fclose(file);
+        scratch_write(path, text, cut);
         assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
         ck_assert_msg(found == ROWS_CUT, "the first %zu of %zu bytes are taken for a row", cut, size);
     }
@@ -78,10 +65,8 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     char *state = memchr(text, '\n', size); /* behind the mark */
     ck_assert_ptr_nonnull(state);
     state[1] = 'w';
-    file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_uint_eq(fwrite(text, 1, size, file), size);
-    fclose(file);
+    scratch_write(path, text, size);
+    free(text);
     assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
     ck_assert_int_eq(found, ROWS_CUT);
     remove(path);
@@ -91,7 +76,7 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     ck_assert_int_eq(mkfifo(path, 0600), 0);
     assert_fails(run_rows_read(&ctx, path, &back, &found, &error), error, FRAM_ERROR_INPUT, "found a pipe");
     ck_assert_int_eq(found, ROWS_NONE);
-    remove(path);
+    scratch_remove(&s, "1.row");
 }
 END_TEST
 
@@ -103,8 +88,7 @@ START_TEST(a_row_of_another_fram_is_told_apart)
     context ctx;
     context_init(&ctx);
     fram_error error = {0};
-    char path[PATH];
-    scratch_path(path);
+    scratch s = scratch_make();
     run_row row = sample();
     run_rows rows = {&row, 1, 1};
     text_buffer text = {0};
@@ -114,15 +98,14 @@ START_TEST(a_row_of_another_fram_is_told_apart)
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
         run_rows back;
         row_file found = ROWS_WHOLE;
-        FILE *file = fopen(path, "w");
-        ck_assert_ptr_nonnull(file);
-        fprintf(file, "%s%s", heads[i], behind);
-        fclose(file);
-        assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
+        char all[4096];
+        ck_assert_int_lt(snprintf(all, sizeof all, "%s%s", heads[i], behind), (int)sizeof all);
+        scratch_put(s.folder, "1.row", all);
+        assert_ok(run_rows_read(&ctx, scratch_path(&s, "1.row"), &back, &found, &error), error);
         ck_assert_msg(found == ROWS_OTHER, "%s", heads[i]);
     }
     text_free(&ctx, &text);
-    remove(path);
+    scratch_remove(&s, "1.row");
 }
 END_TEST
 
@@ -164,8 +147,8 @@ START_TEST(processes_tell_how_they_ended)
     } cases[] = {{"exit 0", 0}, {"echo the reason >&2; exit 7", 7}, {"kill -9 $$", 128 + 9}, {"kill -15 $$", 128 + 15}};
     context ctx;
     context_init(&ctx);
-    char log[PATH];
-    scratch_path(log);
+    scratch s = scratch_make();
+    const char *log = scratch_path(&s, "1.log");
     for (int32_t i = 0; i < 4; i++) {
         process_pool all = {0};
         fram_error error = {0};
@@ -181,7 +164,7 @@ START_TEST(processes_tell_how_they_ended)
             assert_log(log, "the reason\n");
         processes_free(&ctx, &all);
     }
-    remove(log);
+    scratch_remove(&s, "1.log");
 }
 END_TEST
 
@@ -194,11 +177,11 @@ START_TEST(a_log_is_opened_by_its_own_name)
     context_init(&ctx);
     process_pool all = {0};
     fram_error error = {0};
-    char log[PATH];
+    scratch s = scratch_make();
+    const char *log = scratch_path(&s, "1.log");
     ck_assert_int_ne(processes_start(&ctx, &all, words, "/nonexistent/log", 0, &error), FRAM_OK);
     ck_assert_str_eq(error.file, "/nonexistent/log");
     ck_assert_int_eq(all.running.count, 0);
-    scratch_path(log);
     int kept = dup(STDIN_FILENO), code = -1;
     int32_t task = -1;
     close(STDIN_FILENO);
@@ -210,19 +193,9 @@ START_TEST(a_log_is_opened_by_its_own_name)
     wait_for(&all, &task, &code);
     assert_log(log, "the reason\n");
     processes_free(&ctx, &all);
-    remove(log);
+    scratch_remove(&s, "1.log");
 }
 END_TEST
-
-static void write_file(const char *folder, const char *name, const char *text)
-{
-    char path[PATH + 16];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    ck_assert_ptr_nonnull(file);
-    ck_assert_int_ge(fputs(text, file), 0);
-    fclose(file);
-}
 
 /* One split, two that bent, and a part of a sheet that came loose, which is no floe that broke. */
 START_TEST(parts_that_came_loose_are_no_floes_that_broke)
@@ -233,13 +206,12 @@ START_TEST(parts_that_came_loose_are_no_floes_that_broke)
                                            {"fractures.csv", "time[s],kind[1]\n1,2\n2,1\n3,3\n4,2\n"}};
     context ctx;
     context_init(&ctx);
-    char folder[PATH], path[PATH + 16];
+    char folder[SCRATCH_FOLDER];
     run_rows rows = {0};
     fram_error error = {0};
-    scratch_path(folder);
-    ck_assert_int_eq(mkdir(folder, 0700), 0);
+    scratch_folder(folder);
     for (int i = 0; i < 4; i++)
-        write_file(folder, files[i][0], files[i][1]);
+        scratch_put(folder, files[i][0], files[i][1]);
     /* It has ended, and counts though the program asks to stop. */
     static const int stop = 1;
     ctx.stop = &stop;
@@ -248,11 +220,7 @@ START_TEST(parts_that_came_loose_are_no_floes_that_broke)
     ck_assert_int_eq(rows.count, 1);
     ck_assert_double_eq(rows.data[0].figure[ROW_fractures], 3);
     array_free(&ctx, &rows);
-    for (int i = 0; i < 4; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, files[i][0]);
-        remove(path);
-    }
-    rmdir(folder);
+    scratch_remove_folder(folder);
 }
 END_TEST
 
