@@ -198,9 +198,10 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
  */
 int session_open_reading(const common_options *common, work_view *view, fram_context **context);
 /* The one or the other: with a file to write, or NULL. */
+typedef enum session_kind { SESSION_READS, SESSION_MAKES } session_kind;
+session_kind session_kind_for(const char *file);
 int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context);
 /* The one or the other, when nothing speaks against the files (refuse_outputs). */
-typedef enum session_kind { SESSION_READS, SESSION_MAKES } session_kind;
 int session_open_files(const common_options *common, const command_files *files, session_kind kind, work_view *view,
                        fram_context **context);
 /* Of no beginning in particular, never turned back [s]. */

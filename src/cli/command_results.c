@@ -108,7 +108,7 @@ int command_plot(const command_row *self, int argc, char **argv)
     const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, PICTURE_ENDINGS}}};
     work_view work;
     fram_context *context = NULL;
-    code = session_open_files(&common, &files, output ? SESSION_MAKES : SESSION_READS, &work, &context);
+    code = session_open_files(&common, &files, session_kind_for(output), &work, &context);
     if (code >= 0)
         return code;
     fram_error error = {0};
@@ -233,7 +233,7 @@ int command_compare(const command_row *self, int argc, char **argv)
     const command_files files = {.runs = {run[0], run[1]}, .outputs = {{"--output", output, PAGE_ENDINGS}}};
     work_view work;
     fram_context *context = NULL;
-    code = session_open_files(&common, &files, output ? SESSION_MAKES : SESSION_READS, &work, &context);
+    code = session_open_files(&common, &files, session_kind_for(output), &work, &context);
     if (code >= 0)
         return code;
     fram_comparison comparison;

@@ -113,9 +113,11 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
     return open_shown(common, SESSION_MAKES, view, context);
 }
 
+session_kind session_kind_for(const char *file) { return file ? SESSION_MAKES : SESSION_READS; }
+
 int session_open_for(const char *file, const common_options *common, work_view *view, fram_context **context)
 {
-    return open_shown(common, file ? SESSION_MAKES : SESSION_READS, view, context);
+    return open_shown(common, session_kind_for(file), view, context);
 }
 
 int session_open_files(const common_options *common, const command_files *files, session_kind kind, work_view *view,

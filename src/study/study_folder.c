@@ -336,6 +336,12 @@ void study_folder_close(study_folder *f)
     f->id = NULL;
 }
 
+fram_status study_interrupted(fram_error *error)
+{
+    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
+                     "interrupted; what ended is kept, continue with the same command");
+}
+
 int study_folder_jobs(const study_folder *f, int jobs)
 {
     if (jobs > 0)

@@ -36,6 +36,8 @@ fram_status condition_name_find(context *ctx, const scenario *one, text_buffer *
 fram_status study_folder_open(context *ctx, const study *s, const char *path, bool dry, study_folder *f,
                               fram_error *error);
 void study_folder_close(study_folder *f);
+/* FRAM_INTERRUPTED, of a study that was asked to stop: its folder goes on from what ended. */
+fram_status study_interrupted(fram_error *error);
 
 /* Before that, in study_folder_check.c: whether the folder is empty or a study's, and no file stands in the place of
    one that is to be written which the study names; FRAM_ERROR_USAGE otherwise, and nothing is touched. */

@@ -449,12 +449,6 @@ static int32_t left_of(const worst_work *w, worst_stage up_to)
     return n;
 }
 
-fram_status study_interrupted(fram_error *error)
-{
-    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
-                     "interrupted; what ended is kept, continue with the same command");
-}
-
 fram_status study_worst_record(const study_folder *f, const condition_rows *conditions, const study_options *options,
                                bool *changed, fram_error *error)
 {

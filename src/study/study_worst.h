@@ -42,7 +42,5 @@ fram_status study_worst_frames_of(const study_folder *f, const worst_run *run, d
    untrue. */
 fram_status study_worst_record(const study_folder *f, const condition_rows *conditions, const study_options *options,
                                bool *changed, fram_error *error);
-/* FRAM_INTERRUPTED, of a study that was asked to stop. */
-fram_status study_interrupted(fram_error *error);
 
 #endif
