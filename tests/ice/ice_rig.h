@@ -307,4 +307,35 @@ static inline fracture_state ice_rig_fracture_state(ice_rig *r)
                             .next_number = &r->next_number};
 }
 
+typedef struct ice_rig_broken {
+    double time; /* before the step in which it broke [s] */
+    fracture_event event;
+    vec3 force; /* on the floe when it broke, of all contacts [N] */
+} ice_rig_broken;
+
+/* Steps without loads, before `end` [s], until a floe breaks, which one does. */
+static inline ice_rig_broken ice_rig_until_broken(ice_rig *r, const fracture_settings *settings, double end)
+{
+    double dt = r->settings.time_step;
+    fracture_scratch *scratch = fracture_scratch_create(&r->ctx);
+    fracture_event_array events = {0};
+    ice_rig_broken b = {0};
+    for (int step = 0; step * dt < end && events.count == 0; step++) {
+        fram_error e = {0};
+        ice_rig_crush(r);
+        ice_rig_solve(r);
+        b.force = ice_rig_force(r);
+        b.time = step * dt;
+        fracture_state state = ice_rig_fracture_state(r);
+        state.supports = &r->supports;
+        assert_ok(fracture_run(&r->ctx, scratch, settings, r->plane, &r->patches, &state, &events, &e), e);
+        integrate_poses(&r->ctx, &r->bodies, dt);
+    }
+    ck_assert_int_eq(events.count, 1);
+    b.event = events.data[0];
+    array_free(&r->ctx, &events);
+    fracture_scratch_free(&r->ctx, scratch);
+    return b;
+}
+
 #endif

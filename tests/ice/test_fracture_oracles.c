@@ -6,12 +6,6 @@
 
 static const double FORCE = 311.743e3, AREA = 0.155871, TIME = 0.779357, RADIUS = 4.14196, LOADED = 0.299987;
 
-typedef struct breaking {
-    double time;
-    fracture_event event;
-    vec3 force; /* on the ice when it broke [N] */
-} breaking;
-
 /* What the plate meets, and how. */
 typedef struct approach {
     double slope; /* x over z */
@@ -32,12 +26,11 @@ static void ramp_scene(ice_rig *r, double dt, double slope, double speed)
     ice_rig_pair(r, ice, hull);
 }
 
-static breaking run_until_broken(double dt, approach a)
+static ice_rig_broken run_until_broken(double dt, approach a)
 {
     ice_rig r;
     ramp_scene(&r, dt, a.slope, a.speed);
     r.settings.edges = (edge_compliance){a.gives, a.inertia, 1025, 9.81, 3, false, false};
-    fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
     fracture_settings settings = {.time_step = dt,
                                   .water_density = 1025,
                                   .gravity = 9.81,
@@ -49,23 +42,7 @@ static breaking run_until_broken(double dt, approach a)
                                   .edge_threshold = 0.15,
                                   .edges_give = a.gives,
                                   .edge_inertia = a.inertia};
-    fracture_event_array events = {0};
-    breaking b = {0};
-    for (int step = 0; step * dt * a.speed < 0.3 && events.count == 0; step++) {
-        fram_error e = {0};
-        ice_rig_crush(&r);
-        ice_rig_solve(&r);
-        b.force = ice_rig_force(&r);
-        b.time = step * dt;
-        fracture_state state = ice_rig_fracture_state(&r);
-        state.supports = &r.supports;
-        assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
-        integrate_poses(&r.ctx, &r.bodies, dt);
-    }
-    ck_assert_int_eq(events.count, 1);
-    b.event = events.data[0];
-    array_free(&r.ctx, &events);
-    fracture_scratch_free(&r.ctx, scratch);
+    ice_rig_broken b = ice_rig_until_broken(&r, &settings, 0.3 / a.speed);
     ice_rig_free(&r);
     return b;
 }
@@ -74,7 +51,7 @@ static breaking run_until_broken(double dt, approach a)
    first step at which it is large enough. */
 static void check_break(double dt, double slope)
 {
-    breaking b = run_until_broken(dt, (approach){slope, 0.1, false, false});
+    ice_rig_broken b = run_until_broken(dt, (approach){slope, 0.1, false, false});
     double time = dt * ceil(TIME / dt), area = 2 * 0.1 * time;
     ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
     assert_absolute(b.time, time, 1e-9);
@@ -112,7 +89,7 @@ static const double TIP = 0.090725, LATER = 1.686608;
 
 static void check_give(double dt, double slope)
 {
-    breaking b = run_until_broken(dt, (approach){slope, 0.1, true, false});
+    ice_rig_broken b = run_until_broken(dt, (approach){slope, 0.1, true, false});
     ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
     ck_assert_msg(b.time >= LATER * (1 - 1e-4) && b.time < LATER * (1 + 1e-4) + dt, "broke after %.6f s, not %.6f",
                   b.time, LATER);
@@ -169,7 +146,7 @@ START_TEST(edge_with_inertia)
     static const double SPEEDS[] = {0.3, 1};
     for (int i = 0; i < 4; i++) {
         double speed = SPEEDS[i / 2], dt = (i % 2 ? 1e-4 : 4e-4) / speed;
-        breaking b = run_until_broken(dt, (approach){i % 2 ? -1 : 1, speed, true, true});
+        ice_rig_broken b = run_until_broken(dt, (approach){i % 2 ? -1 : 1, speed, true, true});
         rising exact = march(speed);
         /* First order in the time step: dt of loading more at most; the march is 0.01 % off. */
         double more = dt / exact.time + 2e-4;
@@ -186,7 +163,7 @@ START_TEST(inertia_and_speed)
     static const double SPEEDS[] = {0.004, 0.3, 1, 3};
     double load = FORCE, radius = RADIUS;
     for (int i = 0; i < 4; i++) {
-        breaking b = run_until_broken(1e-3 / SPEEDS[i], (approach){1, SPEEDS[i], true, true});
+        ice_rig_broken b = run_until_broken(1e-3 / SPEEDS[i], (approach){1, SPEEDS[i], true, true});
         if (i == 0) {
             assert_relative(b.event.load, FORCE, 0.01);
             assert_relative(b.event.crack_length, RADIUS, 0.01);

@@ -25,28 +25,15 @@ static breaking plate_breaks(double width, double dt)
     r.bodies.position[hull] = (vec3){-0.5, 0, 0};
     r.bodies.velocity[hull] = (vec3){0.1, 0, 0};
     ice_rig_pair(&r, ice, hull);
-    fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
     fracture_settings settings = fracture_rig_settings();
     settings.time_step = dt;
     settings.thick_plate_radius = false;
     settings.splitting = SPLITTING_NONE;
     settings.wide_contacts = true;
-    fracture_event_array events = {0};
-    for (int step = 0; step * dt < 2 && events.count == 0; step++) {
-        fram_error e = {0};
-        ice_rig_crush(&r);
-        ice_rig_solve(&r);
-        fracture_state state = ice_rig_fracture_state(&r);
-        assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
-        integrate_poses(&r.ctx, &r.bodies, dt);
-    }
-    ck_assert_int_eq(events.count, 1);
-    breaking b = {.event = events.data[0]};
+    breaking b = {.event = ice_rig_until_broken(&r, &settings, 2).event};
     for (int32_t i = 0; i < r.floes.count; i++)
         if (r.floes.body[i] >= 0 && r.bodies.motion[r.floes.body[i]] == MOTION_DYNAMIC)
             b.largest = testing_larger(b.largest, r.floes.area[i]);
-    array_free(&r.ctx, &events);
-    fracture_scratch_free(&r.ctx, scratch);
     ice_rig_free(&r);
     return b;
 }
