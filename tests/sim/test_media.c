@@ -167,7 +167,7 @@ START_TEST(wrong_files)
         {"current_file: series.csv", "time,x,y\n\n0,1,0\n \t\n5,0,-201\n", "at most 200 m/s, found -201", 5, "y[m/s]"},
         {"current_file: series.csv", "time,x,y\n0,1,0\n\n\n0,2,0\n", "row before", 5, ""},
         {"wind_file: missing.csv", "", "expected a file that can be read", 5, ""},
-        {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "depths", 0, ""},
+        {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "0 or more, found -1", 2, "depth[m]"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         sea k;

@@ -193,7 +193,7 @@ START_TEST(slips_are_told_with_their_remedy)
          "as [0.5, 1.5], found a mapping"},
         {"vary: {latin: {count: 2, keys: {ice: {thickness: {values: [1, 2]}}}}}\n", "ice",
          "write ice.thickness: {...}"},
-        {"vary: {latin: {count: 2, levels: 4}}\n", "levels", "count, seed or keys"},
+        {"vary: {latin: {count: 2, levels: 4}}\n", "vary.latin.levels", "count, seed or keys"},
         {"vary: {sobol: {count: 16}}\n", "sobol", "keys is missing"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[160];
