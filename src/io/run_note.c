@@ -27,7 +27,8 @@ void run_note_free(context *ctx, run_note *n)
 
 typedef enum note_kind {
     NOTE_TEXT,
-    NOTE_NAME,  /* a text that is left out where it is "" */
+    NOTE_WORDS, /* a text that may be "", and null for that: none that runs are told apart by */
+    NOTE_NAME,  /* the same, left out where it is "" */
     NOTE_WHOLE, /* a number without decimals, */
     NOTE_REAL,  /* by the fewest digits that read back as the same, null where it is none, */
     NOTE_MILLI, /* to thousandths, */
@@ -73,6 +74,7 @@ static void write_member(note_writer *w, const note_member *m, const char *befor
     text_format(w->ctx, w->out, "%s\"%s\": ", before, m->name);
     switch (m->kind) {
     case NOTE_TEXT:
+    case NOTE_WORDS:
     case NOTE_NAME:
         text_quoted(w->ctx, w->out, text_in(of, m));
         break;
@@ -104,7 +106,9 @@ static fram_status read_member(note_reader *r, const note_member *m, void *of)
     double value = 0;
     if (m->kind == NOTE_LIST)
         return m->list->read(r, of);
-    if (m->kind == NOTE_TEXT || m->kind == NOTE_NAME)
+    if (m->kind == NOTE_TEXT)
+        return json_walk_text(&r->walk, (char *)of + m->offset, m->room, r->error);
+    if (m->kind == NOTE_WORDS || m->kind == NOTE_NAME)
         return json_walk_text_or_null(&r->walk, (char *)of + m->offset, m->room, r->error);
     fram_status status = json_walk_number_or_null(&r->walk, &value, r->error);
     if (status == FRAM_OK)
@@ -186,7 +190,7 @@ static const note_member event_members[] = {
     NUMBER_OF(run_event, "time_s", time, NOTE_REAL), TEXT_OF(run_event, "kind", kind, NOTE_TEXT),
     TEXT_OF(run_event, "vessel", vessel, NOTE_NAME), TEXT_OF(run_event, "other", other, NOTE_NAME),
     NUMBER_OF(run_event, "value", value, NOTE_REAL), NUMBER_OF(run_event, "ahead_s", ahead, NOTE_REAL),
-    TEXT_OF(run_event, "text", text, NOTE_TEXT)};
+    TEXT_OF(run_event, "text", text, NOTE_WORDS)};
 
 static void write_events(note_writer *w, const run_note *n)
 {
@@ -266,6 +270,7 @@ static bool tells_beginning(const run_note *n) { return n->recorded_from >= 0; }
 static bool tells_steps(const run_note *n) { return !isnan(n->step_longest); }
 
 #define NOTE_TEXT_OF(name, member) TEXT_OF(run_note, name, member, NOTE_TEXT)
+#define NOTE_WORDS_OF(name, member) TEXT_OF(run_note, name, member, NOTE_WORDS)
 #define NOTE_NUMBER_OF(name, member, kind) NUMBER_OF(run_note, name, member, kind)
 #define NOTE_STEPS_OF(name, member)                                        \
     {                                                                      \
@@ -279,7 +284,7 @@ static const note_member note_members[] = {
     NOTE_TEXT_OF("libraries", libraries),
     NOTE_TEXT_OF("isa", isa),
     NOTE_NUMBER_OF("threads", threads, NOTE_WHOLE),
-    NOTE_TEXT_OF("title", title),
+    NOTE_WORDS_OF("title", title),
     NOTE_NUMBER_OF("seed", seed, NOTE_WHOLE),
     NOTE_TEXT_OF("scenario_hash", scenario_hash),
     {"inputs", NOTE_LIST, 0, 0, &file_list, NULL},

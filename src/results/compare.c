@@ -241,10 +241,13 @@ static bool same_files(const run_note *a, const run_note *b)
     return same;
 }
 
+/* What neither tells is not the same of both. */
+static bool same_hash(const char *a, const char *b) { return a[0] && strcmp(a, b) == 0; }
+
 /* Without an end there is no final state. */
 static bool same_states(const run_data *d)
 {
-    return strcmp(d[0].note.state_hash, d[1].note.state_hash) == 0 && !run_is_open(&d[0]);
+    return same_hash(d[0].note.state_hash, d[1].note.state_hash) && !run_is_open(&d[0]);
 }
 
 /* What a program told a run stands in place of the scenario, and with which numbers in no file: of two runs that were
@@ -261,8 +264,8 @@ static bool told_the_same(const run_data *d)
 static void compare_scenarios(const run_data *d, compare_result *out)
 {
     const run_note *a = &d[0].note, *b = &d[1].note;
-    bool noted = strcmp(a->scenario_hash, b->scenario_hash) == 0;
-    bool names = noted || strcmp(d[0].scenario_hash, d[1].scenario_hash) == 0;
+    bool noted = same_hash(a->scenario_hash, b->scenario_hash);
+    bool names = noted || same_hash(d[0].scenario_hash, d[1].scenario_hash);
     bool files = same_files(a, b), told = told_the_same(d);
     for (int k = 0; k < 2; k++)
         run_told(&d[k], out->told[k]);

@@ -123,7 +123,8 @@ END_TEST
 /* As by an editor of JSON that has none for an empty text. */
 START_TEST(null_is_no_text)
 {
-    static const char text[] = "{\"title\": null, \"events\": [{\"kind\": \"ram\", \"vessel\": null}], \"steps\": 3}\n";
+    static const char text[] =
+        "{\"title\": null, \"events\": [{\"kind\": \"ram\", \"vessel\": null, \"text\": null}], \"steps\": 3}\n";
     scratch s = scratch_make();
     run_note n;
     context_init(&ctx);
@@ -132,10 +133,33 @@ START_TEST(null_is_no_text)
     ck_assert_str_eq(n.title, "");
     ck_assert_int_eq(n.events.count, 1);
     ck_assert_str_eq(n.events.data[0].vessel, "");
+    ck_assert_str_eq(n.events.data[0].text, "");
     assert_bits(n.steps, 3);
     run_note_free(&ctx, &n);
     scratch_remove(&s, "run.json");
 }
 END_TEST
 
-TEST_MAIN("run_note", what_is_written_is_read, long_lists_are_refused, null_is_no_text)
+/* What every run has, and what runs are told apart by. */
+START_TEST(null_is_no_hash)
+{
+    static const char *const texts[] = {"{\"state_hash\": null}",
+                                        "{\"scenario_hash\": null}",
+                                        "{\"status\": null}",
+                                        "{\"fram_version\": null}",
+                                        "{\"inputs\": [{\"sha256\": null, \"file\": \"a\"}]}",
+                                        "{\"inputs\": [{\"sha256\": \"f00d\", \"file\": null}]}",
+                                        "{\"events\": [{\"kind\": null}]}"};
+    scratch s = scratch_make();
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        run_note n;
+        scratch_write(scratch_path(&s, "run.json"), texts[i], strlen(texts[i]));
+        ck_assert_msg(run_note_read(&ctx, s.folder, &n, &error) == FRAM_ERROR_INPUT, "%s", texts[i]);
+        run_note_free(&ctx, &n);
+    }
+    scratch_remove(&s, "run.json");
+}
+END_TEST
+
+TEST_MAIN("run_note", what_is_written_is_read, long_lists_are_refused, null_is_no_text, null_is_no_hash)
