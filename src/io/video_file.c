@@ -5,7 +5,7 @@
 #include "io/text_buffer.h"
 
 #include <errno.h>
-#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -27,11 +27,9 @@ static void forget_video(video_file *v)
         close(v->socket);
     if (v->words >= 0)
         close(v->words);
-    if (v->theirs >= 0)
-        close(v->theirs);
     memory_free(v->ctx, v->path);
     memory_free(v->ctx, v->temporary);
-    *v = (video_file){.socket = -1, .words = -1, .theirs = -1};
+    *v = (video_file){.socket = -1, .words = -1};
 }
 
 /* An errno value, 0 when it runs: it reads from `frames` and says what it has to say to `words`.  A process group of
@@ -71,12 +69,10 @@ static fram_status start(video_file *v, char *const *arguments, fram_error *erro
         return file_error(error, v->path, "make a pipe", errno);
     }
     v->words = words[0];
-    v->theirs = words[1];
-    /* Its words are read between frames: what has no room until then is lost, and it does not wait. */
-    (void)fcntl(words[1], F_SETFL, O_NONBLOCK);
     pid_t process = 0;
     int code = spawn(ends[1], words[1], arguments, &process);
     close(ends[1]);
+    close(words[1]);
     v->process = (int)process;
     if (code == 0)
         return FRAM_OK;
@@ -90,7 +86,7 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
 {
     static const char protocol[] = "file:";
     int descriptor = -1;
-    *v = (video_file){.ctx = ctx, .socket = -1, .words = -1, .theirs = -1, .path = memory_string(ctx, path)};
+    *v = (video_file){.ctx = ctx, .socket = -1, .words = -1, .path = memory_string(ctx, path)};
     fram_status status = v->path ? atomic_file_check(path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = temporary_file(ctx, path, &v->temporary, &descriptor, error);
@@ -139,29 +135,45 @@ static bool wait_for(video_file *v)
     return WIFEXITED(how) && WEXITSTATUS(how) == 0;
 }
 
-/* Joins what it has said since to the last of its words; to_end: waits until nobody holds its standard error. */
-static void hear(video_file *v, bool to_end)
+/* So often it is looked at whether it goes on [ms]. */
+#define LOOK_EVERY 20
+
+/* Whether it has; who else holds its standard error, as what a script in its place left behind, may go on. */
+static bool has_ended(const video_file *v)
 {
-    char said[VIDEO_SAID];
-    if (to_end && v->theirs >= 0) { /* from now on they are read as they come, and it may wait */
-        (void)fcntl(v->theirs, F_SETFL, 0);
-        close(v->theirs);
-        v->theirs = -1;
+    siginfo_t about = {0};
+    return v->process <= 0 || waitid(P_PID, (id_t)v->process, &about, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           about.si_pid != 0;
+}
+
+static void keep_words(video_file *v, const char *said, int count)
+{
+    int kept = v->said_count, room = VIDEO_SAID - count;
+    if (kept > room) {
+        memmove(v->said, v->said + (kept - room), (size_t)room);
+        v->said_more = true;
+        kept = room;
     }
-    for (;;) {
-        ssize_t got = recv(v->words, said, sizeof said, to_end ? 0 : MSG_DONTWAIT);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
+    memcpy(v->said + kept, said, (size_t)count);
+    v->said_count = kept + count;
+}
+
+/* Joins what it has said since to the last of its words: more than a socket holds, but of one that says more and more
+   not all. */
+static void hear(video_file *v)
+{
+    enum { TURNS = 1000 };
+    char said[VIDEO_SAID];
+    for (int i = 0; i < TURNS && v->words >= 0; i++) {
+        ssize_t got = recv(v->words, said, sizeof said, MSG_DONTWAIT);
+        if (got < 0 && errno == EAGAIN)
             return;
-        int kept = v->said_count, room = VIDEO_SAID - (int)got;
-        if (kept > room) {
-            memmove(v->said, v->said + (kept - room), (size_t)room);
-            v->said_more = true;
-            kept = room;
+        if (got > 0)
+            keep_words(v, said, (int)got);
+        if (got == 0 || (got < 0 && errno != EINTR)) {
+            close(v->words);
+            v->words = -1;
         }
-        memcpy(v->said + kept, said, (size_t)got);
-        v->said_count = kept + (int)got;
     }
 }
 
@@ -229,37 +241,80 @@ static void tell_words(const video_file *v)
         log_write(v->ctx, LOG_WARNING, "%s: ffmpeg made the video, and said: %s", v->path, words);
 }
 
+static void close_frames(video_file *v)
+{
+    if (v->socket >= 0)
+        close(v->socket);
+    v->socket = -1;
+}
+
+/* Until it says something or a while has gone by; it may wait to be heard. */
+static void hear_for_a_while(video_file *v)
+{
+    struct pollfd words = {v->words, POLLIN, 0};
+    (void)poll(&words, 1, LOOK_EVERY);
+    hear(v);
+}
+
+static void end_it(video_file *v)
+{
+    if (v->process > 0)
+        kill((pid_t)v->process, SIGTERM);
+    close_frames(v); /* where ffmpeg waits for a frame it does not heed the signal */
+    while (!has_ended(v))
+        hear_for_a_while(v);
+    hear(v);
+    (void)wait_for(v);
+}
+
 /* It takes no more: it has ended, or is ended. */
 static fram_status refuse_video(video_file *v, const char *what, fram_error *error)
 {
-    kill((pid_t)v->process, SIGTERM);
-    (void)wait_for(v);
-    hear(v, false);
+    end_it(v);
     return refuse_ended(v, what, error);
+}
+
+static fram_status refuse_stopped(fram_error *error)
+{
+    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted while making the video; nothing was written");
 }
 
 fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_error *error)
 {
+    static const char none_taken[] = "ffmpeg stopped taking frames";
     const char *at = pixels;
     while (size > 0) {
-        ssize_t sent = send(v->socket, at, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR)
+        struct pollfd ends[] = {{v->socket, POLLOUT, 0}, {v->words, POLLIN, 0}};
+        int ready = poll(ends, 2, LOOK_EVERY);
+        if (ready <= 0 && stop_is_asked(v->ctx->stop))
+            return refuse_stopped(error);
+        if (ready == 0 && has_ended(v))
+            return refuse_video(v, none_taken, error);
+        hear(v);
+        ssize_t sent = send(v->socket, at, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent < 0 && (errno == EINTR || errno == EAGAIN))
             continue;
         if (sent <= 0)
-            return refuse_video(v, "ffmpeg stopped taking frames", error);
+            return refuse_video(v, none_taken, error);
         at += sent;
         size -= (size_t)sent;
     }
-    hear(v, false);
+    hear(v);
     return FRAM_OK;
 }
 
 fram_status video_end(video_file *v, fram_error *error)
 {
-    close(v->socket);
-    v->socket = -1;
     fram_status status = FRAM_OK;
-    hear(v, true);
+    close_frames(v);
+    while (!has_ended(v)) {
+        hear_for_a_while(v);
+        if (stop_is_asked(v->ctx->stop)) {
+            video_abandon(v);
+            return refuse_stopped(error);
+        }
+    }
+    hear(v);
     if (wait_for(v)) {
         status = atomic_file_adopt(v->ctx, v->temporary, v->path, error);
         if (status == FRAM_OK)
@@ -276,11 +331,7 @@ void video_abandon(video_file *v)
 {
     if (!v->path)
         return;
-    if (v->process > 0)
-        kill((pid_t)v->process, SIGTERM);
-    close(v->socket); /* first: where ffmpeg waits for a frame it does not heed the signal */
-    v->socket = -1;
-    (void)wait_for(v);
+    end_it(v);
     unlink(v->temporary);
     forget_video(v);
 }

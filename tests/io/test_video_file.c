@@ -88,16 +88,15 @@ START_TEST(no_room_for_the_file)
 }
 END_TEST
 
-/* The words of a program of ours in ffmpeg's place: 300 lines and then why it ended as it did. */
-static void say_as_ffmpeg(scratch *s, const char *last, int code)
+/* A script of ours in ffmpeg's place, which has the path of the video as $file. */
+static void be_ffmpeg(scratch *s, const char *script)
 {
-    char text[600];
-    snprintf(text, sizeof text,
-             "#!/bin/sh\n/bin/cat >/dev/null\nfor n in $(seq 300); do echo \"line $n of $n\" >&2; done\n"
-             "for file; do :; done\n: >\"${file#file:}\"\necho \"%s\" >&2\nexit %d\n",
-             last, code);
+    char text[800], path[400];
+    snprintf(text, sizeof text, "#!/bin/sh\nfor file; do :; done\nfile=${file#file:}\n%s\n", script);
     scratch_write(scratch_path(s, "ffmpeg"), text, strlen(text));
     ck_assert_int_eq(chmod(s->path, 0700), 0);
+    snprintf(path, sizeof path, "%s:%s", s->folder, getenv("PATH"));
+    ck_assert_int_eq(setenv("PATH", path, 1), 0);
 }
 
 static void keep_warning(void *user, log_level level, const char *text)
@@ -114,13 +113,15 @@ START_TEST(last_words_are_told)
         fram_error e = {0};
         video_file video;
         scratch s = scratch_make();
-        char path[400], told[500] = "", reason[400];
+        char script[400], told[500] = "", reason[400];
         context_init(&ctx);
         ctx.log = keep_warning;
         ctx.log_user = told;
-        say_as_ffmpeg(&s, "$file: the reason", code);
-        snprintf(path, sizeof path, "%s:%s", s.folder, getenv("PATH"));
-        ck_assert_int_eq(setenv("PATH", path, 1), 0);
+        snprintf(script, sizeof script,
+                 "/bin/cat >/dev/null\nfor n in $(seq 300); do echo \"line $n of $n\" >&2; done\n: >\"$file\"\n"
+                 "echo \"file:$file: the reason\" >&2\nexit %d",
+                 code);
+        be_ffmpeg(&s, script);
         assert_ok(video_begin(&ctx, scratch_path(&s, "said.mp4"), WIDTH, HEIGHT, 10, &video, &e), e);
         snprintf(reason, sizeof reason, "; line 300 of 300; %s: the reason", s.path);
         put_frames(&video);
@@ -134,4 +135,84 @@ START_TEST(last_words_are_told)
 }
 END_TEST
 
-TEST_MAIN("video_file", two_at_once, no_room_for_the_file, last_words_are_told)
+/* What is said while frames are taken, more than a socket holds, and more behind it. */
+START_TEST(words_between_frames_are_heard)
+{
+    context ctx;
+    fram_error e = {0};
+    video_file video;
+    scratch s = scratch_make();
+    context_init(&ctx);
+    be_ffmpeg(&s, "for n in $(seq 3000); do echo \"line $n\" >&2; done\n/bin/cat >/dev/null\nexit 1");
+    assert_ok(video_begin(&ctx, scratch_path(&s, "said.mp4"), WIDTH, HEIGHT, 10, &video, &e), e);
+    for (int i = 0; i < 40; i++)
+        put_frames(&video);
+    ck_assert_int_eq(video_end(&video, &e), FRAM_ERROR_IO);
+    ck_assert_msg(strstr(e.message, "line 2999; line 3000") != NULL, "%s", e.message);
+    scratch_remove(&s, "ffmpeg");
+}
+END_TEST
+
+/* What a script in ffmpeg's place leaves behind, silent or not. */
+START_TEST(nothing_is_waited_for_in_vain)
+{
+    static const char *const behind[] = {"sleep 60 >/dev/null &", "yes >&2 &\nexec 2>/dev/null"};
+    for (int k = 0; k < 2; k++) {
+        context ctx;
+        fram_error e = {0};
+        video_file video;
+        scratch s = scratch_make();
+        char script[400], line[40] = "";
+        context_init(&ctx);
+        snprintf(script, sizeof script, "/bin/cat >/dev/null\n: >\"$file\"\n%s\necho $! >${0%%/*}/left", behind[k]);
+        be_ffmpeg(&s, script);
+        assert_ok(video_begin(&ctx, scratch_path(&s, "left.mp4"), WIDTH, HEIGHT, 10, &video, &e), e);
+        put_frames(&video);
+        assert_ok(video_end(&video, &e), e);
+        FILE *left = fopen(scratch_path(&s, "left"), "r");
+        ck_assert_ptr_nonnull(left);
+        ck_assert_ptr_nonnull(fgets(line, sizeof line, left));
+        fclose(left);
+        (void)kill((pid_t)atoi(line), SIGKILL);
+        ck_assert_int_eq(unlink(s.path), 0);
+        ck_assert_int_eq(unlink(scratch_path(&s, "left.mp4")), 0);
+        scratch_remove(&s, "ffmpeg");
+    }
+}
+END_TEST
+
+/* For an ffmpeg that does not end, or takes no frame. */
+START_TEST(who_waits_can_be_stopped)
+{
+    static const char *const scripts[] = {"/bin/cat >/dev/null\nexec sleep 60", "exec sleep 60"};
+    for (int k = 0; k < 2; k++) {
+        context ctx;
+        fram_error e = {0};
+        video_file video;
+        volatile int stop = 0;
+        scratch s = scratch_make();
+        context_init(&ctx);
+        ctx.stop = &stop;
+        be_ffmpeg(&s, scripts[k]);
+        assert_ok(video_begin(&ctx, scratch_path(&s, "never.mp4"), WIDTH, HEIGHT, 10, &video, &e), e);
+        fram_status status = FRAM_OK;
+        if (k == 0)
+            put_frames(&video);
+        stop = 1;
+        for (int i = 0; k == 1 && i < 1000 && status == FRAM_OK; i++) {
+            static unsigned char pixels[4 * WIDTH * HEIGHT];
+            status = video_frame(&video, pixels, sizeof pixels, &e);
+        }
+        if (k == 0)
+            status = video_end(&video, &e);
+        else
+            video_abandon(&video);
+        ck_assert_int_eq(status, FRAM_INTERRUPTED);
+        ck_assert_int_eq(access(scratch_path(&s, "never.mp4"), F_OK), -1);
+        scratch_remove(&s, "ffmpeg");
+    }
+}
+END_TEST
+
+TEST_MAIN("video_file", two_at_once, no_room_for_the_file, last_words_are_told, words_between_frames_are_heard,
+          nothing_is_waited_for_in_vain, who_waits_can_be_stopped)
