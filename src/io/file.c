@@ -26,20 +26,55 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
     return error_set(error, name ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
 }
 
-fram_status file_place_error(fram_error *error, const char *path, const char *attempt, int number)
+/* Of a path the part without slashes at its end, and of that the folder that it lies in: lengths, 0 for the working
+   folder. */
+static size_t without_slashes(const char *path, size_t length)
 {
-    size_t length = strlen(path);
-    while (length > 0 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
     while (length > 1 && path[length - 1] == '/')
         length--;
-    if (number != ENOENT || length == 0)
+    return length;
+}
+
+static size_t folder_of(const char *path, size_t length)
+{
+    length = without_slashes(path, length);
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    return without_slashes(path, length);
+}
+
+/* The part of a path that there is, the whole of it or what is above: its length, 0 for the working folder. */
+static size_t part_that_is(const char *path, bool *leads_nowhere)
+{
+    char part[PATH_MAX];
+    struct stat about;
+    size_t length = without_slashes(path, strlen(path));
+    *leads_nowhere = false;
+    for (; length > 0 && length < sizeof part; length = folder_of(path, length)) {
+        memcpy(part, path, length);
+        part[length] = '\0';
+        if (lstat(part, &about) != 0)
+            continue;
+        *leads_nowhere = S_ISLNK(about.st_mode) && stat(part, &about) != 0;
+        return length;
+    }
+    return 0;
+}
+
+fram_status file_place_error(fram_error *error, const char *path, const char *attempt, int number)
+{
+    enum { TOLD = 250 };
+    bool leads_nowhere;
+    size_t folder = folder_of(path, strlen(path)), there = part_that_is(path, &leads_nowhere);
+    if (number == ENOENT && leads_nowhere)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "cannot %s: the link %.*s leads nowhere; remove it, or give another name", attempt,
+                         there < TOLD ? (int)there : TOLD, path);
+    if (number != ENOENT || folder <= there)
         return file_error(error, path, attempt, number);
     return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                      "cannot %s: the folder %.*s is not there; make it, or give another name", attempt,
-                     length < 250 ? (int)length : 250, path);
+                     folder < TOLD ? (int)folder : TOLD, path);
 }
 
 uint32_t file_crc(uint32_t crc, const void *data, size_t size)

@@ -8,7 +8,8 @@
 /* The file's name, what was tried ("write") and the text of an errno value.  FRAM_ERROR_INPUT when the name is at
    fault: nothing there, too long, no permission; otherwise FRAM_ERROR_IO. */
 fram_status file_error(fram_error *error, const char *path, const char *attempt, int number);
-/* The same of a file or folder that could not be made: where the folder is missing that it would be in, which. */
+/* The same of a file or folder that could not be made: where the folder is missing that it would be in, which; where a
+   link in its place or on the way leads nowhere, that. */
 fram_status file_place_error(fram_error *error, const char *path, const char *attempt, int number);
 
 /* A regular file for reading: *descriptor for the caller to close, *size its bytes now.  Never waits for a pipe's other

@@ -395,6 +395,33 @@ START_TEST(replacing_a_folder_leaves_nothing_behind)
 }
 END_TEST
 
+/* Folders that are there are not told to be missing: a link in the place of the file, or on the way, leads nowhere. */
+START_TEST(links_that_lead_nowhere_are_told)
+{
+    static const struct {
+        const char *link, *path;
+    } rows[] = {{"l", "l"}, {"l", "l/a"}, {"l", "l//b/a/"}};
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        scratch s = scratch_make();
+        char link[320], said[700];
+        snprintf(link, sizeof link, "%s/%s", s.folder, rows[i].link);
+        ck_assert_int_eq(symlink("nowhere/x.html", link), 0);
+        snprintf(said, sizeof said, "cannot write: the link %s leads nowhere; ", link);
+        assert_fails(file_place_error(&error, scratch_path(&s, rows[i].path), "write", ENOENT), error, FRAM_ERROR_INPUT,
+                     said);
+        if (i == 0)
+            assert_fails(atomic_file_write(&ctx, link, "y", 1, &error), error, FRAM_ERROR_INPUT, "leads nowhere");
+        ck_assert_int_eq(unlink(link), 0);
+        snprintf(said, sizeof said, "the folder %s/l is not there; make it", s.folder);
+        assert_fails(file_place_error(&error, scratch_path(&s, "l/a"), "write", ENOENT), error, FRAM_ERROR_INPUT, said);
+        assert_fails(file_place_error(&error, scratch_path(&s, "a"), "write", ENOENT), error, FRAM_ERROR_INPUT,
+                     "cannot write: No such file");
+        ck_assert_int_eq(rmdir(s.folder), 0);
+    }
+}
+END_TEST
+
 /* A device or a link in the place of the file stays what it is. */
 START_TEST(devices_and_links_are_written_through)
 {
@@ -518,5 +545,5 @@ TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, miss
           a_stop_waits_for_a_reader_that_pauses_not_for_a_slow_one, a_stream_that_does_not_wait_is_waited_for,
           a_descriptor_that_has_a_name_goes_on, a_full_disk_is_seen_at_once, a_partial_write_is_seen,
           replacing_is_all_or_nothing, a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
-          devices_and_links_are_written_through, what_has_no_disk_below_is_adopted, a_bare_name_is_here,
-          memory_runs_out)
+          devices_and_links_are_written_through, links_that_lead_nowhere_are_told, what_has_no_disk_below_is_adopted,
+          a_bare_name_is_here, memory_runs_out)
