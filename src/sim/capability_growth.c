@@ -15,12 +15,8 @@ load_halves load_halves_find(const double *time, const double *x, const double *
         mean[i >= middle][0] += x[i] / values;
         mean[i >= middle][1] += y[i] / values;
     }
-    double sum_x = mean[0][0] + mean[1][0], sum_y = mean[0][1] + mean[1][1];
-    double size = sqrt(sum_x * sum_x + sum_y * sum_y);
-    if (!(size > 0))
-        return (load_halves){0, 0};
-    return (load_halves){fabs(mean[0][0] * sum_x + mean[0][1] * sum_y) / size,
-                         fabs(mean[1][0] * sum_x + mean[1][1] * sum_y) / size};
+    return (load_halves){sqrt(mean[0][0] * mean[0][0] + mean[0][1] * mean[0][1]),
+                         sqrt(mean[1][0] * mean[1][0] + mean[1][1] * mean[1][1])};
 }
 
 /* How much larger the second half is: 1 where there is none, infinite where only the second has any. */

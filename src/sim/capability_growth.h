@@ -4,7 +4,7 @@
 
 #include "sim/capability.h"
 
-/* Sizes of the means of the first and the second half of a run, along the mean of both: a load that turned round was
+/* Sizes of the means of the first and the second half of a run, whatever their directions: a load that turned round was
    there before [N]. */
 typedef struct load_halves {
     double first, second;

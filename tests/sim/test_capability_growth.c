@@ -60,6 +60,26 @@ static void check_halves(double first, double second, double expected_first, dou
     ck_assert_double_eq_tol(half.second, expected_second, 1e-9);
 }
 
+/* Halves along two directions, of which only a little is left over together. */
+static void check_turned(vec2 first, vec2 second, double expected_first, double expected_second)
+{
+    const double time[] = {1, 2, 3, 4}, x[] = {first.x, first.x, second.x, second.x},
+                 y[] = {first.y, first.y, second.y, second.y};
+    const load_halves half = load_halves_find(time, x, y, 4, 0);
+    ck_assert_double_eq_tol(half.first, expected_first, 1e-4);
+    ck_assert_double_eq_tol(half.second, expected_second, 1e-4);
+}
+
+START_TEST(halves_that_turn_have_sizes)
+{
+    check_turned(vec2_make(-3, 0), vec2_make(3, 0.01), 3, 3);
+    check_turned(vec2_make(-3, 0), vec2_make(3, 0), 3, 3);
+    check_turned(vec2_make(-100, 0), vec2_make(100, 1), 100, 100.005);
+    check_turned(vec2_make(-3, 0.2), vec2_make(3, 0.5), 3.00666, 3.04138);
+    check_turned(vec2_make(10, 0), vec2_make(0, 10), 10, 10);
+}
+END_TEST
+
 /* A load that turned round was there: it has not grown from nothing. */
 START_TEST(halves_have_sizes)
 {
@@ -101,4 +121,5 @@ START_TEST(what_is_small_does_not_count)
 }
 END_TEST
 
-TEST_MAIN("capability growth", growth_is_told, halves_have_sizes, what_is_small_does_not_count)
+TEST_MAIN("capability growth", growth_is_told, halves_have_sizes, halves_that_turn_have_sizes,
+          what_is_small_does_not_count)
