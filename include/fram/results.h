@@ -89,7 +89,7 @@ typedef struct fram_comparison {
     bool only_told_differs;      /* the scenarios are the same but for that, or may be: its numbers stand in no file */
     double counted_from;         /* statistics of both are of what is after it, since the recording of one began late
                                     [s]; 0: each after its transient */
-    bool no_time_shared;         /* one ended before the other was recorded: no statistics are of both */
+    bool no_time_shared;         /* one had ended by counted_from: no statistics are of both */
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,

@@ -170,7 +170,8 @@ static void print_compared(const fram_comparison *c)
         putchar('\n');
     }
     if (c->no_time_shared)
-        printf("no time is of both: one run ended before the other was recorded, from %.6g s on\n", c->counted_from);
+        printf("nothing is of both after their transients and the beginnings of their recordings (from %.6g s on)\n",
+               c->counted_from);
     if (c->told_a[0])
         printf("told A by a program, in place of its scenario's: %s\n", c->told_a);
     if (c->told_b[0])

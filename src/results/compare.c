@@ -356,8 +356,10 @@ static void number_table(pair *p)
 {
     char span[64] = "after the transient";
     if (p->result->no_time_shared)
-        html_paragraph(&p->page, "No time is of both: one run ended before the other was recorded, from %.6g s on.",
-                       p->result->counted_from);
+        html_paragraph(
+            &p->page,
+            "Nothing is of both after their transients and the beginnings of their recordings (from %.6g s on).",
+            p->result->counted_from);
     if (p->result->counted_from > 0)
         snprintf(span, sizeof span, "after %.6g s, of what both recorded", p->result->counted_from);
     const char *const heads[] = {span, "A", "B", "B - A", "B / A"};

@@ -31,7 +31,7 @@ typedef struct compare_result {
     bool only_told_differs;         /* or may: what a program told one of them, or both */
     bool same_as_read;              /* not by the hashes of the runs, but as this program reads both */
     char told[2][RUN_TOLD_SIZE];    /* what a program told A and B in place of the scenario, "": nothing */
-    bool no_time_shared;            /* one ended before the other was recorded: nothing is of both */
+    bool no_time_shared;            /* one had ended by counted_from: nothing is of both */
     double counted_from;            /* statistics of both are from then on [s]; 0: each from after its transient */
 } compare_result;
 /* The numbers; output: also a page with the numbers and plots of both, NULL: none. */
