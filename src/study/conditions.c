@@ -47,10 +47,17 @@ study_found_text study_found(const study_source *r, const yaml_node *node)
 static bool is_leaf(const char *path)
 {
     const scenario_key *key = key_of_path(path);
-    return key && key->kind != KEY_SECTION && key->kind != KEY_LIST;
+    return key && !key_has_keys(key);
 }
 
-fram_status study_refuse_kind(const study_source *r, const yaml_node *node, const char *expected)
+static bool has_values(const study_source *r, const yaml_node *node)
+{
+    const yaml_node *first = node->kind == YAML_MAPPING ? study_child(r, node) : NULL;
+    return first && node->count == 1 && strcmp(study_key(r, first), "values") == 0;
+}
+
+fram_status study_refuse_kind(const study_source *r, const yaml_node *node, yaml_kind taken, bool or_values,
+                              const char *expected)
 {
     char key[160];
     const yaml_node *below = node;
@@ -59,7 +66,8 @@ fram_status study_refuse_kind(const study_source *r, const yaml_node *node, cons
         below = study_child(r, below);
         used += snprintf(key + used, sizeof key - (size_t)used, ".%.60s", study_key(r, below));
     }
-    if (below == node)
+    bool good = below->kind == taken || (or_values && has_values(r, below));
+    if (below == node || !good || !is_leaf(key))
         return study_refuse(r, node, "expected %s, found %s", expected, study_found(r, node).text);
     const char *value = below->kind == YAML_SCALAR    ? yaml_text(r->tree, below->value)
                         : below->kind == YAML_MAPPING ? "{...}"
@@ -181,7 +189,7 @@ fram_status study_add_key(const study_source *r, const yaml_node *node)
 fram_status study_add_value(const study_source *r, const yaml_node *node)
 {
     if (node->kind != YAML_SCALAR)
-        return study_refuse_kind(r, node, "one value of the key");
+        return study_refuse_kind(r, node, YAML_SCALAR, false, "one value of the key");
     return text_list_add(r->ctx, &r->out->values, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
 }
 
@@ -214,7 +222,7 @@ fram_status study_range(const study_source *r, const yaml_node *node, key_range 
     const scenario_key *key = key_of_path(study_key(r, node));
     *out = (key_range){0};
     if (node->kind != YAML_SEQUENCE || node->count != 2)
-        return study_refuse_kind(r, node, "the ends of a range, as [0.5, 1.5]");
+        return study_refuse_kind(r, node, YAML_SEQUENCE, false, "the ends of a range, as [0.5, 1.5]");
     fram_status status = check_rangeable(r, node, key);
     if (status != FRAM_OK)
         return status;
@@ -281,8 +289,9 @@ static fram_status read_grid(const study_source *r, const yaml_node *node)
     double conditions = 1;
     fram_status status = study_expect(r, node, YAML_MAPPING, "keys with a list of values each");
     for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
-        status = k->kind == YAML_MAPPING ? study_refuse_kind(r, k, "a list of values, as [0.6, 1.1]")
-                                         : study_expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
+        status = k->kind == YAML_MAPPING
+                     ? study_refuse_kind(r, k, YAML_SEQUENCE, false, "a list of values, as [0.6, 1.1]")
+                     : study_expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
         if (status == FRAM_OK)
             status = study_add_key(r, k);
         conditions *= k->count;

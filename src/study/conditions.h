@@ -18,9 +18,11 @@ typedef struct study_source {
 /* A refusal at a node's value: file, line, key. */
 fram_status study_refuse(const study_source *r, const yaml_node *node, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* The same of what is no single value: what was expected there, what was found, and how the first of keys below it is
-   written. */
-fram_status study_refuse_kind(const study_source *r, const yaml_node *node, const char *expected);
+/* The same of what is not of the kind that is taken: what was expected there, what was found, and where that is a
+   mapping with a key of the scenario below it whose value would be taken, how that is written.  or_values: so would
+   `{values: [...]}`. */
+fram_status study_refuse_kind(const study_source *r, const yaml_node *node, yaml_kind taken, bool or_values,
+                              const char *expected);
 /* What was found in place of a number or a name, for messages: cut; a text in quotes is told as that. */
 typedef struct study_found_text {
     char text[80];

@@ -25,24 +25,45 @@ static bool is_range(const study_source *r, const yaml_node *node)
     const scenario_key *key = key_of_path(study_key(r, node));
     double end;
     if (key && key->kind != KEY_REAL && key->kind != KEY_INTEGER)
-        return key->kind == KEY_SECTION || key->kind == KEY_LIST; /* they have neither, and are told so */
+        return key_has_keys(key); /* they have neither, and are told so */
     if (node->kind != YAML_SEQUENCE || node->count != 2)
         return node->kind != YAML_SEQUENCE || node->count == 0;
     const yaml_node *lo = study_child(r, node), *hi = study_next(r, lo);
     return study_number_is(r, lo, &end) && study_number_is(r, hi, &end);
 }
 
-/* What stands under `values`, alone; NULL where nothing does. */
+enum { LISTED_SIZE = 120 };
+
+/* A list of values as it stands, or "[...]" where it is none or has no room. */
+static void write_list(const study_source *r, const yaml_node *list, char out[LISTED_SIZE])
+{
+    size_t used = 0;
+    const yaml_node *first = list->kind == YAML_SEQUENCE ? study_child(r, list) : NULL;
+    bool good = first != NULL;
+    for (const yaml_node *k = first; k && good; k = study_next(r, k)) {
+        good = k->kind == YAML_SCALAR;
+        if (good)
+            used += (size_t)snprintf(out + used, LISTED_SIZE - used, "%s%s", k == first ? "[" : ", ",
+                                     yaml_text(r->tree, k->value));
+        good = good && used + 1 < LISTED_SIZE;
+    }
+    snprintf(out + (good ? used : 0), LISTED_SIZE - (good ? used : 0), good ? "]" : "[...]");
+}
+
+/* What stands under `values`, alone; NULL where nothing does, or that is a key of the scenario. */
 static fram_status find_values(const study_source *r, const yaml_node *node, const yaml_node **out)
 {
     const yaml_node *beside = NULL, *first = node->kind == YAML_MAPPING ? study_child(r, node) : NULL;
     *out = NULL;
+    if (key_has_keys(key_of_path(study_key(r, node))))
+        return FRAM_OK;
     for (const yaml_node *k = first; k; k = study_next(r, k))
         *(strcmp(study_key(r, k), "values") == 0 ? out : &beside) = k;
-    if (*out && beside)
-        return study_refuse(r, beside, "expected nothing beside values, as %s: {values: [0.6, 1.1]}",
-                            study_key(r, node));
-    return FRAM_OK;
+    if (!*out || !beside)
+        return FRAM_OK;
+    char listed[LISTED_SIZE];
+    write_list(r, *out, listed);
+    return study_refuse(r, beside, "expected nothing beside values, as %s: {values: %s}", study_key(r, node), listed);
 }
 
 /* `[ends of a range]`, `[a, list, of, values]`, or `{values: [...]}`, as two numbers that are no range are written. */
@@ -52,6 +73,8 @@ static fram_status read_latin_key(const study_source *r, const yaml_node *node, 
     fram_status status = find_values(r, node, &listed);
     if (status != FRAM_OK)
         return status;
+    if (!listed && node->kind == YAML_MAPPING)
+        return study_refuse_kind(r, node, YAML_SEQUENCE, true, "the ends of a range, as [0.5, 1.5]");
     if (!listed && is_range(r, node))
         return study_range(r, node, &out->range);
     out->values = listed ? listed : node;

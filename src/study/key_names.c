@@ -30,6 +30,8 @@ const scenario_key *key_of_path(const char *path)
     return key;
 }
 
+bool key_has_keys(const scenario_key *key) { return key && (key->kind == KEY_SECTION || key->kind == KEY_LIST); }
+
 const char *key_unit(const char *path)
 {
     const scenario_key *key = key_of_path(path);

@@ -47,7 +47,7 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
         return study_refuse(r, node, "expected scenario keys with a value each, as {run.duration: 60}");
     for (const yaml_node *k = study_child(r, node); k; k = study_next(r, k)) {
         if (k->kind != YAML_SCALAR)
-            return study_refuse_kind(r, k, "one value of the key");
+            return study_refuse_kind(r, k, YAML_SCALAR, false, "one value of the key");
         if (strcmp(study_key(r, k), "run.seed") == 0)
             return study_refuse(r, k, "seeds are given by `seeds`");
         study_assignment a = {memory_string(r->ctx, study_key(r, k)),

@@ -188,7 +188,13 @@ START_TEST(slips_are_told_with_their_remedy)
         {"vary: {latin: {count: 2, keys: {ice: {thickness: [1, 2]}}}}\n", "ice", "write ice.thickness: [...]"},
         {"vary: {morris: {}}\n", "morris", "expected count, keys and, if wanted, seed, which is not empty"},
         {"vary: {latin: {count: 2, keys: {ice.thickness: {values: [1, 2], seed: 2}}}}\n", "seed",
-         "expected nothing beside values, as ice.thickness: {values: [0.6, 1.1]}"},
+         "expected nothing beside values, as ice.thickness: {values: [1, 2]}"},
+        {"vary: {latin: {count: 2, keys: {vessel.mode: {values: [towed, free], x: 1}}}}\n", "x",
+         "as vessel.mode: {values: [towed, free]}"},
+        {"vary: {latin: {count: 2, keys: {ice.thickness: {values: 3, x: 1}}}}\n", "x",
+         "as ice.thickness: {values: [...]}"},
+        {"vary: {latin: {count: 2, keys: {ice: {thickness: [0.5, 0.6], values: [1, 2]}}}}\n", "ice",
+         "write ice.thickness: [...]"},
         {"vary: {latin: {count: 2, keys: {ice.thickness: {value: [1, 2]}}}}\n", "ice.thickness",
          "as [0.5, 1.5], found a mapping"},
         {"vary: {latin: {count: 2, keys: {ice: {thickness: {values: [1, 2]}}}}}\n", "ice",
@@ -206,6 +212,35 @@ START_TEST(slips_are_told_with_their_remedy)
         ck_assert_str_eq(error.key, cases[i].key);
         ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
         ck_assert_msg(!strstr(error.message, "write ice.thickness."), "there is no such key: %s", error.message);
+    }
+}
+END_TEST
+
+/* What would be refused is no remedy. */
+START_TEST(no_remedy_is_told_that_would_be_refused)
+{
+    static const char *const texts[] = {"set: {run: {duration: {values: 3}}}\n",
+                                        "set: {run: {duration: [3]}}\n",
+                                        "set: {vessel: {no: {such: 3}}}\n",
+                                        "set: {vessel.mooring.lines: {value: 3}}\n",
+                                        "vary: {grid: {run: {duration: {values: [3]}}}}\n",
+                                        "vary: {grid: {run: {duration: 3}}}\n",
+                                        "vary: {list: [{run: {duration: {values: 3}}}]}\n",
+                                        "vary: {morris: {count: 2, keys: {ice: {thickness: {values: [1, 2]}}}}}\n",
+                                        "vary: {latin: {count: 2, keys: {vessel.mooring.lines: {value: [1, 2]}}}}\n",
+                                        "vary: {latin: {count: 2, keys: {vessel.mooring.lines: {values: [1, 2]}}}}\n",
+                                        "vary: {latin: {count: 2, keys: {ice: {values: [1, 2]}}}}\n",
+                                        "vary: {latin: {count: 2, keys: {ice: {thickness: {value: [1, 2]}}}}}\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        char text[160];
+        context ctx;
+        fram_error error = {0};
+        study s = {0};
+        context_init(&ctx);
+        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", texts[i]);
+        ck_assert_int_eq(study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error), FRAM_ERROR_INPUT);
+        ck_assert_msg(strstr(error.message, "found a mapping") != NULL, "%s: %s", texts[i], error.message);
+        ck_assert_msg(!strstr(error.message, "write "), "%s: %s", texts[i], error.message);
     }
 }
 END_TEST
@@ -273,4 +308,5 @@ END_TEST
 
 TEST_MAIN("condition_table", times_are_those_of_the_command, tables_of_any_program_are_read, hours_are_no_key,
           what_is_unclear_is_refused_at_its_place, slips_are_told_with_their_remedy,
-          seeds_go_as_far_as_those_of_a_scenario, memory_runs_out, hours_fill_a_leap_year_and_no_more)
+          no_remedy_is_told_that_would_be_refused, seeds_go_as_far_as_those_of_a_scenario, memory_runs_out,
+          hours_fill_a_leap_year_and_no_more)
