@@ -187,13 +187,10 @@ double extreme_level_of_period(const extreme_result *r, double period)
 /* The part of all values over a level. */
 static double survival_of(const series_set *s, double level)
 {
-    int64_t over = 0, all = 0;
-    for (int32_t p = 0; p < s->count; p++) {
-        for (int32_t i = 0; i < s->parts[p].count; i++)
-            over += s->parts[p].value[i] > level;
+    int64_t all = 0;
+    for (int32_t p = 0; p < s->count; p++)
         all += s->parts[p].count;
-    }
-    return (double)over / (double)all;
+    return (double)series_values_over(s, level) / (double)all;
 }
 
 /* The law of all values over the location, for the limit of the tail. */

@@ -264,17 +264,19 @@ void extremes_doubt_tail(extreme_result *out, const acer_doubt *doubt)
             digits_of(doubt->upper, scale_of(out)), doubt->upper);
 }
 
-/* Whether what stands in the way of an answer may come of the time scale, by which goes what is not asked for. */
-static bool goes_by_scale(const extreme_result *out, const extreme_request *ask)
+/* Whether what stands in the way of an answer may come of the time scale, by which goes what is not asked for: not
+   where a threshold that was asked for has too few values over it for any. */
+static bool goes_by_scale(const extreme_result *out, const extreme_request *ask, const series_set *s)
 {
+    const bool reached = isnan(ask->threshold) || series_values_over(s, ask->threshold) >= LAW_VALUES_LEAST;
     switch (out->method) {
     case EXTREME_GUMBEL:
     case EXTREME_GEV:
         return !(ask->block > 0);
     case EXTREME_POT:
-        return !(ask->separation > 0);
+        return !(ask->separation > 0) && reached;
     case EXTREME_ACER:
-        return out->too_few_scales || ask->order == 0;
+        return out->too_few_scales || (ask->order == 0 && reached);
     case EXTREME_UPCROSSING:
         return out->too_few_scales;
     default:
@@ -286,7 +288,7 @@ fram_status extremes_doubt_series(context *ctx, extreme_result *out, const extre
                                   fram_error *error)
 {
     double deviations = 0;
-    if (!out->answered && !goes_by_scale(out, ask))
+    if (!out->answered && !goes_by_scale(out, ask, s))
         return FRAM_OK;
     fram_status status = halves_differ(ctx, s, &deviations, error);
     if (status != FRAM_OK || !(deviations > 0))

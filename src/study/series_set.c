@@ -67,6 +67,15 @@ series_nature series_nature_of(const series_set *s)
 
 /* ---- maxima ---- */
 
+int64_t series_values_over(const series_set *s, double level)
+{
+    int64_t over = 0;
+    for (int32_t p = 0; p < s->count; p++)
+        for (int32_t i = 0; i < s->parts[p].count; i++)
+            over += s->parts[p].value[i] > level;
+    return over;
+}
+
 bool block_maxima(context *ctx, const series_set *s, int32_t length, double_array *out)
 {
     array_clear(out);

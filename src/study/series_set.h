@@ -23,6 +23,9 @@ typedef struct series_nature {
 } series_nature;
 series_nature series_nature_of(const series_set *s);
 
+/* How many values are over a level. */
+int64_t series_values_over(const series_set *s, double level);
+
 /* Greatest value of every whole block of `length` values, in time; blocks do not reach over the end of a part. */
 bool block_maxima(context *ctx, const series_set *s, int32_t length, double_array *out);
 

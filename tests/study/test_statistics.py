@@ -254,7 +254,8 @@ class Statistics(unittest.TestCase):
         words = ("extremes", slow, "--channel", "x", "--method")
         self.assertIn("not stationary", self.fram(*words, "gumbel", "--block", "20")["methods"][0]["note"])
         for asked in (("gumbel", "--block", "900"), ("gev", "--block", "900"),
-                      ("pot", "--separation", "900", "--threshold", "2")):
+                      ("pot", "--separation", "900", "--threshold", "2"), ("pot", "--threshold", "99"),
+                      ("pot", "--threshold", "2.35"), ("acer", "--threshold", "99")):
             note = self.fram(*words, *asked)["methods"][0]["note"]
             self.assertRegex(note, "^No answer: .* too few")
         maxima = self.write("x\n" + "\n".join(map(str, sample())) + "\n", "m.csv")
