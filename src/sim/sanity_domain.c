@@ -35,6 +35,13 @@ typedef struct domain_side {
     bool upper;
 } domain_side;
 
+/* Of a side's place: so many that its reach has that many, however far the origin is. */
+static int bound_digits(const domain_side *d)
+{
+    enum { OF_REACH = 4, LEAST = 4 };
+    return digits_beside(d->bound, d->reach, OF_REACH, LEAST);
+}
+
 /* "domain.y_min -72.2 or less and domain.y_max 72.2 or more": of all sides that are too near. */
 static void list_bounds(const domain_side *sides, char *out, size_t size)
 {
@@ -44,7 +51,9 @@ static void list_bounds(const domain_side *sides, char *out, size_t size)
         if (!(d->reach - d->room > ROOM_ROUNDED * d->reach))
             continue;
         double slack = ROOM_ROUNDED * d->reach;
-        const bound_text bound = d->upper ? least_text_of(d->bound - slack, 4) : most_text_of(d->bound + slack, 4);
+        const int digits = bound_digits(d);
+        const bound_text bound =
+            d->upper ? least_text_of(d->bound - slack, digits) : most_text_of(d->bound + slack, digits);
         used += (size_t)snprintf(out + used, size - used, "%sdomain.%s %s or %s", used > 0 ? " and " : "", d->key,
                                  bound.text, d->upper ? "more" : "less");
     }

@@ -127,6 +127,9 @@ says "the largest floe drawn" err
 told led.yaml \
     "its edge with the band is 35.01 m short of vessel, which reaches 38 m|take domain.x_min -168.1 or less" \
     --set vessel.x=-120 --set domain.x_min=-95
+# Far from the origin the metres that are told have the digits that tell the reach.
+told led.yaml "which reaches 38 m towards it|take domain.x_min 123407.9 or less and domain.x_max 123504.1 or more" \
+    --set vessel.x=123456 --set domain.x_min=123420 --set domain.x_max=123490
 round=(--set vessel.hull.form=cone --set vessel.hull.length=19 --set vessel.hull.flare_angle_deg=30)
 told ship.yaml \
     "its edge with the band is 8.987 m from vessel, which reaches 9.5 m as it turns|take domain.x_min -19.52 or less" \
