@@ -74,9 +74,10 @@ typedef struct slurm_follower {
     fram_status (*take)(void *user, int32_t task, int exit_code, const char *node, fram_error *error);
     void (*tell)(void *user, const char *waits); /* waits: as slurm_waits */
     const volatile int *stop;                    /* may be NULL */
+    const int32_t *held;                         /* runs that are to be added when others let go of them */
 } slurm_follower;
-/* Submits runs and takes what ended, until none is left or the follower is asked to stop: all of the above from its
-   beginning to its end.  A dry run ends with what it would submit. */
+/* Submits runs and takes what ended, until none is left or held or the follower is asked to stop: all of the above from
+   its beginning to its end.  A dry run ends with what it would submit. */
 fram_status slurm_follow(context *ctx, const slurm_options *options, const char *folder, const char *program,
                          const slurm_follower *f, fram_error *error);
 

@@ -28,6 +28,8 @@ static fram_status take_all(slurm_pool *all, const slurm_follower *f, fram_error
     return status;
 }
 
+static bool is_any_left(const slurm_pool *all, const slurm_follower *f) { return all->runs.count > 0 || *f->held > 0; }
+
 static fram_status submit_more(slurm_pool *all, const slurm_follower *f, fram_error *error)
 {
     fram_status status = f->add(f->user, all, error);
@@ -43,11 +45,11 @@ fram_status slurm_follow(context *ctx, const slurm_options *options, const char 
         return status;
     status = submit_more(&all, f, error);
     f->tell(f->user, NULL);
-    while (status == FRAM_OK && !options->dry_run && all.runs.count > 0 && !stop_is_asked(f->stop)) {
+    while (status == FRAM_OK && !options->dry_run && is_any_left(&all, f) && !stop_is_asked(f->stop)) {
         double began = clock_wall();
         status = take_all(&all, f, error);
         f->tell(f->user, slurm_waits(&all));
-        if (status == FRAM_OK && all.runs.count > 0)
+        if (status == FRAM_OK && is_any_left(&all, f))
             pause_between_looks(clock_wall() - began);
         slurm_look(&all);
         if (status == FRAM_OK)

@@ -400,20 +400,36 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
     memory_free(f->ctx, folder);
 }
 
-fram_status study_run_forget(const study_folder *f, int32_t condition, int64_t seed, bool anew, fram_error *error)
+/* The folder goes while it is locked: a program that begins to write there meets that. */
+static fram_status remove_unheld(context *ctx, const char *folder, bool *busy, fram_error *error)
 {
-    static const char *const endings[] = {".row", ".exit", ""};
-    for (int i = 0; i < (anew ? 3 : 2); i++) {
-        char *path = study_run_path(f, condition, seed, endings[i]);
-        if (!path)
-            return error_memory(error);
-        if (endings[i][0])
-            (void)unlink(path);
+    int lock = -1;
+    if (access(folder, F_OK) != 0)
+        return FRAM_OK;
+    fram_status status = run_folder_lock(folder, &lock, error);
+    *busy = status == FRAM_ERROR_USAGE;
+    if (status == FRAM_OK)
+        study_folder_remove(ctx, folder);
+    run_folder_unlock(lock);
+    return *busy ? FRAM_OK : status;
+}
+
+fram_status study_run_forget(context *ctx, const char *folder, bool anew, bool *busy, fram_error *error)
+{
+    /* The row goes last: while it is there a call that goes on behind one that was killed in here does this again. */
+    static const char *const endings[] = {".exit", ".row"};
+    *busy = false;
+    fram_status status = anew ? remove_unheld(ctx, folder, busy, error) : FRAM_OK;
+    for (int i = 0; i < 2 && status == FRAM_OK && !*busy; i++) {
+        text_buffer path = {0};
+        text_format(ctx, &path, "%s%s", folder, endings[i]);
+        if (path.failed)
+            status = error_memory(error);
         else
-            study_folder_remove(f->ctx, path);
-        memory_free(f->ctx, path);
+            (void)unlink(path.data);
+        text_free(ctx, &path);
     }
-    return FRAM_OK;
+    return status;
 }
 
 bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)

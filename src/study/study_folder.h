@@ -61,9 +61,10 @@ fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
 /* Of a run that ended well and has its row: what is not kept of its folder goes, and at last its log.  Where there is
    no log all this was done before. */
 void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
-/* Of a run that a task of Slurm is to make again: its row and code go, since a task passes over what has one; `anew`:
-   so does its folder, from whose checkpoints a task would go on.  FRAM_ERROR_MEMORY. */
-fram_status study_run_forget(const study_folder *f, int32_t condition, int64_t seed, bool anew, fram_error *error);
+/* Of a run that a task of Slurm is to make again, "DIR/runs/ID/SEED" or "DIR/worst/ID-SEED": its row and code go, since
+   a task passes over what has one; `anew`: so does its folder, from whose checkpoints a task would go on.  *busy: a
+   program still writes into that, and all stays until it has ended. */
+fram_status study_run_forget(context *ctx, const char *folder, bool anew, bool *busy, fram_error *error);
 /* Whether there is of a run that ended well what `keep` keeps. */
 bool study_run_has_kept(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
 /* FRAM_ERROR_INPUT, naming the file, when a run was made of other files than the condition is named after: somebody

@@ -176,6 +176,12 @@ static void look_again(study_work *w)
     }
 }
 
+static void set_busy(study_work *w, int32_t condition, int32_t index)
+{
+    w->conditions[condition].seeds.data[index].state = RUN_BUSY;
+    w->busy++;
+}
+
 static fram_status fill_pool(study_work *w, fram_error *error)
 {
     int32_t condition = 0, index = 0;
@@ -187,8 +193,7 @@ static fram_status fill_pool(study_work *w, fram_error *error)
             status = start_run(w, condition, index, error);
         if (!busy)
             continue;
-        w->conditions[condition].seeds.data[index].state = RUN_BUSY;
-        w->busy++;
+        set_busy(w, condition, index);
     }
     return status;
 }
@@ -320,18 +325,36 @@ static fram_status work_loop(study_work *w, fram_error *error)
 
 /* ---- runs by Slurm ---- */
 
+/* Once: what is there from then on is of this call's tasks. */
+static fram_status forget_found(study_work *w, int32_t condition, int32_t index, bool *busy, fram_error *error)
+{
+    study_seed *seed = &w->conditions[condition].seeds.data[index];
+    *busy = false;
+    if (seed->found == ROWS_NONE || is_dry(w))
+        return FRAM_OK;
+    char *folder = study_run_path(&w->folder, condition, w->s->seeds.first + index, "");
+    fram_status status =
+        folder ? study_run_forget(w->ctx, folder, !seed->row.failed, busy, error) : error_memory(error);
+    if (status == FRAM_OK && !*busy)
+        seed->found = ROWS_NONE;
+    memory_free(w->ctx, folder);
+    return status;
+}
+
 static fram_status add_missing(void *user, slurm_pool *queue, fram_error *error)
 {
     study_work *w = user;
     int32_t condition = 0, index = 0;
+    bool busy = false;
+    look_again(w);
     while (next_run(w, &condition, &index)) {
-        const study_seed *seed = &w->conditions[condition].seeds.data[index];
-        fram_status status =
-            seed->found == ROWS_NONE || is_dry(w)
-                ? FRAM_OK
-                : study_run_forget(&w->folder, condition, w->s->seeds.first + index, !seed->row.failed, error);
+        fram_status status = forget_found(w, condition, index, &busy, error);
         if (status != FRAM_OK)
             return status;
+        if (busy) {
+            set_busy(w, condition, index);
+            continue;
+        }
         if (!array_push(w->ctx, &w->task, (int64_t)condition << 32 | index) ||
             !slurm_add(queue, w->folder.id[condition], w->s->seeds.first + index, w->task.count - 1, 0))
             return error_memory(error);
@@ -353,7 +376,7 @@ static void tell_waits(void *user, const char *waits) { show_progress(user, wait
 
 static fram_status slurm_loop(study_work *w, fram_error *error)
 {
-    const slurm_follower follower = {w, add_missing, take_ended, tell_waits, w->options->stop};
+    const slurm_follower follower = {w, add_missing, take_ended, tell_waits, w->options->stop, &w->busy};
     return slurm_follow(w->ctx, w->options->slurm, w->options->folder, w->options->program, &follower, error);
 }
 

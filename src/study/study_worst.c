@@ -109,6 +109,7 @@ typedef struct worst_work {
     process_pool pool;
     const char *node; /* as in study_run.c */
     bool added;       /* all that the cluster is to make */
+    int32_t held;     /* runs that the cluster is to make when another program has ended */
     double started;
     bool changed;
 } worst_work;
@@ -408,7 +409,7 @@ static void tell_waits_of_worst(void *user, const char *waits) { tell(user, wait
 /* The runs alone: their pages are made here, a few seconds each. */
 static fram_status record_by_slurm(worst_work *w, fram_error *error)
 {
-    const slurm_follower follower = {w, add_runs, take_ended_worst, tell_waits_of_worst, w->options->stop};
+    const slurm_follower follower = {w, add_runs, take_ended_worst, tell_waits_of_worst, w->options->stop, &w->held};
     return slurm_follow(w->f->ctx, w->options->slurm, w->f->path, w->options->program, &follower, error);
 }
 

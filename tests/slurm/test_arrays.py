@@ -153,6 +153,64 @@ class Arrays(unittest.TestCase):
         self.assertEqual(self.tables("out"), tables)
         self.assertFalse(any(p.exists() for p in left))
 
+    def wait_for_end(self, process):
+        out, error = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, error)
+        return json.loads(out.splitlines()[-1])
+
+    def start_while_held(self, words, environment, held):
+        """A study that goes on while another program writes into the folder of a run, and leaves that alone."""
+        lock = os.open(held, os.O_RDONLY)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        process = subprocess.Popen(self.words(*words, "--json"), env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(4)
+        self.assertIsNone(process.poll())
+        self.assertTrue((held / "left").exists())
+        os.close(lock)
+        return self.wait_for_end(process)
+
+    def test_runs_of_another_fram_wait_for_who_writes_them(self):
+        self.study.write_text("scenario: base.yaml\nseeds: 2\nkeep: all\n")
+        environment = self.scheduler()
+        words = ("out", "--on", "slurm", "--poll", "20")
+        self.assertEqual(json.loads(self.fram(*words, environment=environment))["made"], 2)
+        tables = self.tables("out")
+        rows = sorted((self.at / "out").glob("runs/*/*.row"))
+        for others in (rows, rows[1:]):
+            for row in others:
+                row.write_text("fram study row 7" + row.read_text()[row.read_text().index("\n"):])
+            held = rows[1].with_suffix("")
+            (held / "left").write_text("")
+            self.assertEqual(self.start_while_held(words, environment, held)["made"], len(others))
+            self.assertFalse((held / "left").exists())
+            self.assertEqual(self.tables("out"), tables)
+
+    def test_what_a_task_began_of_a_run_of_another_fram_stays(self):
+        """It is taken away once: what is there when its task met another program is of this Fram."""
+        self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
+        environment = self.scheduler()
+        words = ("out", "--on", "slurm", "--poll", "20")
+        self.fram(*words, environment=environment)
+        tables = self.tables("out")
+        row, = (self.at / "out").glob("runs/*/*.row")
+        row.write_text("fram study row 7" + row.read_text()[row.read_text().index("\n"):])
+        run = row.with_suffix("")
+        met = f"""#!/bin/bash
+[ "$1" != --version ] && [ ! -e "{self.at}/met" ] || exec "{self.at}/real" "$@"
+touch "{self.at}/met"
+mkdir "{run}" && touch "{run}/begun"
+echo "fram: error: {run}: another run is writing into this folder" >"{run}.log"
+echo 2 >"{run}.exit"
+echo 7
+"""
+        (self.at / "bin" / "sbatch").rename(self.at / "real")
+        (self.at / "bin" / "sbatch").write_text(met)
+        (self.at / "bin" / "sbatch").chmod(0o755)
+        self.assertEqual(json.loads(self.fram(*words, environment=environment))["made"], 1)
+        self.assertTrue((run / "begun").exists())
+        self.assertEqual(self.tables("out"), tables)
+
     def test_what_a_limit_of_time_stopped_goes_on(self):
         self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
         self.fram("here")
