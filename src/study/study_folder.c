@@ -400,18 +400,27 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
     memory_free(f->ctx, folder);
 }
 
+/* The lock of a run's folder, for run_folder_unlock; -1 where there is no folder, or *busy. */
+static fram_status lock_run(const char *folder, int *lock, bool *busy, fram_error *error)
+{
+    *lock = -1;
+    *busy = false;
+    if (access(folder, F_OK) != 0)
+        return FRAM_OK;
+    fram_status status = run_folder_lock(folder, lock, error);
+    *busy = status == FRAM_ERROR_USAGE;
+    return *busy ? FRAM_OK : status;
+}
+
 /* The folder goes while it is locked: a program that begins to write there meets that. */
 static fram_status remove_unheld(context *ctx, const char *folder, bool *busy, fram_error *error)
 {
-    int lock = -1;
-    if (access(folder, F_OK) != 0)
-        return FRAM_OK;
-    fram_status status = run_folder_lock(folder, &lock, error);
-    *busy = status == FRAM_ERROR_USAGE;
-    if (status == FRAM_OK)
-        study_folder_remove(ctx, folder);
+    int lock;
+    fram_status status = lock_run(folder, &lock, busy, error);
+    if (lock >= 0)
+        remove_but(ctx, folder, NULL, 0);
     run_folder_unlock(lock);
-    return *busy ? FRAM_OK : status;
+    return status;
 }
 
 fram_status study_run_forget(context *ctx, const char *folder, bool anew, bool *busy, fram_error *error)
@@ -460,18 +469,12 @@ fram_status study_run_check_files(const study_folder *f, int32_t condition, cons
     return status;
 }
 
-void study_folder_remove(context *ctx, const char *folder) { remove_but(ctx, folder, NULL, 0); }
-
 fram_status study_folder_busy(const char *folder, bool *busy, fram_error *error)
 {
-    int lock = -1;
-    *busy = false;
-    if (access(folder, F_OK) != 0)
-        return FRAM_OK;
-    fram_status status = run_folder_lock(folder, &lock, error);
+    int lock;
+    fram_status status = lock_run(folder, &lock, busy, error);
     run_folder_unlock(lock);
-    *busy = status == FRAM_ERROR_USAGE;
-    return *busy ? FRAM_OK : status;
+    return status;
 }
 
 fram_status study_run_met_another(context *ctx, const char *folder, const char *log, bool *met, fram_error *error)

@@ -76,8 +76,6 @@ fram_status study_folder_busy(const char *folder, bool *busy, fram_error *error)
 /* Whether a run that failed met such a program, which had been started and had not yet locked the folder: no answer of
    its scenario. */
 fram_status study_run_met_another(context *ctx, const char *folder, const char *log, bool *met, fram_error *error);
-/* A folder with all that is in it. */
-void study_folder_remove(context *ctx, const char *folder);
 
 /* The results of a condition, by seed from the first. */
 typedef struct condition_rows {

@@ -97,7 +97,8 @@ typedef enum worst_stage { WORST_RUN = 0, WORST_VIEW, WORST_DONE } worst_stage;
 typedef struct worst_entry {
     worst_run run;
     worst_stage stage;
-    bool going;
+    bool going; /* here, or given to the cluster */
+    bool old;   /* what is there was made to be another row */
 } worst_entry;
 
 typedef struct worst_work {
@@ -108,7 +109,6 @@ typedef struct worst_work {
     int64_t runs; /* of the study */
     process_pool pool;
     const char *node; /* as in study_run.c */
-    bool added;       /* all that the cluster is to make */
     int32_t held;     /* runs that the cluster is to make when another program has ended */
     double started;
     bool changed;
@@ -142,13 +142,10 @@ static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error 
     size_t size = 0, other = 0;
     fram_status status = path && log ? read_first_row(f, &e->run, &first, &size, error) : error_memory(error);
     e->stage = WORST_RUN;
-    if (status == FRAM_OK && access(path, F_OK) == 0 &&
-        file_read(f->ctx, path, ROW_FILE_LIMIT, &again, &other, NULL) == FRAM_OK && size == other &&
+    e->old = status == FRAM_OK && access(path, F_OK) == 0;
+    if (e->old && file_read(f->ctx, path, ROW_FILE_LIMIT, &again, &other, NULL) == FRAM_OK && size == other &&
         memcmp(first, again, size) == 0)
         e->stage = study_worst_has(f, &e->run, WORST_AGAIN, "playback.html") ? WORST_DONE : WORST_VIEW;
-    /* Of another time: a task of Slurm would take the run as made. */
-    if (status == FRAM_OK && e->stage == WORST_RUN)
-        (void)unlink(path);
     /* A study that was killed behind the last page left it. */
     if (status == FRAM_OK && e->stage == WORST_DONE)
         (void)unlink(log);
@@ -161,20 +158,18 @@ static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error 
 
 /* ---- what is no longer among them ---- */
 
-static void remove_run(const study_folder *f, const char *name)
+/* False: a program of a study that was killed still makes it. */
+static bool remove_run(const study_folder *f, const char *name)
 {
-    static const char *const marks[] = {".exit", ".log", ".row"};
-    char *folder = path_of(f, name, "");
-    if (folder)
-        study_folder_remove(f->ctx, folder);
-    memory_free(f->ctx, folder);
+    char *folder = path_of(f, name, ""), *log = path_of(f, name, ".log");
+    bool busy = false;
     /* The marks go last: without them the folder would be somebody else's. */
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
-        char *mark = path_of(f, name, marks[i]);
-        if (mark)
-            (void)unlink(mark);
-        memory_free(f->ctx, mark);
-    }
+    bool gone = folder && log && study_run_forget(f->ctx, folder, true, &busy, NULL) == FRAM_OK && !busy;
+    if (gone)
+        (void)unlink(log);
+    memory_free(f->ctx, folder);
+    memory_free(f->ctx, log);
+    return gone;
 }
 
 static void prune(worst_work *w)
@@ -202,8 +197,7 @@ static void prune(worst_work *w)
         }
         if (kept)
             continue;
-        remove_run(w->f, name);
-        w->changed = true;
+        w->changed = remove_run(w->f, name) || w->changed;
     }
     closedir(dir);
 }
@@ -377,21 +371,38 @@ static fram_status record_here(worst_work *w, fram_error *error)
 
 /* ---- on Slurm ---- */
 
+/* From what a task finds it would go on, to figures of that other row. */
+static fram_status forget_old(const study_folder *f, worst_entry *e, bool *busy, fram_error *error)
+{
+    char *folder = e->old ? study_worst_path(f, &e->run, "") : NULL;
+    fram_status status = folder || !e->old ? FRAM_OK : error_memory(error);
+    if (folder)
+        status = study_run_forget(f->ctx, folder, true, busy, error);
+    e->old = e->old && (status != FRAM_OK || *busy);
+    memory_free(f->ctx, folder);
+    return status;
+}
+
 static fram_status add_runs(void *user, slurm_pool *queue, fram_error *error)
 {
     worst_work *w = user;
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < w->count && status == FRAM_OK && !w->added; i++) {
+    w->held = 0;
+    for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
+        worst_entry *e = &w->entry[i];
+        bool own, busy = false;
         double frames = 0;
-        bool own;
-        if (w->entry[i].stage != WORST_RUN)
+        if (e->stage != WORST_RUN || e->going)
             continue;
-        status = study_worst_frames_of(w->f, &w->entry[i].run, &frames, &own, error);
-        if (status == FRAM_OK && !slurm_add(queue, w->f->id[w->entry[i].run.condition],
-                                            w->f->s->seeds.first + w->entry[i].run.index, i, frames))
+        status = forget_old(w->f, e, &busy, error);
+        w->held += busy;
+        if (status != FRAM_OK || busy)
+            continue;
+        status = study_worst_frames_of(w->f, &e->run, &frames, &own, error);
+        e->going = status == FRAM_OK;
+        if (e->going && !slurm_add(queue, w->f->id[e->run.condition], w->f->s->seeds.first + e->run.index, i, frames))
             status = error_memory(error);
     }
-    w->added = true;
     return status;
 }
 

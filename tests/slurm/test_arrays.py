@@ -211,6 +211,38 @@ echo 7
         self.assertTrue((run / "begun").exists())
         self.assertEqual(self.tables("out"), tables)
 
+    def test_the_worst_of_another_row_are_made_from_the_start(self):
+        """What lies beside a row that differs from the run's own is of a Fram that counted otherwise."""
+        self.study.write_text("scenario: base.yaml\nseeds: 2\nkeep: {record_of_worst: 1}\n"
+                              "set: {output.checkpoint_interval: 0.5}\n")
+        environment = self.scheduler()
+        words = ("out", "--on", "slurm", "--poll", "20")
+        self.fram(*words, environment=environment)
+        row, = (self.at / "out" / "worst").glob("*.row")
+        run, whole = row.with_suffix(""), row.read_text()
+        self.assertTrue(list(run.glob("checkpoint-*.fram")))
+        row.write_text("fram study row 7" + whole[whole.index("\n"):])
+        row.with_suffix(".exit").write_text("0\n")
+        (run / "left").write_text("")
+        self.start_while_held(words, environment, run)
+        self.assertEqual(row.read_text(), whole)
+        self.assertFalse((run / "left").exists())
+        # No more is known of what has no row.
+        row.unlink()
+        (run / "left").write_text("")
+        self.fram(*words, environment=environment)
+        self.assertEqual(row.read_text(), whole)
+        self.assertTrue((run / "left").exists())
+        # One that is no longer among the worst stays while another program writes it.
+        self.study.write_text("scenario: base.yaml\nseeds: 2\nset: {output.checkpoint_interval: 0.5}\n")
+        lock = os.open(run, os.O_RDONLY)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        self.fram("out")
+        self.assertTrue((run / "left").exists() and row.exists())
+        os.close(lock)
+        self.fram("out")
+        self.assertFalse(run.exists() or row.exists())
+
     def test_what_a_limit_of_time_stopped_goes_on(self):
         self.study.write_text("scenario: base.yaml\nseeds: 1\nkeep: all\n")
         self.fram("here")
