@@ -22,14 +22,19 @@ static int32_t find_parting(const study *s, const condition_rows *conditions, do
     return -1;
 }
 
-static void say_lack(const annual_lack *lack, annual_answer *out)
+static void say_lack(const annual_lack *lack, const condition_rows *conditions, annual_answer *out)
 {
+    const condition_rows *of = &conditions[lack->condition];
     if (lack->runs > 0)
         snprintf(
             out->why, sizeof out->why,
             "No answer: the data do not carry this level by gev: it is so rare that %d runs of condition %d, which "
             "has %d, would tell the shape of its tail; more seeds, or gumbel.",
             (int)lack->runs, (int)lack->condition + 1, (int)lack->there);
+    else if (lack->same && !run_rows_alike(of->rows.data, of->rows.count))
+        snprintf(out->why, sizeof out->why,
+                 "No answer: condition %d occurs and has no fit: all its %d values are equal.",
+                 (int)lack->condition + 1, (int)lack->there);
     else if (lack->same)
         snprintf(out->why, sizeof out->why,
                  "No answer: condition %d occurs and has no fit: its %d runs are the same; the seed changes nothing in "
@@ -133,7 +138,7 @@ fram_status study_annual(const study_folder *f, const condition_rows *conditions
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
         out[i] = (annual_answer){.level = level[i]};
         if (lack[i].condition >= 0) {
-            say_lack(&lack[i], &out[i]);
+            say_lack(&lack[i], conditions, &out[i]);
         } else if (!any_seen(x, of, count)) {
             out[i].level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
             snprintf(out[i].why, sizeof out[i].why, "No answer: all runs saw none; longer runs, or more seeds.");

@@ -73,14 +73,12 @@ bool study_met_no_ice(const condition_rows *of)
     return true;
 }
 
-/* Runs of a condition that all came to one value, as those of annual.csv that carry no fit (study_annual): not by
-   lines, which part at the same load whatever the ice does. */
+/* Runs of a condition that all came out the same, in all that they tell: one figure may be equal by itself, as where
+   lines part at the same load whatever the ice does.  Where that figure saw nothing, the ice may be what was missed. */
 static void doubt_alike(const condition_rows *of, const double_array *value, extreme_result *out)
 {
-    bool alike = value->count >= LAW_VALUES_LEAST && value->data[0] > 0;
-    for (int32_t i = 1; i < value->count && alike; i++)
-        alike = value->data[i] == value->data[0];
-    if (alike && study_parted_lines(of).runs == 0)
+    bool enough = value->count >= LAW_VALUES_LEAST && value->data[0] > 0;
+    if (enough && run_rows_alike(of->rows.data, of->rows.count) && study_parted_lines(of).runs == 0)
         extremes_doubt_alike(out, study_met_no_ice(of));
 }
 

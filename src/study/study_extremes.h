@@ -26,7 +26,7 @@ typedef struct annual_lack {
     int32_t condition;   /* from 0; -1: the level is there */
     int32_t runs, there; /* that it takes and has; 0: no fit at all */
     int32_t tied;        /* of those without a fit: how many are equal, the least, which is too many */
-    bool same;           /* of those without a fit: all are, under ice */
+    bool same;           /* of those without a fit: all values are, under ice */
     int32_t carrier;     /* of a level: the condition that most of its exceedances are of, from 0; -1: there is none */
     double share;        /* the part of them that are */
     double duration;     /* in that condition that the level is one of: its time in a year over the probability [s] */

@@ -548,46 +548,6 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual([data[name][1] for name in ("title", "ice.breakable")], [words, [0, 0, 1]])
 
     @WHOLE
-    def test_a_year_of_which_no_run_saw_any_load_has_no_level(self):
-        study = self.write("seeds: 12\nset: {run.duration: 0.2, run.transient: 0.1, ice.source: none}\n"
-                           "extremes: {duration: 1min, hours: [100], annual: [1e-2]}\n")
-        self.fram(study, "-o", self.at / "out")
-        self.assertEqual([r["load_largest[N]"] for r in self.rows("out")], ["0"] * 12)
-        year, = self.rows("out", "annual.csv")
-        self.assertEqual((year["level"], year["low"], year["high"]), ("", "", ""))
-        self.assertIn("No answer: all runs saw none", year["note"])
-
-    @WHOLE
-    def test_a_year_knows_no_more_than_the_fits_of_its_conditions(self):
-        study = self.write("seeds: 12\nset: {run.duration: 0.2, run.transient: 0.1, ice.source: none}\n"
-                           "extremes: {duration: 1min, hours: [100], annual: [1e-2]}\n")
-        self.fram(study, "-o", self.at / "out")
-
-        def told(values):
-            for seed, value in enumerate(values, 1):
-                (row,) = (self.at / "out" / "runs").glob(f"*/{seed}.row")
-                row.write_text(re.sub("load_largest .*", f"load_largest {value}", row.read_text()))
-            self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
-            load = next(r for r in self.rows("out", "extremes.csv") if r["figure"] == "load_largest")
-            (year,) = self.rows("out", "annual.csv")
-            return load, year
-
-        # No load in most runs, and one in one: no law of maxima has that.
-        load, year = told([0] * 11 + [5000])
-        self.assertEqual((load["most_probable"], year["level"]), ("", ""))
-        self.assertIn("11 of 12 maxima are equal, 0, the least", load["note"])
-        self.assertIn("condition 1 occurs and has no fit: 11 of 12 largest values are equal", year["note"])
-        load, year = told([5000] * 12)
-        self.assertRegex(load["note"] + year["note"], "12 values are equal. The seed .*vary.*12 runs .* same; the")
-        load, year = told([2 ** k for k in range(12)])
-        self.assertIn("speak against Gumbel's law", load["note"])
-        self.assertGreater(float(year["level"]), float(load["most_probable"]))
-        self.assertRegex(year["note"], "^100 %.* condition 1, .* 9950 h. The duration.* wide.*small.* low.*1 of 1 ")
-        load, year = told([-math.log(-math.log((k + 0.5) / 12)) for k in range(12)])
-        self.assertNotIn("speak against", load["note"])
-        self.assertNotIn("speak against", year["note"])
-
-    @WHOLE
     def test_extremes_of_conditions_and_of_a_year(self):
         study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
                            "extremes: {duration: 10min, method: gumbel, levels: [0.9], hours: [100, 20], "
