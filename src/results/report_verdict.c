@@ -382,11 +382,12 @@ static void judge_ice_left(verdict *v)
         return;
     const ice_contact c = ice_contact_of(time, r->load.data, rows);
     bool is_quiet = c.quiet > QUIET_PART * (time[rows - 1] - time[first]) && c.quiet > c.longest;
-    bool has_left = floes[rows - 1] < MOST_FLOES_LEFT * floes[0];
+    bool has_left = floes[rows - 1] < MOST_FLOES_LEFT * floes[0], met = c.last < HUGE_VAL;
     char name[48], last[64] = "no ice touched it";
-    if (c.last < HUGE_VAL)
+    if (met)
         snprintf(last, sizeof last, "ice last touched it at %.6g s of %.6g s", c.last, time[rows - 1]);
-    if (has_left || (is_quiet && floes[rows - 1] < floes[0]))
+    /* A ship in ice to the end has its mean of ice, however much of the field lies behind it. */
+    if ((is_quiet && floes[rows - 1] < floes[0]) || (!met && has_left))
         verdict_find(v, VERDICT_CAUTION,
                      "For ice that drifts past it take domain.boundary: feeding, else enlarge the domain or shorten "
                      "run.duration.",

@@ -76,6 +76,11 @@ PY
 expect 0 "$FRAM" run moored.yaml -o there --quiet --set run.duration=40
 verdict there
 grep 'open domain' verdict.txt && fail "ice that is still there is told to have left"
+# The end of a long field that passes the ship to the last second, though most of its floes are gone.
+expect 0 "$FRAM" run moored.yaml -o end --quiet --set run.duration=400 --set vessel.x=150 \
+    --set ice.mean_floe_area=60 --set environment.current_direction_deg=0 --set domain.x_min=-180 --set domain.x_max=180
+verdict end
+grep 'open domain' verdict.txt && fail "a ship in ice to the end is told that ice has left"
 expect 0 "$FRAM" run loose.yaml -o towed --quiet --set vessel.mode=towed --set vessel.speed=0.6 --set vessel.x=-25
 verdict towed
 grep 'open domain' verdict.txt && fail "a ship that leaves its ice on purpose is blamed"
