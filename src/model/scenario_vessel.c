@@ -5,6 +5,17 @@
 #include <stdio.h>
 #include <string.h>
 
+bool scenario_vessel_leaves(const scenario *s, const scenario_vessel *v)
+{
+    const scenario_positioning *p = &v->positioning;
+    bool led = v->mode == VESSEL_FREE && p->active && v->thrusters.count > 0 && p->control != CONTROL_HEADING;
+    if (!led || p->waypoints.count == 0)
+        return false;
+    const vec2 last = {p->waypoints.data[p->waypoints.count - 1].x, p->waypoints.data[p->waypoints.count - 1].y};
+    const vec2 room = domain_edges_from(&s->domain, last);
+    return fmin(room.x, room.y) < 0;
+}
+
 bool scenario_names_vessels(const scenario *s) { return s->vessels.count > 0; }
 
 int32_t scenario_vessel_count(const scenario *s)

@@ -22,6 +22,8 @@ static inline bool vessel_is_held(const scenario_vessel *v)
         return v->mooring.lines.count > 0 || v->positioning.active;
     return !(v->speed > 0) && v->path.count == 0;
 }
+/* Whether positioning leads it along way points to a last one outside of the domain: it leaves the ice on purpose. */
+bool scenario_vessel_leaves(const scenario *s, const scenario_vessel *v);
 /* Of those that are present. */
 int32_t scenario_vessel_count(const scenario *s);
 /* index: 0 to the count - 1, also the vessel's row in a world. */

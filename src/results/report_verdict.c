@@ -368,7 +368,7 @@ static void judge_edge(verdict *v)
 #define MOST_FLOES_LEFT 0.5
 
 /* Nothing comes into an open domain: past a vessel on station the ice drifts away, and what is averaged after that is
-   open water.  One that goes leaves its ice on purpose. */
+   open water.  One that goes, or is led out of the domain, leaves its ice on purpose. */
 static void judge_ice_left(verdict *v)
 {
     const report *r = v->r;
@@ -378,7 +378,7 @@ static void judge_ice_left(verdict *v)
     int32_t first = run_first_row(&r->d), rows = r->d.series.rows;
     bool required = !is_automatic(keys->station.offset_limit) && !vessel_drives_itself(keys);
     if (s->domain.boundary != DOMAIN_OPEN || !scenario_ice_is_field(&s->ice) || !time || !floes || rows - first < 2 ||
-        r->load.count < rows || !(vessel_is_held(keys) || required))
+        r->load.count < rows || !(vessel_is_held(keys) || required) || scenario_vessel_leaves(s, keys))
         return;
     const ice_contact c = ice_contact_of(time, r->load.data, rows);
     bool is_quiet = c.quiet > QUIET_PART * (time[rows - 1] - time[first]) && c.quiet > c.longest;

@@ -37,6 +37,7 @@ untold moored.yaml --set ice.source=level
 # What stands still is passed by its ice as well; what is towed leaves it on purpose, and what drives itself or drifts.
 sed '/mooring:/,/station:/d' moored.yaml >loose.yaml
 told loose.yaml "$words|take feeding" --set vessel.mode=towed
+told loose.yaml "walls keep the ice in a basin|take feeding" --set vessel.mode=towed --set domain.boundary=walls
 untold loose.yaml --set vessel.mode=towed --set vessel.speed=0.4
 untold loose.yaml
 untold loose.yaml --set vessel.propulsion.bollard_pull=2e5 --set vessel.propulsion.open_water_speed=5
@@ -47,6 +48,29 @@ untold moored.yaml --set environment.current_file=tide.csv
 awk -F, 'NR == 1 {print; next} {print 2 * $1 "," $2 "," $3}' tide.csv >slow.csv
 untold moored.yaml --set environment.current_file=slow.csv
 told moored.yaml "$words|s, of 350 s" --set environment.current_file=slow.csv --set run.duration=350
+# A ship that thrusters lead through its field: not in still water, nor out of the domain; no faster than it is led.
+cat >led.yaml <<'YAML'
+run: {duration: 300, time_step: 0.05, transient: 10}
+vessel:
+  mode: free
+  x: -60
+  hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}
+  positioning: {active: true, reference_speed: 0.5, waypoints: [{time: 5, x: 75, y: 0}]}
+  thrusters: [{x: 8, thrust: 6e4}, {x: -8, thrust: 6e4}]
+  station: {offset_limit: 20}
+ice: {concentration: 0.5, mean_floe_area: 60, thickness: 0.3}
+domain: {x_min: -80, x_max: 80, y_min: -40, y_max: 40, boundary: open}
+environment: {current_speed: 0.2, current_direction_deg: 180}
+output: {csv_interval: 1, frame_interval: 0}
+YAML
+# At 0.5 m/s it is at 75 m after 275 s; ice of the domain's end has come to 25 m by then.  Its hull is out at 80 s.
+told led.yaml "$words|s, of 300 s"
+early=$(sed -n 's/.*by t = \([0-9.]*\) s.*/\1/p' err | head -1)
+told led.yaml "$words|s, of 300 s" --set vessel.positioning.reference_speed=2
+python3 -c "import sys; a, b = map(float, sys.argv[1:]); sys.exit(not b < a)" "$early" \
+    "$(sed -n 's/.*by t = \([0-9.]*\) s.*/\1/p' err | head -1)" || fail "how fast it is led does not count"
+untold led.yaml --set environment.current_speed=0 --set vessel.positioning.waypoints[0].x=140
+untold led.yaml --set vessel.positioning.waypoints[0].x=140
 
 # verdict FOLDER: the text of the box, a finding a line.
 verdict() {
@@ -84,4 +108,8 @@ grep 'open domain' verdict.txt && fail "a ship in ice to the end is told that ic
 expect 0 "$FRAM" run loose.yaml -o towed --quiet --set vessel.mode=towed --set vessel.speed=0.6 --set vessel.x=-25
 verdict towed
 grep 'open domain' verdict.txt && fail "a ship that leaves its ice on purpose is blamed"
+expect 0 "$FRAM" run led.yaml -o led --quiet --set vessel.positioning.waypoints[0].x=140 \
+    --set vessel.positioning.reference_speed=1 --set environment.current_speed=0
+verdict led
+grep 'open domain' verdict.txt && fail "a ship that thrusters lead out of its ice is blamed"
 finish "ice that leaves an open domain is told of"
