@@ -21,9 +21,10 @@
 
 /* The angle from ahead at which tables are judged [deg]: small, and not within one row of most. */
 #define JUDGED_AT 10.0
-/* f under which is warned: bare hulls have a half to all of it near ahead, where the lift of the hull takes some off
-   (OCIMF 1994).  A turret ship of 200 m in 1 m/s swings ever wider with a quarter, and comes to rest with a half. */
-#define LEAST_PART 0.4
+/* f under which is warned.  With half of it a ship of 200 m on a turret 70 m before its middle hardly loses of its
+   swing in 1 m/s, and on one at 95 m it swings ever wider; with a quarter on the first too, with all on neither.  Bare
+   hulls have a half to all of it near ahead, where the lift of the hull takes some off (OCIMF 1994). */
+#define LEAST_PART 0.8
 /* k under which there is hardly such a moment: hulls about as broad as long. */
 #define LEAST_MUNK 2e-3
 /* Linear yaw damping that is enough, over (1 - f) (a22 - a11) U L / 2, which is the most work that is done about a
@@ -41,10 +42,12 @@ static double part_of_munk(const scenario *s, const vessel_model *hull, double a
     return flow_load(&hull->flows.water, s->environment.water_density, level, past).moment.z / *munk;
 }
 
-/* Whether its helm or its thrusters hold the heading, whatever the water does. */
-static bool is_steered(const scenario_vessel *v)
+/* Whether a turret lets it turn, and no helm or thrusters hold its heading: a spread of lines has a stiffness against
+   turning, and a ship without lines no point to swing about. */
+static bool swings(const scenario_vessel *v)
 {
-    return vessel_drives_itself(v) || (v->positioning.active && v->thrusters.count > 0);
+    bool steered = vessel_drives_itself(v) || (v->positioning.active && v->thrusters.count > 0);
+    return v->mooring.turret && v->mooring.lines.count > 0 && !steered;
 }
 
 /* The fastest that the water goes past it [m/s]. */
@@ -59,7 +62,7 @@ void munk_warnings(context *ctx, const scenario *s, const vessel_entry *entry, c
     const flow_table *table = &hull->flows.water;
     const scenario_vessel *v = entry->keys;
     double speed = fastest_past(s, v, m), turn = radians(JUDGED_AT), port, starboard;
-    if (v->mode != VESSEL_FREE || is_steered(v) || table->count == 0 || !hull->has_hydrodynamics || !(speed > 0))
+    if (v->mode != VESSEL_FREE || !swings(v) || table->count == 0 || !hull->has_hydrodynamics || !(speed > 0))
         return;
     double part = fmin(part_of_munk(s, hull, PI - turn, &starboard), part_of_munk(s, hull, PI + turn, &port));
     double cn = starboard / (0.5 * s->environment.water_density * table->lateral * table->length);

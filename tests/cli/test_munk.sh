@@ -30,6 +30,7 @@ ship against 0.08
 ship with -0.08
 ship little -0.02
 ship half -0.042
+ship most -0.075
 words="vessel.current_coefficients: near a current from ahead the moment is"
 untold() {
     local scene=$1
@@ -43,7 +44,8 @@ told none.yaml "$words 0 of Munk's, cn = 0.0288 at 170 degrees|give cn of the ba
 told against.yaml "$words -0.9|hydrodynamics.source: given with a damping of"
 told little.yaml "$words 0.2|may swing ever wider in a steady current"
 untold with.yaml
-untold half.yaml
+told half.yaml "$words 0.49 of Munk's|may swing ever wider in a steady current"
+untold most.yaml
 # A table of all directions is judged on both sides.
 awk -F, 'NR == 1 {print} NR > 1 {print; if ($1 < 180) row[++n] = (360 - $1) "," $2 "," (-$3) ",0"}
          END {while (n) print row[n--]}' with.csv >round.csv
@@ -59,9 +61,12 @@ sed 's|mooring: .*|positioning: {active: true}\n  thrusters: [{x: 80, thrust: 1.
 untold positioned.yaml
 untold none.yaml --set vessel.hull.form=box --set vessel.hull.length=40 --set vessel.hull.beam=40 \
     --set vessel.mooring.x=0
-# Without lines it is told of the speed that it has, and damping that is enough is heard of.
+# Nor of a spread of lines, which holds the heading, and without lines.
+untold none.yaml --set vessel.mooring.turret=false --set vessel.mooring.x=0
 sed '/mooring:/d' none.yaml >loose.yaml
-told loose.yaml "$words 0 of Munk's|hydrodynamics.source: given" --set environment.current_speed=0 --set vessel.speed=2
+untold loose.yaml
+untold loose.yaml --set environment.current_speed=0 --set vessel.speed=2
+# Damping that is enough is heard of.
 cat >rows.txt <<'YAML'
   hydrodynamics:
     source: given
