@@ -90,11 +90,12 @@ scene_disk scene_disk_of(const scenario *s, double floes)
 {
     const scenario_output *o = &s->output;
     double rows = s->run.duration / fmax(o->csv_interval, s->run.time_step);
+    bool ice = s->ice.source != ICE_NONE; /* floes of a file are not counted before it is read */
     scene_disk d = {
-        .rows = TEXT_BYTES + rows * row_bytes(s, floes > 0),
+        .rows = TEXT_BYTES + rows * row_bytes(s, ice),
         .frames = o->frame_interval > 0 ? times_within(s, o->frame_interval) * frame_size_of_scenario(s, floes) : 0,
         .checkpoints = CHECKPOINTS * (CHECKPOINT_BYTES + KEPT_FLOE_BYTES * floes),
-        .pictures = CHART_BYTES + times_within(s, o->picture_interval) * (floes > 0 ? PICTURE_BYTES : EMPTY_BYTES)};
+        .pictures = CHART_BYTES + times_within(s, o->picture_interval) * (ice ? PICTURE_BYTES : EMPTY_BYTES)};
     if (o->record_limit > 0)
         d.frames = fmin(d.frames, o->record_limit * MEGABYTE);
     d.all = d.rows + d.frames + d.checkpoints + d.pictures;

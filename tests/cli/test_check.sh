@@ -189,17 +189,38 @@ import sys
 sys.exit(not 0 < float(sys.argv[1]) < 600)
 END
 says "time: judged by its first steps a run takes" err
-promised=$(sed -n 's/^disk: about \([0-9.e+]*\) MB.*/\1/p' err)
-expect 0 "$FRAM" run box.yaml -o sized -q --set output.csv_interval=0.1
+promised() { sed -n 's/^disk: about \([0-9.e+]*\) MB.*/\1/p' err; }
 pictures=no
 ! built_with cairo || pictures=yes
-python3 - "$promised" "$(du -sb sized | cut -f1)" "$pictures" <<'END' ||
+# sized MEGABYTES OPTIONS...
+sized() {
+    local promised=$1
+    shift
+    expect 0 "$FRAM" run box.yaml -o sized --force -q --set output.csv_interval=0.1 "$@"
+    python3 - "$promised" "$(du -sb sized | cut -f1)" "$pictures" <<'END' ||
 import sys
 promised, found = float(sys.argv[1]) * 1e6, float(sys.argv[2])
 # Without pictures a build leaves less.
 sys.exit(not (found / 2 if sys.argv[3] == "yes" else 0) < promised < found * (2 if sys.argv[3] == "yes" else 4))
 END
-    fail "the folder has another size than $promised MB"
+        fail "the folder has another size than $promised MB: $*"
+}
+sized "$(promised)"
+# Floes of a file are not counted before it is read, but rows and pictures are those of a run in ice.
+python3 - >blocks.wkt <<'END'
+for x in range(-90, 90, 15):
+    for y in (-45, -25, 25, 45):
+        print(f"POLYGON (({x} {y - 4}, {x + 10} {y - 4}, {x + 10} {y + 4}, {x} {y + 4}, {x} {y - 4}))")
+END
+file=(--set ice.source=file --set ice.file=blocks.wkt --set vessel.speed=4 --set vessel.y=20)
+expect 0 "$FRAM" check box.yaml "${file[@]}" --set output.csv_interval=0.1
+says "for what the run leaves beside the floes of its file, which are not counted" err
+unread=$(promised)
+sized "$unread" "${file[@]}"
+expect 0 "$FRAM" check box.yaml --set ice.source=voronoi --set ice.mean_floe_area=20000 --set output.csv_interval=0.1
+says "for about 1 floe" err
+python3 -c "import sys; a, b = map(float, sys.argv[1:]); sys.exit(abs(a - b) > 0.03)" "$unread" "$(promised)" ||
+    fail "with ice of a file $unread MB are told, with one floe $(promised) MB"
 
 printf 'run: {duration: 1}\nice: {mean_floe_area: 400}\n' >field.yaml
 expect 0 "$FRAM" check field.yaml --set ice.breakable=true
