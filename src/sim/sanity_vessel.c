@@ -101,9 +101,9 @@ static void tell_vessel_propulsion(const teller *t)
 #define STIFFNESS_LEAST 1.0
 #define STIFFNESS_MOST 2000.0
 /* Horizontal distance to the anchor over the way down to it: chains and wires have several, taut legs of rope 1 to 1.5
-   (API RP 2SK 2005).  Under it a line pulls more down than aside, and up on its anchor; what is to pull straight down,
-   as a tension leg, stretches alone and hangs in no bow: a spring. */
-#define SCOPE_LEAST 1.0
+   (API RP 2SK 2005), in deep water a little less.  Under it a line pulls more down than aside, and up on its anchor;
+   what is to pull straight down, as a tension leg, stretches alone and hangs in no bow: a spring. */
+#define SCOPE_LEAST 0.7
 /* Length of line that the breaking load carries at full size [m]: 5 km of chain, 15 km of wire. */
 #define OWN_WEIGHT 1e3
 /* Freeboards to which fairleads go up, and draughts to which they go down: chains leave the bottom of a turret. */
@@ -123,14 +123,14 @@ static void tell_line(const teller *t, int32_t i)
                    "%s.mooring.lines[%d].stiffness: EA of %s is %.3g breaking loads, chain and wire have 60 to 130, "
                    "ropes 3 to 30: give newtons",
                    t->e->path, (int)i, load_text_of(l->stiffness, 4).text, ratio);
-    double down = v->mooring.depth + v->mooring.z;
+    double down = v->mooring.depth + v->mooring.z, straight = sqrt(l->distance * l->distance + down * down);
     if (l->kind == LINE_CATENARY && l->distance < SCOPE_LEAST * down)
         sanity_say(
             t->tell, t->to,
             "%s.mooring.lines[%d].distance: an anchor %.4g m off and %.4g m down: the line pulls more down than "
-            "aside, and up on its anchor; anchors lie several depths off: give metres, or kind: spring for a leg "
-            "that pulls straight down",
-            t->e->path, (int)i, l->distance, down);
+            "aside, and up on its anchor; anchors of chains lie several depths off, of taut legs about one depth: give "
+            "metres, or for a leg that pulls straight down kind: spring with stiffness EA over length, %.3g N/m",
+            t->e->path, (int)i, l->distance, down, l->stiffness / automatic_or(l->length, straight));
     if (l->count > 1 && (double)l->count * fabs(l->spacing_deg) > FULL_CIRCLE)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].spacing_deg: %d lines at %g degrees go round more than once: give the angle "

@@ -35,11 +35,16 @@ told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "ves
 told ship.yaml "lines[0].stiffness: EA of 800 kN is 0.1 breaking loads|newtons" \
     --set "vessel.mooring.lines[0].stiffness=8e5"
 told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.mooring.lines[0].distance=0.9"
-# Anchors nearer than the bottom: not of legs that pull straight down, nor of taut ones at 45 degrees.
-told ship.yaml "lines[0].distance: an anchor 119 m off and 120 m down: the line pulls|kind: spring for a leg" \
-    --set "vessel.mooring.lines[0].distance=119"
-grep -c 'an anchor 119' err | grep -qx 1 || fail "told twice of an anchor"
-for near in "distance=120" "distance=119 --set vessel.mooring.z=-3" \
+# Anchors much nearer than the bottom, here 120 m down: not of legs that pull straight down, nor of taut ones.
+told ship.yaml "lines[0].distance: an anchor 83 m off and 120 m down: the line pulls|of taut legs about one depth" \
+    --set "vessel.mooring.lines[0].distance=83"
+grep -c 'an anchor 83' err | grep -qx 1 || fail "told twice of an anchor"
+# Its stiffness is EA, in N; that of a spring is in N/m: 1e8 N over 125 m, and over 160 m.
+told ship.yaml "with stiffness EA over length, 8e+05 N/m|kind: spring" --set "vessel.mooring.lines[0].distance=35" \
+    --set "vessel.mooring.lines[0].stiffness=1e8"
+told ship.yaml "with stiffness EA over length, 6.25e+05 N/m" --set "vessel.mooring.lines[0].distance=35" \
+    --set "vessel.mooring.lines[0].stiffness=1e8" --set "vessel.mooring.lines[0].length=160"
+for near in "distance=84.1" "distance=83 --set vessel.mooring.z=-3" \
     "distance=8 --set vessel.mooring.lines[0].kind=spring"; do
     # shellcheck disable=SC2086
     expect 0 "$FRAM" check ship.yaml --set vessel.mooring.lines[0].$near
