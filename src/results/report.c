@@ -24,15 +24,33 @@ static void figure(report *r, const char *name, double value, const char *unit)
     html_figure(&r->page, name, text, unit);
 }
 
-/* Of a vessel, with its name where there are names. */
-static void vessel_figure(report *r, const char *name, double value, const char *unit)
+/* Name of what is told of a vessel, with that of the vessel where there are names. */
+typedef struct vessel_label {
+    char text[96];
+} vessel_label;
+
+static vessel_label vessel_label_of(const report *r, const char *name)
 {
-    char full[96];
+    vessel_label full;
     const scenario *s = &r->d.s;
     bool named = scenario_names_vessels(s);
-    snprintf(full, sizeof full, "%.*s%s%s", (int)VESSEL_NAME_MOST,
+    snprintf(full.text, sizeof full.text, "%.*s%s%s", (int)VESSEL_NAME_MOST,
              named ? scenario_vessel_entry(s, r->vessel).keys->name : "", named ? ": " : "", name);
-    figure(r, full, value, unit);
+    return full;
+}
+
+/* A load as the verdict tells it, unit and digits. */
+static void load_figure(report *r, const char *name, double newton)
+{
+    load_text text = load_text_of(newton, VALUE_DIGITS);
+    char *unit = strchr(text.text, ' ');
+    const vessel_label full = vessel_label_of(r, name);
+    if (isnan(newton) || !unit) {
+        figure(r, full.text, (double)NAN, "kN");
+        return;
+    }
+    *unit = '\0';
+    html_figure(&r->page, full.text, text.text, unit + 1);
 }
 
 static fram_status vessel_figures(report *r, int32_t vessel, const double *time, fram_error *error)
@@ -40,13 +58,12 @@ static fram_status vessel_figures(report *r, int32_t vessel, const double *time,
     fram_status status = report_choose_vessel(r, vessel, error);
     if (status != FRAM_OK)
         return status;
-    load_unit unit = report_load_unit(r);
     char averaged[64];
     snprintf(averaged, sizeof averaged, "largest ice load, averaged over %.3g s", scenario_averaging_window(&r->d.s));
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
-    vessel_figure(r, "mean ice load", s.mean * unit.factor, unit.name);
-    vessel_figure(r, "significant peak", s.significant * unit.factor, unit.name);
-    vessel_figure(r, averaged, s.greatest * unit.factor, unit.name);
+    load_figure(r, "mean ice load", s.mean);
+    load_figure(r, "significant peak", s.significant);
+    load_figure(r, averaged, s.greatest);
     return FRAM_OK;
 }
 
@@ -59,7 +76,7 @@ static void station_figure(report *r, int32_t vessel)
     double most = (double)NAN;
     for (int32_t i = run_first_row(&r->d); x && y && i < r->d.series.rows; i++)
         most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
-    vessel_figure(r, "largest offset", most, "m");
+    figure(r, vessel_label_of(r, "largest offset").text, most, "m");
 }
 
 /* A program may have stepped the world before it was recorded. */
