@@ -327,8 +327,9 @@ static fram_status refuse_without_rings(const importing *m)
     if (m->rings->passed_over == 0)
         return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL, "the file has no floes");
     return error_set(m->error, FRAM_ERROR_INPUT, name, 0, NULL,
-                     "the file has no floes; %d features of kind vessel or wall were passed over",
-                     (int)m->rings->passed_over);
+                     "the file has no floes; %d feature%s of kind vessel or wall %s passed over",
+                     (int)m->rings->passed_over, m->rings->passed_over == 1 ? "" : "s",
+                     m->rings->passed_over == 1 ? "was" : "were");
 }
 
 /* Room for what is told of the rings outside. */

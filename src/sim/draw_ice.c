@@ -81,8 +81,9 @@ static void log_notes(context *ctx, const scenario *s, const import_rings *rings
                   s->ice.file, (int)rings->walls, rings->walls == 1 ? "" : "s", rings->walls == 1 ? "is" : "are",
                   rings->walls == 1 ? "was" : "were");
     if (rings->passed_over > 0)
-        log_write(ctx, LOG_INFO, "%d features of kind vessel or wall are no ice and were passed over",
-                  (int)rings->passed_over);
+        log_write(ctx, LOG_INFO, "%d feature%s of kind vessel or wall %s no ice and %s passed over",
+                  (int)rings->passed_over, rings->passed_over == 1 ? "" : "s", rings->passed_over == 1 ? "is" : "are",
+                  rings->passed_over == 1 ? "was" : "were");
     for (int32_t i = 0; i < field->notes.count; i++) {
         const import_note *n = &field->notes.data[i];
         char name[IMPORT_NAME_SIZE];

@@ -372,7 +372,7 @@ same "$(grep -c "left out: feature" out)" 12 "notes that are shown"
 echo '{"type": "Feature", "properties": {"kind": "wall"}, "geometry": null}' >walls.geojson
 echo 'POLYGON ((0 0, 5 0, 5 5, 5 0, 0 0))' >spike.wkt
 none_left "left of 1 rings: none winds round an area" spike.wkt --bad repair
-none_left "the file has no floes; 1 features of kind vessel or wall were passed over" walls.geojson
+none_left "the file has no floes; 1 feature of kind vessel or wall was passed over" walls.geojson
 
 # Floes of a file that are in the way of a vessel are told where the field is endless too; the next tile brings them.
 cat >covered.yaml <<'YAML'
@@ -419,10 +419,10 @@ ln -s keep.geojson link.geojson
 expect 2 "$FRAM" field keep.geojson --bad drop -o link.geojson
 says "--output" err
 expect 2 "$FRAM" field keep.geojson --bad drop --draw one.svg --table one.svg
+says "--table: names another output too" err
 expect 2 "$FRAM" field packed.yaml --table sizes.txt
 says "--table: expected a table's name that ends in .csv" err
 [ ! -e sizes.txt ] || fail "a table of another ending is written"
-says "--table" err
 cmp -s floes.geojson keep.geojson || fail "the input was written over"
 expect 2 "$FRAM" field keep.geojson --cell 5
 says "--cover" err
