@@ -46,7 +46,7 @@ static void pass_nothing(record_stream *s)
 
 static void pass_flag(record_stream *s, bool *value)
 {
-    uint8_t byte = *value ? 1 : 0;
+    uint8_t byte = s->out && *value ? 1 : 0; /* what is yet to be read may be no bool */
     pass(s, &byte, sizeof byte);
     if (!s->out)
         *value = byte != 0;

@@ -31,7 +31,8 @@
    point half of the length away.  That ship grows with 0.1, also with cn of the other sign, and rests with 0.25. */
 #define DAMPING_PART 0.25
 
-/* At an angle of the water's motion [rad], of speed 1: Munk's moment, and what the table has of it. */
+/* At an angle of the water's motion [rad], of speed 1: Munk's moment, and which part of it the table has: 1 where there
+   is no such moment. */
 static double part_of_munk(const scenario *s, const vessel_model *hull, double angle, double *munk)
 {
     const mat3 level = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -39,7 +40,8 @@ static double part_of_munk(const scenario *s, const vessel_model *hull, double a
     const vec3 past = vec3_make(real_cos(angle), real_sin(angle), 0);
     alone.measured = false;
     *munk = hydrodynamics_munk(&alone, vec3_neg(past));
-    return flow_load(&hull->flows.water, s->environment.water_density, level, past).moment.z / *munk;
+    double told = flow_load(&hull->flows.water, s->environment.water_density, level, past).moment.z;
+    return *munk != 0 ? told / *munk : 1;
 }
 
 /* Whether a turret lets it turn, and no helm or thrusters hold its heading: a spread of lines has a stiffness against

@@ -106,6 +106,8 @@ static number_sum means_of_half(const series_set *s, double scale, int half)
 static double beyond_chance(double difference, double variance, int freedom)
 {
     double deviation = sqrt(variance);
+    if (!(deviation > 0))
+        return fabs(difference) > 0 ? HUGE_VAL : 0;
     return fabs(difference) > student_quantile(1 - CHANCE, freedom) * deviation ? fabs(difference) / deviation : 0;
 }
 
