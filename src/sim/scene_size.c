@@ -90,7 +90,7 @@ scene_disk scene_disk_of(const scenario *s, double floes)
 {
     const scenario_output *o = &s->output;
     double rows = s->run.duration / fmax(o->csv_interval, s->run.time_step);
-    bool ice = s->ice.source != ICE_NONE; /* floes of a file are not counted before it is read */
+    bool ice = floes > 0 || s->ice.source != ICE_NONE; /* floes of a file are not counted before it is read */
     scene_disk d = {
         .rows = TEXT_BYTES + rows * row_bytes(s, ice),
         .frames = o->frame_interval > 0 ? times_within(s, o->frame_interval) * frame_size_of_scenario(s, floes) : 0,
