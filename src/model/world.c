@@ -220,7 +220,7 @@ static double reach_of_prism(const shape_store *s, int32_t shape, vec3 a)
 double world_reach_about(const world *w, int32_t body, vec3 axis)
 {
     int32_t shape = w->bodies.shape[body];
-    if (shape < 0)
+    if (shape < 0 || !(vec3_length(axis) > 0))
         return 0;
     vec3 a = mat3_tmul_vec(quat_matrix(w->bodies.orientation[body]), vec3_scale(axis, 1 / vec3_length(axis)));
     if (w->shapes.shapes.kind[shape] == SHAPE_PRISM)
