@@ -2,6 +2,7 @@
 # Ice drifts out of an open domain and none comes in: told before the run where a vessel stays and the current takes
 # the ice past it, and in the verdict where it did; not of ships that go through their ice.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
+. "$FRAM_SOURCE/tests/cli/verdict_box.sh"
 
 cat >moored.yaml <<'YAML'
 run: {duration: 240, time_step: 0.05, transient: 20}
@@ -72,17 +73,6 @@ python3 -c "import sys; a, b = map(float, sys.argv[1:]); sys.exit(not b < a)" "$
 untold led.yaml --set environment.current_speed=0 --set vessel.positioning.waypoints[0].x=140
 untold led.yaml --set vessel.positioning.waypoints[0].x=140
 
-# verdict FOLDER: the text of the box, a finding a line.
-verdict() {
-    expect 0 "$FRAM" report "$1" --quiet
-    python3 - "$1/report.html" >verdict.txt <<'PY'
-import html, re, sys
-page = open(sys.argv[1]).read()
-box = re.search(r'<section class="verdict (\w+)">(.*?)</section>', page, re.S)
-print(box.group(1))
-print(html.unescape(re.sub(r"<[^>]+>", "", box.group(2))))
-PY
-}
 expect 0 "$FRAM" run moored.yaml -o moored --quiet
 verdict moored
 holds '^caution' verdict.txt

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The verdict on top of a report: held or not, lines, limits, enough time or not; and the scenario as it was computed.
 . "$FRAM_SOURCE/tests/cli/common.sh"
+. "$FRAM_SOURCE/tests/cli/verdict_box.sh"
 
 cat >ship.yaml <<'YAML'
 run: {duration: 16, time_step: 0.05, transient: 4}
@@ -20,18 +21,6 @@ environment: {current_speed: 1.5, current_direction_deg: 180, wind_file: wind.cs
 output: {averaging_window: 0.5}
 YAML
 printf 'time[s],x[m/s],y[m/s]\n0,-8,0\n20,-6,3\n' >wind.csv
-
-# verdict FOLDER: the text of the box, a finding a line.
-verdict() {
-    expect 0 "$FRAM" report "$1" --quiet
-    python3 - "$1/report.html" >verdict.txt <<'PY'
-import html, re, sys
-page = open(sys.argv[1]).read()
-box = re.search(r'<section class="verdict (\w+)">(.*?)</section>', page, re.S)
-print(box.group(1))
-print(html.unescape(re.sub(r"<[^>]+>", "", box.group(2))))
-PY
-}
 
 expect 0 "$FRAM" run ship.yaml -o held --quiet
 verdict held

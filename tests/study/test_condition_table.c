@@ -29,6 +29,18 @@ static void read_as(const char *text, const char *const *cells, int32_t heads, i
     condition_table_free(&ctx, &t);
 }
 
+/* Reads what a study says beside its scenario; *error is left empty where it is taken. */
+static fram_status parse_study(context *ctx, const char *text, study *s, fram_error *error)
+{
+    char whole[160];
+    int length = snprintf(whole, sizeof whole, "scenario: base.yaml\n%s", text);
+    ck_assert_int_lt(length, (int)sizeof whole);
+    *error = (fram_error){0};
+    *s = (study){0};
+    context_init(ctx);
+    return study_parse(ctx, "s.yaml", whole, (size_t)length, s, error);
+}
+
 START_TEST(tables_of_any_program_are_read)
 {
     static const char *const cells[] = {"vessel.speed", "vessel.mode", "1.50", "towed", "2", "free"};
@@ -202,13 +214,10 @@ START_TEST(slips_are_told_with_their_remedy)
         {"vary: {latin: {count: 2, levels: 4}}\n", "vary.latin.levels", "count, seed or keys"},
         {"vary: {sobol: {count: 16}}\n", "sobol", "keys is missing"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[160];
         context ctx;
-        fram_error error = {0};
-        study s = {0};
-        context_init(&ctx);
-        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", cases[i].text);
-        ck_assert_int_eq(study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error), FRAM_ERROR_INPUT);
+        fram_error error;
+        study s;
+        ck_assert_int_eq(parse_study(&ctx, cases[i].text, &s, &error), FRAM_ERROR_INPUT);
         ck_assert_str_eq(error.key, cases[i].key);
         ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
         ck_assert_msg(!strstr(error.message, "write ice.thickness."), "there is no such key: %s", error.message);
@@ -232,13 +241,10 @@ START_TEST(no_remedy_is_told_that_would_be_refused)
                                         "vary: {latin: {count: 2, keys: {ice: {values: [1, 2]}}}}\n",
                                         "vary: {latin: {count: 2, keys: {ice: {thickness: {value: [1, 2]}}}}}\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        char text[160];
         context ctx;
-        fram_error error = {0};
-        study s = {0};
-        context_init(&ctx);
-        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", texts[i]);
-        ck_assert_int_eq(study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error), FRAM_ERROR_INPUT);
+        fram_error error;
+        study s;
+        ck_assert_int_eq(parse_study(&ctx, texts[i], &s, &error), FRAM_ERROR_INPUT);
         ck_assert_msg(strstr(error.message, "found a mapping") != NULL, "%s: %s", texts[i], error.message);
         ck_assert_msg(!strstr(error.message, "write "), "%s: %s", texts[i], error.message);
     }
@@ -260,13 +266,10 @@ START_TEST(seeds_go_as_far_as_those_of_a_scenario)
         {"vary: {morris: {count: 2, seed: 9007199254740991, keys: {ice.thickness: [1, 2]}}}\n", NULL},
         {"vary: {sobol: {count: 16, seed: 9007199254740992, keys: {ice.thickness: [1, 2]}}}\n", "to 9007199254740991"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[160];
         context ctx;
-        fram_error error = {0};
-        study s = {0};
-        context_init(&ctx);
-        int length = snprintf(text, sizeof text, "scenario: base.yaml\n%s", cases[i].text);
-        fram_status status = study_parse(&ctx, "s.yaml", text, (size_t)length, &s, &error);
+        fram_error error;
+        study s;
+        fram_status status = parse_study(&ctx, cases[i].text, &s, &error);
         ck_assert_int_eq(status, cases[i].said ? FRAM_ERROR_INPUT : FRAM_OK);
         if (cases[i].said)
             ck_assert_msg(strstr(error.message, cases[i].said) != NULL, "%s: %s", cases[i].text, error.message);
