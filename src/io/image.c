@@ -190,10 +190,13 @@ void image_page_drop(image_page *page)
 
 void image_set_colour(cairo_t *page, image_colour c) { cairo_set_source_rgb(page, c.r, c.g, c.b); }
 
+/* [pixels] */
+#define LEAST_ARROW 2
+
 void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head)
 {
     double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
-    if (!(length > 2))
+    if (!(length > LEAST_ARROW))
         return;
     double ux = (x1 - x0) / length, uy = (y1 - y0) / length, along = fmin(head, 0.45 * length), across = 0.5 * along;
     cairo_set_line_width(page, width);
@@ -205,6 +208,16 @@ void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, doub
     cairo_line_to(page, x1 - ux * along + uy * across, y1 - uy * along - ux * across);
     cairo_close_path(page);
     cairo_fill(page);
+}
+
+void image_arrow_halo(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head)
+{
+    double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
+    if (!(length > LEAST_ARROW))
+        return;
+    double ux = IMAGE_HALO * (x1 - x0) / length, uy = IMAGE_HALO * (y1 - y0) / length;
+    cairo_set_source_rgb(page, 1, 1, 1);
+    image_arrow(page, x0 - ux, y0 - uy, x1 + 2 * ux, y1 + 2 * uy, width + 2 * IMAGE_HALO, head + 4 * IMAGE_HALO);
 }
 
 static void select_font(cairo_t *page, double size, bool bold)

@@ -8,7 +8,19 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-static const image_colour water = {0.16, 0.36, 0.52}, plan_ink = {0.1, 0.1, 0.1};
+static const image_colour water = {0.16, 0.36, 0.52}, plan_ink = {0.1, 0.1, 0.1}, white = {1, 1, 1};
+static const image_colour arrow = {0.75, 0.05, 0.25}, mark = {0.90, 0.45, 0.0}, way = {0.85, 0.1, 0.1};
+
+/* The path as a line with white on both sides, so that it is seen on water, ice and hull alike. */
+static void stroke_with_halo(cairo_t *page, image_colour colour, double width, double halo)
+{
+    image_set_colour(page, white);
+    cairo_set_line_width(page, width + 2 * halo);
+    cairo_stroke_preserve(page);
+    image_set_colour(page, colour);
+    cairo_set_line_width(page, width);
+    cairo_stroke(page);
+}
 
 static void draw_plan_track(cairo_t *page, const plan_map *m, const plan_view *view)
 {
@@ -16,15 +28,11 @@ static void draw_plan_track(cairo_t *page, const plan_map *m, const plan_view *v
         return;
     for (int32_t i = 0; i < view->track_count; i++)
         cairo_line_to(page, plan_map_x(m, view->track[i]), plan_map_y(m, view->track[i]));
-    cairo_set_source_rgba(page, 0.85, 0.1, 0.1, 0.8);
-    cairo_set_line_width(page, 1.2);
-    cairo_stroke(page);
+    stroke_with_halo(page, way, 1.2, 1.5);
 }
 
 static void draw_marks(cairo_t *page, const plan_map *m, const plan_view *view)
 {
-    cairo_set_source_rgb(page, 0.90, 0.45, 0.0);
-    cairo_set_line_width(page, 1.6);
     for (int32_t i = 0; i < view->mark_count; i++) {
         double x = plan_map_x(m, view->marks[i]), y = plan_map_y(m, view->marks[i]), r = 3.5;
         cairo_move_to(page, x - r, y - r);
@@ -32,7 +40,7 @@ static void draw_marks(cairo_t *page, const plan_map *m, const plan_view *view)
         cairo_move_to(page, x - r, y + r);
         cairo_line_to(page, x + r, y - r);
     }
-    cairo_stroke(page);
+    stroke_with_halo(page, mark, 1.6, 1.5);
 }
 
 /* Of labels [pixels]. */
@@ -80,13 +88,16 @@ static double draw_flows(cairo_t *page, const plan_view *view, double right, dou
     return right;
 }
 
+/* The white round all of them first, so that none cuts another. */
 static void draw_arrows(cairo_t *page, const plan_map *m, const plan_view *view)
 {
-    cairo_set_source_rgb(page, 0.75, 0.05, 0.25);
-    for (int32_t i = 0; i < view->arrow_count; i++) {
-        const plan_arrow *a = &view->arrows[i];
-        double x = plan_map_x(m, a->from), y = plan_map_y(m, a->from);
-        image_arrow(page, x, y, plan_map_x(m, a->to), plan_map_y(m, a->to), 2, 9);
+    const double width = 2, head = 9;
+    for (int32_t i = 0; i < 2 * view->arrow_count; i++) {
+        bool halo = i < view->arrow_count;
+        const plan_arrow *a = &view->arrows[halo ? i : i - view->arrow_count];
+        image_set_colour(page, arrow);
+        (halo ? image_arrow_halo : image_arrow)(page, plan_map_x(m, a->from), plan_map_y(m, a->from),
+                                                plan_map_x(m, a->to), plan_map_y(m, a->to), width, head);
     }
 }
 
@@ -176,7 +187,7 @@ static double draw_scale_bar(cairo_t *page, const plan_map *m, double arrow, dou
     image_set_colour(page, plan_ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
-    image_set_colour(page, (image_colour){1, 1, 1});
+    image_set_colour(page, white);
     cairo_rectangle(page, x + px / 2, y - 5, px / 2 - 1, 4);
     cairo_fill(page);
     image_set_colour(page, plan_ink);

@@ -19,7 +19,7 @@ enum { WIDE = 1200, MIDDLE = 680, AXES = 60 };
 static const double sky[3] = {0.87, 0.91, 0.94}, water[3] = {0.18, 0.40, 0.56}, rim[3] = {0.36, 0.45, 0.53};
 static const double ice[3] = {0.95, 0.97, 0.98}, hull[3] = {0.71, 0.25, 0.16}, wall[3] = {0.48, 0.45, 0.42};
 static const double water_cover = 0.86;
-static const image_colour ink = {0.1, 0.1, 0.1}, mark = {0.902, 0.624, 0}, halo = {1, 1, 1};
+static const image_colour ink = {0.1, 0.1, 0.1}, mark = {0.902, 0.624, 0};
 /* By record_force_kind, the same as in the playback page. */
 static const struct {
     image_colour colour;
@@ -151,19 +151,7 @@ static fram_status draw_bodies(context *ctx, const video_scene *s, const replay 
 /* ---- what is drawn over it ---- */
 
 /* [pixels] */
-enum { ARROW_WIDTH = 2, ARROW_HEAD = 12, HALO_WIDTH = 2 };
-
-/* White round an arrow, which is seen on water, ice and hull alike. */
-static void draw_halo(cairo_t *page, double x0, double y0, double x1, double y1)
-{
-    double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
-    if (!(length > ARROW_WIDTH)) /* nor is the arrow drawn */
-        return;
-    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-    image_set_colour(page, halo);
-    image_arrow(page, x0 - HALO_WIDTH * ux, y0 - HALO_WIDTH * uy, x1 + 2 * HALO_WIDTH * ux, y1 + 2 * HALO_WIDTH * uy,
-                ARROW_WIDTH + 2 * HALO_WIDTH, ARROW_HEAD + 4 * HALO_WIDTH);
-}
+enum { ARROW_WIDTH = 2, ARROW_HEAD = 12 };
 
 /* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. edges: what is white
    round them, under all of them. */
@@ -182,7 +170,7 @@ static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, co
         if (!solid_view_place(v, from, &x0, &y0) || !solid_view_place(v, to, &x1, &y1))
             continue;
         if (edges) {
-            draw_halo(page, x0, y0, x1, y1);
+            image_arrow_halo(page, x0, y0, x1, y1, ARROW_WIDTH, ARROW_HEAD);
             continue;
         }
         image_set_colour(page, forces[f->kind].colour);

@@ -366,6 +366,59 @@ START_TEST(mooring_lines)
 }
 END_TEST
 
+static bool is_white(cairo_surface_t *page, int longest, vec2 place)
+{
+    int rgb[3];
+    colour_at(page, longest, place, rgb);
+    return rgb[0] > 240 && rgb[1] > 240 && rgb[2] > 240;
+}
+
+/* Arrows, crosses and tracks have white on both sides on water, on a hull and on ice of any colour. */
+START_TEST(what_is_drawn_over_ice_has_white_round_it)
+{
+    enum { LONGEST = 800, GROUNDS = 4 };
+    const double beside = 2 * 20.0 / (LONGEST - 64 - 44); /* two pixels */
+    const vec2 ring[4] = {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}}, track[2] = {{-8, -4}, {8, -4}};
+    const plan_arrow arrow = {{-8, 4}, {8, 4}};
+    const vec2 cross = {0, 0};
+    for (int ground = 0; ground < GROUNDS; ground++) {
+        const plan_shape s = {.outline = {ring, 4},
+                              .style = ground == 1 ? PLAN_DECK : PLAN_FLOE,
+                              .has_value = ground > 1,
+                              .value = ground == 2 ? 0.5F : 1};
+        const plan_view view = {.window = {{-10, -10}, {10, 10}},
+                                .title = "",
+                                .caption = "",
+                                .shapes = &s,
+                                .shape_count = ground > 0,
+                                .arrows = &arrow,
+                                .arrow_count = 1,
+                                .marks = &cross,
+                                .mark_count = 1,
+                                .track = track,
+                                .track_count = 2};
+        cairo_surface_t *page = drawn(&view, LONGEST);
+        for (double x = -6; x <= 6; x += 1.5) {
+            ck_assert(!is_white(page, LONGEST, (vec2){x, 4}) && !is_white(page, LONGEST, (vec2){x, 4 + 3 * beside}));
+            ck_assert(is_white(page, LONGEST, (vec2){x, 4 + beside}) && is_white(page, LONGEST, (vec2){x, 4 - beside}));
+        }
+        bool seen = false, covers = false;
+        for (double y = -4 - beside; y <= -4 + beside; y += beside / 8) {
+            seen = seen || is_white(page, LONGEST, (vec2){0, y});
+            covers = covers || !is_white(page, LONGEST, (vec2){0, y});
+        }
+        ck_assert(seen && covers);
+        seen = covers = false;
+        for (double x = -3 * beside; x <= 3 * beside; x += beside / 8) {
+            seen = seen || is_white(page, LONGEST, (vec2){x, beside});
+            covers = covers || !is_white(page, LONGEST, (vec2){x, beside});
+        }
+        ck_assert(seen && covers);
+        cairo_surface_destroy(page);
+    }
+}
+END_TEST
+
 /* Pixels of ink and colour over the plan, and the mean of their places. */
 static double header_middle(cairo_surface_t *page, int width, int *count)
 {
@@ -583,8 +636,9 @@ END_TEST
 
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
           lines_in_the_window, flows_that_move, flows_of_a_history, flows_of_a_profile,
-          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
-          labels_that_cover_each_other, texts_beside_a_narrow_plan, pictures_of_one_size, strips)
+          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines,
+          what_is_drawn_over_ice_has_white_round_it, flows_are_drawn, labels_that_cover_each_other,
+          texts_beside_a_narrow_plan, pictures_of_one_size, strips)
 
 #else
 
