@@ -35,6 +35,7 @@ dev  libasan8           deb:libasan8
 dev  libubsan1          deb:libubsan1
 dev  libtsan2           deb:libtsan2
 dev  shellcheck         cmd:shellcheck
+dev  pyflakes3          cmd:pyflakes3
 dev  gcovr              cmd:gcovr
 dev  valgrind           cmd:valgrind
 dev  util-linux         cmd:setarch

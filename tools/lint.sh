@@ -1,6 +1,6 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
-# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py, check_unused.py and check_keys.py,
+# 1 form by clang-format, 2 scripts by shellcheck and pyflakes, 3 the house by check_rooms.py, check_unused.py and check_keys.py,
 # 4 what documents cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py and
 # check_together.py, 7 clang-tidy.  Given C files, 1 and 7 look at those only.
 set -eu
@@ -21,6 +21,10 @@ echo "$sources" | xargs clang-format --dry-run -Werror || bad=1
 echo "lint: scripts (shellcheck)"
 # bench/peers: programs of other engines, kept as they were written.
 tools/sources.sh '*.sh' '.ci/run' | grep -v '^bench/peers/' | xargs shellcheck || bad=1
+
+echo "lint: scripts (pyflakes)"
+# What is imported to see whether it is there, or for what it does as it is read, is not used.
+tools/sources.sh '*.py' | xargs pyflakes3 | grep -v 'imported but unused' && bad=1
 
 echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1

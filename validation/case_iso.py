@@ -1,7 +1,5 @@
 """Crushing of a sheet at a vertical structure, beside the pressure-area rule of ISO 19906."""
 
-import math
-
 import ladder
 import world
 

@@ -94,7 +94,8 @@ def case(out):
         if of in GRID and of[1] <= 2:
             c.check(0.5 <= ratio <= 2, f"{of[0]} m, {of[1]} m/s: {ratio:.2f} of Lindqvist, expected 0.5 to 2")
     rise, bite = ladder.greatest(rises), ladder.greatest(bites)
-    c.check(rise < DRAUGHT / 2, f"the ship rises by {rise:.2f} m at most, less than {DRAUGHT / 2} m")
+    most = SHIP.draught / 2
+    c.check(rise < most, f"the ship rises by {rise:.2f} m at most, less than {most} m")
     c.check(bite < 1.5, f"the sheet breaks at {bite:.2f} of its strength at most, in the first step or the next (bound "
                         "of 1.5 set after a first run)")
 

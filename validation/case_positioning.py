@@ -1,7 +1,5 @@
 """Position control in surge against the closed loop's exact answer to a step."""
 
-import math
-
 import ladder
 import world
 

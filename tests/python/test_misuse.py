@@ -157,8 +157,8 @@ class Worlds(unittest.TestCase):
         world = scenario.world()
         world.step(3)  # it tells that the thruster fails
         self.assertEqual(len(seen), 1)
-        for time, values in seen:
-            self.assertTrue(np.isnan(time))
+        for told, values in seen:
+            self.assertTrue(np.isnan(told))
             self.assertTrue(np.all(np.isnan(values)))
         self.assertEqual(refused, ["world"] * 10)
         self.assertEqual(world._readers, [])

@@ -13,7 +13,6 @@ import pathlib
 import random
 import re
 import subprocess
-import sys
 import tempfile
 
 FRAM = os.environ["FRAM"]

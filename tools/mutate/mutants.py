@@ -15,7 +15,6 @@ on; how it is broken into lines does not matter.  Several '-' lines are one text
 """
 
 import collections
-import pathlib
 import re
 
 KINDS = ("sign", "factor", "off-by-one", "missing", "index", "comparison", "clamp", "swap", "constant", "logic")

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from ._arguments import absolute_of, call_of, flag_of, number_of, path_of, text_bytes_of
 from ._library import UsageError, ffi, lib, new_error, owned, text_of
 from .context import Context, context_of, default_context
+
+if TYPE_CHECKING:
+    from .runs import Run
+    from .world import World
 
 Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
 

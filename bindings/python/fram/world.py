@@ -8,13 +8,16 @@ import os
 import sys
 import weakref
 from dataclasses import dataclass
-from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
 from ._arguments import absolute_of, call_of, flag_of, list_of, number_of, numbers_of, path_of, whole_of
 from ._library import InputError, UsageError, ffi, is_made, lib, new_error, owned, text_of
 from .scenario import Scenario
+
+if TYPE_CHECKING:
+    from .runs import Run
 
 KINDS = {"floe": lib.FRAM_BODY_FLOE, "vessel": lib.FRAM_BODY_VESSEL, "wall": lib.FRAM_BODY_WALL,
          "other": lib.FRAM_BODY_OTHER}
