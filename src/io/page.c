@@ -2,9 +2,19 @@
 
 #include "io/image.h"
 
+#include <string.h>
+
 #ifdef FRAM_HAVE_CAIRO
 
-enum { EDGE = 40 };
+enum { EDGE = 40, TITLE_SIZE = 20 };
+
+static void draw_title(cairo_t *paper, const page *p)
+{
+    char part[IMAGE_FITTED_SIZE];
+    const char *end = p->title_end ? p->title_end : p->title + strlen(p->title);
+    const char *fitting = image_fit(paper, TITLE_SIZE, true, p->width - 2 * EDGE, p->title, end, part);
+    image_text(paper, EDGE, 38, TITLE_SIZE, ALIGN_LEFT, true, fitting);
+}
 
 fram_status page_write(context *ctx, const page *p, const char *path, fram_error *error)
 {
@@ -13,7 +23,7 @@ fram_status page_write(context *ctx, const page *p, const char *path, fram_error
     if (status != FRAM_OK)
         return status;
     image_set_colour(paper, (image_colour){0.1, 0.1, 0.1});
-    image_text_fitted(paper, EDGE, 38, 20, true, p->width - 2 * EDGE, p->title);
+    draw_title(paper, p);
     image_text_lines(paper, p->text_x, p->text_y, 13, p->text_width, p->text);
     for (int32_t i = 0; i < p->panel_count; i++) {
         const page_panel *panel = &p->panels[i];

@@ -12,6 +12,7 @@ typedef struct page_panel {
 
 typedef struct page {
     const char *title;
+    const char *title_end; /* where the part of it begins that is whole when the title is cut; NULL: none is */
     const page_panel *panels;
     int32_t panel_count;
     const char *text;               /* lines, each ended by a newline */

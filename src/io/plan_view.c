@@ -213,6 +213,28 @@ static void draw_global_axes(cairo_t *page, double x, double y)
     image_text(page, x - 4, y - 29, 12, ALIGN_LEFT, true, "Y");
 }
 
+/* What a style looks like, 14 pixels wide. */
+static void draw_swatch(cairo_t *page, plan_style style, double left, double y)
+{
+    cairo_rectangle(page, left, y - 11, 14, 12);
+    image_set_colour(page, plan_looks[style].fill);
+    cairo_fill_preserve(page);
+    image_set_colour(page, plan_looks[style].line);
+    cairo_set_line_width(page, 1);
+    cairo_stroke(page);
+}
+
+static void draw_plan_scale(cairo_t *page, const plan_view *view, double left, double right, double y)
+{
+    if (view->unscaled_name) {
+        draw_swatch(page, PLAN_LEVEL_ICE, left, y);
+        image_set_colour(page, plan_ink);
+        image_text(page, left + 20, y, 12, ALIGN_LEFT, false, view->unscaled_name);
+        left += 36 + image_text_width(page, 12, false, view->unscaled_name);
+    }
+    plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, left, right, y);
+}
+
 static void draw_plan_legend(cairo_t *page, const plan_view *view, double right, double y)
 {
     plan_used seen = plan_find_used(view);
@@ -234,12 +256,7 @@ static void draw_plan_legend(cairo_t *page, const plan_view *view, double right,
         right -= image_text_width(page, 12, false, plan_looks[s].name);
         image_set_colour(page, plan_ink);
         image_text(page, right, y, 12, ALIGN_LEFT, false, plan_looks[s].name);
-        cairo_rectangle(page, right - 20, y - 11, 14, 12);
-        image_set_colour(page, plan_looks[s].fill);
-        cairo_fill_preserve(page);
-        image_set_colour(page, plan_looks[s].line);
-        cairo_set_line_width(page, 1);
-        cairo_stroke(page);
+        draw_swatch(page, (plan_style)s, right - 20, y);
         right -= 36;
     }
 }
@@ -279,7 +296,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     image_text_fitted(page, left, 48, 12.5, false, end - 12 - left, view->caption);
     end = draw_scale_bar(page, &m, view->arrow_scale, left, below);
     if (view->scale_name)
-        plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, end + 16, right, below);
+        draw_plan_scale(page, view, end + 16, right, below);
     else
         draw_plan_legend(page, view, right, below);
 }

@@ -9,6 +9,7 @@
 #include "model/scenario_vessel.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* A limit of more than so many largest offsets is not drawn. */
 #define FAR_LIMIT 6
@@ -139,11 +140,14 @@ static void draw_circle(double radius, double x[CIRCLE], double y[CIRCLE])
 }
 
 enum { PAGE_TITLE = SCENARIO_TEXT_SIZE + 40 };
-static void title_of(const scenario *s, int32_t vessel, char out[PAGE_TITLE])
+/* Returns where the vessel's name begins in it, or its end. */
+static const char *title_of(const scenario *s, int32_t vessel, char out[PAGE_TITLE])
 {
     bool named = scenario_names_vessels(s);
-    snprintf(out, PAGE_TITLE, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
-             (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, vessel).keys->name : "");
+    const char *title = s->title[0] ? s->title : "Fram";
+    snprintf(out, PAGE_TITLE, "%s%s%.*s", title, named ? ": vessel " : "", (int)VESSEL_NAME_MOST,
+             named ? scenario_vessel_entry(s, vessel).keys->name : "");
+    return out + strlen(title);
 }
 
 static fram_status draw_station(context *ctx, const station_data *d, const station_units *u, const char *text,
@@ -189,8 +193,8 @@ static fram_status draw_station(context *ctx, const station_data *d, const stati
             : (page_panel){chart_make("Power", "", "time [s]", watts, &power, 1), 660, 840, 920, 270, false},
     };
     char title[PAGE_TITLE];
-    title_of(s, d->vessel, title);
-    const page p = {title, panels, 5, text, TEXT_LEFT, 660, TEXT_WIDTH, PAGE_WIDTH, PAGE_HEIGHT};
+    const char *name = title_of(s, d->vessel, title);
+    const page p = {title, name, panels, 5, text, TEXT_LEFT, 660, TEXT_WIDTH, PAGE_WIDTH, PAGE_HEIGHT};
     if (status == FRAM_OK)
         status = page_write(ctx, &p, path, error);
     array_free(ctx, &hull);

@@ -83,6 +83,18 @@ def whole(folders):
         assert all(min(at(width - x, y)) > 200 for x in (1, 2, 3) for y in range(height - 200, height - 180)), folder
 
 
+def seamless(files):
+    """Panels that no ice met are one area: no pixel of another colour stands between two of theirs, beside or above."""
+    hull = (209, 227, 243)
+    for file in files:
+        width, height, at = read(file)
+        rows = [[at(x, y) for x in range(width)] for y in range(66, height - 46)]
+        assert sum(row.count(hull) for row in rows) > 10000, file
+        for line in rows + list(zip(*rows)):
+            between = [here for before, here, after in zip(line, line[1:], line[2:]) if before == after == hull != here]
+            assert not between, (file, between[:3])
+
+
 def limit(files):
     """The footprint of a page of keeping station has the limit's circle, which is green."""
     _, _, at = read(files[0])
@@ -118,4 +130,4 @@ def head(files):
 
 if __name__ == "__main__":
     {"scales": scales, "wet": wet, "size": size, "hulls": hulls, "twin": twin, "whole": whole,
-     "limit": limit, "apart": apart, "walls": walls, "head": head}[sys.argv[1]](sys.argv[2:])
+     "limit": limit, "apart": apart, "walls": walls, "head": head, "seamless": seamless}[sys.argv[1]](sys.argv[2:])

@@ -93,6 +93,12 @@ if built_with cairo; then
     expect 0 "$FRAM" pressure run -o coarse --panel 9 --from 2.9 --quiet
     python3 "$FRAM_SOURCE/tests/cli/pixels.py" size map/pressure.png coarse/pressure.png || fail "coarse/pressure.png"
 fi
+# Of a strip of ice the bow has panels that it met between others: these are one area all the same.
+if built_with cairo; then
+    expect 0 "$FRAM" run plate.yaml -o strip --set domain.y_min=-3 --set domain.y_max=3 --quiet
+    expect 0 "$FRAM" pressure strip -o strip-map --panel 1.3 --from 2.5 --quiet
+    python3 "$FRAM_SOURCE/tests/cli/pixels.py" seamless strip-map/pressure.png || fail "pressure.png has seams"
+fi
 # Pictures without any load differ by what they say: of which time, and whose lines.
 if built_with cairo; then
     expect 0 "$FRAM" pressure run -o early --panel 2 --to 0.5 --quiet
