@@ -137,28 +137,47 @@ static bool same_colour(const plan_shape *a, const plan_shape *b)
     return a->has_value == b->has_value && (!a->has_value || !(a->value < b->value || a->value > b->value));
 }
 
+static void trace_tile(cairo_t *page, const plan_map *m, const plan_shape *s)
+{
+    cairo_new_sub_path(page);
+    for (int32_t i = 0; i < s->outline.count; i++)
+        plan_line_to(page, m, s->outline.vertex[i]);
+    cairo_close_path(page);
+}
+
 /* Tiles of level ice of one colour that follow each other, from the first shape on: how many.  They are one area
    without lines, for their seams are neither boundary nor crack; filled one by one, pixels on a seam would be of both
    and let what is below shine through. */
 static int32_t draw_level_ice(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
 {
     int32_t n = 0;
-    for (; n < count && shapes[n].style == PLAN_LEVEL_ICE && same_colour(&shapes[n], &shapes[0]); n++) {
-        cairo_new_sub_path(page);
-        for (int32_t i = 0; i < shapes[n].outline.count; i++)
-            plan_line_to(page, m, shapes[n].outline.vertex[i]);
-        cairo_close_path(page);
-    }
+    for (; n < count && shapes[n].style == PLAN_LEVEL_ICE && same_colour(&shapes[n], &shapes[0]); n++)
+        trace_tile(page, m, &shapes[n]);
     image_set_colour(page, fill_of(&shapes[0]));
     cairo_fill(page);
     return n;
 }
 
+/* All level ice as one area, before its tiles of several colours, or with pieces between them in their order: what
+   shines through at their seams is level ice then. */
+static void draw_level_ground(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (shapes[i].style == PLAN_LEVEL_ICE)
+            trace_tile(page, m, &shapes[i]);
+    image_set_colour(page, plan_looks[PLAN_LEVEL_ICE].fill);
+    cairo_fill(page);
+}
+
 void plan_paint_shapes(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
 {
+    bool ground = false;
     for (int32_t i = 0; i < count;) {
         const plan_shape *s = &shapes[i];
         if (s->style == PLAN_LEVEL_ICE) {
+            if (!ground)
+                draw_level_ground(page, m, s, count - i);
+            ground = true;
             i += draw_level_ice(page, m, s, count - i);
         } else {
             draw_shape(page, m, s);

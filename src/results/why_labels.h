@@ -16,7 +16,7 @@ int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d
 box2 why_window(const replay *r, const replay_moment *m, const peak_detail *d, int32_t vessel, double reach);
 /* What bears most of the load, if any does, and what the marks in the window are; span: of the crosses [s]; labels: how
    many. */
-enum { WHY_CAPTION = 200 };
+enum { WHY_CAPTION = 256 };
 void why_caption(const peak_detail *d, const replay_plan *plan, box2 window, double span, int32_t labels,
                  char out[WHY_CAPTION]);
 

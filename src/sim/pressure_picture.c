@@ -152,34 +152,22 @@ static void place(const pressure_map *p, const patch_view *view, sheet *s)
     s->window.hi.x += gap;
 }
 
-/* One facet, beside its side; value: 0 of what no ice met. */
-static plan_shape shape_of(const panel_facet *f, vec2 *corners, double value)
-{
-    return (plan_shape){.outline = {&corners[f->first], f->count},
-                        .style = PLAN_LEVEL_ICE, /* without lines between the facets of a panel */
-                        .has_value = value > 0,
-                        .value = (float)value};
-}
-
-/* The whole hull as one area first, then panels that met ice: between those drawn one by one what lies below shines
-   through at their edges, and that is the hull.  Returns how many shapes there are. */
-static int32_t add_shapes(const pressure_map *p, const patch_view *view, const sheet *s, double most,
-                          plan_shape *shapes, vec2 *corners)
+static void make_shapes(const pressure_map *p, const patch_view *view, const sheet *s, double most, plan_shape *shapes,
+                        vec2 *corners)
 {
     const hull_panels *h = &p->panels;
-    int32_t count = h->facet.count;
     for (int32_t i = 0; i < h->facet.count; i++) {
         const panel_facet *f = &h->facet.data[i];
         const hull_panel *q = &h->panel.data[f->panel];
-        double value = most > 0 ? p->load[f->panel].most / q->area / most : 0;
+        double value = p->load[f->panel].most / q->area;
         vec2 shift = s->shift[q->side][view[q->patch].layer];
         for (int32_t k = 0; k < f->count; k++)
             corners[f->first + k] = vec2_add(seen((hull_side)q->side, h->corner.data[f->first + k]), shift);
-        shapes[i] = shape_of(f, corners, 0);
-        if (value > 0)
-            shapes[count++] = shape_of(f, corners, value);
+        shapes[i] = (plan_shape){.outline = {&corners[f->first], f->count},
+                                 .style = PLAN_LEVEL_ICE, /* without lines between the facets of a panel */
+                                 .has_value = value > 0,
+                                 .value = (float)(most > 0 ? value / most : 0)};
     }
-    return count;
 }
 
 /* "panels of 1 m", or by whose lines they are. */
@@ -200,7 +188,7 @@ fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
     vessel_entry vessel = scenario_vessel_entry(&p->s, p->vessel);
     double most = 0;
     sheet s = {0};
-    plan_shape *shapes = memory_array(p->ctx, 2 * (size_t)h->facet.count, sizeof *shapes);
+    plan_shape *shapes = memory_array(p->ctx, (size_t)h->facet.count, sizeof *shapes);
     vec2 *corners = memory_array(p->ctx, (size_t)h->corner.count, sizeof *corners);
     patch_view *view = memory_array(p->ctx, (size_t)h->patch.count, sizeof *view);
     fram_status status = shapes && corners && view ? FRAM_OK : error_memory(error);
@@ -210,7 +198,7 @@ fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
         measure_patches(p, view);
         set_layers(p, view);
         place(p, view, &s);
-        int32_t count = add_shapes(p, view, &s, most, shapes, corners);
+        make_shapes(p, view, &s, most, shapes, corners);
         snprintf(title, sizeof title, "Largest ice pressure on %s", vessel_title_of(&vessel).text);
         panel_words(&p->o->rules, panels, sizeof panels);
         snprintf(caption, sizeof caption,
@@ -221,7 +209,7 @@ fram_status pressure_draw(pressure_map *p, const char *path, fram_error *error)
                                    .title = title,
                                    .caption = caption,
                                    .shapes = shapes,
-                                   .shape_count = count,
+                                   .shape_count = h->facet.count,
                                    .labels = s.name,
                                    .label_count = s.names,
                                    .no_axes = true,

@@ -342,6 +342,33 @@ START_TEST(level_ice_has_no_seams)
 }
 END_TEST
 
+/* A sheet whose tiles have colours, and a piece between them in their order, in rows so that no seam lies on a line of
+   pixels: no water shines through. */
+START_TEST(level_ice_of_several_colours_has_no_seams)
+{
+    enum { LONGEST = 793, TILES = 5 };
+    const vec2 piece[3] = {{-9, -9}, {-8, -9}, {-9, -8}};
+    vec2 ring[TILES][4];
+    plan_shape s[TILES + 1];
+    for (int i = 0; i < TILES; i++) {
+        double y = -8 + 3.03 * i;
+        const vec2 corner[4] = {{-9, y}, {9, y}, {9, y + 3.03}, {-9, y + 3.03}};
+        memcpy(ring[i], corner, sizeof corner);
+        s[i < 3 ? i : i + 1] = (plan_shape){.outline = {ring[i], 4}, .style = PLAN_LEVEL_ICE, .has_value = i % 2 == 1};
+    }
+    s[3] = (plan_shape){.outline = {piece, 3}, .style = PLAN_FLOE};
+    const plan_view view = {
+        .window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .shapes = s, .shape_count = TILES + 1};
+    cairo_surface_t *page = drawn(&view, LONGEST);
+    for (double y = -7.9; y < -8 + 3.03 * TILES - 0.1; y += 0.01) {
+        int found[3];
+        colour_at(page, LONGEST, (vec2){0, y}, found);
+        ck_assert_msg(found[0] >= 209, "%d %d %d at y = %g", found[0], found[1], found[2], y);
+    }
+    cairo_surface_destroy(page);
+}
+END_TEST
+
 /* A mooring line runs over the ice from its upper end to its anchor, and no further. */
 START_TEST(mooring_lines)
 {
@@ -636,9 +663,9 @@ END_TEST
 
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, a_hull_outside, a_hull_across_a_corner, styles_in_the_window,
           lines_in_the_window, flows_that_move, flows_of_a_history, flows_of_a_profile,
-          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines,
-          what_is_drawn_over_ice_has_white_round_it, flows_are_drawn, labels_that_cover_each_other,
-          texts_beside_a_narrow_plan, pictures_of_one_size, strips)
+          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams,
+          level_ice_of_several_colours_has_no_seams, mooring_lines, what_is_drawn_over_ice_has_white_round_it,
+          flows_are_drawn, labels_that_cover_each_other, texts_beside_a_narrow_plan, pictures_of_one_size, strips)
 
 #else
 

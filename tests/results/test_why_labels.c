@@ -1,5 +1,7 @@
 /* Floes that a frame does not show are named in the picture of a peak, by their part of the load. */
 #include "results/why_labels.h"
+
+#include "results/peaks.h"
 #include "testing.h"
 #include <string.h>
 
@@ -62,7 +64,13 @@ START_TEST(the_caption_tells_what_bears)
     d.mechanism[MECHANISM_BENDING] = 10;
     why_caption(&d, &plan, window, 0.25, 1, caption);
     ck_assert_msg(strncmp(caption, "bending of ice", 14) == 0 && strstr(caption, "; arrows: "), "%s", caption);
-    ck_assert_ptr_nonnull(strstr(caption, "of the last 0.25 s; discs: floes that no frame shows"));
+    for (int i = 0; i < MECHANISM_COUNT; i++) { /* none is too long */
+        memset(d.mechanism, 0, sizeof d.mechanism);
+        d.mechanism[i] = 10;
+        why_caption(&d, &plan, window, 0.0125, 1, caption);
+        ck_assert_ptr_eq(strstr(caption, mechanism_text((ice_mechanism)i)), caption);
+        ck_assert_ptr_nonnull(strstr(caption, "of the last 0.0125 s; discs: floes that no frame shows"));
+    }
 }
 END_TEST
 
