@@ -56,6 +56,12 @@ static void widen(double *lo, double *hi, double value)
     *hi = fmax(*hi, value);
 }
 
+/* Values that differ by less than this part of the largest, or of one unit, are the same but for rounding, as those of a
+   motion that is held: an axis over them alone would show noise as if it were a signal. */
+#define SAME_VALUE 1e-12
+
+static bool is_flat(double lo, double hi) { return !(hi - lo > SAME_VALUE * fmax(fmax(fabs(lo), fabs(hi)), 1)); }
+
 /* Never empty; a plain y axis holds zero unless it is free. */
 static void settle(double *lo, double *hi, bool logarithmic)
 {
@@ -65,7 +71,7 @@ static void settle(double *lo, double *hi, bool logarithmic)
         *lo = floor(*lo + 1e-9), *hi = ceil(*hi - 1e-9);
         if (!(*hi > *lo))
             *hi = *lo + 1;
-    } else if (!(*hi > *lo)) {
+    } else if (is_flat(*lo, *hi)) {
         *lo -= 0.5, *hi = *lo + 1;
     }
 }

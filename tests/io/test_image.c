@@ -90,6 +90,44 @@ START_TEST(long_texts_are_cut)
 }
 END_TEST
 
+/* A line over 0 to 3 s; hold_zero: on an axis that begins at zero. */
+static void draw_line(context *ctx, const double y[4], bool hold_zero, text_buffer *out)
+{
+    fram_error e;
+    const double x[] = {0, 1, 2, 3};
+    const chart_line line = chart_line_make("a line", x, y, 4, false);
+    chart c = chart_make("", "", "time [s]", "sway [m]", &line, 1);
+    c.free_y = !hold_zero;
+    assert_ok(chart_svg(ctx, &c, 400, 300, out, &e), e);
+    forget_number(out->data);
+}
+
+/* A motion that is held moves by rounding: its line is straight, not noise as high as the chart; a small one is seen.
+ */
+START_TEST(rounding_is_no_signal)
+{
+    static const struct {
+        double flat[4], line[4];
+        bool hold_zero, alike;
+    } rows[] = {
+        {{0, 0, 0, 0}, {0, 3e-23, -2e-23, 1e-23}, true, true},
+        {{180, 180, 180, 180}, {180, 180 + 3e-11, 180 - 3e-11, 180}, false, true},
+        {{0, 0, 0, 0}, {0, 3e-9, -2e-9, 1e-9}, true, false},
+        {{180, 180, 180, 180}, {180, 180 + 1e-6, 180 - 1e-6, 180}, false, false},
+    };
+    context ctx;
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && image_available(); i++) {
+        text_buffer flat = {0}, line = {0};
+        draw_line(&ctx, rows[i].flat, rows[i].hold_zero, &flat);
+        draw_line(&ctx, rows[i].line, rows[i].hold_zero, &line);
+        ck_assert_msg((strcmp(flat.data, line.data) == 0) == rows[i].alike, "row %zu", i);
+        text_free(&ctx, &flat);
+        text_free(&ctx, &line);
+    }
+}
+END_TEST
+
 static void keep_line(void *user, log_level level, const char *text)
 {
     ck_assert_int_eq(level, LOG_WARNING);
@@ -119,5 +157,5 @@ START_TEST(pictures_that_cannot_be_drawn_are_skipped)
 }
 END_TEST
 
-TEST_MAIN("image", bytes_that_are_no_text, pictures_have_titles, long_texts_are_cut,
+TEST_MAIN("image", bytes_that_are_no_text, pictures_have_titles, long_texts_are_cut, rounding_is_no_signal,
           pictures_that_cannot_be_drawn_are_skipped)
