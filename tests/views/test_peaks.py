@@ -166,9 +166,11 @@ def check_odd_clicks(browser):
     click_peak(browser, 1)
     click_peak(browser, 1)
     assert browser.run("fram.peaks.peak.rank === 1 && fram.peakShown")
+    of_ice = "fram.legend.rows.forces.flat().some(([, name]) => name === 'ice')"
+    assert browser.run(f"!{of_ice}"), "the legend has the colour of forces that a lit peak hides"
     browser.run("(fram.seek(fram.peaks.peak.time < 4 ? 8 : 0), fram.draw())")
     assert browser.run("!fram.peakShown && !fram.scene.lit.fill.visible && fram.scene.peakArrows.shafts.count === 0 && "
-                       "!document.getElementById('peak').hidden"), "what was a peak stays lit when time goes on"
+                       f"!document.getElementById('peak').hidden && {of_ice}"), "what was a peak stays lit when time goes on"
     browser.click_on("gotopeak")
     browser.run("fram.draw()")
     assert browser.run("fram.peakShown")

@@ -16,6 +16,8 @@ export const MARK = '#e69f00', MARK_EDGE = INK;
 export const HALO = '#ffffff';
 /** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
 export const CHAIN = '#111111', BEHIND = '#7a7f3a';
+/** Of ice in a peak that is lit: the colours stand in the page beside the mechanisms' names. */
+const OF_PEAK = ['#00000000', 'ice, by mechanism'];
 /** Of a line that parted, which is dashed, and of a thruster that failed. */
 export const GONE = '#000000';
 
@@ -56,12 +58,13 @@ export class Legend {
     }
 
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
-     *  forces: kinds that are shown; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
+     *  forces: kinds that are shown; lit: whether those of ice are a peak's; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
      *  pressure on it or null; peak: whether one is shown; vessels: how many; marked: seconds that a mark stays,
      *  or 0}. */
     set(content) {
-        const { keys, forces, station } = content, rows = (list) => rowsOf(this.measure, list);
-        const kinds = forces.map((kind) => [FORCE_COLOURS[kind], FORCE_WORDS[kind] ?? kind]);
+        const { keys, forces, lit, station } = content, rows = (list) => rowsOf(this.measure, list);
+        const kinds = forces.map((kind) => (lit && kind === 'ice' ? OF_PEAK
+            : [FORCE_COLOURS[kind], FORCE_WORDS[kind] ?? kind]));
         this.content = content;
         this.rows = { keys: rows(keys), forces: rows(kinds), station: station.flatMap(rows) };
         this.drawn = '';

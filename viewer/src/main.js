@@ -135,7 +135,9 @@ class Player {
         this.peakShown = near;
         const { arrowScale, arrowWidth } = this.colours;
         scene.peakArrows.show(near ? this.peaks.lines(arrowScale, 0.05 * arrowWidth) : []);
+        this.setLegend();
     }
+
 
     showStation() {
         const { station } = this.scene, before = station.gone;
@@ -311,7 +313,7 @@ class Player {
         this.legend.set({
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
-            forces: $('forces').checked ? kinds : [], station: this.scene.station.keys(),
+            forces: $('forces').checked ? kinds : [], lit: this.peakShown, station: this.scene.station.keys(),
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
             vessels: hullsOf(this.record).length,
         });
