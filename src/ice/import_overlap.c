@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A cut piece whose hydraulic diameter, 4 area / perimeter, is under this part of the side of a square as large as its
    floe is a sliver of two digitised edges, no floe: a strip as long as that side goes under a thousandth of the floe.
@@ -73,9 +74,15 @@ typedef struct cutting {
     int32_array larger; /* of each pair: the floe that is cut */
     int32_array first;  /* of each floe: it is cut by by[first[i]] to before by[first[i + 1]], */
     int32_array by;     /* in the order of the pairs */
+    ARRAY(box2) box;    /* of each floe, as it was */
     polygon_list pieces, rest;
+    polygon_list pile; /* parts of one floe that are to be cut */
+    int32_array next;  /* of each of them: who cuts it first, as in `by` */
+    vec2_array part;   /* the one at work */
     fram_error *error;
 } cutting;
+
+static const char cutting_work[] = "cutting floes that overlap";
 
 static fram_status add_floe_note(cutting *c, int32_t floe, import_event event, bool dropped, vec2 at)
 {
@@ -90,32 +97,76 @@ static bool keep(cutting *c, int32_t floe, polygon p)
            array_push(c->ctx, &c->now.thickness, c->was->thickness.data[floe]);
 }
 
-/* c->pieces without what they share with p. */
-static fram_status subtract(cutting *c, polygon p)
+static bool are_apart(box2 a, box2 b)
 {
-    fram_status status = FRAM_OK;
+    return a.hi.x < b.lo.x || b.hi.x < a.lo.x || a.hi.y < b.lo.y || b.hi.y < a.lo.y;
+}
+
+/* The next of those that cut a floe, from `from` to before `end`, that may meet a part of it with this box; `end`: none
+   does. */
+static int32_t next_cut(const cutting *c, box2 box, int32_t from, int32_t end)
+{
+    while (from < end && are_apart(box, c->box.data[c->by.data[from]]))
+        from++;
+    return from;
+}
+
+/* A part on the pile, and who cuts it first. */
+static bool pile_up(cutting *c, polygon p, int32_t next)
+{
+    return polygon_list_push(c->ctx, &c->pile, p) && array_push(c->ctx, &c->next, next);
+}
+
+/* The uppermost part into c->part. */
+static bool take_uppermost(cutting *c, int32_t *next)
+{
+    polygon top = polygon_list_get(&c->pile, polygon_list_count(&c->pile) - 1);
+    if (!array_resize(c->ctx, &c->part, top.count))
+        return false;
+    memcpy(c->part.data, top.vertex, (size_t)top.count * sizeof *top.vertex);
+    c->pile.vertex.count -= top.count;
+    c->pile.start.count--;
+    *next = c->next.data[--c->next.count];
+    return true;
+}
+
+/* The part without what it shares with one other floe, onto the pile, the first of what is left uppermost. */
+static fram_status cut_part(cutting *c, polygon part, int32_t next, int32_t end)
+{
     polygon_list_clear(&c->rest);
-    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++)
-        status = overlay_difference(c->plane, polygon_list_get(&c->pieces, i), p, &c->rest, c->error);
-    polygon_list swap = c->pieces;
-    c->pieces = c->rest;
-    c->rest = swap;
+    polygon by = polygon_list_get(&c->was->outlines, c->by.data[next]);
+    fram_status status = overlay_difference(c->plane, part, by, &c->rest, c->error);
+    for (int32_t i = polygon_list_count(&c->rest) - 1; status == FRAM_OK && i >= 0; i--) {
+        polygon p = polygon_list_get(&c->rest, i);
+        if (!pile_up(c, p, next_cut(c, polygon_bounds(p), next + 1, end)))
+            status = error_memory(c->error);
+    }
     return status;
 }
 
+/* c->pieces of the floe.  A part is cut to its end before its neighbour is, so that each looks only at those that cut
+   it: where one floe lies under ten thousand others, thousands of its parts are far from any one of them. */
 static fram_status cut_overlaps(cutting *c, int32_t floe, bool *touched)
 {
-    polygon whole = polygon_list_get(&c->was->outlines, floe);
-    fram_status status = FRAM_OK;
-    *touched = false;
+    int32_t next = c->first.data[floe], end = c->first.data[floe + 1];
+    *touched = next < end;
     polygon_list_clear(&c->pieces);
-    if (!polygon_list_push(c->ctx, &c->pieces, whole))
-        return error_memory(c->error);
-    for (int32_t i = c->first.data[floe]; status == FRAM_OK && i < c->first.data[floe + 1]; i++) {
-        *touched = true;
-        status = subtract(c, polygon_list_get(&c->was->outlines, c->by.data[i]));
+    polygon_list_clear(&c->pile);
+    array_clear(&c->next);
+    /* The first cut is made whatever the boxes: it brings the outline into the form that its parts have. */
+    bool there = pile_up(c, polygon_list_get(&c->was->outlines, floe), next);
+    fram_status status = FRAM_OK;
+    while (there && status == FRAM_OK && c->next.count > 0) {
+        there = take_uppermost(c, &next);
+        polygon part = {c->part.data, c->part.count};
+        if (there && next < end)
+            status = work_continue(c->ctx, cutting_work, floe, polygon_list_count(&c->was->outlines), c->error);
+        if (there && status == FRAM_OK && next < end)
+            status = cut_part(c, part, next, end);
+        else if (there && status == FRAM_OK)
+            there = polygon_list_push(c->ctx, &c->pieces, part);
     }
-    return status;
+    return there ? status : error_memory(c->error);
 }
 
 static bool is_sliver(polygon p, polygon whole)
@@ -149,8 +200,11 @@ static fram_status replace_floe(cutting *c, int32_t floe)
 /* Who cuts whom, by the floe that is cut; a counting sort, which keeps the order of the pairs. */
 static bool list_cuts(cutting *c, int32_t count)
 {
-    if (!array_resize(c->ctx, &c->first, count + 1) || !array_resize(c->ctx, &c->by, c->pairs.count))
+    if (!array_resize(c->ctx, &c->first, count + 1) || !array_resize(c->ctx, &c->by, c->pairs.count) ||
+        !array_resize(c->ctx, &c->box, count))
         return false;
+    for (int32_t i = 0; i < count; i++)
+        c->box.data[i] = polygon_bounds(polygon_list_get(&c->was->outlines, i));
     int32_t *first = c->first.data;
     for (int32_t i = 0; i <= count; i++)
         first[i] = 0;
@@ -180,7 +234,7 @@ static fram_status cut_all(cutting *c)
     if (status == FRAM_OK && !list_cuts(c, count))
         status = error_memory(c->error);
     for (int32_t i = 0; status == FRAM_OK && i < count; i++) {
-        status = work_continue(c->ctx, "cutting floes that overlap", i, count, c->error);
+        status = work_continue(c->ctx, cutting_work, i, count, c->error);
         if (status == FRAM_OK)
             status = replace_floe(c, i);
     }
@@ -212,5 +266,9 @@ fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *
     array_free(ctx, &c.by);
     polygon_list_free(ctx, &c.pieces);
     polygon_list_free(ctx, &c.rest);
+    array_free(ctx, &c.box);
+    polygon_list_free(ctx, &c.pile);
+    array_free(ctx, &c.next);
+    array_free(ctx, &c.part);
     return status;
 }

@@ -440,6 +440,69 @@ START_TEST(overlaps_are_measured_and_cut)
 }
 END_TEST
 
+/* ---- many floes over one ---- */
+
+enum { GRID = 12 }; /* floes along a side */
+
+/* A sheet under a grid of floes, of which those of the first row reach over its rim, in an order that is not theirs. */
+static void write_sheet_under_floes(char *text, size_t size)
+{
+    size_t at = (size_t)snprintf(text, size, "{\"type\":\"FeatureCollection\",\"features\":[\n%s",
+                                 FEATURE("[[70,-1],[125,30],[119,121],[-2,118],[-3,4],[70,-1]]"));
+    for (int i = 0; i < GRID * GRID; i++) {
+        int k = i * 55 % (GRID * GRID), x = 10 * (k % GRID), y = 10 * (k / GRID);
+        at += (size_t)snprintf(text + at, size - at, ",\n" FEATURE("[[%d,%d],[%d,%d],[%d,%d.%d],[%d,%d],[%d,%d]]"),
+                               x + 1, y - 4, x + 8, y - 3, x + 7, y + 4, i % 10, x + 2, y + 5, x + 1, y - 4);
+        ck_assert_uint_lt(at, size);
+    }
+    snprintf(text + at, size - at, "]}\n");
+}
+
+/* What the first floe loses one after the other to all others, all parts at every turn. */
+static void cut_by_all(rig *r, const polygon_list *floes, polygon_list *parts)
+{
+    ck_assert(polygon_list_push(&r->ctx, parts, polygon_list_get(floes, 0)));
+    for (int32_t i = 1; i < polygon_list_count(floes); i++) {
+        polygon_list rest = {0};
+        for (int32_t k = 0; k < polygon_list_count(parts); k++)
+            assert_ok(
+                overlay_difference(r->plane, polygon_list_get(parts, k), polygon_list_get(floes, i), &rest, &r->error),
+                r->error);
+        polygon_list_free(&r->ctx, parts);
+        *parts = rest;
+    }
+}
+
+/* A part meets only those floes that are near it, and the parts are the same to the bit, in the same order. */
+START_TEST(one_floe_is_cut_by_many)
+{
+    enum { TEXT = 1 << 16 };
+    rig *r = rig_make();
+    char *text = malloc(TEXT);
+    polygon_list parts = {0};
+    ck_assert_ptr_nonnull(text);
+    write_sheet_under_floes(text, TEXT);
+    assert_ok(parse(r, text), r->error);
+    import_options o = options_of(IMPORT_REFUSE);
+    assert_ok(import(r, &o), r->error);
+    cut_by_all(r, &r->field.outlines, &parts);
+    import_field_free(&r->ctx, &r->field);
+    o.bad = IMPORT_REPAIR;
+    assert_ok(import(r, &o), r->error);
+    int32_t count = polygon_list_count(&parts);
+    ck_assert_int_gt(count, GRID * GRID / 2);
+    ck_assert_int_eq(polygon_list_count(&r->field.outlines), count + GRID * GRID);
+    for (int32_t i = 0; i < count; i++) {
+        polygon p = polygon_list_get(&parts, i), q = polygon_list_get(&r->field.outlines, i);
+        ck_assert_int_eq(p.count, q.count);
+        ck_assert_mem_eq(p.vertex, q.vertex, (size_t)p.count * sizeof *p.vertex);
+    }
+    polygon_list_free(&r->ctx, &parts);
+    free(text);
+    rig_free(r);
+}
+END_TEST
+
 /* A square over the inner corner of an L by a thousandth: a bent strip of 0.001 by 20 m on each side of 20.001. */
 START_TEST(a_bent_overlap_is_as_wide_as_its_strip)
 {
@@ -678,6 +741,7 @@ int main(void)
     tcase_add_test(cases, crop_slivers_and_keep_out);
     tcase_add_test(cases, tiles_stay_whole);
     tcase_add_test(cases, overlaps_are_measured_and_cut);
+    tcase_add_test(cases, one_floe_is_cut_by_many);
     tcase_add_test(cases, a_sliver_is_thin_not_small);
     tcase_add_test(cases, a_bent_overlap_is_as_wide_as_its_strip);
     tcase_add_test(cases, an_overlap_is_as_wide_as_its_widest_part);
