@@ -111,6 +111,20 @@ static bool is_input(const command_files *files, const char *path)
     return false;
 }
 
+/* A link in the folder of a run is replaced by the file, wherever it leads. */
+static bool is_replaced(const command_files *files, const char *path)
+{
+    struct stat link, folder, run;
+    const char *name;
+    bool found = false;
+    if (lstat(path, &link) != 0 || !S_ISLNK(link.st_mode) || !find_place(path, &folder, &name))
+        return false;
+    for (int i = 0; i < FILES_ROOM && !found; i++)
+        found = files->runs[i] && stat(files->runs[i], &run) == 0 && run.st_dev == folder.st_dev &&
+                run.st_ino == folder.st_ino;
+    return found;
+}
+
 int refuse_outputs(const common_options *common, const command_files *files)
 {
     fram_error error = {0};
@@ -120,7 +134,8 @@ int refuse_outputs(const common_options *common, const command_files *files)
             continue;
         if (is_too_long(o->path))
             return answer_usage(common, o->option, "expected a shorter name: the file system does not take this one");
-        if (*o->path && fram_path_check_place(o->path, is_for_folder(o), &error) != FRAM_OK)
+        if (*o->path && !is_replaced(files, o->path) &&
+            fram_path_check_place(o->path, is_for_folder(o), &error) != FRAM_OK)
             return answer_error(common, &error);
         if (is_input(files, o->path))
             return answer_usage(common, o->option, is_read);

@@ -106,25 +106,71 @@ fram_status folder_refuse(const char *path, fram_error *error)
                      "the folder is not empty; name another one, or allow that the results in it are overwritten");
 }
 
-fram_status folder_check_place(const char *path, bool folder, fram_error *error)
+/* Links that lead to links; the system itself follows no more. */
+enum { PLACE_LINKS_MOST = 40 };
+
+/* The path's part up to and with its last slash that something follows: its length, 0 for the working folder. */
+static size_t length_above(const char *path)
 {
-    char above[PATH_ROOM] = ".";
     size_t length = strlen(path);
-    struct stat about;
-    int failure = 0;
-    if (lstat(path, &about) == 0 || length >= sizeof above)
-        return FRAM_OK;
     while (length > 0 && path[length - 1] == '/')
         length--;
     while (length > 0 && path[length - 1] != '/')
         length--;
+    return length;
+}
+
+/* Where a link leads, from the working folder as it does; false: nowhere that could be told. */
+static bool link_target(const char *path, char out[PATH_ROOM])
+{
+    char target[PATH_ROOM];
+    ssize_t length = readlink(path, target, sizeof target - 1);
+    if (length <= 0)
+        return false;
+    target[length] = '\0';
+    int above = target[0] == '/' ? 0 : (int)length_above(path);
+    return snprintf(out, PATH_ROOM, "%.*s%s", above, path, target) < PATH_ROOM;
+}
+
+/* 0, or the errno value of what is in the way. */
+static int failure_of_folder(const char *path)
+{
+    char above[PATH_ROOM] = ".";
+    size_t length = length_above(path);
+    struct stat about;
     if (length > 0)
         snprintf(above, sizeof above, "%.*s", (int)length, path);
     if (stat(above, &about) != 0)
-        failure = errno;
-    else if (!S_ISDIR(about.st_mode))
-        failure = ENOTDIR;
-    else if (access(above, W_OK | X_OK) != 0)
-        failure = errno;
+        return errno;
+    if (!S_ISDIR(about.st_mode))
+        return ENOTDIR;
+    return access(above, W_OK | X_OK) == 0 ? 0 : errno;
+}
+
+/* The same.  Of a link that leads to nothing a file is made where it leads, a folder is not. */
+static int failure_of_place(const char *path, bool folder)
+{
+    char at[PATH_ROOM], target[PATH_ROOM];
+    struct stat about;
+    if (snprintf(at, sizeof at, "%s", path) >= PATH_ROOM)
+        return 0; /* the system takes no such path */
+    for (int i = 0; i < PLACE_LINKS_MOST; i++) {
+        size_t length = strlen(at);
+        while (folder && length > 1 && at[length - 1] == '/')
+            at[--length] = '\0'; /* a link is seen without them only */
+        if (lstat(at, &about) != 0)
+            return failure_of_folder(at);
+        if (!S_ISLNK(about.st_mode) || stat(at, &about) == 0)
+            return 0;
+        if (errno != ENOENT || folder || !link_target(at, target))
+            return errno;
+        memcpy(at, target, sizeof at);
+    }
+    return ELOOP;
+}
+
+fram_status folder_check_place(const char *path, bool folder, fram_error *error)
+{
+    int failure = failure_of_place(path, folder);
     return failure ? file_place_error(error, path, folder ? "make the folder" : "open for writing", failure) : FRAM_OK;
 }

@@ -31,8 +31,8 @@ bool folder_file_begins(const char *folder, const char *name, const char *text);
 /* A folder that is not there is empty too. */
 fram_status folder_is_empty(const char *path, bool *empty, fram_error *error);
 
-/* Whether a file, or a folder, that is not there yet can be made where its path says: asked before the work, and told
-   as its writer would. */
+/* Whether a file, or a folder, that is not there yet can be made where its path says, or where a link there leads:
+   asked before the work, and told as its writer would. */
 fram_status folder_check_place(const char *path, bool folder, fram_error *error);
 
 /* The error of results that are to go into a folder that is not empty. */

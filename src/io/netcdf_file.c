@@ -143,7 +143,9 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
     fram_status status = prepare(ctx, path, f, error);
     if (status != FRAM_OK)
         return status;
-    status = temporary_file(ctx, path, &f->temporary, &descriptor, error);
+    status = atomic_file_check(path, error); /* as it is asked again when all is written */
+    if (status == FRAM_OK)
+        status = temporary_file(ctx, path, &f->temporary, &descriptor, error);
     if (status == FRAM_OK) {
         int code = create_named(f, descriptor);
         f->open = code == NC_NOERR;

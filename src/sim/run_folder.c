@@ -57,6 +57,9 @@ static fram_status can_be_written(const char *folder, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     while (access(path, W_OK | X_OK) != 0) {
         int found = errno;
+        struct stat about;
+        if (found == ENOENT && lstat(path, &about) == 0)
+            return file_place_error(error, folder, "make the folder", found); /* a link that leads nowhere */
         char *slash = strrchr(path, '/');
         if (found != ENOENT || strcmp(path, ".") == 0 || strcmp(path, "/") == 0)
             return file_error(error, path, "write into the folder", found);

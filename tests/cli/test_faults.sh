@@ -240,4 +240,30 @@ for words in "view absent --page viewer.html -o none/x.html" "report absent -o n
     same "$(grep -c . err)" 1 "lines about $words"
 done
 
+# So are links that lead nowhere; of one to a file that is not there yet the file is made, as the shell makes it.
+mkdir -p behind
+for name in x x.html x.nc x.geojson x.mp4 x.png x.svg x.csv; do
+    ln -s "behind/none/$name" "$name"
+done
+for words in "view absent --page viewer.html -o x.html" "report absent -o x.html" "compare absent open -o x.html" \
+    "manage absent -o x.html" "export absent --netcdf -o x.nc" "export absent --geojson --time 1 -o x.geojson" \
+    "export absent --vtk -o x" "export absent --vtk -o x/" "video absent -o x.mp4" "video absent --pictures -o x" \
+    "plot absent time -o x.png" "why absent --time 1 -o x.svg" "field absent.yaml --table x.csv" \
+    "run scene.yaml -o x" "run scene.yaml -o x/deep" "run scene.yaml --force -o x/"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words -q
+    says "the link x" err
+    says " leads nowhere; remove it, or give another name" err
+    same "$(grep -c . err)" 1 "lines about $words"
+done
+ln -s behind/new.html new.html
+expect 0 "$FRAM" report open -o new.html -q
+{ [ -L new.html ] && grep -q "<html" behind/new.html; } || fail "a link to a file that is not there is not gone through"
+if built_with netcdf; then
+    ln -s behind/new.nc new.nc
+    expect 2 "$FRAM" export open --netcdf -o new.nc -q
+    says "new.nc: expected a regular file, found a device or a link" err
+    [ ! -e behind/new.nc ] || fail "a link in the place of a NetCDF file was gone through"
+fi
+
 finish "what the world does to the command is told"

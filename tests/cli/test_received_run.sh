@@ -43,6 +43,10 @@ untouched report.html
 received report.html
 expect 0 "$FRAM" report g -o g/report.html -q
 untouched report.html
+received
+ln -s nowhere/x.html g/report.html
+expect 0 "$FRAM" report g -o g/report.html -q
+untouched report.html
 received playback.html
 expect 0 "$FRAM" view g --page viewer.html -q
 untouched playback.html

@@ -41,4 +41,39 @@ START_TEST(a_failure_is_not_the_end)
 }
 END_TEST
 
-TEST_MAIN("folder", names_are_listed_without_dots, a_failure_is_not_the_end)
+/* Where a link leads a file can be made, but no folder; one that leads nowhere is told as who writes would. */
+START_TEST(links_are_followed_to_their_place)
+{
+    static const struct {
+        const char *name, *target, *said; /* NULL: a file can be made */
+    } rows[] = {{"near", "file", NULL},
+                {"next", "near", NULL},
+                {"far", "none/file", "the link %s leads nowhere"},
+                {"farther", "far", "the link %s leads nowhere"},
+                {"round", "round", "Too many levels of symbolic links"},
+                {"device", "/dev/null", NULL}};
+    enum { ROWS = sizeof rows / sizeof *rows };
+    fram_error error;
+    scratch s = scratch_make();
+    for (size_t i = 0; i < ROWS; i++)
+        ck_assert_int_eq(symlink(rows[i].target, scratch_path(&s, rows[i].name)), 0);
+    for (size_t i = 0; i < ROWS; i++) {
+        const char *path = scratch_path(&s, rows[i].name);
+        char said[512], slashed[512];
+        snprintf(said, sizeof said, rows[i].said ? rows[i].said : "the link %s leads nowhere", path);
+        if (rows[i].said)
+            assert_fails(folder_check_place(path, false, &error), error, FRAM_ERROR_INPUT, said);
+        else
+            assert_ok(folder_check_place(path, false, &error), error);
+        snprintf(slashed, sizeof slashed, "%s//", path);
+        if (i + 1 < ROWS)
+            assert_fails(folder_check_place(slashed, true, &error), error, FRAM_ERROR_INPUT,
+                         "cannot make the folder: ");
+    }
+    for (size_t i = 1; i < ROWS; i++)
+        ck_assert_int_eq(unlink(scratch_path(&s, rows[i].name)), 0);
+    scratch_remove(&s, rows[0].name);
+}
+END_TEST
+
+TEST_MAIN("folder", links_are_followed_to_their_place, names_are_listed_without_dots, a_failure_is_not_the_end)
