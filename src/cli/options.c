@@ -88,16 +88,21 @@ static bool store_integer(const char *text, int *out)
     return true;
 }
 
-/* The way of writing it is at fault where the number is whole: 1e3. */
+/* A number that is whole is told what else is at fault: how it is written, 1e3 or 2.0, or its size. */
 static const char *whole_number_wanted(const char *text, bool above_zero)
 {
-    static const char *const words[2][2] = {
-        {"needs a whole number, as 1000", "needs a whole number, as 1000, not 1e3"},
-        {"needs a whole number above zero, as 1000", "needs a whole number above zero, as 1000, not 1e3"}};
-    const char *at = text;
+    static const char *const words[][2] = {
+        {"needs a whole number, as 1000", "needs a whole number above zero, as 1000"},
+        {"needs a whole number, as 1000, not 1e3 or 1000.0",
+         "needs a whole number above zero, as 1000, not 1e3 or 1000.0"},
+        {"needs a whole number from -2147483648 to 2147483647", "needs a whole number from 1 to 2147483647"}};
+    const char *at = text, *digits = text + (*text == '+' || *text == '-');
     double value = 0;
-    const bool exponent = take_number(&at, "", &value, NULL) && value == floor(value) && strpbrk(text, "eE");
-    return words[above_zero][exponent];
+    const bool number = take_number(&at, "", &value, NULL);
+    const bool plain = *digits && !digits[strspn(digits, "0123456789")];
+    const bool whole = plain || (number && value == floor(value));
+    const bool fits = number && value >= INT_MIN && value <= INT_MAX; /* one of 500 digits is read as none */
+    return words[!whole ? 0 : !fits ? 2 : !plain][above_zero];
 }
 
 static const char *store_real(const char *text, double *out, fram_error *error)

@@ -117,12 +117,18 @@ expect 2 "$FRAM" ice break --a-over-l 0.1
 says "--a-over-l: is for wedge, sheet" err
 expect 2 "$FRAM" ice sheet --a-over-l 0.1 --wedges 4
 says "--wedges: is for break" err
-# A fraction is no matter of how it is written, 1e1 is.
+# A fraction is no matter of how it is written, 1e1 and 2.0 are; nor is a number that is too large.
 expect 2 "$FRAM" ice break --wedges 2.5
 says "--wedges: needs a whole number" err
 grep -q "1e3" err && fail "2.5 is told as a way of writing: $(cat err)"
 expect 2 "$FRAM" ice break --wedges 1e1
-says "as 1000, not 1e3" err
+says "as 1000, not 1e3 or 1000.0" err
+expect 2 "$FRAM" ice break --wedges 2.0
+says "--wedges: needs a whole number, as 1000, not 1e3 or 1000.0" err
+for words in 2147483648 1e300 -99999999999999999999 "$(printf '%600s' '' | tr ' ' 9)"; do
+    expect 2 "$FRAM" ice break --wedges "$words"
+    says "--wedges: needs a whole number from -2147483648 to 2147483647" err
+done
 expect 2 "$FRAM" ice split --thin-plate
 says "--thin-plate: is for break" err
 # Options that count beside another one.

@@ -107,6 +107,8 @@ expect 2 "$FRAM" why run --peak 0
 says "--peak: needs a whole number above zero" err
 expect 2 "$FRAM" why run --peak -2147483648
 says "--peak: needs a whole number above zero" err
+expect 2 "$FRAM" why run --peak 99999999999
+says "--peak: needs a whole number from 1 to 2147483647" err
 expect 2 "$FRAM" why run --peak 1 -o peak.pdf
 says "ends in .png or .svg" err
 [ ! -e peak.pdf ] || fail "a refused picture is there"
