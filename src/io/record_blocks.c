@@ -187,16 +187,22 @@ void record_stream_fracture(record_stream *s, record_fracture *f)
     pass_f32(s, &f->area);
 }
 
+/* Kind and vessel are one number. */
+enum { FORCE_KINDS = 256 };
+
 void record_stream_force(record_stream *s, record_force *f)
 {
-    int32_t kind = (int32_t)f->kind;
-    pass_i32(s, &kind);
+    int32_t told = (int32_t)f->kind + FORCE_KINDS * f->vessel;
+    pass_i32(s, &told);
+    const int32_t kind = told % FORCE_KINDS;
     pass_i32(s, &f->which);
     pass_place(s, &f->point);
     pass_vec3(s, &f->force);
     s->unsound = s->unsound || kind < RECORD_FORCE_ICE || kind > RECORD_FORCE_HULL;
-    if (!s->out)
+    if (!s->out) {
         f->kind = s->unsound ? RECORD_FORCE_ICE : (record_force_kind)kind;
+        f->vessel = s->unsound ? 0 : told / FORCE_KINDS;
+    }
 }
 
 /* ---- frames ---- */

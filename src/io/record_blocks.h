@@ -71,9 +71,10 @@ void record_stream_fracture(record_stream *s, record_fracture *f);
 
 typedef struct record_force {
     record_force_kind kind;
-    int32_t which; /* slot of a body, or number of a line or thruster, from 1 */
-    vec3 point;    /* [m] */
-    vec3 force;    /* on a vessel [N] */
+    int32_t vessel; /* number of the one that it is on, from 1; 0: not told */
+    int32_t which;  /* slot of a body, or number of a line or thruster, from 1 */
+    vec3 point;     /* [m] */
+    vec3 force;     /* on the vessel [N] */
 } record_force;
 void record_stream_force(record_stream *s, record_force *f);
 

@@ -16,9 +16,10 @@
                  f32 thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none),
                  i32 vertices; f32 x y per outline vertex (body frame); a body that does not move adds its pose
      9 forces    i32 count, i32 0; per force on a vessel in the last step: i32 kind (1 ice, all contacts with one floe;
-                 2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), i32 slot of the body or number
-                 of the vessel's line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global
-                 frame; before the frame it belongs to
+                 2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), where there are several
+                 vessels with 256 times the number of that one (from 1), i32 slot of the body or number of the vessel's
+                 line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global frame; before the
+                 frame it belongs to
     15 frame     i64 step, f64 time, f64 x 3 averaged ice force on the first vessel [N], i32 count, i32 0; per moving
                  body, by ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the
                  magnitudes at its contacts: kN of 6 bits of exponent and 10 of mantissa (16 or 18 bytes)

@@ -171,6 +171,7 @@ static void add_forces(vtk_export *e)
         fill_real(e->ctx, s, 1, "magnitude [N]", vec3_length(force->force));
         fill_real(e->ctx, s, 2, "kind", force->kind);
         fill_real(e->ctx, s, 3, "number", body ? e->r.bodies.data[force->which].number : force->which);
+        fill_real(e->ctx, s, 4, "vessel", force->vessel + 1);
     }
     /* A frame without forces has the fields too. */
     if (s->cells == 0) {
@@ -178,6 +179,7 @@ static void add_forces(vtk_export *e)
         fill_real(e->ctx, s, 1, "magnitude [N]", 0);
         fill_real(e->ctx, s, 2, "kind", 0);
         fill_real(e->ctx, s, 3, "number", 0);
+        fill_real(e->ctx, s, 4, "vessel", 0);
     }
 }
 

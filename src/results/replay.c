@@ -140,7 +140,9 @@ static bool read_forces(replay *r, record_stream *s)
         int32_t which = f.which;
         if (record_force_pushes(f.kind))
             which = which >= 0 && which < r->at_slot.count ? r->at_slot.data[which] : -1;
-        if (!s->unsound && !array_push(r->ctx, &r->next.forces, (replay_force){f.kind, which, f.point, f.force}))
+        int32_t vessel = f.vessel == 0 && r->vessels == 1 ? 0 : f.vessel <= r->vessels ? f.vessel - 1 : -1;
+        replay_force force = {f.kind, vessel, which, f.point, f.force};
+        if (!s->unsound && !array_push(r->ctx, &r->next.forces, force))
             return false;
     }
     return true;

@@ -41,9 +41,10 @@ typedef struct replay_pose {
 
 typedef struct replay_force {
     record_force_kind kind;
-    int32_t which; /* line or thruster, from 1; floe, hull or wall, in replay.bodies, or -1 */
-    vec3 point;    /* [m] */
-    vec3 force;    /* on a vessel [N] */
+    int32_t vessel; /* that it is on, row in the scenario; -1: a record of several by an earlier Fram tells none */
+    int32_t which;  /* line or thruster, from 1; floe, hull or wall, in replay.bodies, or -1 */
+    vec3 point;     /* [m] */
+    vec3 force;     /* on the vessel [N] */
 } replay_force;
 
 typedef struct replay_frame {

@@ -264,6 +264,9 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
 
 /* ---- forces on the vessels ---- */
 
+/* As a record tells it: of one vessel alone all forces are. */
+static int32_t told_vessel(const world *w, int32_t vessel) { return w->vessels.count > 1 ? vessel + 1 : 0; }
+
 static void put_line_forces(record_stream *s, const world *w, int32_t vessel, int32_t *count)
 {
     int32_t body = w->vessels.body[vessel], number = 0;
@@ -272,7 +275,7 @@ static void put_line_forces(record_stream *s, const world *w, int32_t vessel, in
         if (w->lines.vessel[i] != vessel || w->lines.broken[i])
             continue;
         line_pull pull = mooring_line_pull(&w->lines, i, w->bodies.position[body], w->bodies.orientation[body]);
-        record_force f = {RECORD_FORCE_LINE, number, pull.point, pull.force};
+        record_force f = {RECORD_FORCE_LINE, told_vessel(w, vessel), number, pull.point, pull.force};
         record_stream_force(s, &f);
         ++*count;
     }
@@ -287,7 +290,8 @@ static void put_thruster_forces(record_stream *s, const world *w, int32_t vessel
             continue;
         double thrust = w->thrusters.thrust[i], angle = thruster_push_angle(&w->thrusters, i);
         vec3 force = vec3_make(thrust * real_cos(angle), thrust * real_sin(angle), 0);
-        record_force f = {RECORD_FORCE_THRUSTER, number, body_to_global(&w->bodies, body, w->thrusters.place[i]),
+        record_force f = {RECORD_FORCE_THRUSTER, told_vessel(w, vessel), number,
+                          body_to_global(&w->bodies, body, w->thrusters.place[i]),
                           mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force)};
         record_stream_force(s, &f);
         ++*count;
@@ -304,7 +308,7 @@ static bool put_contact_forces(recorder *r, record_stream *s, const world *w, in
         if (sum->weight == 0)
             continue;
         record_force_kind kind = w->bodies.material[i] == MATERIAL_ICE ? RECORD_FORCE_ICE : RECORD_FORCE_HULL;
-        record_force f = {kind, i, vec3_scale(sum->moment, 1 / sum->weight), sum->on_vessel};
+        record_force f = {kind, told_vessel(w, vessel), i, vec3_scale(sum->moment, 1 / sum->weight), sum->on_vessel};
         record_stream_force(s, &f);
         ++*count;
     }

@@ -72,12 +72,15 @@ names = {f["properties"]["name"]: f["geometry"]["coordinates"][0]
          for f in features if f["properties"]["kind"] == "vessel"}
 assert list(names) == ["icebreaker", "ship", "tug"], list(names)
 assert not any("name" in f["properties"] for f in features if f["properties"]["kind"] != "vessel")
-file = open(sys.argv[1] + "/vtk/data/hull_000002.vtp", "rb").read()
-head, body = file.split(b'<AppendedData encoding="raw">\n_', 1)
+def load(name):
+    global head, body
+    file = open(sys.argv[1] + f"/vtk/data/{name}.vtp", "rb").read()
+    head, body = file.split(b'<AppendedData encoding="raw">\n_', 1)
 def array(name, kind):
     at = int(re.findall(rb'Name="' + name + rb'"[^>]*offset="(\d+)"', head)[-1]) # of vertices first, of faces last
     _, size, _, packed = struct.unpack_from("<4Q", body, at)
     return struct.unpack(f"<{size // struct.calcsize(kind)}{kind}", zlib.decompress(body[at + 32:at + 32 + packed]))
+load("hull_000002")
 vessel, points = array(b"vessel", "f"), array(b"Points", "d")
 corners = array(b"connectivity", "i")
 assert sorted(set(vessel)) == [1, 2, 3] and len(vessel) * 3 == len(corners), set(vessel)
@@ -85,6 +88,19 @@ for number, outline in enumerate(names.values(), 1): # of t = 1 s, the frame's t
     xs = [points[3 * corners[3 * i + k]] for i in range(len(vessel)) if vessel[i] == number for k in range(3)]
     plan = [p[0] for p in outline]
     assert abs(min(xs) - min(plan)) < 0.01 and abs(max(xs) - max(plan)) < 0.01, (number, min(xs), min(plan))
+# Forces by the vessel that they are on: of the ship its six lines, of the tug its thrusters, of both how they touch.
+pushed = 0
+for frame in range(5):
+    load(f"forces_{frame:06d}")
+    rows = list(zip(*(map(int, array(name, "f")) for name in (b"vessel", b"kind", b"number"))))
+    forces = array(rb"force \[N\]", "f")
+    assert all(1 <= vessel <= 3 for vessel, _, _ in rows), rows
+    assert [row for row in rows if row[1] == 2] == [(2, 2, n) for n in range(1, 7)], rows
+    assert any(vessel == 3 for vessel, kind, _ in rows if kind == 3), rows
+    touching = {vessel: forces[3 * i + 1] for i, (vessel, kind, _) in enumerate(rows) if kind == 4}
+    assert set(touching) in (set(), {2, 3}) and abs(sum(touching.values())) <= 1e-6 * max(touching.values(), default=0)
+    pushed += len(touching)
+assert pushed, "the tug does not meet the ship in any frame"
 END
 "$FRAM" compare "$run" "$run" -o "$scratch/c.html" --quiet || fail "the comparison failed"
 grep -q "tug: ice load along X, mean" "$scratch/c.html" || fail "the comparison has no row of the tug"

@@ -120,7 +120,7 @@ START_TEST(breaks_and_forces_come_back)
     assert_vec3_close(back.place, vec3_make(500010.5, 7000020.25, 0), 0);
     ck_assert(back.load == 1.5e6 && back.crack_length == 12.25 && back.area == 320.5);
 
-    record_force force = {RECORD_FORCE_THRUSTER, 4, {499999.5, 7000001.25, -6}, {8e5, -2.5e5, 125}}, again = {0};
+    record_force force = {RECORD_FORCE_THRUSTER, 3, 4, {499999.5, 7000001.25, -6}, {8e5, -2.5e5, 125}}, again = {0};
     s = record_packer(&ctx, &bytes, origin);
     record_stream_padded_count(&s, &count);
     record_stream_force(&s, &force);
@@ -129,7 +129,7 @@ START_TEST(breaks_and_forces_come_back)
     record_stream_padded_count(&s, &count);
     record_stream_force(&s, &again);
     assert_at_end(&s);
-    ck_assert(again.kind == RECORD_FORCE_THRUSTER && again.which == 4);
+    ck_assert(again.kind == RECORD_FORCE_THRUSTER && again.vessel == 3 && again.which == 4);
     assert_vec3_close(again.point, force.point, 0);
     assert_vec3_close(again.force, force.force, 0);
     array_free(&ctx, &bytes);
@@ -336,7 +336,8 @@ START_TEST(events_and_forces_are_laid_out_as_told)
     assert_bytes(&bytes, &hand);
 
     for (int kind = 1; kind <= 4; kind++) { /* ice, line, thruster, hull */
-        record_force force = {(record_force_kind)kind, 9, {499999.5, 7000001.25, -6}, {8e5, -2.5e5, 125}};
+        const int32_t vessel = kind == RECORD_FORCE_LINE ? 2 : 0;
+        record_force force = {(record_force_kind)kind, vessel, 9, {499999.5, 7000001.25, -6}, {8e5, -2.5e5, 125}};
         s = record_packer(&ctx, &bytes, origin);
         record_stream_padded_count(&s, &count);
         record_stream_force(&s, &force);
@@ -344,7 +345,7 @@ START_TEST(events_and_forces_are_laid_out_as_told)
         hand = (bytes_by_hand){0};
         put_i32(&hand, 1);
         put_i32(&hand, 0);
-        put_i32(&hand, kind);
+        put_i32(&hand, kind + 256 * vessel);
         put_i32(&hand, 9);     /* slot, or number of a line or thruster */
         put_f32(&hand, -0.5F); /* point, from the origin */
         put_f32(&hand, 1.25F);

@@ -218,6 +218,7 @@ START_TEST(a_propeller_astern_pushes_along_the_ship)
     ck_assert_int_eq(r.frame.forces.count, 1);
     const replay_force *f = &r.frame.forces.data[0];
     ck_assert_int_eq(f->kind, RECORD_FORCE_THRUSTER);
+    ck_assert_int_eq(f->vessel, 0);
     ck_assert_double_lt(f->force.x, -100);
     assert_absolute(f->force.y / f->force.x, 0, 1e-4);
     replay_moment_free(&ctx, &m);

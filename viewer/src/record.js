@@ -287,7 +287,7 @@ function readForces(c) {
     const count = c.i32();
     c.i32();
     return Array.from({ length: count }, () => (
-        { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
+        { kind: KINDS[c.i32() & 255], which: c.i32(), point: c.vec3(), force: c.vec3() }));
 }
 
 /** Contact forces of floes [kN] and forces on vessels [N] of all frames that are in the page, one by one, and the kinds
