@@ -18,6 +18,8 @@ enum { MOST_SEAL_PASSES = 128, MOST_PASSES_LED = 16 };
 #define SAME_SIDE 1.25
 /* Steps along a rim that are looked at. */
 enum { MOST_STEPS = 16 };
+/* Nodes that wait in a walk through a tree of halves: one a level. */
+enum { MOST_WAITING = 64 };
 /* A place this near to the end of an edge, as a part of its length, is the end. */
 #define LEAST_PART 1e-9
 
@@ -39,8 +41,11 @@ typedef struct sealing {
     uint8_t *loose;     /* of each vertex: it ends an open edge */
     mesh rims;          /* open edges as flat triangles, for the tree */
     mesh_bvh tree;
+    mesh points; /* loose vertices, the same */
+    mesh_bvh points_tree;
     int32_array near;
     int32_t *nearest; /* of each loose vertex, or -1 */
+    double *shortest; /* of each loose vertex: length of the shortest open edge at it */
     ARRAY(detour) detours;
 } sealing;
 
@@ -50,9 +55,12 @@ static void sealing_free(context *ctx, sealing *s)
     array_free(ctx, &s->open);
     memory_free(ctx, s->loose);
     memory_free(ctx, s->nearest);
-    s->rims.vertex.data = NULL; /* borrowed */
+    memory_free(ctx, s->shortest);
+    s->rims.vertex.data = s->points.vertex.data = NULL; /* borrowed */
     array_free(ctx, &s->rims.face);
+    array_free(ctx, &s->points.face);
     mesh_bvh_free(ctx, &s->tree);
+    mesh_bvh_free(ctx, &s->points_tree);
     array_free(ctx, &s->near);
     array_free(ctx, &s->detours);
 }
@@ -80,24 +88,40 @@ static bool find_open(context *ctx, sealing *s)
     return true;
 }
 
-/* The tree over the open edges. */
-static fram_status plant_tree(context *ctx, sealing *s)
+static double distance_between(vec3 a, vec3 b) { return vec3_length(vec3_sub(a, b)); }
+
+static bool add_loose(context *ctx, sealing *s, int32_t v, double length)
+{
+    s->shortest[v] = s->loose[v] ? fmin(s->shortest[v], length) : length;
+    bool there = s->loose[v];
+    s->loose[v] = 1;
+    return there || array_push(ctx, &s->points.face, ((triangle){{v, v, v}}));
+}
+
+/* The trees over the open edges and the loose vertices. */
+static fram_status plant_trees(context *ctx, sealing *s)
 {
     const mesh *m = s->m;
     memory_free(ctx, s->loose);
     memory_free(ctx, s->nearest);
+    memory_free(ctx, s->shortest);
     s->loose = memory_array(ctx, (size_t)m->vertex.count, sizeof *s->loose);
     s->nearest = memory_array(ctx, (size_t)m->vertex.count, sizeof *s->nearest);
-    if (!s->loose || !s->nearest || !array_resize(ctx, &s->rims.face, s->open.count))
+    s->shortest = memory_array(ctx, (size_t)m->vertex.count, sizeof *s->shortest);
+    array_clear(&s->points.face);
+    if (!s->loose || !s->nearest || !s->shortest || !array_resize(ctx, &s->rims.face, s->open.count))
         return FRAM_ERROR_MEMORY;
-    s->rims.vertex.data = m->vertex.data;
-    s->rims.vertex.count = m->vertex.count;
+    s->rims.vertex.data = s->points.vertex.data = m->vertex.data;
+    s->rims.vertex.count = s->points.vertex.count = m->vertex.count;
     for (int32_t i = 0; i < s->open.count; i++) {
         int32_t a = half_edge_from(m, s->open.data[i]), b = half_edge_to(m, s->open.data[i]);
+        double length = distance_between(m->vertex.data[a], m->vertex.data[b]);
         s->rims.face.data[i] = (triangle){{a, b, b}};
-        s->loose[a] = s->loose[b] = 1;
+        if (!add_loose(ctx, s, a, length) || !add_loose(ctx, s, b, length))
+            return FRAM_ERROR_MEMORY;
     }
-    return mesh_bvh_build(ctx, &s->rims, &s->tree);
+    fram_status status = mesh_bvh_build(ctx, &s->rims, &s->tree);
+    return status == FRAM_OK ? mesh_bvh_build(ctx, &s->points, &s->points_tree) : status;
 }
 
 static bool find_near(context *ctx, sealing *s, vec3 p)
@@ -123,8 +147,6 @@ static bool are_joined(const sealing *s, int32_t u, int32_t v)
     int32_t a = half_edge_from(s->m, s->sorted.data[begin]), b = half_edge_to(s->m, s->sorted.data[begin]);
     return (a == low && b == high) || (a == high && b == low);
 }
-
-static double distance_between(vec3 a, vec3 b) { return vec3_length(vec3_sub(a, b)); }
 
 /* ---- joining ---- */
 
@@ -165,38 +187,80 @@ static bool same_side(const sealing *s, int32_t v, int32_t u, double distance)
     return false;
 }
 
-/* Length of the shortest open edge at v, of those at hand. */
-static double shortest_at(const sealing *s, int32_t v)
+static double distance_to_box(vec3 p, const box3 *b)
 {
-    double least = HUGE_VAL;
-    for (int32_t i = 0; i < s->near.count; i++) {
-        const int32_t *e = s->rims.face.data[s->near.data[i]].v;
-        if (e[0] == v || e[1] == v)
-            least = fmin(least, distance_between(s->m->vertex.data[e[0]], s->m->vertex.data[e[1]]));
+    return vec3_length((vec3){fmax(fmax(b->lo.x - p.x, p.x - b->hi.x), 0), fmax(fmax(b->lo.y - p.y, p.y - b->hi.y), 0),
+                              fmax(fmax(b->lo.z - p.z, p.z - b->hi.z), 0)});
+}
+
+/* Whether u, which is no neighbour of v, is nearer to it than the nearest so far; of equally near ones the least is. */
+static bool comes_nearer(const sealing *s, int32_t v, int32_t u, double distance, double least)
+{
+    bool nearer = distance < least || (distance == least && (s->nearest[v] < 0 || u < s->nearest[v]));
+    return u != v && nearer && !are_joined(s, u, v);
+}
+
+/* The nearest loose vertex within `most` that v is not joined to, or none: its distance.  No box that may
+   hold it is passed over: what is rounded is rounded alike. */
+static double look_for_nearest(sealing *s, int32_t v, double most)
+{
+    const mesh_bvh *t = &s->points_tree;
+    const vec3 p = s->m->vertex.data[v];
+    double least = most;
+    int32_t stack[MOST_WAITING], waiting = 0;
+    s->nearest[v] = -1;
+    stack[waiting++] = 0;
+    while (waiting > 0) {
+        int32_t i = stack[--waiting];
+        const mesh_bvh_node *node = &t->node.data[i];
+        if (distance_to_box(p, &node->box) > least)
+            continue;
+        if (node->next >= 0) {
+            bool second = distance_to_box(p, &t->node.data[node->next].box) < distance_to_box(p, &node[1].box);
+            stack[waiting++] = second ? i + 1 : node->next;
+            stack[waiting++] = second ? node->next : i + 1;
+        }
+        for (int32_t k = node->first; node->next < 0 && k < node->first + node->count; k++) {
+            int32_t u = s->points.face.data[t->face.data[k]].v[0];
+            double distance = distance_between(p, s->m->vertex.data[u]);
+            if (!comes_nearer(s, v, u, distance, least))
+                continue;
+            least = distance;
+            s->nearest[v] = u;
+        }
     }
     return least;
 }
 
-static bool find_nearest(context *ctx, sealing *s, int32_t v)
+/* The same where those on v's own side of a crack are left out. */
+static bool find_across(context *ctx, sealing *s, int32_t v, double most)
 {
     vec3 p = s->m->vertex.data[v];
-    double least = s->width;
+    double least = most;
     s->nearest[v] = -1;
     if (!find_near(ctx, s, p))
         return false;
-    double first = shortest_at(s, v); /* of any way along the rim */
     for (int32_t i = 0; i < s->near.count; i++)
         for (int k = 0; k < 2; k++) {
             int32_t u = s->rims.face.data[s->near.data[i]].v[k];
             double distance = distance_between(p, s->m->vertex.data[u]);
-            bool nearer = distance < least || (distance == least && (s->nearest[v] < 0 || u < s->nearest[v]));
-            bool far_along = first > SAME_SIDE * distance;
-            if (u != v && nearer && !are_joined(s, u, v) && (far_along || !same_side(s, v, u, distance))) {
+            bool far_along = s->shortest[v] > SAME_SIDE * distance;
+            if (comes_nearer(s, v, u, distance, least) && (far_along || !same_side(s, v, u, distance))) {
                 least = distance;
                 s->nearest[v] = u;
             }
         }
     return true;
+}
+
+/* Rims are followed only where the nearest may be on v's own side: where the rim's first edge is no longer than the way
+   there may be.  Of a corner of which thousands of facets have a copy all their rims would be at hand each time. */
+static bool find_nearest(context *ctx, sealing *s, int32_t v)
+{
+    const double most = s->width;
+    double distance = look_for_nearest(s, v, most);
+    bool far_along = s->shortest[v] > SAME_SIDE * distance;
+    return s->nearest[v] < 0 || (far_along && distance < most * (1 - LEAST_PART)) || find_across(ctx, s, v, most);
 }
 
 /* Pairs that are each other's nearest become the one of lower number. */
@@ -330,7 +394,7 @@ static fram_status seal_once(context *ctx, sealing *s, bool *changed)
     *changed = false;
     if (!s->open.count)
         return FRAM_OK;
-    fram_status status = plant_tree(ctx, s);
+    fram_status status = plant_trees(ctx, s);
     if (status == FRAM_OK && !join_pairs(ctx, s, changed))
         status = FRAM_ERROR_MEMORY;
     if (status == FRAM_OK && !*changed && !make_detours(ctx, s, changed))

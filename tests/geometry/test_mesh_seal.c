@@ -78,7 +78,7 @@ static vec3 off_by(random_stream *r, vec3 p, double most)
    fan has facets. */
 START_TEST(fans_of_any_number_of_facets_become_one)
 {
-    static const int sides[] = {40, 100, 400, 1200};
+    static const int sides[] = {40, 100, 400, 1200, 4000};
     for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
         int n = sides[k];
         rig r = rig_make();
