@@ -240,17 +240,20 @@ static fram_status measure(context *ctx, const scenario *s, double from, double 
 enum { MEASURED_SPEEDS = 4 };
 
 typedef struct measured_loads {
+    bool mirrored; /* loads from port are those from starboard */
     int32_t directions, speeds;
     double speed_step;
     vec3 load[CAPABILITY_MEASURED * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
     load_halves half[CAPABILITY_MEASURED * MEASURED_SPEEDS]; /* 0 where a load is another's mirrored */
 } measured_loads;
 
+static vec3 mirrored_load(vec3 load) { return vec3_make(load.x, -load.y, -load.z); }
+
 static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
     /* In a scene with equal sides a vessel meets from port what it meets from starboard, seen from the middle. */
     const char *one_sided = capability_one_sided(s);
-    bool mirrored = !one_sided;
+    const bool mirrored = m->mirrored = !one_sided;
     if (one_sided)
         log_write(ctx, LOG_INFO,
                   "ice is measured from all %d directions, and not from half of them: the %s is not known to be the "
@@ -264,8 +267,7 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
             vec3 *load = &m->load[i * m->speeds + k];
             double speed = (k + 1) * m->speed_step;
             if (mirrored && 2 * i > m->directions) {
-                vec3 other = m->load[(m->directions - i) * m->speeds + k];
-                *load = vec3_make(other.x, -other.y, -other.z);
+                *load = mirrored_load(m->load[(m->directions - i) * m->speeds + k]);
                 continue;
             }
             fram_status status = measure(ctx, s, from, speed, c, load, &m->half[i * m->speeds + k], error);
@@ -278,6 +280,16 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
         }
     }
     return FRAM_OK;
+}
+
+/* Loads from port are those from starboard between measured directions too: the sway of a run from ahead or astern is
+   chance, and might as well have gone to the other side. */
+static vec3 load_in_row(const measured_loads *m, const capability_loads *l, int32_t i, int32_t k)
+{
+    if (m->mirrored && 2 * i > l->rows)
+        return mirrored_load(load_in_row(m, l, l->rows - i, k));
+    return capability_ice_between(m->load, m->directions, m->speeds, m->speed_step, 2 * PI * i / l->rows,
+                                  (k + 1) * l->speed_step);
 }
 
 fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error)
@@ -296,7 +308,6 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
     load_growth_find(m.half, m.directions, m.speeds, m.speed_step, l);
     for (int32_t i = 0; i < l->rows && status == FRAM_OK; i++)
         for (int32_t k = 0; k < l->speeds; k++)
-            l->ice[i * l->speeds + k] = capability_ice_between(m.load, m.directions, m.speeds, m.speed_step,
-                                                               2 * PI * i / l->rows, (k + 1) * l->speed_step);
+            l->ice[i * l->speeds + k] = load_in_row(&m, l, i, k);
     return status;
 }

@@ -519,13 +519,13 @@ static vec3 load_from_starboard(scene *k, double speed, double seconds)
 }
 
 /* Ice that drifts onto a hull from ahead pushes it astern, from starboard to port; mirrored from port.  Neither wind
-   nor what the current has on top at a depth are in it, and a hull that is held neither drives nor washes ice away. */
+   nor what the current has on top at a depth are in it, and a hull that is held neither drives nor washes ice away. The
+   sway of ice from ahead is chance, and no reason for unlike sides. */
 START_TEST(measured_ice)
 {
     char path[] = "/tmp/fram-profile-XXXXXX", profile[80];
     int file = mkstemp(path);
-    ck_assert(file >= 0 && dprintf(file, "depth,x,y\n0,0,1\n20,0,1\n") > 0);
-    close(file);
+    ck_assert(file >= 0 && dprintf(file, "depth,x,y\n0,0,1\n20,0,1\n") > 0 && close(file) == 0);
     snprintf(profile, sizeof profile, "environment.current_profile_file=%s", path);
     scene k;
     const char *const ice[] = {"ice.source=voronoi",
@@ -553,12 +553,12 @@ START_TEST(measured_ice)
     fram_error error = {0};
     assert_ok(capability_find(&k.ctx, &k.s, &o, &c, &error), error);
     unlink(path);
-    const vec3 load[4] = {ice_at(&c, 0, 0), ice_at(&c, 1, 0), ice_at(&c, 2, 0), ice_at(&c, 3, 0)};
-    ck_assert(load[0].x < -1e3 && load[2].x > 1e3);
-    ck_assert(load[1].y > 1e3);
-    assert_absolute(load[3].y, -load[1].y, 0);
-    assert_absolute(load[3].x, load[1].x, 0);
-    assert_absolute(load[3].z, -load[1].z, 0);
+    const vec3 load[3] = {ice_at(&c, 0, 0), ice_at(&c, 1, 0), ice_at(&c, 2, 0)};
+    ck_assert(load[0].x < -1e3 && load[1].y > 1e3 && load[2].x > 1e3 && fabs(load[0].y) > 1);
+    for (int32_t i = 1; 2 * i < c.loads.rows; i++) {
+        const vec3 port = c.loads.ice[(c.loads.rows - i) * c.loads.speeds], image = {port.x, -port.y, -port.z};
+        ck_assert_mem_eq(&c.loads.ice[i * c.loads.speeds], &image, sizeof image);
+    }
     vec3 by_hand = load_from_starboard(&k, 0.8, 20);
     assert_relative(load[1].x, by_hand.x, 1e-12);
     assert_relative(load[1].y, by_hand.y, 1e-12);
