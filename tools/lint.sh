@@ -1,8 +1,8 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
-# 1 form by clang-format, 2 scripts by shellcheck and pyflakes, 3 the house by check_rooms.py, check_unused.py and check_keys.py,
-# 4 what documents cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py and
-# check_together.py, 7 clang-tidy.  Given C files, 1 and 7 look at those only.
+# 1 form by clang-format, 2 scripts by shellcheck and pyflakes, 3 the house by check_rooms.py, check_unused.py and
+# check_keys.py, 4 what documents cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by
+# check_objects.py and check_together.py, 7 clang-tidy.  Given C files, 1 and 7 look at those only.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/release}

@@ -56,8 +56,8 @@ static void widen(double *lo, double *hi, double value)
     *hi = fmax(*hi, value);
 }
 
-/* Values that differ by less than this part of the largest, or of one unit, are the same but for rounding, as those of a
-   motion that is held: an axis over them alone would show noise as if it were a signal. */
+/* Values that differ by less than this part of the largest, or of one unit, are the same but for rounding, as those of
+   a motion that is held: an axis over them alone would show noise as if it were a signal. */
 #define SAME_VALUE 1e-12
 
 static bool is_flat(double lo, double hi) { return !(hi - lo > SAME_VALUE * fmax(fmax(fabs(lo), fabs(hi)), 1)); }

@@ -52,7 +52,7 @@ void image_set_colour(cairo_t *page, image_colour c);
 /* From x0, y0 to its tip at x1, y1 [pixels], in the colour that is set; lines `width` and head `head` pixels long at
    most. Nothing where it is shorter than two pixels. */
 void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head);
-/* White round that arrow, to be drawn before it, so that it is seen on water, ice and hull alike: so many pixels wide. */
+/* White round that arrow, to be drawn before it, so that it is seen on water, ice and hull alike: so wide [px]. */
 #define IMAGE_HALO 2.0
 void image_arrow_halo(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head);
 typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;

@@ -8,7 +8,7 @@
 
 enum { EDGE = 40, TITLE_SIZE = 20 };
 
-static void draw_title(cairo_t *paper, const page *p)
+static void draw_page_title(cairo_t *paper, const page *p)
 {
     char part[IMAGE_FITTED_SIZE];
     const char *end = p->title_end ? p->title_end : p->title + strlen(p->title);
@@ -23,7 +23,7 @@ fram_status page_write(context *ctx, const page *p, const char *path, fram_error
     if (status != FRAM_OK)
         return status;
     image_set_colour(paper, (image_colour){0.1, 0.1, 0.1});
-    draw_title(paper, p);
+    draw_page_title(paper, p);
     image_text_lines(paper, p->text_x, p->text_y, 13, p->text_width, p->text);
     for (int32_t i = 0; i < p->panel_count; i++) {
         const page_panel *panel = &p->panels[i];

@@ -170,7 +170,8 @@ def check_odd_clicks(browser):
     assert browser.run(f"!{of_ice}"), "the legend has the colour of forces that a lit peak hides"
     browser.run("(fram.seek(fram.peaks.peak.time < 4 ? 8 : 0), fram.draw())")
     assert browser.run("!fram.peakShown && !fram.scene.lit.fill.visible && fram.scene.peakArrows.shafts.count === 0 && "
-                       f"!document.getElementById('peak').hidden && {of_ice}"), "what was a peak stays lit when time goes on"
+                       f"!document.getElementById('peak').hidden && {of_ice}"), \
+        "what was a peak stays lit when time goes on"
     browser.click_on("gotopeak")
     browser.run("fram.draw()")
     assert browser.run("fram.peakShown")

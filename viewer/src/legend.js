@@ -58,9 +58,9 @@ export class Legend {
     }
 
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
-     *  forces: kinds that are shown; lit: whether those of ice are a peak's; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
-     *  pressure on it or null; peak: whether one is shown; vessels: how many; marked: seconds that a mark stays,
-     *  or 0}. */
+     *  forces: kinds that are shown; lit: whether those of ice are a peak's; station: rows of such keys, of lines and
+     *  thrusters; hull: {unit, ends} of the pressure on it or null; peak: whether one is shown; vessels: how many;
+     *  marked: seconds that a mark stays, or 0}. */
     set(content) {
         const { keys, forces, lit, station } = content, rows = (list) => rowsOf(this.measure, list);
         const kinds = forces.map((kind) => (lit && kind === 'ice' ? OF_PEAK
