@@ -24,7 +24,7 @@ tools/sources.sh '*.sh' '.ci/run' | grep -v '^bench/peers/' | xargs shellcheck |
 
 echo "lint: scripts (pyflakes)"
 # What is imported to see whether it is there, or for what it does as it is read, is not used.
-tools/sources.sh '*.py' | xargs pyflakes3 | grep -v 'imported but unused' && bad=1
+tools/sources.sh '*.py' | xargs pyflakes3 2>&1 | grep -v 'imported but unused' && bad=1
 
 echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1

@@ -148,41 +148,49 @@ static void trace_tile(cairo_t *page, const plan_map *m, const plan_shape *s)
 /* Tiles of level ice of one colour that follow each other, from the first shape on: how many.  They are one area
    without lines, for their seams are neither boundary nor crack; filled one by one, pixels on a seam would be of both
    and let what is below shine through. */
-static int32_t draw_level_ice(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
+static int32_t count_alike(const plan_shape *shapes, int32_t count)
 {
     int32_t n = 0;
-    for (; n < count && shapes[n].style == PLAN_LEVEL_ICE && same_colour(&shapes[n], &shapes[0]); n++)
-        trace_tile(page, m, &shapes[n]);
-    image_set_colour(page, fill_of(&shapes[0]));
-    cairo_fill(page);
+    while (n < count && shapes[n].style == PLAN_LEVEL_ICE && same_colour(&shapes[n], &shapes[0]))
+        n++;
     return n;
 }
 
-/* All level ice as one area, before its tiles of several colours, or with pieces between them in their order: what
-   shines through at their seams is level ice then. */
-static void draw_level_ground(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
+/* What is level ice among the shapes as one area. */
+static void fill_level_ice(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count,
+                           image_colour colour)
 {
     for (int32_t i = 0; i < count; i++)
         if (shapes[i].style == PLAN_LEVEL_ICE)
             trace_tile(page, m, &shapes[i]);
-    image_set_colour(page, plan_looks[PLAN_LEVEL_ICE].fill);
+    image_set_colour(page, colour);
     cairo_fill(page);
+}
+
+static bool has_level_ice(const plan_shape *shapes, int32_t count)
+{
+    int32_t i = 0;
+    while (i < count && shapes[i].style != PLAN_LEVEL_ICE)
+        i++;
+    return i < count;
 }
 
 void plan_paint_shapes(cairo_t *page, const plan_map *m, const plan_shape *shapes, int32_t count)
 {
-    bool ground = false;
+    bool first = true;
     for (int32_t i = 0; i < count;) {
         const plan_shape *s = &shapes[i];
-        if (s->style == PLAN_LEVEL_ICE) {
-            if (!ground)
-                draw_level_ground(page, m, s, count - i);
-            ground = true;
-            i += draw_level_ice(page, m, s, count - i);
-        } else {
+        int32_t alike = count_alike(s, count - i);
+        /* Where there is more of it, of another colour or behind other shapes, all of it is one area first: what
+           shines through at the seams is level ice then. */
+        if (alike > 0 && first && has_level_ice(s + alike, count - i - alike))
+            fill_level_ice(page, m, s, count - i, plan_looks[PLAN_LEVEL_ICE].fill);
+        first = first && alike == 0;
+        if (alike > 0)
+            fill_level_ice(page, m, s, alike, fill_of(s));
+        else
             draw_shape(page, m, s);
-            i++;
-        }
+        i += alike > 0 ? alike : 1;
     }
 }
 

@@ -9,7 +9,8 @@
 #ifdef FRAM_HAVE_CAIRO
 
 static const image_colour water = {0.16, 0.36, 0.52}, plan_ink = {0.1, 0.1, 0.1}, white = {1, 1, 1};
-static const image_colour flow_arrow = {0.75, 0.05, 0.25}, crack_mark = {0.90, 0.45, 0.0}, way_line = {0.85, 0.1, 0.1};
+static const image_colour force_arrow = {0.75, 0.05, 0.25}, crack_mark = {0.90, 0.45, 0.0},
+                          track_line = {0.85, 0.1, 0.1};
 
 /* The path as a line with white on both sides, so that it is seen on water, ice and hull alike. */
 static void stroke_with_halo(cairo_t *page, image_colour colour, double width, double halo)
@@ -28,7 +29,7 @@ static void draw_plan_track(cairo_t *page, const plan_map *m, const plan_view *v
         return;
     for (int32_t i = 0; i < view->track_count; i++)
         cairo_line_to(page, plan_map_x(m, view->track[i]), plan_map_y(m, view->track[i]));
-    stroke_with_halo(page, way_line, 1.2, 1.5);
+    stroke_with_halo(page, track_line, 1.2, 1.5);
 }
 
 static void draw_marks(cairo_t *page, const plan_map *m, const plan_view *view)
@@ -95,7 +96,7 @@ static void draw_arrows(cairo_t *page, const plan_map *m, const plan_view *view)
     for (int32_t i = 0; i < 2 * view->arrow_count; i++) {
         bool halo = i < view->arrow_count;
         const plan_arrow *a = &view->arrows[halo ? i : i - view->arrow_count];
-        image_set_colour(page, flow_arrow);
+        image_set_colour(page, force_arrow);
         (halo ? image_arrow_halo : image_arrow)(page, plan_map_x(m, a->from), plan_map_y(m, a->from),
                                                 plan_map_x(m, a->to), plan_map_y(m, a->to), width, head);
     }

@@ -83,7 +83,7 @@ typedef struct plan_view {
     double arrow_scale;     /* of the arrows, told beside the scale bar [m/N]; 0: not told */
     const char *scale_name; /* of the shapes' values, with unit; NULL: none */
     double scale_lo, scale_hi;
-    const char *unscaled_name; /* beside the scale: of level ice without a value; NULL: there is none to be named */
+    const char *unscaled_name; /* beside the scale: what level ice without a value is; NULL: it is not named */
 } plan_view;
 
 /* What a legend is to name: of what something lies in the window. */

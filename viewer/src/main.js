@@ -138,7 +138,6 @@ class Player {
         this.setLegend();
     }
 
-
     showStation() {
         const { station } = this.scene, before = station.gone;
         station.show(this.poses);
