@@ -41,6 +41,23 @@ domain: {{x_min: {-80 * scale}, x_max: {60 * scale}, y_min: {-30 * scale}, y_max
 """
 
 
+def turning(scale):
+    """A box that turns against fixed ice so slowly that a part of its side rests there, lengths times scale."""
+    root = math.sqrt(scale)
+    return f"""run: {{duration: {20 * root}, time_step: {0.02 * root}, scale: {30 * scale}}}
+vessel:
+  mode: prescribed
+  path: [{{}}, {{time: {20 * root}, heading_deg: 0.1}}]
+  hull: {{form: box, length: {40 * scale}, beam: {12 * scale}, draught: {4 * scale}, freeboard: {2 * scale}}}
+ice:
+  source: floes
+  crushing_strength: {2e6 * scale}
+  thickness: {scale}
+  floes: [{{length: {30 * scale}, width: {12 * scale}, x: {2 * scale}, y: {11.99 * scale}, fixed: true}}]
+domain: {{x_min: {-100 * scale}, x_max: {100 * scale}, y_min: {-100 * scale}, y_max: {100 * scale}, boundary: open}}
+"""
+
+
 def placed(turn=0, mirror=1, hull_speed=1.5, shift=0.0, kind="accurate", stick=0.0):
     """A driven hull meets two floes off its centre line; turned by 0 or 90 degrees, mirrored, everything moving."""
     co, si = (1, 0) if turn == 0 else (0, 1)
@@ -86,7 +103,8 @@ def case(out):
         "Symmetries",
         1,
         f"Ice force on a hull over {STEPS} steps: a scene scaled by Froude's rule with lambda 4 and 16; a ship in "
-        "level ice that breaks and melts, with lambda 4; hull that moves in still water against ice and water that "
+        "level ice that breaks and melts, and a box that turns slowly against fixed ice, with lambda 4; hull that "
+        "moves in still water against ice and water that "
         "move past it (50 steps); mirrored and turned by 90 degrees.",
         "The runs themselves.",
         "Scaled: 1e-12 of the largest force (powers of four: finds hidden dimensional constants). Moved: 1e-9. "
@@ -107,6 +125,8 @@ def case(out):
         histories[scale] = large
     large = [tuple(x / 4**3 for x in f) for f in forces(melting(4.0), STEPS)]
     enter("level ice that melts, scaled by 4", forces(melting(1.0), STEPS), large, 1e-12)
+    large = [tuple(x / 4**3 for x in f) for f in forces(turning(4.0), STEPS)]
+    enter("hull that turns slowly, scaled by 4", forces(turning(1.0), STEPS), large, 1e-12)
     enter("moving hull, moving ice", forces(placed(hull_speed=3.0), 50), forces(placed(hull_speed=0.0, shift=-3.0), 50),
           1e-9)
     straight = forces(placed(), 150)

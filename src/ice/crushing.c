@@ -84,7 +84,8 @@ static void set_surface(const crushing_job *j, crushing_pair *p)
     }
     p->surface.rough_way = j->bodies->material[p->surface_body] == MATERIAL_ICE; /* nothing is corrected by it */
     bool moves = j->settings->parts_by_motion && !p->surface.rough_way;
-    surface_frame_set(&p->surface, j->bodies, p->surface_body, p->floe_body, &p->rotation, moves, j->settings->skin);
+    surface_frame_set(&p->surface, j->bodies, p->surface_body, p->floe_body, &p->rotation, moves,
+                      j->settings->rest_speed);
 }
 
 /* Of two bodies that crush: the one whose surface is looked at, see set_pair. */
@@ -339,7 +340,7 @@ static fram_status push_swallowed(const crushing_job *j, const crushing_pair *p,
                        .prism = {j->shapes, j->bodies->shape[p->surface_body]},
                        .rotation = quat_matrix(j->bodies->orientation[p->surface_body]),
                        .position = j->bodies->position[p->surface_body]};
-    surface_frame_set(&q.surface, j->bodies, q.surface_body, q.floe_body, &q.rotation, false, j->settings->skin);
+    surface_frame_set(&q.surface, j->bodies, q.surface_body, q.floe_body, &q.rotation, false, j->settings->rest_speed);
     return push_buried(j, &q);
 }
 

@@ -43,6 +43,7 @@ typedef struct crushing_settings {
     double time_step;        /* [s] */
     double smallest_area;    /* patches under it are dropped [m2] */
     double skin;             /* bodies nearer than this touch: run.solver.contact_skin [m] */
+    double rest_speed;       /* a hull that goes by slower rests on the ice: it slides nowhere [m/s] */
     pack_limit pack;         /* ridges and rafts between floes */
     strength_field strength; /* how strengths vary over the ice */
     double small_patch;    /* floes: lengths of a patch under this part of the smaller radius turn neither, 0: all do */

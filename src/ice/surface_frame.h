@@ -6,9 +6,9 @@
 #include "ice/patch.h"
 
 /* Sets rotation and offset of the surface of the body `mover` in the frame of the body `floe`, whose rotation floe to
-   global is given; slip, turn and rest from their velocities of now with moves, 0 without.  skin:
-   run.solver.contact_skin [m]. */
+   global is given; slip and turn from their velocities of now with moves, 0 without.  rest: the
+   speed under which it rests [m/s]. */
 void surface_frame_set(patch_surface *surface, const body_table *bodies, int32_t mover, int32_t floe,
-                       const mat3 *rotation, bool moves, double skin);
+                       const mat3 *rotation, bool moves, double rest);
 
 #endif

@@ -23,6 +23,10 @@ static void set_pair(pair_policies *p, material a, material b, double mu_static,
 /* A ship slower than this over the ground has a heading and no course, in full size [m/s]. */
 static const double COURSE_SPEED = 0.3;
 
+/* A hull that goes by slower than this past a floe rests on it, in full size: the solver leaves such velocities behind,
+   and they have no direction [m/s].  Range 1e-4 to 0.01. */
+static const double REST_SPEED = 1e-3;
+
 static strength_field strength_of(const scenario *s)
 {
     const scenario_strength *k = &s->ice.strength;
@@ -110,6 +114,7 @@ static model settings_of(const scenario *s)
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {.time_step = s->run.time_step,
                      .skin = v->contact_skin,
+                     .rest_speed = REST_SPEED * sqrt(scenario_size(s)),
                      .pack = {.ridging = s->ice.ridging_resistance,
                               .edge_slope = real_tan(radians(s->ice.rafting_edge_angle_deg)),
                               .water_weight = e->water_density * e->gravity},

@@ -204,7 +204,7 @@ START_TEST(a_side_that_slides_carries_nothing)
         ice_rig r;
         ice_rig_make(&r, 0.01);
         r.settings.parts_by_motion = r.settings.correct_unbreakable = true;
-        r.settings.skin = 1e-4;
+        r.settings.rest_speed = 1e-3;
         for (int i = 0; i < MATERIAL_COUNT; i++)
             for (int k = 0; k < MATERIAL_COUNT; k++)
                 r.policies.of[i][k].friction_static = r.policies.of[i][k].friction_kinetic = 0.3;
@@ -255,7 +255,7 @@ START_TEST(a_side_that_turns_carries_what_enters)
         ice_rig r;
         ice_rig_make(&r, 0.01);
         r.settings.parts_by_motion = true;
-        r.settings.skin = 1e-4;
+        r.settings.rest_speed = 1e-3;
         int32_t row = ice_rig_plate(&r, 2 * half, 20, thickness, MOTION_STATIC);
         r.floes.material[row].crushing_exponent = exponent;
         ice_rig_place(&r, r.floes.body[row], (vec3){0, aside + 10 - 0.1, 0}, 0, 0, 0);
@@ -284,7 +284,7 @@ START_TEST(a_side_bears_what_presses_on_it)
         ice_rig_make(&r, dt);
         r.solver.kind = SOLVER_ACCURATE;
         r.settings.parts_by_motion = true;
-        r.settings.skin = 1e-4;
+        r.settings.rest_speed = 1e-3;
         for (int i = 0; i < MATERIAL_COUNT; i++)
             for (int k = 0; k < MATERIAL_COUNT; k++)
                 r.policies.of[i][k].friction_static = r.policies.of[i][k].friction_kinetic = 0.1;
