@@ -28,6 +28,21 @@ static load_unit unit_of_text(double load, int digits)
 
 load_unit load_unit_for(double newton) { return unit_of_text(newton, LOAD_DIGITS); }
 
+load_unit power_unit_for(double watt)
+{
+    load_unit unit = load_unit_for(watt);
+    unit.name = unit.factor < 1e-3 ? "MW" : unit.factor < 1 ? "kW" : "W";
+    return unit;
+}
+
+load_unit energy_unit_for(double joule)
+{
+    load_unit unit = load_unit_for(joule);
+    unit.name = unit.factor < 1e-3 ? "MJ" : unit.factor < 1 ? "kJ" : "J";
+    const bool many = unit.factor < 1e-3 && load_unit_for(joule * unit.factor).factor < 1; /* megajoules */
+    return many ? (load_unit){"GJ", 1e-9} : unit;
+}
+
 /* As plain_text_of; beside larger ones of its unit a small number has no exponent either. */
 static plain_text number_beside(double value, int digits)
 {
@@ -72,10 +87,3 @@ load_unit kilonewtons_or_less(double newton)
 load_unit kilojoules_or_less(double joule) { return is_small(joule) ? (load_unit){"J", 1} : (load_unit){"kJ", 1e-3}; }
 
 load_unit megawatts_or_less(double watt) { return is_small(watt) ? (load_unit){"W", 1} : (load_unit){"MW", 1e-6}; }
-
-load_unit gigajoules_or_less(double joule, double watt)
-{
-    if (!is_small(watt))
-        return (load_unit){"GJ", 1e-9};
-    return joule < TOLD_PLAIN ? (load_unit){"J", 1} : (load_unit){"kJ", 1e-3};
-}

@@ -10,6 +10,9 @@ typedef struct load_unit {
 /* N, kN or MN: the rule of every load that is told, by its size, rounded as it is told to four digits; nothing is in
    kN.  Columns, tables and axes are in that of their largest. */
 load_unit load_unit_for(double newton);
+/* W, kW or MW by the same rule, and J, kJ, MJ or GJ with a further step at 1e10 J. */
+load_unit power_unit_for(double watt);
+load_unit energy_unit_for(double joule);
 
 /* A load with its unit, "9.64 N", "-739 kN", "26.1 MN", to so many significant digits and without an exponent
    (plain_text_of); nothing is "0 kN". */
@@ -25,12 +28,10 @@ typedef struct load_range_text {
 } load_range_text;
 load_range_text load_range_text_of(double newton, double half, double largest, int digits);
 
-/* Of columns and axes that are to keep to one unit at full size, whatever the size, as programs read them: kN, kJ, MW
-   and GJ, and N, J, W and J (or kJ) of what is under 1e4 N, J or W, but for nothing.  An energy in GJ goes with the
-   power that it is of. */
+/* Of columns that are to keep to one unit at full size, whatever the size, as programs read them: kN, kJ and MW, and N,
+   J and W of what is under 1e4 N, J or W, but for nothing. */
 load_unit kilonewtons_or_less(double newton);
 load_unit kilojoules_or_less(double joule);
 load_unit megawatts_or_less(double watt);
-load_unit gigajoules_or_less(double joule, double watt);
 
 #endif

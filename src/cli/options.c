@@ -95,7 +95,7 @@ static const char *whole_number_wanted(const char *text, bool above_zero)
         {"needs a whole number, as 1000", "needs a whole number above zero, as 1000"},
         {"needs a whole number, as 1000, not 1e3 or 1000.0",
          "needs a whole number above zero, as 1000, not 1e3 or 1000.0"},
-        {"needs a whole number from -2147483648 to 2147483647", "needs a whole number from 1 to 2147483647"}};
+        {"needs a whole number of at most nine digits", "needs a whole number from 1 to 2147483647"}};
     const char *at = text, *digits = text + (*text == '+' || *text == '-');
     double value = 0;
     const bool number = take_number(&at, "", &value, NULL);

@@ -37,7 +37,6 @@ static void describe_events(context *ctx, const station_data *d, text_buffer *b)
 /* By all that the charts show. */
 typedef struct station_units {
     load_unit load, tension, power;
-    double most_power; /* [W] */
 } station_units;
 
 static double largest_of(const double_array *values)
@@ -50,9 +49,8 @@ static double largest_of(const double_array *values)
 
 static station_units find_units(const station_data *d)
 {
-    double power = largest_of(&d->column[POWER]);
     return (station_units){load_unit_for(largest_of(&d->load)), load_unit_for(largest_of(&d->column[TENSION])),
-                           megawatts_or_less(power), power};
+                           power_unit_for(largest_of(&d->column[POWER]))};
 }
 
 static void describe_loads(context *ctx, const station_data *d, const station_units *u, text_buffer *b)
@@ -61,7 +59,7 @@ static void describe_loads(context *ctx, const station_data *d, const station_un
     channel_statistics load = station_statistics(d, &d->load, transient);
     channel_statistics tension = station_statistics(d, &d->column[TENSION], transient);
     channel_statistics power = station_statistics(d, &d->column[POWER], transient);
-    load_unit p = u->power, e = gigajoules_or_less(energy, u->most_power);
+    load_unit p = u->power, e = energy_unit_for(energy);
     text_format(ctx, b, "Ice load: mean %s, significant %s, peak %s.\n", load_text_of(load.mean, 4).text,
                 load_text_of(load.significant, 4).text, load_text_of(load.greatest, 4).text);
     if (d->lines > 0)
@@ -164,10 +162,11 @@ static fram_status draw_station(context *ctx, const station_data *d, const stati
     /* A limit that is far away would leave nothing of the track to be seen, which is drawn before the transient's end
        too. */
     bool far = limit > FAR_LIMIT * largest_of(&d->offset);
-    char note[96];
+    char note[112];
     snprintf(note, sizeof note,
-             far ? "offset of the watched point; the limit, %.3g m, lies outside"
-                 : "offset of the watched point; envelope of its track after %.4g s",
+             far         ? "offset of the watched point; the limit, %.3g m, lies outside"
+             : first > 0 ? "offset of the watched point; envelope of its track after %.4g s, pale before"
+                         : "offset of the watched point; envelope of its track",
              far ? limit : s->run.transient);
     chart_line footprint[4] = {
         chart_line_make("", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, first, false),

@@ -27,8 +27,7 @@ void page_choose_units(study_page *p)
     load_unit load = load_unit_for(largest_of(p, ROW_load_largest)),
               tension = load_unit_for(
                   fmax(largest_of(p, ROW_line_tension_largest), largest_of(p, ROW_line_tension_range_equivalent))),
-              power = load_unit_for(largest_of(p, ROW_thruster_power_mean));
-    power.name = power.factor < 1e-3 ? "MW" : power.factor < 1 ? "kW" : "W"; /* by the same rule */
+              power = power_unit_for(largest_of(p, ROW_thruster_power_mean));
     for (int i = 0; i < PAGE_FIGURES; i++) {
         page_figure *f = &p->figures[i];
         *f = page_figures[i];

@@ -107,9 +107,16 @@ START_TEST(units_go_with_the_size)
                  {load_unit_for((double)NAN), "kN", 1e-3},
                  {megawatts_or_less(5.982), "W", 1},
                  {megawatts_or_less(2e4), "MW", 1e-6},
-                 {gigajoules_or_less(60, 5.982), "J", 1},
-                 {gigajoules_or_less(6e4, 5.982), "kJ", 1e-3},
-                 {gigajoules_or_less(60, 1e6), "GJ", 1e-9}};
+                 {power_unit_for(9999.4), "W", 1},
+                 {power_unit_for(18860), "kW", 1e-3},
+                 {power_unit_for(9.9996e6), "MW", 1e-6},
+                 {power_unit_for(0), "kW", 1e-3},
+                 {energy_unit_for(60), "J", 1},
+                 {energy_unit_for(6e4), "kJ", 1e-3},
+                 {energy_unit_for(9999.4e6), "MJ", 1e-6},
+                 {energy_unit_for(9999.6e6), "GJ", 1e-9},
+                 {energy_unit_for(3e12), "GJ", 1e-9},
+                 {energy_unit_for(0), "kJ", 1e-3}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ck_assert_str_eq(cases[i].unit.name, cases[i].name);
         ck_assert_double_eq(cases[i].unit.factor, cases[i].factor);
