@@ -72,7 +72,7 @@ def commands(build):
     found = []
     for entry in json.loads((build / "compile_commands.json").read_text()):
         # What clang does not know; and shadowing is looked at here, where each file stands alone.
-        command = entry["command"].replace(" -fno-ipa-modref ", " ").replace(" -Wno-shadow ", " ")
+        command = re.sub(r" (-fno-ipa-modref|-m(memset|memcpy)-strategy=\S+|-Wno-shadow)(?= )", "", entry["command"])
         path = pathlib.Path(entry["file"])
         together = re.findall(r'^#include "(.*)"', path.read_text(), re.M) if path.parent.name == "Unity" else []
         found += [entry | {"file": file, "command": command.rpartition(" -c ")[0] + f" -c {shlex.quote(file)}"}
