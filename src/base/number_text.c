@@ -214,6 +214,22 @@ coordinate_text coordinate_text_of(double metres)
     return out;
 }
 
+place_text place_text_of(double x, double y, double z)
+{
+    enum { FEWEST = 1, MOST = 4 };
+    place_text out;
+    const double at[3] = {x, y, z};
+    int decimals = FEWEST;
+    double last = 0.1;
+    for (double size = 100; size > fmax(fmax(fabs(x), fabs(y)), fabs(z)) && decimals < MOST; size /= 10, last /= 10)
+        decimals++;
+    int length = 0;
+    for (int i = 0; i < 3; i++)
+        length += snprintf(out.text + length, sizeof out.text - (size_t)length, i > 0 ? ", %.*f" : "%.*f", decimals,
+                           fabs(at[i]) < 0.5 * last ? 0 : at[i]); /* not -0 */
+    return out;
+}
+
 plain_text plain_text_of(double value, int digits)
 {
     static const double most = 1e15; /* beyond it a double has no digit for each place */

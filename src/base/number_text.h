@@ -41,6 +41,13 @@ typedef struct coordinate_text {
 } coordinate_text;
 coordinate_text coordinate_text_of(double metres);
 
+/* A place [m] for people: "-0.121, 7.982, -0.687", all three to the fourth digit of the largest, from the decimetre to
+   a tenth of a millimetre. */
+typedef struct place_text {
+    char text[3 * NUMBER_TEXT_SIZE];
+} place_text;
+place_text place_text_of(double x, double y, double z);
+
 /* A number for people with so many significant digits, as by %g, but whole and without an exponent where more of them
    stand before the point: 26105.3 as "26105" and 999.6 as "1000" to three digits.  Under 1e-4 and from 1e15 on it has
    one; a zero has no sign. */

@@ -161,10 +161,10 @@ static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_
         const peak_floe *f = &d->floe[i];
         char name[24];
         name_floe(f->number, name);
-        text_format(ctx, out, "  %5.0f %%  %-12s %9s %s at (%s, %s, %.3g) m, %s, mostly %s\n",
-                    percent(sum_of(f->part), d), name, plain_text_of(vec3_length(f->force) * unit.factor, 4).text,
-                    unit.name, coordinate_text_of(f->point.x).text, coordinate_text_of(f->point.y).text, f->point.z,
-                    peak_zone_name(f->zone), mechanism_text((ice_mechanism)f->mechanism));
+        text_format(ctx, out, "  %5.0f %%  %-12s %9s %s at (%s) m, %s, mostly %s\n", percent(sum_of(f->part), d), name,
+                    plain_text_of(vec3_length(f->force) * unit.factor, 4).text, unit.name,
+                    place_text_of(f->point.x, f->point.y, f->point.z).text, peak_zone_name(f->zone),
+                    mechanism_text((ice_mechanism)f->mechanism));
     }
 }
 

@@ -240,6 +240,22 @@ START_TEST(digits_are_as_many_as_asked)
 }
 END_TEST
 
+START_TEST(places_have_one_last_digit)
+{
+    static const struct {
+        double x, y, z;
+        const char *text;
+    } cases[] = {{-0.12106, 7.9823, -0.687, "-0.121, 7.982, -0.687"},
+                 {11.451, 0.22969, -0.0001, "11.45, 0.23, 0.00"},
+                 {120.48, -3.14, 0, "120.5, -3.1, 0.0"},
+                 {-12345.67, 2, -1, "-12345.7, 2.0, -1.0"},
+                 {0.0301, -0.25, 0.004, "0.0301, -0.2500, 0.0040"},
+                 {0, 0, 0, "0.0000, 0.0000, 0.0000"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        ck_assert_str_eq(place_text_of(cases[i].x, cases[i].y, cases[i].z).text, cases[i].text);
+}
+END_TEST
+
 START_TEST(coordinates_show_their_decimetre)
 {
     static const struct {
@@ -435,5 +451,5 @@ END_TEST
 TEST_MAIN("number_text", times_have_units, bounds_are_rounded_into_their_range, clocks_tell_their_steps_apart,
           units_go_with_the_size, loads_are_told_without_exponents, durations_hide_little,
           reals_print_as_the_shortest_text, digits_are_as_many_as_asked, coordinates_show_their_decimetre,
-          digits_are_those_of_printf, numbers_are_read_as_by_strtod, reals_of_any_bits_come_back,
-          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+          places_have_one_last_digit, digits_are_those_of_printf, numbers_are_read_as_by_strtod,
+          reals_of_any_bits_come_back, reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
